@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/image.h"
+
+namespace terrazzo {
+
+/// One image's part in the features: its channels in analysis space (perceptual colour, unit normals, plain values),
+/// scaled by the weights.
+struct FeatureImage {
+  ImagePtr image;               ///< already in analysis space
+  std::vector<double> weights;  ///< one per channel, >= 0; 0 leaves a channel out
+};
+
+class Features;
+using FeaturesPtr = std::shared_ptr<const Features>;
+
+/// The weighted, concatenated channels of an exemplar, not yet reduced. Images are pulled lazily. Immutable.
+class Features {
+ public:
+  /// All images must have `size`. Throws Error if every weight is 0. `wraps`: the exemplar tiles in x and y.
+  static FeaturesPtr make(Size size, std::vector<FeatureImage> images, bool wraps);
+
+  Size size() const { return size_; }
+  bool wraps() const { return wraps_; }
+  const std::vector<FeatureImage>& images() const { return images_; }
+  /// Channels of non-zero weight.
+  int channel_count() const;
+  const Digest& digest() const { return digest_; }
+
+ private:
+  Features() = default;
+  Size size_;
+  bool wraps_ = false;
+  std::vector<FeatureImage> images_;
+  Digest digest_;
+};
+
+}  // namespace terrazzo

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/node.h"
+
+/// A graph that has been read, expanded and checked: everything the runner needs, nothing of JSON.
+namespace terrazzo {
+
+/// Where something stands in its document; 1-based, 0 = nowhere (it came from the command line, say).
+struct Place {
+  int line = 0;
+  int column = 0;
+};
+
+/// The end of a wire: an output of another node. The value is converted to the input port's type (see `converts`).
+struct Wire {
+  std::string node;
+  std::string port;
+};
+
+struct GraphNode {
+  std::string name;
+  const NodeType* type = nullptr;
+  Params params;                                    ///< complete and checked; paths absolute
+  std::map<std::string, std::vector<Wire>> inputs;  ///< by port; only connected ports
+  Place place;
+};
+
+struct Graph {
+  std::filesystem::path file;  ///< for messages; may be empty for graphs made in memory
+  std::string summary;
+  std::vector<GraphNode> nodes;  ///< in topological order: every wire comes from an earlier node
+  const GraphNode* find(std::string_view name) const {
+    for (const GraphNode& n : nodes)
+      if (n.name == name) return &n;
+    return nullptr;
+  }
+};
+
+}  // namespace terrazzo
