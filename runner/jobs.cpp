@@ -136,8 +136,11 @@ void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
 
 std::string located(const Graph& graph, const GraphNode& node, const std::string& about, const std::string& message) {
   std::string out = graph.file.string();
-  if (node.place.line > 0) out += fmt::format("{}:{}", node.place.line > 0 && !out.empty() ? ":" : "", node.place.line);
-  if (node.place.line > 0 && node.place.column > 0) out += fmt::format(":{}", node.place.column);
+  const auto add_number = [&](int n) {
+    if (n > 0) out += fmt::format("{}{}", out.empty() ? "" : ":", n);
+  };
+  add_number(node.place.line);
+  add_number(node.place.column);
   if (!out.empty()) out += ": ";
   out += fmt::format("node \"{}\" ({})", node.name, node.type->name);
   if (node.type->find_input(about)) out += fmt::format(", input \"{}\"", about);
