@@ -31,8 +31,10 @@ class ByteWriter {
     append(text.data(), text.size());
   }
   void append(const void* data, size_t size) {
-    const auto* bytes = static_cast<const uint8_t*>(data);
-    bytes_.insert(bytes_.end(), bytes, bytes + size);
+    if (size == 0) return;
+    const size_t at = bytes_.size();
+    bytes_.resize(at + size);
+    std::memcpy(&bytes_[at], data, size);
   }
   const std::vector<uint8_t>& bytes() const { return bytes_; }
 
