@@ -30,12 +30,7 @@ class ByteWriter {
     put(static_cast<uint32_t>(text.size()));
     append(text.data(), text.size());
   }
-  void append(const void* data, size_t size) {
-    if (size == 0) return;
-    const size_t at = bytes_.size();
-    bytes_.resize(at + size);
-    std::memcpy(&bytes_[at], data, size);
-  }
+  void append(const void* data, size_t size);
   const std::vector<uint8_t>& bytes() const { return bytes_; }
 
  private:
