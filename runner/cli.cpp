@@ -1,5 +1,8 @@
 #include "runner/cli.h"
 
+#include <charconv>
+#include <sstream>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,7 +48,8 @@ std::vector<std::string> option_names(const CLI::App* app) {
 
 std::vector<std::string> command_names(const CLI::App* app) {
   std::vector<std::string> names;
-  for (const CLI::App* sub : app->get_subcommands([](const CLI::App*) { return true; })) names.push_back(sub->get_name());
+  for (const CLI::App* sub : app->get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
   return names;
 }
 
@@ -55,8 +59,8 @@ std::string unknown_arguments(const CLI::App* command) {
   for (const std::string& arg : command->remaining()) {
     const std::vector<std::string> commands = command_names(command);
     const std::string line =
-        arg.starts_with("-") ? fmt::format("unknown option {}{}", arg,
-                                           suggestion(arg.substr(0, arg.find('=')), option_names(command)))
+        arg.starts_with("-")
+            ? fmt::format("unknown option {}{}", arg, suggestion(arg.substr(0, arg.find('=')), option_names(command)))
         : commands.empty() ? fmt::format("unexpected argument {}", arg)
                            : fmt::format("unknown command {}{}", arg, suggestion(arg, commands));
     out += (out.empty() ? "" : "\n") + line;
@@ -76,9 +80,9 @@ int usage_error(const CLI::App& app, const std::string& what) {
 
 uint64_t parse_bytes(const std::string& text, const std::string& option) {
   const auto wrong = [&]() -> UsageError {
-    return UsageError(
-        fmt::format("{} takes a number with a unit, such as 512M or 2G (K, M, G, T; 1K = 1024 bytes); \"{}\" is not one",
-                    option, text));
+    return UsageError(fmt::format(
+        "{} takes a number with a unit, such as 512M or 2G (K, M, G, T; 1K = 1024 bytes); \"{}\" is not one", option,
+        text));
   };
   double number = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -109,6 +113,7 @@ int run_command_line(int argc, const char* const* argv) {
   app.get_formatter()->column_width(32);
   Chosen chosen;
   add_run_command(app, chosen);
+  add_synth_command(app, chosen);
   add_document_commands(app, chosen);
   add_node_commands(app, chosen);
   add_cache_command(app, chosen);
@@ -121,7 +126,8 @@ int run_command_line(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& e) {
     return usage_error(app, e.what());
   } catch (const GraphError& e) {
-    for (const Problem& p : e.problems()) print_error(describe("", p));
+    std::istringstream lines(e.what());
+    for (std::string line; std::getline(lines, line);) print_error(line);
     return exit_usage;
   } catch (const UsageError& e) {
     print_error(e.what());

@@ -29,6 +29,7 @@ class UsageError : public Error {
 using Chosen = std::function<int()>;
 
 void add_run_command(CLI::App& app, Chosen& chosen);
+void add_synth_command(CLI::App& app, Chosen& chosen);
 void add_document_commands(CLI::App& app, Chosen& chosen);
 void add_node_commands(CLI::App& app, Chosen& chosen);
 void add_cache_command(CLI::App& app, Chosen& chosen);

@@ -2,7 +2,6 @@
 
 #include <fstream>
 #include <iostream>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -97,8 +96,11 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
 int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
   Watch watched;
   for (;;) {
+    Graph graph;
+    graph.file = flags.graph;
+    watched.look_at(graph);
     try {
-      const Graph graph = load();
+      graph = load();
       watched.look_at(graph);
       run_once(graph, flags, cache, cancelled);
     } catch (const Error& e) {
@@ -123,7 +125,8 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
   command.add_option("--threads", flags.threads, "Threads to use; one per core if not given")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  command.add_option("--memory", flags.memory, "Memory for running nodes, such as 2G; half of the machine's if not given")
+  command
+      .add_option("--memory", flags.memory, "Memory for running nodes, such as 2G; half of the machine's if not given")
       ->type_name("SIZE");
   command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
   command.add_flag("--watch", flags.watch, "Run again whenever the graph file or a file that it reads changes");
@@ -147,7 +150,6 @@ int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
 void add_run_command(CLI::App& app, Chosen& chosen) {
   CLI::App* run = app.add_subcommand("run", "Runs a graph: only what has changed since it last ran");
   struct Flags : RunFlags {
-    std::string graph;
     std::vector<std::string> set;
   };
   const auto flags = std::make_shared<Flags>();
@@ -192,8 +194,8 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       std::vector<std::string> set = {"material=" + flags->folder, "out=" + flags->out};
       if (!flags->size.empty()) set.push_back("size=" + flags->size);
       if (!flags->seed.empty()) set.push_back("seed=" + flags->seed);
-      return run_with_flags(
-          [&] { return load_graph_text(stock_graph("material"), "material.json", set).graph; }, *flags);
+      return run_with_flags([&] { return load_graph_text(stock_graph("material"), "material.json", set).graph; },
+                            *flags);
     };
   });
 }

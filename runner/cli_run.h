@@ -15,6 +15,7 @@ namespace terrazzo {
 
 /// The options of every command that runs a graph.
 struct RunFlags {
+  std::string graph;  ///< the graph file; empty for a stock graph
   std::vector<std::string> only;
   std::string cache;
   bool no_cache = false;
