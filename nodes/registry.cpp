@@ -3,7 +3,24 @@
 #include <algorithm>
 
 // One line per node type: the function `NodeType <name>_node()` is defined in nodes/<name>.cpp.
-#define TERRAZZO_NODES(X) X(load_map)
+#define TERRAZZO_NODES(X) \
+  X(load_map)             \
+  X(convert_color)        \
+  X(get_map)              \
+  X(make_material)        \
+  X(resize)               \
+  X(crop)                 \
+  X(blur)                 \
+  X(levels)               \
+  X(grayscale)            \
+  X(threshold)            \
+  X(normalize)            \
+  X(match_histogram)      \
+  X(channel_pack)         \
+  X(channel_split)        \
+  X(blend)                \
+  X(make_normal)          \
+  X(make_occlusion)
 
 namespace terrazzo {
 
