@@ -37,7 +37,7 @@ class Bricks : public Surface {
         per_brick_(1 / grid_.cell_width()) {}
 
   SurfacePoint at(double u, double v) const override {
-    const double bend = unit_ * 0.05 * spec_.irregularity;
+    const double bend = unit_ * 0.09 * spec_.irregularity;
     const double wu = u + bend * canvas_.fbm(u, v, per_brick_ * 1.2, 3, 0.55, warp_u);
     const double wv = v + bend * canvas_.fbm(u, v, per_brick_ * 1.2, 3, 0.55, warp_v);
     const int64_t row = floor_int(wv / grid_.cell_height());
@@ -72,8 +72,8 @@ class Bricks : public Surface {
     brick.height -= 0.13 * (1 - rounding);
     // Arrises are rubbed pale, and mortar has been wiped over some faces.
     brick.color = mix(brick.color, brick.color * 1.18 + rgb(0x0a0a08), 0.5 * (1 - rounding) * spec_.wear);
-    const double wiped = smoothstep(0.18, 0.55, canvas_.fbm(u, v, per_brick_ * 2.3, 5, 0.62, smear) - 0.25 * shoulder);
-    brick.color = mix(brick.color, palette_.joint, 0.55 * wiped);
+    const double wiped = smoothstep(0.0, 0.45, canvas_.fbm(u, v, per_brick_ * 2.3, 6, 0.66, smear) - 0.16 * shoulder);
+    brick.color = mix(brick.color, palette_.joint, 0.5 * wiped);
     brick.roughness = mix(brick.roughness, 0.92, wiped);
 
     SurfacePoint joint = joint_at(u, v, d);
@@ -92,9 +92,10 @@ class Bricks : public Surface {
     const double fine = canvas_.fbm(u, v, per_brick_ * 22, 5, 0.72, grain);
     const CellPoint hole = canvas_.cells(u, v, per_brick_ * 13, pits);
     Dice dice(hole.bits);
-    const double radius = dice.unit() < 0.12 + 0.4 * spec_.wear * pitting ? 0.12 + 0.26 * dice.unit() : 0;
-    const double pit = radius > 0 ? smoothstep(radius, radius * 0.35, hole.nearest + 0.18 * fine) : 0;
-    p.height = 0.78 + 0.045 * waves + 0.05 * fine - 0.16 * pit;
+    const double radius =
+        dice.unit() < 0.05 + 0.45 * spec_.wear * pitting * pitting ? 0.1 + 0.3 * dice.unit() * dice.unit() : 0;
+    const double pit = radius > 0 ? smoothstep(radius, radius * 0.35, hole.nearest + 0.3 * fine + 0.22 * waves) : 0;
+    p.height = 0.78 + 0.08 * waves + 0.085 * fine - 0.16 * pit;
 
     const double patches = canvas_.fbm(u, v, per_brick_ * 2.6, 5, 0.6, blotch);
     Rgb c = base * (tone + 0.34 * patches + 0.20 * fine);

@@ -11,7 +11,8 @@
 namespace terrazzo {
 
 const std::vector<PatternType>& pattern_types() {
-  static const std::vector<PatternType> types = {bricks_pattern()};
+  static const std::vector<PatternType> types = {bricks_pattern(), cobbles_pattern(), weave_pattern(),
+                                                 gravel_pattern()};
   return types;
 }
 

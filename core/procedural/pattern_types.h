@@ -11,5 +11,8 @@ std::unique_ptr<Surface> make_surface(const Canvas& canvas, const PatternSpec& s
 }
 
 PatternType bricks_pattern();
+PatternType cobbles_pattern();
+PatternType weave_pattern();
+PatternType gravel_pattern();
 
 }  // namespace terrazzo
