@@ -3,7 +3,7 @@
 #include <algorithm>
 
 // One line per node type: the function `NodeType <name>_node()` is defined in nodes/<name>.cpp.
-#define TERRAZZO_NODES(X) X(load_map)
+#define TERRAZZO_NODES(X) X(load_map) X(compare)
 
 namespace terrazzo {
 
