@@ -69,7 +69,8 @@ Planes to_planes(const Image& image, const Rect& region, int channels) {
   const std::vector<float> pixels = image.read(region);
   Planes out = Planes::zeros({region.width, region.height}, channels);
   for (size_t i = 0; i < size_t(region.area()); i++)
-    std::copy_n(&pixels[i * image.channels()], channels, &out.values[i * channels]);
+    for (int k = 0; k < channels; k++)
+      out.values[i * channels + k] = pixels[i * image.channels() + (channels <= image.channels() ? k : 0)];
   return out;
 }
 

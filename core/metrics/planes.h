@@ -21,7 +21,7 @@ struct Planes {
   float* pixel(int x, int y) { return &values[(size_t(y) * size.width + x) * channels]; }
 };
 
-/// An image's pixels; channels beyond `channels` are left out.
+/// An image's first `channels` channels; if it has fewer, its first one repeated.
 Planes to_planes(const Image& image, const Rect& region, int channels);
 
 /// A Gaussian blur, the border mirrored (edge pixels repeat), cut off at four sigma.

@@ -28,10 +28,6 @@ int measured_channels(const Image& image) {
 
 void check_pair(const std::string& name, const Image& exemplar, const Image& output) {
   const ImageInfo &a = exemplar.info(), &b = output.info();
-  if (measured_channels(exemplar) != measured_channels(output))
-    throw Error("maps", fmt::format("the map {} must have the same kind of pixels in exemplar and output, but has {} "
-                                    "channels in the exemplar and {} in the output; leave it out of \"maps\"",
-                                    name, a.channels, b.channels));
   if (a.color_space != b.color_space)
     throw Error(
         "maps",
@@ -41,22 +37,28 @@ void check_pair(const std::string& name, const Image& exemplar, const Image& out
 }
 
 /// The map at the material's size; a normal map's green channel pointing up.
-Planes map_planes(const Image& image, Size material) {
+Planes map_planes(const Image& image, int channels, Size material) {
   const Rect region = whole(image.size());
   const Rect part = intersect(region, {0, 0, largest_measured, largest_measured});
   const bool smaller_map = image.size() != material;
-  Planes planes = to_planes(image, smaller_map ? region : part, measured_channels(image));
+  Planes planes = to_planes(image, smaller_map ? region : part, channels);
   if (smaller_map) planes = resampled(planes, material);
   if (image.info().semantic == Semantic::normal && image.info().normal_y == NormalY::down && planes.channels == 3)
     for (size_t i = 1; i < planes.values.size(); i += 3) planes.values[i] = 1 - planes.values[i];
   return planes;
 }
 
-Planes stacked(const Material& material, const std::vector<std::string>& maps) {
+/// One map's part of the stack.
+struct MapChannels {
+  std::string name;
+  int channels;
+};
+
+Planes stacked(const Material& material, const std::vector<MapChannels>& maps) {
   std::vector<Planes> parts;
   int channels = 0;
-  for (const std::string& name : maps) {
-    parts.push_back(map_planes(*material.find(name), material.size()));
+  for (const MapChannels& map : maps) {
+    parts.push_back(map_planes(*material.find(std::string_view(map.name)), map.channels, material.size()));
     channels += parts.back().channels;
   }
   const Size size{std::min(material.size().width, largest_measured),
@@ -102,10 +104,13 @@ std::vector<std::string> compared_maps(const Material& exemplar, const Material&
 ComparedPlanes compared_planes(const Material& exemplar, const Material& output, const std::vector<std::string>& maps) {
   check_size("exemplar", exemplar.size());
   check_size("output", output.size());
-  const std::vector<std::string> names = compared_maps(exemplar, output, maps);
-  for (const std::string& name : names)
-    check_pair(name, *exemplar.find(std::string_view(name)), *output.find(std::string_view(name)));
-  ComparedPlanes out{stacked(exemplar, names), stacked(output, names)};
+  std::vector<MapChannels> channels;
+  for (const std::string& name : compared_maps(exemplar, output, maps)) {
+    const Image &a = *exemplar.find(std::string_view(name)), &b = *output.find(std::string_view(name));
+    check_pair(name, a, b);
+    channels.push_back({name, std::max(measured_channels(a), measured_channels(b))});
+  }
+  ComparedPlanes out{stacked(exemplar, channels), stacked(output, channels)};
   std::vector<float> scale;
   // A map that is flat in the exemplar is measured in 8-bit steps.
   for (const double d : channel_statistics(out.exemplar).deviation) scale.push_back(float(1 / std::max(d, 1.0 / 255)));

@@ -37,8 +37,9 @@ struct QualityParts {
 Quality measure_quality(Planes exemplar, Planes output, const QualityParts& parts, const Task& task);
 
 /// The channels of the exemplar's and the output's maps, stacked, in units of the exemplar's standard deviation.
-/// Colours and vectors give three channels, other maps their first. At most largest_measured pixels a side, from the
-/// top left.
+/// Colours and vectors give three channels, other maps their first;
+/// grey counts as three equal channels where the other image has colour. At most largest_measured pixels a side, from
+/// the top left.
 struct ComparedPlanes {
   Planes exemplar;
   Planes output;
