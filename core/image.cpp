@@ -1,6 +1,7 @@
 #include "core/image.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 #include <Imath/half.h>
@@ -197,12 +198,15 @@ void for_each_strip(const Image& image, const std::function<void(const Rect&, co
   }
 }
 
-ImagePtr materialized(const ImagePtr& image) {
+ImagePtr materialized(const ImagePtr& image, const Task& task) {
   if (image->in_memory()) return image;
   const ImageInfo& info = image->info();
   std::vector<float> pixels(value_count(info));
   const int rows = std::min(64, strip_rows(*image));
-  tbb::parallel_for(0, (info.size.height + rows - 1) / rows, [&](int strip) {
+  const int strips = (info.size.height + rows - 1) / rows;
+  std::atomic<int> done{0};
+  tbb::parallel_for(0, strips, [&](int strip) {
+    task.progress(double(done++) / strips);
     const int y = strip * rows;
     image->read({0, y, info.size.width, std::min(rows, info.size.height - y)},
                 &pixels[size_t(y) * info.size.width * info.channels]);

@@ -12,6 +12,7 @@
 
 #include "core/geometry.h"
 #include "core/hash.h"
+#include "core/task.h"
 
 namespace terrazzo {
 
@@ -122,7 +123,7 @@ std::vector<float> read_padded(const Image& image, const Rect& region, Outside o
 void for_each_strip(const Image& image, const std::function<void(const Rect&, const float*)>& visit);
 
 /// An image whose pixels lie in memory: `image` itself if they do already, else a copy that has been pulled, in
-/// parallel.
-ImagePtr materialized(const ImagePtr& image);
+/// parallel. Tells `task` how far it is.
+ImagePtr materialized(const ImagePtr& image, const Task& task = {});
 
 }  // namespace terrazzo

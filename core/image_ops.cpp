@@ -1,0 +1,53 @@
+#include "core/image_ops.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace terrazzo {
+
+std::string describe(Size size) {
+  return fmt::format("{}x{}", size.width, size.height);
+}
+
+std::string describe(const Image& image) {
+  const int channels = image.channels();
+  return fmt::format("a {} map of {} pixels and {} channel{}", name_of(image.info().semantic), describe(image.size()),
+                     channels, channels == 1 ? "" : "s");
+}
+
+void require_one_channel(const std::string& port, const Image& image) {
+  if (image.channels() == 1) return;
+  throw Error(port, fmt::format("expected an image of 1 channel, found {}; put \"grayscale\" or \"channel_split\" "
+                                "before it",
+                                describe(image)));
+}
+
+void require_no_normals(const std::string& port, const Image& image) {
+  if (image.info().semantic != Semantic::normal) return;
+  throw Error(port,
+              fmt::format("expected values that can be changed one by one, found {}: its channels make up "
+                          "vectors; use \"blend\" or \"normalize\" for normals, or \"channel_split\" to take them "
+                          "apart",
+                          describe(image)));
+}
+
+void require_same_size(const std::string& port, const Image& image, const std::string& other_port, const Image& other) {
+  if (image.size() == other.size()) return;
+  throw Error(
+      port, fmt::format("expected the same size as \"{}\", {}, found {}; put \"resize\" or \"crop\" before one of them",
+                        other_port, describe(other.size()), describe(image.size())));
+}
+
+ImagePtr pixel_by_pixel(ImageInfo info, const Digest& recipe, std::vector<ImagePtr> inputs, PixelFunction function) {
+  return Image::computed(std::move(info), recipe,
+                         [inputs = std::move(inputs), function = std::move(function)](const Rect& region, float* out) {
+                           std::vector<std::vector<float>> pixels;
+                           std::vector<const float*> pointers;
+                           for (const ImagePtr& input : inputs) pixels.push_back(input->read(region));
+                           for (const std::vector<float>& p : pixels) pointers.push_back(p.data());
+                           function(pointers, out, region.area());
+                         });
+}
+
+}  // namespace terrazzo

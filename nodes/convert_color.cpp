@@ -1,0 +1,58 @@
+#include <cstdlib>
+
+#include "core/color.h"
+#include "nodes/image_work.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// The configuration that will be read: the one given, or the environment's; empty for the built-in one.
+std::string config_path(const Params& params) {
+  const std::string& given = std::get<std::string>(params.at("config"));
+  const char* environment = std::getenv("OCIO");
+  return !given.empty() ? given : environment ? environment : "";
+}
+
+void compute(NodeContext& node) {
+  ImagePtr image = node.input<Image>("image");
+  ImageInfo info = image->info();
+  if (node.text("from") != "auto") info.color_space = node.text("from");
+  image = Image::redescribed(image, info);
+  if (info.color_space == "raw") node.note("the image is raw and stays as it is; give \"from\" to convert it");
+  node.output("image", convert_color(image, node.text("to"), node.text("config")));
+}
+
+}  // namespace
+
+NodeType convert_color_node() {
+  NodeType t;
+  t.name = "convert_color";
+  t.category = "image";
+  t.summary = "Converts an image to another colour space";
+  t.help =
+      "Through OpenColorIO. The built-in configuration knows srgb_texture, lin_rec709, acescg and raw; the "
+      "environment's "
+      "OCIO, or a configuration given here, replaces it. Raw images are data and are never converted. A fourth channel "
+      "stays. Computed when its pixels are read.";
+  t.inputs = {image_port("image", "the image; its description says which space it is in")};
+  t.outputs = {image_port("image", "the image in the space asked for")};
+  t.params = {{.name = "to", .type = ParamType::text, .fallback = "lin_rec709", .help = "The colour space wanted."},
+              {.name = "from",
+               .type = ParamType::text,
+               .fallback = "auto",
+               .help = "The colour space the image is in, if its description is wrong; auto goes by the description."},
+              {.name = "config",
+               .type = ParamType::path,
+               .fallback = "",
+               .help = "An OpenColorIO configuration file; empty for the environment's OCIO or the built-in one."}};
+  t.persist = Persist::digest;
+  t.files_read = [](const Params& params) {
+    const std::string path = config_path(params);
+    return path.empty() ? std::vector<std::filesystem::path>{} : std::vector<std::filesystem::path>{path};
+  };
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

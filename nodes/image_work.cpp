@@ -1,0 +1,87 @@
+#include "nodes/image_work.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace terrazzo {
+
+Param edges_param() {
+  return {.name = "edges",
+          .type = ParamType::choice,
+          .fallback = "clamp",
+          .help =
+              "What lies beyond the border: the border pixels go on (clamp), or the image repeats (wrap; for maps "
+              "that tile).",
+          .choices = {"clamp", "wrap"}};
+}
+
+Outside edges_of(const NodeContext& node) {
+  return node.text("edges") == "wrap" ? Outside::wrap : Outside::clamp;
+}
+
+Param normal_y_param() {
+  return {.name = "normal_y",
+          .type = ParamType::choice,
+          .fallback = "up",
+          .help = "Green channel of the normals: up as in OpenGL, down as in DirectX.",
+          .choices = {"up", "down"}};
+}
+
+NormalY normal_y_of(const NodeContext& node) {
+  return node.text("normal_y") == "down" ? NormalY::down : NormalY::up;
+}
+
+Param height_scale_param() {
+  return {.name = "height_scale",
+          .type = ParamType::number,
+          .fallback = 16.0,
+          .help = "How many pixels tall a height of 1 is; negative turns hills into pits.",
+          .min = -10000,
+          .max = 10000,
+          .unit = "pixels"};
+}
+
+Port image_port(const std::string& name, const std::string& help) {
+  return {.name = name, .type = ValueType::image, .help = help};
+}
+
+Port material_port(const std::string& name, const std::string& help) {
+  return {.name = name, .type = ValueType::material, .help = help};
+}
+
+Digest map_recipe(const NodeContext& node, const Image& map) {
+  Hasher h;
+  h.add("map of").add(node.type().name).add(node.type().version);
+  add_to(h, node.params());
+  h.add(map.digest());
+  return h.digest();
+}
+
+ImagePtr require_map(const std::string& param, const Material& material, const std::string& map) {
+  if (ImagePtr image = material.find(map)) return image;
+  throw Error(param,
+              fmt::format("expected a map of the material, which has {}; found \"{}\"", material.map_names(), map));
+}
+
+MaterialPtr with_maps_changed(const MaterialPtr& material, const Texts& maps,
+                              const std::function<ImagePtr(const Map&)>& change) {
+  for (const std::string& name : maps) require_map("maps", *material, name);
+  std::vector<Map> changed = material->maps();
+  for (Map& m : changed)
+    if (maps.empty() || std::find(maps.begin(), maps.end(), m.name) != maps.end()) m.image = change(m);
+  return Material::make(material->name(), std::move(changed));
+}
+
+std::vector<double> per_channel(const NodeContext& node, const std::string& param, int channels) {
+  const Numbers& given = node.numbers(param);
+  if (given.size() == 1) return std::vector<double>(channels, given.front());
+  if (int(given.size()) == channels) return given;
+  throw Error(param, fmt::format("expected one number, or one for each of the image's {} channels without coverage; "
+                                 "found {}",
+                                 channels, given.size()));
+}
+
+}  // namespace terrazzo

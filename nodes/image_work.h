@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+
+#include "core/node.h"
+
+/// What the descriptors of image-work nodes share.
+namespace terrazzo {
+
+/// Parameter "edges": what lies beyond the image's border.
+Param edges_param();
+Outside edges_of(const NodeContext& node);
+
+/// Parameter "normal_y" of nodes that make normals.
+Param normal_y_param();
+NormalY normal_y_of(const NodeContext& node);
+
+/// Parameter "height_scale" of nodes that read a height map as a surface.
+Param height_scale_param();
+
+Port image_port(const std::string& name, const std::string& help);
+Port material_port(const std::string& name, const std::string& help);
+
+/// The recipe of one of several lazily computed maps: the node's type and parameters, and the map it is made from.
+Digest map_recipe(const NodeContext& node, const Image& map);
+
+/// The material with every map in `maps` (all if empty) replaced by what `change` makes of it. Throws Error about
+/// parameter "maps" if it names a map that the material does not have.
+MaterialPtr with_maps_changed(const MaterialPtr& material, const Texts& maps,
+                              const std::function<ImagePtr(const Map&)>& change);
+
+/// Throws Error about `param` unless the material has a map of that name.
+ImagePtr require_map(const std::string& param, const Material& material, const std::string& map);
+
+/// A value for each of an image's channels out of a parameter that holds one for all or one for each.
+std::vector<double> per_channel(const NodeContext& node, const std::string& param, int channels);
+
+}  // namespace terrazzo

@@ -1,0 +1,91 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "nodes/image_work.h"
+
+namespace terrazzo {
+
+namespace {
+
+void check_count(const std::string& param, const Texts& texts, size_t images) {
+  if (texts.empty() || texts.size() == images) return;
+  throw Error(param,
+              fmt::format("expected one text for each of the {} images, or none; found {}", images, texts.size()));
+}
+
+ImagePtr with_semantic(const ImagePtr& image, const std::string& semantic) {
+  if (semantic == "keep") return image;
+  ImageInfo info = image->info();
+  const std::optional<Semantic> known = semantic_from(semantic);
+  if (!known)
+    throw Error("semantics",
+                fmt::format("expected keep or one of {}; found \"{}\"", fmt::join(semantic_names, ", "), semantic));
+  info.semantic = *known;
+  return Image::redescribed(image, info);
+}
+
+void compute(NodeContext& node) {
+  const auto images = node.list<Image>("images");
+  const Texts& names = node.texts("names");
+  const Texts& semantics = node.texts("semantics");
+  check_count("names", names, images.size());
+  check_count("semantics", semantics, images.size());
+
+  const MaterialPtr base = node.optional_input<Material>("material");
+  std::vector<Map> maps = base ? base->maps() : std::vector<Map>{};
+  std::vector<std::string> added;
+  for (size_t i = 0; i < images.size(); i++) {
+    const ImagePtr image = with_semantic(images[i], semantics.empty() ? "keep" : semantics[i]);
+    const std::string name = names.empty() ? std::string(name_of(image->info().semantic)) : names[i];
+    if (name.empty()) throw Error("names", "expected a name for each map, found an empty one");
+    if (std::find(added.begin(), added.end(), name) != added.end())
+      throw Error("names",
+                  fmt::format("expected a different name for each map, found \"{}\" twice; give \"names\", such "
+                              "as \"{}\" and \"{}_2\"",
+                              name, name, name));
+    added.push_back(name);
+    const auto same = std::find_if(maps.begin(), maps.end(), [&](const Map& m) { return m.name == name; });
+    if (same == maps.end())
+      maps.push_back({name, image});
+    else
+      same->image = image;
+  }
+  const std::string& name = node.text("name");
+  node.output("material", Material::make(name.empty() && base ? base->name() : name, std::move(maps)));
+}
+
+}  // namespace
+
+NodeType make_material_node() {
+  NodeType t;
+  t.name = "make_material";
+  t.category = "image";
+  t.summary = "Puts images together into a material";
+  t.help =
+      "Makes a material of a list of images. With a material connected, its maps come first, and an image of the same "
+      "name takes the place of that map: so one map can be taken out with \"get_map\", changed, and put back.";
+  t.inputs = {{.name = "images", .type = ValueType::image, .help = "the maps", .list = true},
+              {.name = "material", .type = ValueType::material, .help = "maps to start from", .optional = true}};
+  t.outputs = {material_port("material", "the images as one material")};
+  t.params = {
+      {.name = "name",
+       .type = ParamType::text,
+       .fallback = "",
+       .help = "The material's name; empty keeps the connected material's."},
+      {.name = "names",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "A name for each image, in their order. Empty: each is named after its semantic."},
+      {.name = "semantics",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "What each image means from now on (height, roughness, mask, ...), or keep. Empty keeps all."},
+  };
+  t.persist = Persist::digest;
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo
