@@ -344,7 +344,7 @@ std::string expectation(const Param& p) {
     case ParamType::texts:
       return fmt::format("a list of {}texts", count_of(p));
     case ParamType::number_map:
-      return fmt::format("an object of numbers by name{}{}", range_of(p), names_of(p));
+      return fmt::format("an object of numbers{} by name{}", range_of(p), names_of(p));
     case ParamType::text_map:
       return fmt::format("an object of texts by name{}", names_of(p));
     case ParamType::choice:

@@ -61,7 +61,10 @@ class Parser {
     size_t length = 0;
     while (length < 24 && at_ + length < text_.size() && is_word(text_[at_ + length])) length++;
     if (length > 0) return std::string(text_.substr(at_, length));
-    if (peek() == '"') return "a text";
+    if (peek() == '"') {
+      const size_t end = text_.find_first_of("\"\n", at_ + 1);
+      return end < at_ + 24 && text_[end] == '"' ? std::string(text_.substr(at_, end + 1 - at_)) : "a text";
+    }
     if (static_cast<uint8_t>(peek()) < 0x20 || peek() == 0x7F) return fmt::format("the byte {:#04x}", peek());
     return fmt::format("\"{}\"", text_.substr(at_, utf8_length(text_, at_)));
   }
@@ -241,8 +244,9 @@ class Parser {
     }
     if (peek() != ',') {
       const Place p = container.place;
-      fail(fmt::format("expected \",\" and another {} or \"{}\" (which closes line {}, column {}), found {}", entry,
-                       close, p.line, p.column, found_here()));
+      const char begin = close == '}' ? '{' : '[';
+      fail(fmt::format("expected \",\" and another {}, or \"{}\" for the \"{}\" at line {}, column {}; found {}", entry,
+                       close, begin, p.line, p.column, found_here()));
     }
     const int comma_line = line_;
     at_++;
@@ -410,6 +414,7 @@ std::string found(const JsonValue& value) {
     case Kind::text:
       break;
   }
+  if (value.text.empty()) return "an empty text";
   if (value.text.size() <= most) return fmt::format("the text {}", in_quotes(value.text));
   size_t end = most;
   while (end > 0 && (static_cast<uint8_t>(value.text[end]) & 0xC0) == 0x80) end--;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/suggest.h"
 #include "graphs/document/format.h"
 
 namespace terrazzo {
@@ -19,8 +20,12 @@ bool migrate(JsonValue& document, const std::vector<Migration>& migrations, std:
   }
   JsonValue* version = document.find("terrazzo");
   if (!version) {
+    std::vector<std::string> names;
+    for (const JsonMember& m : document.members) names.push_back(m.name);
+    const std::string meant = nearest("terrazzo", names);
     problems.push_back({document.place, "",
-                        fmt::format("expected \"terrazzo\": {} in the graph; it names the format's version", current)});
+                        fmt::format("expected \"terrazzo\": {} in the graph, the format's version{}", current,
+                                    meant.empty() ? "" : "; found " + in_quotes(meant))});
     return false;
   }
   if (version->kind != JsonValue::Kind::integer || version->integer < 1) {

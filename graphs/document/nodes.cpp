@@ -72,8 +72,9 @@ class NodeReader {
     if (!given->is_text()) {
       complain(given->place, "expected the name of a node type, found " + found(*given));
     } else {
+      const std::string meant = nearest(given->text, reading_.type_names);
       complain(given->place, fmt::format("unknown node type {}{}; `terrazzo nodes` lists all", in_quotes(given->text),
-                                         suggestion(given->text, reading_.type_names)));
+                                         meant.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", meant)));
     }
     return false;
   }

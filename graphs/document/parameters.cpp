@@ -72,9 +72,11 @@ class Declaration {
     if (!read_type()) return out_;
     out_.is_wrong = false;
     if (const JsonValue* help = text_at("help")) out_.param.help = help->text;
-    read_range();
-    read_choices();
-    read_default();
+    if (read_range() && read_choices()) {
+      read_default();
+    } else {
+      out_.is_wrong = true;
+    }
     return out_;
   }
 
@@ -111,46 +113,52 @@ class Declaration {
     return true;
   }
 
-  void read_range() {
+  bool read_range() {
+    bool is_right = true;
+    const auto refuse = [&](const JsonValue& v, const std::string& message) {
+      complaints_.add(v.place, message);
+      is_right = false;
+    };
     for (const auto& [key, bound] : {std::pair("min", &out_.param.min), std::pair("max", &out_.param.max)}) {
       const JsonValue* v = json_.find(key);
       if (!v) continue;
       if (!takes_range(out_.param.type)) {
-        complaints_.add(v->place, fmt::format("\"{}\" is for numbers, not for a parameter of type \"{}\"", key,
-                                              json_.find("type")->text));
+        refuse(*v,
+               fmt::format("\"{}\" is for numbers, not for a parameter of type \"{}\"", key, json_.find("type")->text));
       } else if (!v->is_number()) {
-        complaints_.add(v->place, fmt::format("expected a number for \"{}\", found {}", key, found(*v)));
+        refuse(*v, fmt::format("expected a number for \"{}\", found {}", key, found(*v)));
       } else {
         *bound = v->number;
       }
     }
     if (out_.param.min && out_.param.max && *out_.param.min > *out_.param.max)
-      complaints_.add(json_.find("min")->place,
-                      fmt::format("\"min\" is {}, above \"max\", which is {}", *out_.param.min, *out_.param.max));
+      refuse(*json_.find("min"),
+             fmt::format("\"min\" is {}, above \"max\", which is {}", *out_.param.min, *out_.param.max));
+    return is_right;
   }
 
-  void read_choices() {
+  bool read_choices() {
     const JsonValue* v = json_.find("choices");
     const bool is_choice = out_.param.type == ParamType::choice;
-    if (!v && is_choice)
+    if (!v && !is_choice) return true;
+    bool all_texts = v && v->is_list() && !v->items.empty();
+    if (!v) {
       complaints_.add(json_.place, "a parameter of type \"choice\" needs \"choices\", a list of texts");
-    if (!v) return;
-    if (!is_choice) {
+    } else if (!is_choice) {
       complaints_.add(v->place, "\"choices\" is for a parameter of type \"choice\"");
-      return;
+    } else {
+      for (const JsonValue& item : v->items) {
+        all_texts &= item.is_text();
+        out_.param.choices.push_back(item.text);
+      }
+      if (!all_texts) complaints_.add(v->place, "expected a list of texts for \"choices\", found " + found(*v));
     }
-    bool all_texts = v->is_list() && !v->items.empty();
-    for (const JsonValue& item : v->items) all_texts &= item.is_text();
-    if (!all_texts) {
-      complaints_.add(v->place, "expected a list of texts for \"choices\", found " + found(*v));
-      return;
-    }
-    for (const JsonValue& item : v->items) out_.param.choices.push_back(item.text);
+    return is_choice && all_texts;
   }
 
   void read_default() {
     const JsonValue* v = json_.find("default");
-    if (!v || (out_.param.type == ParamType::choice && out_.param.choices.empty())) return;
+    if (!v) return;
     if (out_.param.type == ParamType::path && v->is_text()) {
       out_.param.fallback = v->text;
       out_.as_written = v->text;

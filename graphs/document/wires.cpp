@@ -27,7 +27,7 @@ class Connector {
     std::vector<Wire> wires;
     for (const WireEnd& end : into.wires) {
       const Port* output = find_output(end, into);
-      if (!output || !types_fit(end, *output, into)) continue;
+      if (!output || !types_fit(node, end, *output, into)) continue;
       wires.push_back({end.node, output->name});
       if (output->type != into.port->type)
         conversions_.push_back({end.place,
@@ -66,20 +66,20 @@ class Connector {
     return output;
   }
 
-  bool types_fit(const WireEnd& end, const Port& output, PortWires& into) const {
+  bool types_fit(const GraphNode& reader, const WireEnd& end, const Port& output, PortWires& into) const {
     const ValueType wanted = into.port->type;
     if (converts(output.type, wanted)) return true;
-    into.complaints.add(end.place,
-                        fmt::format("expected a wire of type {}, found {}, which is of type {}{}", name_of(wanted),
-                                    in_quotes(end.spelled), name_of(output.type), fitting_outputs(wanted, end.node)));
+    into.complaints.add(end.place, fmt::format("expected a wire of type {}, found {}, which is of type {}{}",
+                                               name_of(wanted), in_quotes(end.spelled), name_of(output.type),
+                                               fitting_outputs(wanted, end.node, reader.name)));
     return false;
   }
 
   /// Which wires would fit: those of the node itself, if it has any, else those of all nodes.
-  std::string fitting_outputs(ValueType wanted, const std::string& node) const {
+  std::string fitting_outputs(ValueType wanted, const std::string& node, const std::string& reader) const {
     std::vector<std::string> own, all;
     for (const NodeDraft& d : drafts_) {
-      if (!d.node.type) continue;
+      if (!d.node.type || d.node.name == reader) continue;
       const std::vector<Port>& outputs = d.node.type->outputs;
       for (size_t i = 0; i < outputs.size(); i++) {
         if (outputs[i].type != wanted) continue;
