@@ -30,7 +30,7 @@ Cache::State::State(std::filesystem::path given, uint64_t bytes)
       limit(bytes == 0 ? default_limit : bytes),
       folder(given_folder),
       pins(folder.pins(), folder.lock()) {
-  if (!pins.held()) warn_unwritten(FileError("", errno));
+  if (pins.failure() != 0) warn_unwritten(FileError("", pins.failure()));
 }
 
 void Cache::State::warn(const std::string& text) {
@@ -80,7 +80,7 @@ std::vector<std::string> Cache::take_warnings() {
 std::optional<StageRecord> Cache::find_stage(const Digest& key) {
   const std::filesystem::path path = state_->folder.path_of(EntryKind::stage, key);
   try {
-    const auto bytes = CacheFolder::read(path);
+    const auto bytes = CacheFolder::read_and_use(path);
     if (bytes) return stage_from_bytes(key, *bytes);
   } catch (const DamagedFile& e) {
     state_->discard(path, Error(fmt::format("{}: {}", path.string(), e.what())));

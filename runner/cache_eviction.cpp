@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -99,25 +100,22 @@ bool has_values_left(const CacheFolder& folder, const CacheEntry& stage) {
   }
 }
 
-/// What is wrong with an entry; empty if nothing.
-std::string trouble_with(const CacheEntry& entry) {
+/// Reads an entry from its first to its last byte. Throws DamagedFile, or Error if it cannot be read.
+void read_all(const CacheEntry& entry) {
+  if (entry.kind == EntryKind::value) {
+    if (digest_of(load_value(entry.path)) != entry.name)
+      throw DamagedFile(fmt::format("{} lies under another value's name", entry.path.string()));
+    return;
+  }
+  const auto bytes = CacheFolder::read(entry.path);
+  if (!bytes) return;
   try {
-    if (entry.kind == EntryKind::value) {
-      if (digest_of(load_value(entry.path)) != entry.name)
-        return fmt::format("{} lies under another value's name", entry.path.string());
-      return "";
-    }
-    const auto bytes = CacheFolder::read(entry.path);
-    if (!bytes) return "";
     if (entry.kind == EntryKind::stage)
       stage_from_bytes(entry.name, *bytes);
     else
       memo_from_bytes(entry.name, *bytes);
-    return "";
-  } catch (const FileError& e) {
-    return e.code() == ENOENT ? "" : e.what();
-  } catch (const Error& e) {
-    return entry.kind == EntryKind::value ? e.what() : fmt::format("{}: {}", entry.path.string(), e.what());
+  } catch (const DamagedFile& e) {
+    throw DamagedFile(fmt::format("{} cannot be used: {}", entry.path.string(), e.what()));
   }
 }
 
@@ -136,14 +134,21 @@ CacheStatus Cache::status() {
 std::vector<std::string> Cache::verify(const Task& task) {
   const CacheScan scan = state_->folder.scan();
   std::vector<std::string> damaged;
+  const uint64_t total = scan.bytes();
   uint64_t done = 0;
   for (const CacheEntry& e : scan.entries) {
-    task.progress(double(done) / double(scan.bytes()));
+    task.progress(double(done) / double(total));
     done += e.bytes;
-    std::string trouble = trouble_with(e);
-    if (trouble.empty()) continue;
-    ::unlink(e.path.c_str());
-    damaged.push_back(std::move(trouble));
+    try {
+      read_all(e);
+    } catch (const DamagedFile& trouble) {
+      ::unlink(e.path.c_str());
+      damaged.push_back(trouble.what());
+    } catch (const FileError& trouble) {
+      if (trouble.code() != ENOENT) state_->warn(trouble.what());
+    } catch (const Error& trouble) {
+      state_->warn(trouble.what());
+    }
   }
   return damaged;
 }

@@ -74,7 +74,7 @@ Digest Cache::file_digest(const std::filesystem::path& path) {
   const Digest name = Hasher().add(absolute.native()).digest();
   const std::filesystem::path memo_path = state_->folder.path_of(EntryKind::file, name);
   try {
-    const auto bytes = CacheFolder::read(memo_path);
+    const auto bytes = CacheFolder::read_and_use(memo_path);
     if (bytes) {
       const FileMemo memo = memo_from_bytes(name, *bytes);
       if (stamp_of(absolute) == memo.stamp) return memo.content;

@@ -127,14 +127,29 @@ void CacheFolder::write(const std::filesystem::path& target, const std::vector<u
   publish(path, target, sync);
 }
 
-std::optional<std::vector<uint8_t>> CacheFolder::read(const std::filesystem::path& path) {
+namespace {
+
+/// The small file and its status; none if it does not exist.
+std::optional<std::vector<uint8_t>> read_small(const std::filesystem::path& path, struct stat& status) {
   const File file = File::open(path, O_RDONLY | O_NONBLOCK);
   if (!file.ok() && errno == ENOENT) return std::nullopt;
-  struct stat status;
   if (!file.ok() || ::fstat(file.descriptor(), &status) != 0) throw_system_error("read", path, errno);
   std::vector<uint8_t> bytes(size_t(status.st_size));
   bytes.resize(file.read_at(0, bytes.data(), bytes.size(), path));
-  note_use(path.c_str(), status);
+  return bytes;
+}
+
+}  // namespace
+
+std::optional<std::vector<uint8_t>> CacheFolder::read(const std::filesystem::path& path) {
+  struct stat status;
+  return read_small(path, status);
+}
+
+std::optional<std::vector<uint8_t>> CacheFolder::read_and_use(const std::filesystem::path& path) {
+  struct stat status;
+  auto bytes = read_small(path, status);
+  if (bytes) note_use(path.c_str(), status);
   return bytes;
 }
 

@@ -62,8 +62,10 @@ class CacheFolder {
   void write(const std::filesystem::path& target, const std::vector<uint8_t>& bytes, const std::string& owner,
              bool sync);
 
-  /// The bytes of a small file, which counts as used now; none if it does not exist. Throws FileError.
+  /// The bytes of a small file; none if it does not exist. Throws FileError.
   static std::optional<std::vector<uint8_t>> read(const std::filesystem::path& path);
+  /// The same, and the entry counts as used now.
+  static std::optional<std::vector<uint8_t>> read_and_use(const std::filesystem::path& path);
   /// Notes that an entry is used now; false if it does not exist.
   static bool use(const std::filesystem::path& path);
 

@@ -86,7 +86,8 @@ Pins::Pins(const std::filesystem::path& folder, const std::filesystem::path& loc
     owner_ = fmt::format("{}-{}-{}", host_name(), ::getpid(), counter++);
     path_ = folder / owner_;
     file_ = File::open(path_, O_RDWR | O_CREAT | O_EXCL);
-  } while (!file_.ok() && errno == EEXIST);
+    failure_ = file_.ok() ? 0 : errno;
+  } while (failure_ == EEXIST);
   if (file_.ok()) lock_file(file_, LOCK_EX | LOCK_NB);
   if (lock_.ok()) lock_file(lock_, LOCK_UN);
 }

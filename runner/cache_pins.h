@@ -36,7 +36,7 @@ class EvictionLock {
 /// This object's own pins. Thread-safe.
 class Pins {
  public:
-  /// Without a writable folder there are no pins; held() tells.
+  /// Without a writable folder there are no pins; failure() tells.
   Pins(const std::filesystem::path& folder, const std::filesystem::path& lock);
   ~Pins();
   Pins(const Pins&) = delete;
@@ -44,7 +44,8 @@ class Pins {
 
   /// Host, process and a counter: no other Cache object has the same.
   const std::string& owner() const { return owner_; }
-  bool held() const { return file_.ok(); }
+  /// The operating system's error number if there are no pins; else 0.
+  int failure() const { return failure_; }
   void pin(const Digest& value);
 
  private:
@@ -52,6 +53,7 @@ class Pins {
   std::string owner_;
   File lock_;
   File file_;
+  int failure_ = 0;
   std::mutex mutex_;
   std::set<Digest> pinned_;
 };
