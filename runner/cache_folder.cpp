@@ -95,8 +95,9 @@ std::filesystem::path CacheFolder::path_of(EntryKind kind, const Digest& name) c
 }
 
 std::filesystem::path CacheFolder::temporary(const std::filesystem::path& target, const std::string& owner) {
-  std::error_code ignored;  // what is to be written there will fail and say why
-  std::filesystem::create_directories(target.parent_path(), ignored);
+  std::error_code failure;
+  std::filesystem::create_directories(target.parent_path(), failure);
+  if (failure) throw_system_error("make the folder", target.parent_path(), failure.value());
   return target.parent_path() / fmt::format("{}-{}{}", owner, temporaries_++, temporary_suffix);
 }
 

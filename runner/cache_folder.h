@@ -55,7 +55,7 @@ class CacheFolder {
   std::filesystem::path pins() const { return root_ / "pins"; }
   std::filesystem::path lock() const { return root_ / "lock"; }
 
-  /// A name beside `target`, whose folder is made, to write to. `owner` tells whose it is.
+  /// A name beside `target`, whose folder is made, to write to. `owner` tells whose it is. Throws FileError.
   std::filesystem::path temporary(const std::filesystem::path& target, const std::string& owner);
   /// Moves a finished temporary file to its place. If `sync`, it is there after a power failure too. Throws FileError.
   void publish(const std::filesystem::path& temporary, const std::filesystem::path& target, bool sync) const;
