@@ -8,8 +8,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/error.h"
-
 namespace terrazzo {
 
 File::~File() {
@@ -65,7 +63,7 @@ std::string system_message(int code) {
 }
 
 void throw_system_error(std::string_view verb, const std::filesystem::path& path, int code) {
-  throw Error(fmt::format("cannot {} {}: {}", verb, path.string(), system_message(code)));
+  throw FileError(fmt::format("cannot {} {}: {}", verb, path.string(), system_message(code)), code);
 }
 
 }  // namespace terrazzo
