@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/color.h"
 #include "core/normal.h"
 
 namespace terrazzo {
@@ -21,10 +22,6 @@ bool is_encoded(const ImageInfo& info) {
 }
 
 }  // namespace
-
-bool is_color(Semantic semantic) {
-  return semantic == Semantic::base_color || semantic == Semantic::emission || semantic == Semantic::specular;
-}
 
 int value_channels(const ImageInfo& info) {
   return is_color(info.semantic) && info.channels % 2 == 0 ? info.channels - 1 : info.channels;

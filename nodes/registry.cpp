@@ -20,7 +20,9 @@
   X(channel_split)        \
   X(blend)                \
   X(make_normal)          \
-  X(make_occlusion)
+  X(make_occlusion)       \
+  X(load_material)        \
+  X(export)
 
 namespace terrazzo {
 

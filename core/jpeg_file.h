@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+namespace terrazzo {
+
+/// What the markers of a JPEG file (ITU T.81, annex B) say; decoders fill in for missing data without a word.
+struct JpegFacts {
+  int components = 0;     ///< 1 grey, 3 colour, 4 CMYK; 0 if no frame header was found
+  bool complete = false;  ///< the end-of-image marker is there
+};
+JpegFacts read_jpeg_facts(const std::filesystem::path& path);
+
+}  // namespace terrazzo
