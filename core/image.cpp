@@ -133,6 +133,11 @@ ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::function<voi
   return computed(std::move(info), recipe, std::make_shared<FunctionPixels>(std::move(read)));
 }
 
+ImagePtr Image::with_digest(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSource> source) {
+  check(info);
+  return ImagePtr(new Image(std::move(info), digest, std::move(source)));
+}
+
 ImagePtr Image::redescribed(const ImagePtr& image, ImageInfo info) {
   if (info == image->info()) return image;
   if (info.size != image->size() || info.channels != image->channels())

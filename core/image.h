@@ -87,6 +87,8 @@ class Image {
   static ImagePtr computed(ImageInfo info, const Digest& recipe, std::shared_ptr<const PixelSource> source);
   static ImagePtr computed(ImageInfo info, const Digest& recipe,
                            std::function<void(const Rect& region, float* out)> read);
+  /// Pixels that were kept under a digest before, read from where they lie.
+  static ImagePtr with_digest(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSource> source);
   /// The same pixels under another description; size and channels must not change.
   static ImagePtr redescribed(const ImagePtr& image, ImageInfo info);
 

@@ -2,36 +2,18 @@
 
 #include <algorithm>
 
-// One line per node type: the function `NodeType <name>_node()` is defined in nodes/<name>.cpp.
-#define TERRAZZO_NODES(X) \
-  X(load_map)             \
-  X(convert_color)        \
-  X(get_map)              \
-  X(make_material)        \
-  X(resize)               \
-  X(crop)                 \
-  X(blur)                 \
-  X(levels)               \
-  X(grayscale)            \
-  X(threshold)            \
-  X(normalize)            \
-  X(match_histogram)      \
-  X(channel_pack)         \
-  X(channel_split)        \
-  X(blend)                \
-  X(make_normal)          \
-  X(make_occlusion)       \
-  X(load_material)        \
-  X(export)
-
 namespace terrazzo {
 
-#define TERRAZZO_DECLARE(name) NodeType name##_node();
-TERRAZZO_NODES(TERRAZZO_DECLARE)
+#define TERRAZZO_NODE(name) NodeType name##_node();
+#include "nodes/node_list.inc"
+#undef TERRAZZO_NODE
 
 const std::vector<NodeType>& node_types() {
-#define TERRAZZO_CALL(name) name##_node(),
-  static const std::vector<NodeType> types = {TERRAZZO_NODES(TERRAZZO_CALL)};
+  static const std::vector<NodeType> types = {
+#define TERRAZZO_NODE(name) name##_node(),
+#include "nodes/node_list.inc"
+#undef TERRAZZO_NODE
+  };
   return types;
 }
 

@@ -1,3 +1,5 @@
-int main() {
-  return 0;
+#include "runner/cli.h"
+
+int main(int argc, char** argv) {
+  return terrazzo::run_command_line(argc, argv);
 }

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/appearance.h"
+#include "core/features.h"
+#include "core/task.h"
+
+namespace terrazzo {
+
+struct AppearanceOptions {
+  int dimensions = appearance_dimensions;  ///< at most that; the kept dimensions per level
+  double retained_variance = 1;            ///< keep only as many dimensions as explain this fraction
+  double guidance_weight = 0.5;              ///< at the coarsest level; fades linearly to 0 at the finest
+};
+
+/// Brings an exemplar into appearance space (Lefebvre & Hoppe 2006): per level of a Gaussian pyramid, the 5x5
+/// neighbourhoods of all weighted channels, weighted by a Gaussian, are projected on their leading principal
+/// components. `guidance`: images of the features' size, one value or more per pixel, that steer coarse levels.
+AppearancePtr make_appearance(const Features& features, const std::vector<ImagePtr>& guidance,
+                              const AppearanceOptions& options, const Task& task);
+
+}  // namespace terrazzo

@@ -1,0 +1,139 @@
+#include "core/analysis/feature_distance.h"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/analysis/distance_transform.h"
+#include "core/analysis/planes.h"
+#include "core/analysis/weighting.h"
+#include "core/error.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// A Gaussian kernel made of repeated binomials: its weights need no exp and are the same everywhere.
+std::vector<float> binomial_kernel(double deviation) {
+  // n steps of (1 2 1) / 4 have variance n / 2.
+  const int steps = int(std::floor(2 * deviation * deviation + 0.5));
+  std::vector<double> k = {1};
+  for (int s = 0; s < steps; s++) {
+    std::vector<double> next(k.size() + 2, 0.0);
+    for (size_t i = 0; i < k.size(); i++) {
+      next[i] += k[i] / 4;
+      next[i + 1] += k[i] / 2;
+      next[i + 2] += k[i] / 4;
+    }
+    k = std::move(next);
+  }
+  return {k.begin(), k.end()};
+}
+
+Planes smoothed(const Planes& in, double deviation) {
+  const std::vector<float> kernel = binomial_kernel(deviation);
+  const int reach = int(kernel.size()) / 2, n = in.channels;
+  if (reach == 0) return in;
+  Planes across = in, out = in;
+  const auto pass = [&](const Planes& from, Planes& to, bool horizontal) {
+    tbb::parallel_for(0, in.size.height, [&](int y) {
+      for (int x = 0; x < in.size.width; x++) {
+        float* o = to.at(x, y);
+        std::fill(o, o + n, 0.0f);
+        for (int i = -reach; i <= reach; i++) {
+          const float* v = horizontal ? from.at(from.column(x + i), y) : from.at(x, from.row(y + i));
+          for (int c = 0; c < n; c++) o[c] += kernel[i + reach] * v[c];
+        }
+      }
+    });
+  };
+  pass(in, across, true);
+  pass(across, out, false);
+  return out;
+}
+
+/// Gradient magnitude (Scharr's operator) over all channels.
+std::vector<float> gradient_magnitude(const Planes& p) {
+  std::vector<float> out(size_t(p.size.area()));
+  tbb::parallel_for(0, p.size.height, [&](int y) {
+    const int up = p.row(y - 1), down = p.row(y + 1);
+    for (int x = 0; x < p.size.width; x++) {
+      const int left = p.column(x - 1), right = p.column(x + 1);
+      float sum = 0;
+      for (int c = 0; c < p.channels; c++) {
+        const auto v = [&](int u, int w) { return p.at(u, w)[c]; };
+        const float gx =
+            3 * (v(right, up) - v(left, up)) + 10 * (v(right, y) - v(left, y)) + 3 * (v(right, down) - v(left, down));
+        const float gy =
+            3 * (v(left, down) - v(left, up)) + 10 * (v(x, down) - v(x, up)) + 3 * (v(right, down) - v(right, up));
+        sum += gx * gx + gy * gy;
+      }
+      out[size_t(y) * p.size.width + x] = std::sqrt(sum) / 32;
+    }
+  });
+  return out;
+}
+
+/// The threshold in 0..1 that best separates two classes of values (Otsu 1979).
+double otsu(const std::vector<float>& values) {
+  std::array<int64_t, 256> histogram{};
+  for (const float v : values) histogram[std::clamp(int(v * 256), 0, 255)]++;
+  double total = 0, all = 0;
+  for (int i = 0; i < 256; i++) {
+    total += double(histogram[i]);
+    all += double(i) * double(histogram[i]);
+  }
+  double below_count = 0, below_sum = 0, best = -1;
+  int cut = 127;
+  for (int i = 0; i < 255; i++) {
+    below_count += double(histogram[i]);
+    below_sum += double(i) * double(histogram[i]);
+    if (below_count == 0 || below_count == total) continue;
+    const double gap = below_sum / below_count - (all - below_sum) / (total - below_count);
+    const double between = below_count * (total - below_count) * gap * gap;
+    if (between > best) {
+      best = between;
+      cut = i;
+    }
+  }
+  return (cut + 1) / 256.0;
+}
+
+}  // namespace
+
+Edges find_edges(const Material& material, const EdgeOptions& options, const Task& task) {
+  NumberMap weights;
+  for (const std::string& name : options.maps)
+    if (!material.find(name))
+      throw Error("maps", fmt::format("there is no map \"{}\"; the material has {}", name, material.map_names()));
+  for (const Map& map : material.maps()) {
+    const bool chosen =
+        options.maps.empty() || std::find(options.maps.begin(), options.maps.end(), map.name) != options.maps.end();
+    if (!chosen)
+      weights[map.name] = {0};
+    else if (!options.maps.empty())
+      weights[map.name] = {1};
+  }
+  const FeaturesPtr features = weighted_features(material, weights, options.wraps);
+  const Planes planes = smoothed(weighted_planes(*features, task), options.smoothing);
+  Edges edges;
+  edges.strength = gradient_magnitude(planes);
+  // Relative to nearly the strongest: a single speck must not set the scale.
+  std::vector<float> sorted = edges.strength;
+  const size_t strong = sorted.size() - 1 - sorted.size() / 200;
+  std::nth_element(sorted.begin(), sorted.begin() + ptrdiff_t(strong), sorted.end());
+  const float unit = std::max(sorted[strong], 1e-6f);
+  for (float& v : edges.strength) v = std::min(1.0f, v / unit);
+  edges.threshold = options.threshold ? *options.threshold : otsu(edges.strength);
+  for (const float v : edges.strength) edges.mask.push_back(v >= float(edges.threshold));
+  return edges;
+}
+
+ImagePtr feature_distance(const Edges& edges, Size size, bool wraps, float limit) {
+  ImageInfo info{.size = size, .channels = 1, .semantic = Semantic::guidance};
+  return Image::from_floats(info, signed_distances(edges.mask, size, wraps, limit));
+}
+
+}  // namespace terrazzo

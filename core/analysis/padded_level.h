@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "core/appearance.h"
+
+namespace terrazzo {
+
+/// One appearance level with a margin around it, so that windows need no bounds checks: beyond the border the level
+/// wraps around (exemplars that tile) or its border pixels continue.
+class PaddedLevel {
+ public:
+  static constexpr int margin = 4;
+  PaddedLevel(const AppearanceLevel& level, bool wraps);
+
+  Size size() const { return size_; }
+  bool wraps() const { return wraps_; }
+  int stride() const { return stride_; }
+  /// Valid for coordinates up to `margin` outside the level.
+  const AppearanceVector* at(int x, int y) const {
+    return &vectors_[size_t(y + margin) * stride_ + size_t(x + margin)];
+  }
+  /// Brings a position that a shift may have moved out of the exemplar back to where a window fits: around the other
+  /// side, or `keep_off` pixels inside the border.
+  void settle(int& x, int& y) const {
+    if (wraps_) {
+      x = x < 0 ? x + size_.width : x >= size_.width ? x - size_.width : x;
+      y = y < 0 ? y + size_.height : y >= size_.height ? y - size_.height : y;
+    } else {
+      x = std::clamp(x, keep_off, size_.width - 1 - keep_off);
+      y = std::clamp(y, keep_off, size_.height - 1 - keep_off);
+    }
+  }
+  /// Windows centred nearer to the border of an exemplar that does not tile would look at continued pixels.
+  static constexpr int keep_off = 2;
+
+ private:
+  Size size_;
+  bool wraps_;
+  int stride_;
+  std::vector<AppearanceVector> vectors_;
+};
+
+/// Squared distance of two appearance vectors.
+inline int squared_distance(const AppearanceVector& a, const AppearanceVector& b) {
+  int sum = 0;
+  for (int d = 0; d < appearance_dimensions; d++) {
+    const auto t = int16_t(a[d] - b[d]);
+    sum += int(t) * int(t);
+  }
+  return sum;
+}
+
+}  // namespace terrazzo

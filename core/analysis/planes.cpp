@@ -1,0 +1,117 @@
+#include "core/analysis/planes.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/error.h"
+
+namespace terrazzo {
+
+namespace {
+
+// Standard deviations below this are quantisation noise of an 8-bit map rather than structure.
+constexpr double least_deviation = 0.02;
+
+struct Moments {
+  std::vector<double> mean;
+  double deviation = 0;  ///< root of the weighted channels' summed variance
+};
+
+Moments moments(const Image& image, const std::vector<double>& weights) {
+  const int channels = image.channels();
+  std::vector<double> sum(channels, 0.0), squares(channels, 0.0);
+  for_each_strip(image, [&](const Rect& r, const float* v) {
+    for (int64_t i = 0; i < r.area(); i++)
+      for (int c = 0; c < channels; c++) {
+        const double d = v[i * channels + c];
+        sum[c] += d;
+        squares[c] += d * d;
+      }
+  });
+  const auto n = double(image.size().area());
+  Moments m;
+  double variance = 0;
+  for (int c = 0; c < channels; c++) {
+    m.mean.push_back(sum[c] / n);
+    if (weights[c] > 0) variance += std::max(0.0, squares[c] / n - m.mean[c] * m.mean[c]);
+  }
+  m.deviation = std::sqrt(variance);
+  return m;
+}
+
+/// Writes an image's weighted channels into the planes from channel `first` on.
+void add_image(const Image& image, const std::vector<double>& weights, Planes& planes, int first) {
+  const Moments m = moments(image, weights);
+  const double unit = 1.0 / std::max(m.deviation, least_deviation);
+  const int channels = image.channels();
+  for_each_strip(image, [&](const Rect& r, const float* v) {
+    for (int y = 0; y < r.height; y++)
+      for (int x = 0; x < r.width; x++, v += channels) {
+        float* out = planes.at(x, r.y + y) + first;
+        for (int c = 0; c < channels; c++)
+          if (weights[c] > 0) *out++ = float((v[c] - m.mean[c]) * (weights[c] * unit));
+      }
+  });
+}
+
+Planes empty(Size size, int channels, bool wraps) {
+  return {size, channels, wraps, std::vector<float>(size_t(size.area()) * channels)};
+}
+
+}  // namespace
+
+Planes weighted_planes(const Features& features, const Task& task) {
+  Planes planes = empty(features.size(), features.channel_count(), features.wraps());
+  int first = 0;
+  for (const FeatureImage& f : features.images()) {
+    task.check();
+    add_image(*f.image, f.weights, planes, first);
+    for (const double w : f.weights) first += w > 0;
+  }
+  return planes;
+}
+
+Planes guidance_planes(const std::vector<ImagePtr>& guidance, Size size, bool wraps, const Task& task) {
+  int channels = 0;
+  for (const ImagePtr& g : guidance) {
+    if (g->size() != size)
+      throw Error("guidance", fmt::format("guidance must have the features' size, {}x{}; this image has {}x{}",
+                                          size.width, size.height, g->width(), g->height()));
+    channels += g->channels();
+  }
+  Planes planes = empty(size, channels, wraps);
+  int first = 0;
+  for (const ImagePtr& g : guidance) {
+    task.check();
+    add_image(*g, std::vector<double>(g->channels(), 1.0), planes, first);
+    first += g->channels();
+  }
+  return planes;
+}
+
+Planes halved(const Planes& in) {
+  const Size size{(in.size.width + 1) / 2, (in.size.height + 1) / 2};
+  Planes out = empty(size, in.channels, in.wraps);
+  constexpr float kernel[4] = {0.125f, 0.375f, 0.375f, 0.125f};
+  const int n = in.channels;
+  tbb::parallel_for(0, size.height, [&](int y) {
+    // Vertically first, into one row; then horizontally.
+    std::vector<float> row(size_t(in.size.width) * n, 0.0f);
+    for (int j = 0; j < 4; j++) {
+      const float* v = in.at(0, in.row(2 * y + j - 1));
+      for (size_t i = 0; i < row.size(); i++) row[i] += kernel[j] * v[i];
+    }
+    for (int x = 0; x < size.width; x++) {
+      float* o = out.at(x, y);
+      for (int i = 0; i < 4; i++) {
+        const float* v = &row[size_t(in.column(2 * x + i - 1)) * n];
+        for (int c = 0; c < n; c++) o[c] += kernel[i] * v[c];
+      }
+    }
+  });
+  return out;
+}
+
+}  // namespace terrazzo

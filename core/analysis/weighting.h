@@ -1,0 +1,23 @@
+#pragma once
+
+#include "core/features.h"
+#include "core/material.h"
+#include "core/node.h"
+
+namespace terrazzo {
+
+/// A map as analysis sees it: colours in Oklab, normals as unit vectors with y up, everything else as it is. Lazy.
+ImagePtr analysis_image(const ImagePtr& map);
+
+/// How much a map counts unless told otherwise; 0 for maps that only mirror others or say nothing of structure.
+double default_weight(Semantic semantic);
+
+/// The weighted channels of a material. `weights`: per map name one number, or one per channel of the map in analysis
+/// space; maps not named get `default_weight`. Maps smaller than the largest are sampled at its size. `wraps`: the
+/// exemplar tiles. Throws Error naming the maps if a weight is for a map the material does not have.
+FeaturesPtr weighted_features(const Material& material, const NumberMap& weights, bool wraps);
+
+/// Whether opposite borders of every map fit together about as well as neighbouring rows and columns do.
+bool seems_to_tile(const Material& material);
+
+}  // namespace terrazzo

@@ -1,0 +1,104 @@
+#include "core/contact_sheet.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/metrics/planes.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int border = 6;
+constexpr float background = 0.15f;
+constexpr int channels = 3;
+
+/// The picture as RGB, reduced by a whole factor while it is pulled.
+Planes reduced(const Image& image, int factor) {
+  const Size size{std::max(1, image.width() / factor), std::max(1, image.height() / factor)};
+  Planes sums = Planes::zeros(size, channels);
+  std::vector<int> count(size_t(size.area()));
+  for_each_strip(image, [&](const Rect& strip, const float* pixels) {
+    for (int y = strip.y; y < strip.bottom(); y++)
+      for (int x = 0; x < strip.width; x++, pixels += image.channels()) {
+        const int to_x = std::min(x / factor, size.width - 1), to_y = std::min(y / factor, size.height - 1);
+        for (int k = 0; k < channels; k++)
+          sums.pixel(to_x, to_y)[k] += std::clamp(pixels[image.channels() >= 3 ? k : 0], 0.f, 1.f);
+        count[size_t(to_y) * size.width + to_x]++;
+      }
+  });
+  for (size_t i = 0; i < sums.values.size(); i++) sums.values[i] /= float(count[i / channels]);
+  return sums;
+}
+
+/// Where rows or columns begin, given their lengths and a border around each; the last number is the total.
+std::vector<int> starts(const std::vector<int>& lengths) {
+  std::vector<int> out = {border};
+  for (const int length : lengths) out.push_back(out.back() + length + border);
+  return out;
+}
+
+int scaled(int length, double scale) {
+  return std::max(1, int(length * scale));
+}
+
+}  // namespace
+
+ImagePtr contact_sheet(const std::vector<std::vector<ImagePtr>>& rows, int max_side) {
+  size_t columns = 0;
+  for (const auto& row : rows) columns = std::max(columns, row.size());
+  std::vector<int> widths(columns), heights(rows.size());
+  for (size_t y = 0; y < rows.size(); y++)
+    for (size_t x = 0; x < rows[y].size(); x++)
+      if (const ImagePtr& image = rows[y][x]) {
+        widths[x] = std::max(widths[x], image->width());
+        heights[y] = std::max(heights[y], image->height());
+      }
+  const int64_t width = std::accumulate(widths.begin(), widths.end(), int64_t{0});
+  const int64_t height = std::accumulate(heights.begin(), heights.end(), int64_t{0});
+  if (width == 0) throw Error("a contact sheet needs at least one picture");
+  const int borders_x = border * int(columns + 1), borders_y = border * int(rows.size() + 1);
+  const int room_x = max_side - borders_x, room_y = max_side - borders_y;
+  if (room_x < int(columns) || room_y < int(rows.size()))
+    throw Error(fmt::format("a contact sheet of {} by {} pictures needs at least {} pixels a side, not {}", columns,
+                            rows.size(), std::max(borders_x + int(columns), borders_y + int(rows.size())), max_side));
+  const double scale = std::min({1.0, double(room_x) / double(width), double(room_y) / double(height)});
+  for (int& w : widths) w = scaled(w, scale);
+  for (int& h : heights) h = scaled(h, scale);
+  const std::vector<int> left = starts(widths), top = starts(heights);
+
+  Planes sheet = Planes::zeros({std::min(left.back(), max_side), std::min(top.back(), max_side)}, channels);
+  std::fill(sheet.values.begin(), sheet.values.end(), background);
+  for (size_t y = 0; y < rows.size(); y++)
+    for (size_t x = 0; x < rows[y].size(); x++) {
+      const ImagePtr& image = rows[y][x];
+      if (!image) continue;
+      const Size size{scaled(image->width(), scale), scaled(image->height(), scale)};
+      const Planes picture = resampled(reduced(*image, std::max(1, int(1 / scale))), size);
+      for (int v = 0; v < size.height && top[y] + v < sheet.size.height; v++)
+        std::copy_n(picture.pixel(0, v), size_t(std::min(size.width, sheet.size.width - left[x])) * channels,
+                    sheet.pixel(left[x], top[y] + v));
+    }
+  const ImageInfo info{.size = sheet.size,
+                       .channels = channels,
+                       .semantic = Semantic::base_color,
+                       .color_space = "srgb_texture",
+                       .depth = Depth::u8};
+  return Image::from_floats(info, std::move(sheet.values));
+}
+
+ImagePtr comparison_sheet(const Material& exemplar, const Material& result, const std::vector<std::string>& maps,
+                          int max_side) {
+  std::vector<ImagePtr> above, below;
+  for (const std::string& name : maps) {
+    above.push_back(exemplar.find(std::string_view(name)));
+    below.push_back(result.find(std::string_view(name)));
+  }
+  if (maps.size() == 1) return contact_sheet({{above.front(), below.front()}}, max_side);
+  return contact_sheet({above, below}, max_side);
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,113 @@
+#include "core/metrics/autocorrelation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/metrics/fft.h"
+
+namespace terrazzo {
+
+namespace {
+
+int shorter_side(const Planes& a, const Planes& b) {
+  return std::min({a.size.width, a.size.height, b.size.width, b.size.height});
+}
+
+Planes without_mean(Planes image) {
+  const ChannelStatistics s = channel_statistics(image);
+  for (size_t i = 0; i < image.values.size(); i++) image.values[i] -= float(s.mean[i % image.channels]);
+  return image;
+}
+
+Correlogram normalized(const std::vector<std::complex<double>>& sums, bool imaginary, Size image, Size padded,
+                       Size lags) {
+  Correlogram out{lags, {}};
+  const double count = double(padded.area());
+  const auto mean_product = [&](int dx, int dy) {
+    const std::complex<double>& v = sums[size_t(wrap(dy, padded.height)) * padded.width + dx];
+    const double pairs = double(image.width - dx) * (image.height - std::abs(dy));
+    return (imaginary ? v.imag() : v.real()) / count / pairs;
+  };
+  const double variance = mean_product(0, 0) + 1e-9;
+  for (int dy = 1 - lags.height; dy < lags.height; dy++)
+    for (int dx = 0; dx < lags.width; dx++) out.values.push_back(mean_product(dx, dy) / variance);
+  return out;
+}
+
+/// The channel that far_peak looks at: details up to the size `near`, of all channels together.
+Planes details(const Planes& image, int near) {
+  const Planes smooth = blurred(image, 1);
+  Planes mean = Planes::zeros(image.size, 1);
+  for (size_t i = 0; i < mean.values.size(); i++) {
+    for (int k = 0; k < image.channels; k++) mean.values[i] += smooth.values[i * image.channels + k];
+    mean.values[i] /= float(image.channels);
+  }
+  const Planes coarse = blurred(mean, near);
+  for (size_t i = 0; i < mean.values.size(); i++) mean.values[i] -= coarse.values[i];
+  return mean;
+}
+
+double far_peak(const Planes& image, int near, const Task& task) {
+  const Correlogram r = correlograms(details(image, near), image.size, task).front();
+  double best = -1;
+  for (int dy = 1 - r.lags.height; dy < r.lags.height; dy++)
+    for (int dx = 0; dx < r.lags.width; dx++) {
+      const double pairs = double(image.size.width - dx) * (image.size.height - std::abs(dy));
+      const bool overlaps = pairs > 0.2 * double(image.size.area());
+      if (int64_t{dx} * dx + int64_t{dy} * dy > int64_t{near} * near)
+        best = std::max(best, overlaps ? r.at(dx, dy) : 0);
+    }
+  return best;
+}
+
+}  // namespace
+
+std::vector<Correlogram> correlograms(const Planes& image, Size lags, const Task& task) {
+  const Size padded{padded_length(image.size.width + lags.width), padded_length(image.size.height + lags.height)};
+  std::vector<Correlogram> out;
+  for (int c = 0; c < image.channels; c += 2) {
+    task.check();
+    const bool two = c + 1 < image.channels;
+    // Two real channels travel as one complex grid, and so do their power spectra on the way back.
+    std::vector<std::complex<double>> grid(size_t(padded.area()));
+    for (int y = 0; y < image.size.height; y++)
+      for (int x = 0; x < image.size.width; x++) {
+        const float* v = image.pixel(x, y) + c;
+        grid[size_t(y) * padded.width + x] = {v[0], two ? v[1] : 0.0};
+      }
+    transform_2d(grid, padded.width, padded.height, false);
+    std::vector<std::complex<double>> power(grid.size());
+    for (int y = 0; y < padded.height; y++)
+      for (int x = 0; x < padded.width; x++) {
+        const size_t mirror =
+            size_t((padded.height - y) % padded.height) * padded.width + size_t((padded.width - x) % padded.width);
+        const std::complex<double> z = grid[size_t(y) * padded.width + x], m = std::conj(grid[mirror]);
+        power[size_t(y) * padded.width + x] = {std::norm(z + m) / 4, std::norm(z - m) / 4};
+      }
+    transform_2d(power, padded.width, padded.height, true);
+    out.push_back(normalized(power, false, image.size, padded, lags));
+    if (two) out.push_back(normalized(power, true, image.size, padded, lags));
+  }
+  return out;
+}
+
+double autocorrelation_difference(const Planes& exemplar, const Planes& output, const Task& task) {
+  const int lag = std::max(1, shorter_side(exemplar, output) / 4);
+  const auto a = correlograms(without_mean(exemplar), {lag, lag}, task);
+  const auto b = correlograms(without_mean(output), {lag, lag}, task);
+  double sum = 0;
+  for (size_t i = 0; i < a.front().values.size(); i++) {
+    double difference = 0;
+    for (size_t c = 0; c < a.size(); c++) difference += a[c].values[i] - b[c].values[i];
+    sum += std::abs(difference) / double(a.size());
+  }
+  return sum / double(a.front().values.size());
+}
+
+double repetition(const Planes& exemplar, const Planes& output, const Task& task) {
+  const int near = std::max(1, shorter_side(exemplar, output) / 8);
+  return std::max(0.0, far_peak(output, near, task) - far_peak(exemplar, near, task));
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,79 @@
+#include "core/metrics/copies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "core/metrics/nearest.h"
+#include "core/metrics/patches.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// Disjoint sets with path halving; the smallest member stands for each set.
+class Sets {
+ public:
+  explicit Sets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  uint32_t find(uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(uint32_t a, uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<uint32_t> parent_;
+};
+
+}  // namespace
+
+CopiedRegions copied_regions(Size size, const std::vector<Shift>& shifts) {
+  Sets sets(shifts.size());
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      const uint32_t i = uint32_t(y) * uint32_t(size.width) + uint32_t(x);
+      for (int step = 1; step <= 2; step++) {
+        const uint32_t right = i + uint32_t(step), down = i + uint32_t(step * size.width);
+        if (x + step < size.width && shifts[i] == shifts[right]) sets.join(i, right);
+        if (y + step < size.height && shifts[i] == shifts[down]) sets.join(i, down);
+      }
+    }
+  std::vector<int64_t> area(shifts.size());
+  for (uint32_t i = 0; i < shifts.size(); i++) area[sets.find(i)]++;
+  CopiedRegions out;
+  for (const int64_t a : area) {
+    out.typical_side += double(a) * std::sqrt(double(a));
+    out.largest_area = std::max(out.largest_area, double(a));
+  }
+  out.typical_side /= double(shifts.size());
+  return out;
+}
+
+double verbatim_copies(const Planes& exemplar, const Planes& output, const Task& task) {
+  constexpr int dimensions = 16;
+  constexpr double slack = 0.2;
+  const PatchList from_exemplar = all_patches(exemplar.size), from_output = all_patches(output.size);
+  const Projection space = principal_components(exemplar, from_exemplar, dimensions, task);
+  const NearestPoints tree(project(exemplar, from_exemplar, space, task), dimensions);
+  const std::vector<float> points = project(output, from_output, space, task);
+  const int across = patch_positions(exemplar.size).width, width = patch_positions(output.size).width;
+  std::vector<Shift> shifts(from_output.size());
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, shifts.size(), 512), [&](const auto& range) {
+    task.check();
+    for (size_t i = range.begin(); i < range.end(); i++) {
+      const int found = int(tree.find(&points[i * dimensions], slack).index);
+      shifts[i] = {found % across - int(i) % width, found / across - int(i) / width};
+    }
+  });
+  const CopiedRegions copies = copied_regions(patch_positions(output.size), shifts);
+  return copies.typical_side / std::sqrt(double(exemplar.size.area()));
+}
+
+}  // namespace terrazzo

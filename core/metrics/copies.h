@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "core/metrics/planes.h"
+#include "core/task.h"
+
+namespace terrazzo {
+
+/// From an output pixel to the exemplar pixel it shows.
+struct Shift {
+  int x = 0;
+  int y = 0;
+  bool operator==(const Shift&) const = default;
+};
+
+/// Regions copied in one piece: pixels of one shift that touch, or lie two apart in a row or column.
+struct CopiedRegions {
+  double typical_side = 0;  ///< square root of the area, meaned over pixels; in pixels
+  double largest_area = 0;  ///< in pixels
+};
+CopiedRegions copied_regions(Size size, const std::vector<Shift>& shifts);
+
+/// The typical side of a copied region as a fraction of the exemplar's side, found by looking up each output patch's
+/// nearest exemplar patch. Plain tiling gives 0.7 to 1.
+double verbatim_copies(const Planes& exemplar, const Planes& output, const Task& task);
+
+}  // namespace terrazzo

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+namespace terrazzo {
+
+/// The smallest power of two that is at least n.
+int padded_length(int n);
+
+/// The discrete Fourier transform of power-of-two length (Cooley & Tukey 1965), the same bits on every machine: its
+/// twiddle factors come from square roots, not from a library's sine. Immutable; thread-safe.
+class Fft {
+ public:
+  explicit Fft(int length);
+  int length() const { return length_; }
+  /// In place. The inverse is not divided by the length.
+  void transform(std::complex<double>* values, bool inverse) const;
+
+ private:
+  int length_;
+  std::vector<std::complex<double>> twiddles_;  ///< exp(-2 pi i k / length), k < length / 2
+  std::vector<int> reversed_;
+};
+
+/// A grid of width * height complex numbers, row by row, transformed along both axes.
+void transform_2d(std::vector<std::complex<double>>& grid, int width, int height, bool inverse);
+
+}  // namespace terrazzo

@@ -1,0 +1,109 @@
+#include "core/metrics/patch_statistics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include "core/metrics/nearest.h"
+#include "core/metrics/patches.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr uint64_t exemplar_seed = 7, output_seed = 8, direction_seed = 9;
+constexpr int directions = 160;
+constexpr int quantiles = 512;
+constexpr size_t sliced_patches = 20000;
+constexpr size_t pool = 120000;
+constexpr size_t queries = 4000;
+constexpr int dimensions = 24;
+constexpr double slack = 0.1;
+
+/// Of sorted numbers, with linear interpolation; `t` in [0, 1].
+template <typename T>
+double quantile(const std::vector<T>& sorted, double t) {
+  const double at = t * double(sorted.size() - 1);
+  const size_t i = std::min(size_t(at), sorted.size() - 1), j = std::min(i + 1, sorted.size() - 1);
+  return sorted[i] + (at - double(i)) * (double(sorted[j]) - sorted[i]);
+}
+
+std::vector<float> sorted_column(const std::vector<float>& rows, int width, int column) {
+  std::vector<float> out(rows.size() / width);
+  for (size_t i = 0; i < out.size(); i++) out[i] = rows[i * width + column];
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+double deviation(const std::vector<float>& values) {
+  double mean = 0, squares = 0;
+  for (const float v : values) mean += v;
+  mean /= double(values.size());
+  for (const float v : values) squares += (v - mean) * (v - mean);
+  return std::sqrt(squares / double(values.size()));
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return sum / double(values.size());
+}
+
+/// The distances of the first rows of `points` to what `tree` holds.
+std::vector<double> distances(const NearestPoints& tree, const std::vector<float>& points, bool among_themselves,
+                              const Task& task) {
+  std::vector<double> out(std::min(queries, points.size() / dimensions));
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, out.size(), 64), [&](const auto& range) {
+    task.check();
+    for (size_t i = range.begin(); i < range.end(); i++) {
+      const uint32_t except = among_themselves ? uint32_t(i) : NearestPoints::nothing;
+      out[i] = std::sqrt(double(tree.find(&points[i * dimensions], slack, except).squared));
+    }
+  });
+  return out;
+}
+
+}  // namespace
+
+double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Task& task) {
+  const Projection slices = random_directions(patch_values(exemplar), directions, direction_seed);
+  const auto a = project(exemplar, random_patches(exemplar.size, sliced_patches, exemplar_seed), slices, task);
+  const auto b = project(output, random_patches(output.size, sliced_patches, output_seed), slices, task);
+  std::vector<double> distance(directions);
+  tbb::parallel_for(0, directions, [&](int k) {
+    task.check();
+    const std::vector<float> p = sorted_column(a, directions, k), q = sorted_column(b, directions, k);
+    double sum = 0;
+    for (int i = 0; i < quantiles; i++) {
+      const double t = double(i) / (quantiles - 1);
+      sum += std::abs(quantile(p, t) - quantile(q, t));
+    }
+    distance[k] = sum / quantiles / (deviation(p) + 1e-6);
+  });
+  return mean_of(distance);
+}
+
+PatchSimilarity patch_similarity(const Planes& exemplar, const Planes& output, const Task& task) {
+  const PatchList from_exemplar = random_patches(exemplar.size, pool, exemplar_seed);
+  const PatchList from_output = random_patches(output.size, pool, output_seed);
+  const Projection space = principal_components(exemplar, from_exemplar, dimensions, task);
+  const std::vector<float> e = project(exemplar, from_exemplar, space, task);
+  const std::vector<float> o = project(output, from_output, space, task);
+  std::array<std::unique_ptr<NearestPoints>, 2> trees;
+  tbb::parallel_invoke([&] { trees[0] = std::make_unique<NearestPoints>(e, dimensions); },
+                       [&] { trees[1] = std::make_unique<NearestPoints>(o, dimensions); });
+  std::vector<double> among = distances(*trees[0], e, true, task);
+  const std::vector<double> coherent = distances(*trees[0], o, false, task);
+  const std::vector<double> complete = distances(*trees[1], e, false, task);
+  const double own = mean_of(among) + 1e-9;
+  std::sort(among.begin(), among.end());
+  const double usual = quantile(among, 0.95);
+  const auto broken = std::count_if(coherent.begin(), coherent.end(), [&](double d) { return d > usual; });
+  return {mean_of(coherent) / own, mean_of(complete) / own, double(broken) / double(coherent.size())};
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,143 @@
+#include "core/metrics/patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "core/hash.h"
+#include "core/linear_algebra.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int lane = 8;     ///< outputs computed at once
+constexpr int at_once = 4;  ///< patches computed at once
+constexpr int rows_of = 8;  ///< covariance rows per piece of work
+
+void gather(const Planes& image, uint32_t patch, const std::vector<float>& mean, float* out) {
+  const int across = patch_positions(image.size).width, row = patch_side * image.channels;
+  const int x = int(patch % uint32_t(across)), y = int(patch / uint32_t(across));
+  for (int dy = 0; dy < patch_side; dy++) {
+    const float* from = image.pixel(x, y + dy);
+    for (int i = 0; i < row; i++) out[dy * row + i] = from[i] - mean[size_t(dy) * row + i];
+  }
+}
+
+/// `at_once` patches (rows of `inputs` values) times all weights.
+void multiply(const float* patches, const Projection& p, float* const* out) {
+  for (int first = 0; first < p.outputs; first += lane) {
+    float sum[at_once][lane] = {};
+    const float* weights = &p.weights[first];
+    for (int i = 0; i < p.inputs; i++, weights += p.outputs)
+      for (int s = 0; s < at_once; s++) {
+        const float v = patches[size_t(s) * p.inputs + i];
+        for (int k = 0; k < lane; k++) sum[s][k] += v * weights[k];
+      }
+    for (int s = 0; s < at_once; s++) std::copy_n(sum[s], lane, out[s] + first);
+  }
+}
+
+std::vector<double> covariance(const std::vector<float>& rows, int inputs, const Task& task) {
+  const size_t count = rows.size() / inputs;
+  std::vector<double> sums(size_t(inputs) * inputs);
+  // Each piece owns some rows of the result and sees the patches in order: no sum depends on the number of threads.
+  tbb::parallel_for(0, (inputs + rows_of - 1) / rows_of, [&](int piece) {
+    task.check();
+    const int begin = piece * rows_of, end = std::min(inputs, begin + rows_of);
+    for (size_t s = 0; s < count; s++) {
+      const float* v = &rows[s * inputs];
+      for (int i = begin; i < end; i++) {
+        const double a = v[i];
+        double* to = &sums[size_t(i) * inputs];
+        for (int j = 0; j < end; j++) to[j] += a * v[j];
+      }
+    }
+  });
+  for (double& s : sums) s /= double(count);
+  return sums;
+}
+
+}  // namespace
+
+Size patch_positions(Size image) {
+  return {image.width - patch_side + 1, image.height - patch_side + 1};
+}
+
+PatchList all_patches(Size image) {
+  PatchList out(size_t(patch_positions(image).area()));
+  std::iota(out.begin(), out.end(), 0u);
+  return out;
+}
+
+PatchList random_patches(Size image, size_t count, uint64_t seed) {
+  PatchList out = all_patches(image);
+  count = std::min(count, out.size());
+  for (size_t i = 0; i < count; i++) {
+    const uint32_t left = uint32_t(out.size() - i);
+    std::swap(out[i], out[i + below(uint32_t(random_bits(seed, i)), left)]);
+  }
+  out.resize(count);
+  return out;
+}
+
+Projection principal_components(const Planes& image, const PatchList& patches, int outputs, const Task& task) {
+  const int inputs = patch_values(image);
+  const size_t count = std::min<size_t>(patches.size(), 20000);
+  std::vector<float> rows(count * inputs);
+  const std::vector<float> nothing(inputs);
+  std::vector<double> sum(inputs);
+  for (size_t s = 0; s < count; s++) {
+    gather(image, patches[s * patches.size() / count], nothing, &rows[s * inputs]);
+    for (int i = 0; i < inputs; i++) sum[i] += rows[s * inputs + i];
+  }
+  Projection p{inputs, outputs, std::vector<float>(inputs), std::vector<float>(size_t(inputs) * outputs)};
+  for (int i = 0; i < inputs; i++) p.mean[i] = float(sum[i] / double(count));
+  for (size_t s = 0; s < count; s++)
+    for (int i = 0; i < inputs; i++) rows[s * inputs + i] -= p.mean[i];
+  const SymmetricEigen eigen = eigen_symmetric(covariance(rows, inputs, task), inputs);
+  for (int k = 0; k < std::min(outputs, inputs); k++)
+    for (int i = 0; i < inputs; i++) p.weights[size_t(i) * outputs + k] = float(eigen.vectors[size_t(k) * inputs + i]);
+  return p;
+}
+
+Projection random_directions(int inputs, int outputs, uint64_t seed) {
+  Projection p{inputs, outputs, std::vector<float>(inputs), std::vector<float>(size_t(inputs) * outputs)};
+  std::vector<double> direction(inputs);
+  for (int k = 0; k < outputs; k++) {
+    double norm = 0;
+    for (int i = 0; i < inputs; i++) {
+      // A sum of twelve uniform numbers is as good as normal here, and needs no logarithm.
+      double v = -6;
+      for (int j = 0; j < 12; j++) v += unit_double(random_bits(seed, k, i, j));
+      direction[i] = v;
+      norm += v * v;
+    }
+    norm = std::sqrt(norm);
+    for (int i = 0; i < inputs; i++) p.weights[size_t(i) * outputs + k] = float(direction[i] / norm);
+  }
+  return p;
+}
+
+std::vector<float> project(const Planes& image, const PatchList& patches, const Projection& p, const Task& task) {
+  std::vector<float> out(patches.size() * p.outputs);
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, patches.size(), 512), [&](const auto& range) {
+    task.check();
+    std::vector<float> gathered(size_t(at_once) * p.inputs), spare(p.outputs);
+    for (size_t s = range.begin(); s < range.end(); s += at_once) {
+      float* to[at_once];
+      for (int i = 0; i < at_once; i++) {
+        const bool real = s + i < range.end();
+        to[i] = real ? &out[(s + i) * p.outputs] : spare.data();
+        if (real) gather(image, patches[s + i], p.mean, &gathered[size_t(i) * p.inputs]);
+      }
+      multiply(gathered.data(), p, to);
+    }
+  });
+  return out;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,147 @@
+#include "core/metrics/quality.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/metrics/autocorrelation.h"
+#include "core/metrics/cooccurrence.h"
+#include "core/metrics/copies.h"
+#include "core/metrics/patch_statistics.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int patch_levels = 3;
+
+int level_count(const Planes& exemplar, const Planes& output) {
+  int side = std::min({exemplar.size.width, exemplar.size.height, output.size.width, output.size.height});
+  int levels = 1;
+  for (; side >= 64; side /= 2) levels++;
+  return levels;
+}
+
+int measured_channels(const Image& image) {
+  return image.channels() >= 3 ? 3 : 1;
+}
+
+void check_pair(const std::string& name, const Image& exemplar, const Image& output) {
+  const ImageInfo &a = exemplar.info(), &b = output.info();
+  if (a.color_space != b.color_space)
+    throw Error(
+        "maps",
+        fmt::format("the map {} must have one colour space in exemplar and output, but is {} in the exemplar and "
+                    "{} in the output; put a convert_color node before \"output\"",
+                    name, a.color_space, b.color_space));
+}
+
+/// The map at the material's size; a normal map's green channel pointing up.
+Planes map_planes(const Image& image, int channels, Size material) {
+  const Rect region = whole(image.size());
+  const Rect part = intersect(region, {0, 0, largest_measured, largest_measured});
+  const bool smaller_map = image.size() != material;
+  Planes planes = to_planes(image, smaller_map ? region : part, channels);
+  if (smaller_map) planes = resampled(planes, material);
+  if (image.info().semantic == Semantic::normal && image.info().normal_y == NormalY::down && planes.channels == 3)
+    for (size_t i = 1; i < planes.values.size(); i += 3) planes.values[i] = 1 - planes.values[i];
+  return planes;
+}
+
+/// One map's part of the stack.
+struct MapChannels {
+  std::string name;
+  int channels;
+};
+
+Planes stacked(const Material& material, const std::vector<MapChannels>& maps) {
+  std::vector<Planes> parts;
+  int channels = 0;
+  for (const MapChannels& map : maps) {
+    parts.push_back(map_planes(*material.find(std::string_view(map.name)), map.channels, material.size()));
+    channels += parts.back().channels;
+  }
+  const Size size{std::min(material.size().width, largest_measured),
+                  std::min(material.size().height, largest_measured)};
+  Planes out = Planes::zeros(size, channels);
+  int first = 0;
+  for (const Planes& part : parts) {
+    for (int y = 0; y < size.height; y++)
+      for (int x = 0; x < size.width; x++) std::copy_n(part.pixel(x, y), part.channels, out.pixel(x, y) + first);
+    first += part.channels;
+  }
+  return out;
+}
+
+void check_size(const char* port, Size size) {
+  if (std::min(size.width, size.height) < smallest_measured)
+    throw Error(port,
+                fmt::format("a material of at least {0}x{0} pixels is needed to compare patches, but this one has "
+                            "{1}x{2}",
+                            smallest_measured, size.width, size.height));
+}
+
+}  // namespace
+
+std::vector<std::string> compared_maps(const Material& exemplar, const Material& output,
+                                       const std::vector<std::string>& maps) {
+  std::vector<std::string> names = maps;
+  if (maps.empty())
+    for (const Map& m : exemplar.maps())
+      if (output.find(m.name)) names.push_back(m.name);
+  if (names.empty())
+    throw Error("output", fmt::format("exemplar and output must share a map to be compared; the exemplar has {}, the "
+                                      "output {}",
+                                      exemplar.map_names(), output.map_names()));
+  for (const std::string& name : names)
+    for (const Material* m : {&exemplar, &output})
+      if (!m->find(std::string_view(name)))
+        throw Error("maps", fmt::format("the {} has no map \"{}\"; it has {}", m == &exemplar ? "exemplar" : "output",
+                                        name, m->map_names()));
+  return names;
+}
+
+ComparedPlanes compared_planes(const Material& exemplar, const Material& output, const std::vector<std::string>& maps) {
+  check_size("exemplar", exemplar.size());
+  check_size("output", output.size());
+  std::vector<MapChannels> channels;
+  for (const std::string& name : compared_maps(exemplar, output, maps)) {
+    const Image &a = *exemplar.find(std::string_view(name)), &b = *output.find(std::string_view(name));
+    check_pair(name, a, b);
+    channels.push_back({name, std::max(measured_channels(a), measured_channels(b))});
+  }
+  ComparedPlanes out{stacked(exemplar, channels), stacked(output, channels)};
+  std::vector<float> scale;
+  // A map that is flat in the exemplar is measured in 8-bit steps.
+  for (const double d : channel_statistics(out.exemplar).deviation) scale.push_back(float(1 / std::max(d, 1.0 / 255)));
+  for (Planes* planes : {&out.exemplar, &out.output})
+    for (size_t i = 0; i < planes->values.size(); i++) planes->values[i] *= scale[i % scale.size()];
+  return out;
+}
+
+Quality measure_quality(Planes exemplar, Planes output, const QualityParts& parts, const Task& task) {
+  Quality q;
+  q.acf = autocorrelation_difference(exemplar, output, task);
+  task.progress(0.1);
+  q.repeat = repetition(exemplar, output, task);
+  task.progress(0.2);
+  const int levels = level_count(exemplar, output);
+  const std::vector<Planes> e = gaussian_pyramid(std::move(exemplar), levels);
+  const std::vector<Planes> o = gaussian_pyramid(std::move(output), levels);
+  const int half = std::min(1, levels - 1), compared = std::min(patch_levels, levels);
+  if (parts.verbatim) q.verbatim = verbatim_copies(e[half], o[half], task);
+  task.progress(0.4);
+  for (int i = 0; i < levels; i++) q.swd += sliced_wasserstein(e[i], o[i], task) / levels;
+  task.progress(0.6);
+  for (int i = 0; i < compared; i++) {
+    const PatchSimilarity s = patch_similarity(e[i], o[i], task);
+    q.coherence += s.coherence / compared;
+    q.completeness += s.completeness / compared;
+    q.broken += s.broken / compared;
+    q.cooccurrence += cooccurrence_distance(e[i], o[i], task) / compared;
+    task.progress(0.6 + 0.4 * (i + 1) / compared);
+  }
+  return q;
+}
+
+}  // namespace terrazzo

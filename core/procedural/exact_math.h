@@ -1,0 +1,80 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+/// Elementary functions made of additions, multiplications, divisions and square roots alone, so that every machine
+/// gets the same bits; accurate to about 1e-9, relative. All are pure.
+namespace terrazzo::exact {
+
+inline int64_t floor_int(double x) {
+  const int64_t i = static_cast<int64_t>(x);
+  return i - (x < static_cast<double>(i));
+}
+
+/// 2^x for x in [-1000, 1000].
+inline double exp2(double x) {
+  const double whole = static_cast<double>(floor_int(x + 0.5));
+  const double t = (x - whole) * 0.69314718055994531;
+  double sum = 1;
+  for (int n = 9; n >= 1; n--) sum = 1 + sum * t / n;
+  const uint64_t exponent = static_cast<uint64_t>(static_cast<int64_t>(whole) + 1023) << 52;
+  return sum * std::bit_cast<double>(exponent);
+}
+
+/// The logarithm to base 2 of a normal number above 0.
+inline double log2(double x) {
+  const uint64_t bits = std::bit_cast<uint64_t>(x);
+  int64_t exponent = static_cast<int64_t>(bits >> 52) - 1023;
+  double m = std::bit_cast<double>((bits & 0xfffffffffffffULL) | 0x3ff0000000000000ULL);
+  if (m > 1.4142135623730951) {
+    m *= 0.5;
+    exponent++;
+  }
+  const double z = (m - 1) / (m + 1), z2 = z * z;
+  double sum = 0;
+  for (int n = 13; n >= 1; n -= 2) sum = sum * z2 + 1.0 / n;
+  return static_cast<double>(exponent) + 2 * z * sum * 1.4426950408889634;
+}
+
+inline double exp(double x) {
+  return exp2(std::clamp(x, -600.0, 600.0) * 1.4426950408889634);
+}
+
+/// x^p for x >= 0.
+inline double pow(double x, double p) {
+  return x <= 0x1p-1000 ? 0 : exp2(std::clamp(p * log2(x), -1000.0, 1000.0));
+}
+
+/// The sine of an angle in turns (1 = a full circle).
+inline double sin_turns(double turns) {
+  double t = turns - static_cast<double>(floor_int(turns + 0.5));  // [-0.5, 0.5)
+  if (t > 0.25) t = 0.5 - t;
+  if (t < -0.25) t = -0.5 - t;
+  const double a = t * 6.2831853071795865, a2 = a * a;
+  double sum = 1;
+  for (int n = 14; n >= 2; n -= 2) sum = 1 - sum * a2 / (n * (n + 1.0));
+  return a * sum;
+}
+
+inline double cos_turns(double turns) {
+  return sin_turns(turns + 0.25);
+}
+
+inline double saturate(double x) {
+  return std::clamp(x, 0.0, 1.0);
+}
+
+inline double mix(double a, double b, double t) {
+  return a + (b - a) * t;
+}
+
+/// 0 below `low`, 1 above `high`, a smooth cubic between; `high` may be the smaller one.
+inline double smoothstep(double low, double high, double x) {
+  const double t = saturate((x - low) / (high - low));
+  return t * t * (3 - 2 * t);
+}
+
+}  // namespace terrazzo::exact

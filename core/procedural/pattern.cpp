@@ -1,0 +1,59 @@
+#include "core/procedural/pattern.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/procedural/finish.h"
+#include "core/procedural/pattern_types.h"
+
+namespace terrazzo {
+
+const std::vector<PatternType>& pattern_types() {
+  static const std::vector<PatternType> types = {bricks_pattern(), cobbles_pattern(), weave_pattern(),
+                                                 gravel_pattern()};
+  return types;
+}
+
+const PatternType* find_pattern_type(std::string_view name) {
+  for (const PatternType& t : pattern_types())
+    if (t.name == name) return &t;
+  return nullptr;
+}
+
+const Palette* find_palette(const PatternType& type, std::string_view name) {
+  if (name.empty()) return &type.palettes.front();
+  for (const Palette& p : type.palettes)
+    if (p.name == name) return &p;
+  return nullptr;
+}
+
+MaterialPtr make_pattern(const PatternSpec& given, const Task& task) {
+  const PatternType* type = find_pattern_type(given.type);
+  if (!type) {
+    std::string names;
+    for (const PatternType& t : pattern_types()) names += (names.empty() ? "" : ", ") + t.name;
+    throw Error("type", fmt::format("there is no pattern \"{}\"; there are {}", given.type, names));
+  }
+  const Palette* palette = find_palette(*type, given.palette);
+  if (!palette) {
+    std::string names;
+    for (const Palette& p : type->palettes) names += (names.empty() ? "" : ", ") + p.name;
+    throw Error("palette", fmt::format("{} come in no palette \"{}\"; there are {}", type->name, given.palette, names));
+  }
+  PatternSpec spec = given;
+  if (spec.scale <= 0) spec.scale = type->scale;
+  const Canvas canvas(spec.size, spec.tileable, spec.seed);
+  const std::unique_ptr<Surface> surface = type->make(canvas, spec, *palette);
+  const Finish finish{
+      .size = spec.size,
+      .wraps = spec.tileable,
+      .relief = spec.relief * type->depth * spec.size.width / spec.scale,
+      .reach = 0.35 * spec.size.width / spec.scale,
+      .cavity = type->cavity,
+  };
+  return finished_material(type->name, *surface, finish, task);
+}
+
+}  // namespace terrazzo

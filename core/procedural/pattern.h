@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/material.h"
+#include "core/procedural/surface.h"
+#include "core/task.h"
+
+/// Procedural exemplars: materials whose maps all come from one described surface and therefore agree.
+namespace terrazzo {
+
+/// A pattern type. The factory is called with a spec whose scale and palette are filled in.
+struct PatternType {
+  std::string name;
+  std::string summary;
+  double scale = 5;     ///< pieces across by default
+  double depth = 0.1;   ///< from the lowest to the highest point, in widths of a piece
+  double cavity = 0.3;  ///< how much recesses darken the colour (dirt and interreflection), 0..1
+  std::vector<Palette> palettes;
+  std::unique_ptr<Surface> (*make)(const Canvas& canvas, const PatternSpec& spec, const Palette& palette);
+};
+
+/// All types, in a fixed order. Thread-safe.
+const std::vector<PatternType>& pattern_types();
+/// Null if there is no such type.
+const PatternType* find_pattern_type(std::string_view name);
+/// Null if the type has no such palette; the first for an empty name.
+const Palette* find_palette(const PatternType& type, std::string_view name);
+
+/// Makes base_color (8 bit, srgb_texture), normal (8 bit, green up), height (16 bit), roughness and ambient_occlusion
+/// (8 bit), all of `spec.size`, with values that survive a file of their depth exactly. The same on every machine.
+/// Throws Error naming the known types or palettes if the spec names an unknown one.
+MaterialPtr make_pattern(const PatternSpec& spec, const Task& task);
+
+}  // namespace terrazzo

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/procedural/pattern.h"
+
+/// One function per pattern type, each defined in the file of its name.
+namespace terrazzo {
+
+template <typename T>
+std::unique_ptr<Surface> make_surface(const Canvas& canvas, const PatternSpec& spec, const Palette& palette) {
+  return std::make_unique<T>(canvas, spec, palette);
+}
+
+PatternType bricks_pattern();
+PatternType cobbles_pattern();
+PatternType weave_pattern();
+PatternType gravel_pattern();
+
+}  // namespace terrazzo

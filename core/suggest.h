@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace terrazzo {
+
+/// The name most like `wrong` by edit distance (case counts little), or empty if none is near enough to be meant.
+/// The first of several equally near ones.
+std::string nearest(std::string_view wrong, const std::vector<std::string>& names);
+
+/// The end of a message about an unknown name: ` (did you mean "x"?)`, or the valid names if none is near, or
+/// nothing if there are none.
+std::string suggestion(std::string_view wrong, const std::vector<std::string>& names);
+
+/// `"a", "b" or "c"`; shortened if there are many.
+std::string listed(const std::vector<std::string>& names);
+
+}  // namespace terrazzo

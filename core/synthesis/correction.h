@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/analysis/padded_level.h"
+#include "core/synthesis/field.h"
+#include "core/task.h"
+
+namespace terrazzo {
+
+/// Costs are multiplied by factors of 1/4096 (integers, so that every machine decides alike).
+inline constexpr uint32_t unit_factor = 4096;
+
+/// A comparison window: offsets of the pixels around an output pixel that are held against a candidate's surroundings,
+/// the most telling first.
+using Window = std::vector<std::array<int, 2>>;
+/// All 24 pixels of the 5x5 neighbourhood, nearest first.
+const Window& full_window();
+/// Eight pixels: the diagonal neighbours and those two steps away along the axes.
+const Window& sparse_window();
+
+/// How often each cell of the exemplar (it is divided into 16x16) is in use, as a factor on the cost of using it once
+/// more: above 1 where use exceeds an even share.
+class Occupancy {
+ public:
+  /// `weight`: how much a doubled use adds to the cost; 0 turns the term off.
+  Occupancy(Size exemplar, double weight);
+  void recount(const Field& field);
+  bool active() const { return weight_ > 0; }
+  uint32_t factor(int x, int y) const { return factors_[size_t(y / cell_) * columns_ + x / cell_]; }
+
+ private:
+  double weight_;
+  int cell_;
+  int columns_;
+  int rows_;
+  std::vector<uint32_t> factors_;
+};
+
+/// What the correction of one level works with.
+struct CorrectionLevel {
+  const PaddedLevel& exemplar;
+  const std::vector<ExemplarPixel>& similar;  ///< per_pixel positions for every exemplar pixel
+  int per_pixel = 0;
+  int level = 0;  ///< 0 = finest; part of every random choice
+  bool tile_x = false, tile_y = false;
+};
+
+struct CorrectionPass {
+  const Window* window = nullptr;
+  uint32_t coherence = unit_factor;  ///< factor on candidates that continue a neighbour
+  int random_candidates = 0;
+  uint64_t seed = 0;
+  int pass = 0;
+};
+
+/// One correction pass (Lefebvre & Hoppe 2005, section 4.3): every pixel takes the best of its neighbours'
+/// continuations, their similar pixels and some random places. It runs as four sub-passes over interleaved pixels, each
+/// of which reads what the one before has left: the result does not depend on the order of work. Throws Cancelled.
+void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, Occupancy& occupancy,
+             const Task& task);
+
+}  // namespace terrazzo

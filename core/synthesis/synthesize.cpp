@@ -1,0 +1,110 @@
+#include "core/synthesis/synthesize.h"
+
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "core/synthesis/correction.h"
+
+namespace terrazzo {
+
+namespace {
+
+// What a random number is drawn for: keeps the draws of different purposes apart.
+enum Purpose : uint64_t { blocks = 1, jitter = 2, correction = 3 };
+
+Size level_size(Size size, int level) {
+  const int round_up = (1 << level) - 1;
+  return {(size.width + round_up) >> level, (size.height + round_up) >> level};
+}
+
+/// The coarsest level: square blocks of a quarter of the exemplar's side, from random places.
+Field random_blocks(Size size, const PaddedLevel& exemplar, uint64_t seed) {
+  Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
+  const Size from = exemplar.size();
+  const int side = std::max(4, std::min(from.width, from.height) / 4);
+  const int keep_off = exemplar.wraps() ? 0 : PaddedLevel::keep_off;
+  const auto start = [&](uint32_t bits, int n) {
+    const int room = exemplar.wraps() ? n : std::max(1, n - side - 2 * keep_off);
+    return keep_off + int(below(bits, uint32_t(room)));
+  };
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      const uint64_t r = random_bits(seed, Purpose::blocks, x / side, y / side);
+      int u = start(uint32_t(r), from.width) + x % side, v = start(uint32_t(r >> 32), from.height) + y % side;
+      exemplar.settle(u, v);
+      field.at(x, y) = {uint16_t(u), uint16_t(v)};
+    }
+  return field;
+}
+
+/// Each pixel becomes four, which show the four exemplar pixels below it, moved by up to `amplitude` pixels together.
+Field upsampled(const Field& parent, Size size, const PaddedLevel& exemplar, double amplitude, uint64_t seed,
+                int level) {
+  Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
+  tbb::parallel_for(0, size.height, [&](int y) {
+    for (int x = 0; x < size.width; x++) {
+      const ExemplarPixel p = parent.at(x / 2, y / 2);
+      int u = 2 * p.x + (x & 1), v = 2 * p.y + (y & 1);
+      if (amplitude > 0) {
+        const uint64_t r = random_bits(seed, Purpose::jitter, level, x / 2, y / 2);
+        u += int(std::floor(amplitude * (2 * unit_double(r << 32) - 1) + 0.5));
+        v += int(std::floor(amplitude * (2 * unit_double(r) - 1) + 0.5));
+      }
+      u = std::clamp(u, 0, exemplar.size().width - 1);
+      v = std::clamp(v, 0, exemplar.size().height - 1);
+      field.at(x, y) = {uint16_t(u), uint16_t(v)};
+    }
+  });
+  return field;
+}
+
+std::vector<ExemplarPixel> similar_pixels(const SimilarSets& sets, Size size) {
+  std::vector<ExemplarPixel> out(sets.positions.size());
+  for (size_t i = 0; i < out.size(); i++)
+    out[i] = {uint16_t(sets.positions[i] % size.width), uint16_t(sets.positions[i] / size.width)};
+  return out;
+}
+
+struct Effort {
+  int passes;
+  int random_candidates;
+};
+
+/// The budget belongs to the coarse levels, where pixels are few and decisions are large.
+Effort effort_at(int level) {
+  if (level == 0) return {2, 0};
+  if (level == 1) return {3, 0};
+  return {10, level >= 3 ? 24 : 8};
+}
+
+}  // namespace
+
+UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const Task& task) {
+  const Appearance& appearance = *index.appearance();
+  const int levels = int(appearance.levels().size());
+  Field field;
+  for (int l = levels - 1; l >= 0; l--) {
+    const AppearanceLevel& exemplar_level = appearance.levels()[l];
+    const PaddedLevel exemplar(exemplar_level, appearance.wraps());
+    const Size size = level_size(options.size, l);
+    const size_t order = size_t(levels - 1 - l);
+    const double amplitude = order < options.jitter.size() ? options.jitter[order] : 0;
+    field = l == levels - 1 ? random_blocks(size, exemplar, options.seed)
+                            : upsampled(field, size, exemplar, amplitude, options.seed, l);
+    const std::vector<ExemplarPixel> similar = similar_pixels(index.levels()[l], exemplar_level.size);
+    const CorrectionLevel level{exemplar, similar, index.levels()[l].per_pixel, l, options.tile_x, options.tile_y};
+    Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0);
+    const Effort effort = effort_at(l);
+    for (int pass = 0; pass < effort.passes; pass++) {
+      correct(field, level,
+              {l >= 1 ? &full_window() : &sparse_window(), uint32_t(std::floor(options.coherence * unit_factor)),
+               effort.random_candidates, random_bits(options.seed, Purpose::correction), pass},
+              occupancy, task);
+      task.progress(std::pow(0.25, l) * (pass + 1) / effort.passes);
+    }
+  }
+  return UvMap::make(options.size, appearance.size(), std::move(field.pixels));
+}
+
+}  // namespace terrazzo

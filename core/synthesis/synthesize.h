@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "core/appearance.h"
+#include "core/task.h"
+#include "core/uv_map.h"
+
+namespace terrazzo {
+
+struct SynthesisOptions {
+  Size size;  ///< output pixels, 1..65536 a side
+  uint64_t seed = 1;
+  bool tile_x = false;  ///< the output wraps around in x
+  bool tile_y = false;
+  double coherence =
+      0.75;               ///< factor on the cost of continuing a neighbour's piece of exemplar; smaller: larger pieces
+  double evenness = 0.7;  ///< weight of the occupancy term; 0: parts of the exemplar may be over-used
+  std::vector<double> jitter;  ///< per level, coarsest first, in that level's exemplar pixels; missing levels have none
+};
+
+/// Synthesizes a uv map coarse to fine (Lefebvre & Hoppe 2005 and 2006): random blocks of the exemplar at the coarsest
+/// level, then per level upsampling, jitter and correction passes, most of them where pixels are few. The result is a
+/// function of the index and the options alone. Throws Cancelled.
+UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const Task& task);
+
+}  // namespace terrazzo

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# From a fresh clone to pictures: installs what is missing, builds, generates an exemplar material, makes a larger
+# material from it and renders previews of both. A second run is quick: every stage is cached.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+examples/packages.sh
+[ -f build/build.ninja ] || cmake --preset release -DTERRAZZO_TESTS=OFF
+cmake --build build --target terrazzo_program
+
+out=out/quickstart
+build/terrazzo run graphs/generate-exemplar.json --set type=bricks --set size=512x512 --set "out=$out/exemplar"
+build/terrazzo run examples/quickstart.json --set "material=$out/exemplar" --set "out=$out"
+
+echo
+echo "The exemplar, 512x512:        $out/exemplar/ (preview.png shows it lit)"
+echo "The new material, 1024x1024:  $out/material/"
+echo "The new material, lit:        $out/preview.png, $out/lights.png"

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "graphs/document/problem.h"
+
+/// JSON as graph files use it: every value knows its line and column, `//` comments are kept, objects keep their order.
+namespace terrazzo {
+
+struct JsonMember;
+
+struct JsonValue {
+  enum class Kind : uint8_t { null, boolean, integer, number, text, list, object };
+  Kind kind = Kind::null;
+  bool boolean = false;
+  int64_t integer = 0;
+  double number = 0;  ///< set for integers as well
+  std::string text;   ///< of a text; of a number its spelling in the file
+  std::vector<JsonValue> items;
+  std::vector<JsonMember> members;
+  Place place;
+  std::vector<std::string> comments_before;  ///< lines of comments above the value; of a member, above its name
+  std::string comment_after;                 ///< a comment that ends the value's line
+  std::vector<std::string> comments_inside;  ///< lines of comments before the closing bracket, or after the document
+
+  bool is_text() const { return kind == Kind::text; }
+  bool is_list() const { return kind == Kind::list; }
+  bool is_object() const { return kind == Kind::object; }
+  bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
+  /// Null if this is no object or has no such member.
+  const JsonValue* find(std::string_view name) const;
+  JsonValue* find(std::string_view name);
+
+  static JsonValue of(std::string text);
+  static JsonValue of(int64_t integer);
+};
+
+struct JsonMember {
+  std::string name;
+  Place place;
+  JsonValue value;
+};
+
+/// Objects and lists nest at most this deep.
+inline constexpr int json_depth_limit = 64;
+
+struct ParsedJson {
+  std::optional<JsonValue> value;  ///< nothing after a syntax error
+  std::vector<Problem> problems;   ///< the first syntax error, and every name that an object has twice
+};
+
+/// Reads UTF-8 text; columns count characters. A byte order mark is skipped. Never throws for anything in `text`.
+ParsedJson parse_json(std::string_view text);
+
+/// What a value is, for messages: `the text "abc"`, `the number 3`, `a list of 2`, ...
+std::string found(const JsonValue& value);
+/// A text as it stands in a JSON file, in quotes.
+std::string in_quotes(std::string_view text);
+
+}  // namespace terrazzo

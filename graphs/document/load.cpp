@@ -1,0 +1,186 @@
+#include "graphs/document/load.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "core/suggest.h"
+#include "graphs/document/nodes.h"
+#include "graphs/document/wires.h"
+
+namespace terrazzo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path working_folder() {
+  std::error_code failure;
+  const fs::path folder = fs::current_path(failure);
+  return failure ? fs::path("/") : folder;
+}
+
+/// A document on its way to a graph. All problems are collected; `finish` throws them.
+class Loader {
+ public:
+  Loader(std::string_view text, const fs::path& path, const std::vector<Migration>& migrations)
+      : file_(path.string()), folder_((working_folder() / path).parent_path()) {
+    ParsedJson parsed = parse_json(text);
+    problems_ = std::move(parsed.problems);
+    if (!parsed.value || !migrate(*parsed.value, migrations, problems_)) finish();
+    document_ = std::move(*parsed.value);
+    check_keys();
+  }
+
+  void finish() {
+    if (!problems_.empty()) throw GraphError(file_, std::move(problems_));
+  }
+
+  GraphInterface interface() {
+    GraphInterface out;
+    if (const JsonValue* v = text_at("summary")) out.summary = v->text;
+    if (const JsonValue* v = text_at("help")) out.help = v->text;
+    if (const JsonValue* v = document_.find("parameters")) out.parameters = read_parameters(*v, folder_, problems_);
+    return out;
+  }
+
+  LoadedGraph graph(const std::vector<std::string>& override_texts, const LoadOptions& options) {
+    LoadedGraph out;
+    GraphInterface head = interface();
+    out.graph.file = file_;
+    out.graph.summary = std::move(head.summary);
+    out.help = std::move(head.help);
+    out.parameters = std::move(head.parameters);
+
+    const JsonValue& nodes = nodes_section();
+    const std::vector<Override> overrides = read_overrides(override_texts, problems_);
+    set_all(out.parameters, overrides, nodes, options.allow_unset);
+    Substitution substitution(out.parameters);
+    NodeReading reading(options.types);
+    reading.graph_folder = folder_;
+    reading.working_folder = working_folder();
+    std::vector<NodeDraft> drafts = read_nodes(nodes, overrides, reading, substitution, problems_);
+    std::vector<Problem> conversions;
+    connect(drafts, conversions);
+    const std::vector<size_t> order = execution_order(drafts, problems_);
+    finish();
+
+    for (const size_t i : order) out.graph.nodes.push_back(std::move(drafts[i].node));
+    for (const Problem& p : conversions) out.conversions.push_back(describe(file_, p));
+    for (const Problem& p : warnings_about(out.graph, substitution)) out.warnings.push_back(describe(file_, p));
+    return out;
+  }
+
+ private:
+  void check_keys() {
+    static const std::vector<std::string> keys = {"terrazzo", "summary", "help", "parameters", "nodes", "$schema"};
+    for (const JsonMember& m : document_.members)
+      if (std::find(keys.begin(), keys.end(), m.name) == keys.end())
+        problems_.push_back(
+            {m.place, "", fmt::format("unknown key {}{}", in_quotes(m.name), suggestion(m.name, keys))});
+  }
+
+  const JsonValue* text_at(std::string_view key) {
+    const JsonValue* v = document_.find(key);
+    if (!v || v->is_text()) return v;
+    problems_.push_back({v->place, fmt::format("\"{}\"", key), "expected a text, found " + found(*v)});
+    return nullptr;
+  }
+
+  const JsonValue& nodes_section() {
+    static const JsonValue none;
+    const JsonValue* nodes = document_.find("nodes");
+    if (!nodes) problems_.push_back({document_.place, "", "expected \"nodes\", an object of nodes by name"});
+    if (nodes && !nodes->is_object())
+      problems_.push_back({nodes->place, "\"nodes\"", "expected an object of nodes by name, found " + found(*nodes)});
+    return nodes ? *nodes : none;
+  }
+
+  void set_all(std::vector<GraphParameter>& parameters, const std::vector<Override>& overrides, const JsonValue& nodes,
+               bool allow_unset) {
+    std::vector<std::string> node_names;
+    for (const JsonMember& m : nodes.members) node_names.push_back(m.name);
+    set_parameters(parameters, overrides, working_folder(), node_names, problems_);
+    if (allow_unset) return;
+    for (const GraphParameter& p : parameters)
+      if (!p.value && !p.is_wrong)
+        problems_.push_back({p.place, "parameter " + in_quotes(p.param.name),
+                             fmt::format("has no default and must be set: --set {}=VALUE", p.param.name)});
+  }
+
+  static std::vector<Problem> warnings_about(const Graph& graph, const Substitution& substitution) {
+    std::vector<Problem> out;
+    for (const GraphParameter* p : substitution.unused())
+      out.push_back({p->place, "parameter " + in_quotes(p->param.name), "no node uses it"});
+    const std::vector<bool> needed = needed_nodes(graph);
+    if (std::find(needed.begin(), needed.end(), true) == needed.end()) {
+      out.push_back({{}, "", "no node is a sink: a run writes nothing"});
+      return out;
+    }
+    for (size_t i = 0; i < graph.nodes.size(); i++)
+      if (!needed[i])
+        out.push_back(
+            {graph.nodes[i].place, "node " + in_quotes(graph.nodes[i].name), "no sink reads it; it will not run"});
+    return out;
+  }
+
+  std::string file_;
+  fs::path folder_;
+  JsonValue document_;
+  std::vector<Problem> problems_;
+};
+
+/// The file that a wrong path may have meant.
+std::string file_suggestion(const fs::path& path) {
+  std::vector<std::string> names;
+  std::error_code ended;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  for (fs::directory_iterator at(folder, ended), end; !ended && at != end; at.increment(ended))
+    names.push_back(at->path().filename().string());
+  std::sort(names.begin(), names.end());
+  const std::string best = nearest(path.filename().string(), names);
+  return best.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", (path.parent_path() / best).string());
+}
+
+}  // namespace
+
+std::string read_document(const fs::path& path) {
+  constexpr uintmax_t most = 64 << 20;
+  const auto refuse = [&](const std::string& message) -> GraphError {
+    return GraphError(path.string(), {{{}, "", message}});
+  };
+  std::error_code failure;
+  const fs::file_status status = fs::status(path, failure);
+  if (!fs::exists(status)) throw refuse("there is no such graph file" + file_suggestion(path));
+  if (fs::is_directory(status)) throw refuse("expected a graph file, found a folder");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw refuse(fmt::format("the graph file cannot be read: {}", std::strerror(errno)));
+  std::string text;
+  for (char block[65536]; file.read(block, sizeof block), file.gcount() > 0;) {
+    text.append(block, static_cast<size_t>(file.gcount()));
+    if (text.size() > most) throw refuse("expected a graph file of at most 64 MiB, found a larger file");
+  }
+  if (file.bad()) throw refuse("the graph file cannot be read to its end");
+  return text;
+}
+
+LoadedGraph load_graph_text(std::string_view text, const fs::path& path, const std::vector<std::string>& overrides,
+                            const LoadOptions& options) {
+  return Loader(text, path, options.migrations).graph(overrides, options);
+}
+
+LoadedGraph load_graph(const fs::path& path, const std::vector<std::string>& overrides, const LoadOptions& options) {
+  return load_graph_text(read_document(path), path, overrides, options);
+}
+
+GraphInterface read_interface(const fs::path& path) {
+  Loader loader(read_document(path), path, document_migrations());
+  GraphInterface out = loader.interface();
+  loader.finish();
+  return out;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "graphs/document/graph.h"
+#include "graphs/document/migrate.h"
+#include "graphs/document/parameters.h"
+#include "graphs/document/problem.h"
+#include "nodes/registry.h"
+
+/// From a graph document to a checked graph. Thread-safe.
+namespace terrazzo {
+
+struct LoadOptions {
+  /// Node types that the document may use; they must outlive the graph.
+  const std::vector<NodeType>& types = node_types();
+  const std::vector<Migration>& migrations = document_migrations();
+  /// Parameters without a default need not be set. What depends on them is then missing from the nodes: such a graph
+  /// can be looked at, but not run.
+  bool allow_unset = false;
+};
+
+struct LoadedGraph {
+  Graph graph;
+  std::string help;
+  std::vector<GraphParameter> parameters;
+  /// Images that become materials of one map; nodes and parameters that nothing uses. In the form of describe().
+  std::vector<std::string> conversions, warnings;
+};
+
+/// Reads a document. `overrides` are `name=value` for a parameter of the graph and `node.parameter=value` (a wire into
+/// a port likewise); of several for one target the last counts. Relative paths lie in the graph file's folder, those of
+/// overrides in the working directory. Throws GraphError with all problems, and nothing else.
+LoadedGraph load_graph(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
+                       const LoadOptions& options = {});
+
+/// The same for text that has been read already; `path` is for messages and relative paths, and need not exist.
+LoadedGraph load_graph_text(std::string_view text, const std::filesystem::path& path,
+                            const std::vector<std::string>& overrides = {}, const LoadOptions& options = {});
+
+/// What a graph offers to those who run it.
+struct GraphInterface {
+  std::string summary;
+  std::string help;
+  std::vector<GraphParameter> parameters;
+};
+
+/// Reads summary and parameters; nodes are not looked at. Throws GraphError.
+GraphInterface read_interface(const std::filesystem::path& path);
+
+/// The text of a document. Throws GraphError if there is none, it cannot be read, or it is absurdly large.
+std::string read_document(const std::filesystem::path& path);
+
+}  // namespace terrazzo

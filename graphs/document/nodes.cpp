@@ -1,0 +1,230 @@
+#include "graphs/document/nodes.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/suggest.h"
+#include "graphs/document/convert.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// One key of a node, from the document or, if `by` is set, from the command line.
+struct Entry {
+  std::string name;
+  Place place;
+  const JsonValue* value = nullptr;
+  const Override* by = nullptr;
+};
+
+bool takes_texts(ParamType type) {
+  return type == ParamType::text || type == ParamType::texts || type == ParamType::text_map ||
+         type == ParamType::choice || type == ParamType::path;
+}
+
+bool is_wire(const JsonValue& v) {
+  return v.is_text() && v.text.starts_with("@") && !v.text.starts_with("@@");
+}
+
+class NodeReader {
+ public:
+  NodeReader(const JsonMember& member, const NodeReading& reading, Substitution& substitution,
+             std::vector<Problem>& problems)
+      : member_(member),
+        reading_(reading),
+        substitution_(substitution),
+        problems_(problems),
+        where_("node " + in_quotes(member.name)) {
+    draft_.node.name = member.name;
+    draft_.node.place = member.place;
+  }
+
+  NodeDraft read(const std::vector<const Override*>& overrides) {
+    if (!is_node_name(member_.name)) complain(member_.place, "expected a name of letters, digits, _ and -");
+    if (!member_.value.is_object()) {
+      complain(member_.value.place,
+               "expected an object such as {\"type\": \"load_map\", ...}, found " + found(member_.value));
+    } else if (find_type()) {
+      for (const Entry& e : entries(overrides)) read_entry(e);
+      add_missing();
+      run_check();
+    }
+    return std::move(draft_);
+  }
+
+ private:
+  const NodeType& type() const { return *draft_.node.type; }
+  void complain(Place place, const std::string& message) { problems_.push_back({place, where_, message}); }
+
+  bool find_type() {
+    const JsonValue* given = member_.value.find("type");
+    if (!given) {
+      complain(member_.place, "expected a \"type\"; `terrazzo nodes` lists them");
+      return false;
+    }
+    const auto at = given->is_text() ? reading_.types.find(given->text) : reading_.types.end();
+    if (at != reading_.types.end()) {
+      draft_.node.type = at->second;
+      return true;
+    }
+    if (!given->is_text()) {
+      complain(given->place, "expected the name of a node type, found " + found(*given));
+    } else {
+      const std::string meant = nearest(given->text, reading_.type_names);
+      complain(given->place, fmt::format("unknown node type {}{}; `terrazzo nodes` lists all", in_quotes(given->text),
+                                         meant.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", meant)));
+    }
+    return false;
+  }
+
+  std::vector<Entry> entries(const std::vector<const Override*>& overrides) const {
+    std::vector<Entry> out;
+    for (const JsonMember& m : member_.value.members)
+      if (m.name != "type") out.push_back({m.name, m.place, &m.value, nullptr});
+    for (const Override* o : overrides) {
+      const auto at = std::find_if(out.begin(), out.end(), [&](const Entry& e) { return e.name == o->name; });
+      if (at == out.end()) {
+        out.push_back({o->name, {}, nullptr, o});
+      } else {
+        *at = {o->name, {}, nullptr, o};
+      }
+    }
+    return out;
+  }
+
+  Complaints complaints_about(const Entry& e, std::string_view kind) {
+    return e.by ? e.by->complaints(problems_)
+                : Complaints(problems_, fmt::format("{}, {} {}", where_, kind, in_quotes(e.name)));
+  }
+
+  void read_entry(const Entry& e) {
+    given_.insert(e.name);
+    places_[e.name] = e.place;
+    if (const Port* port = type().find_input(e.name)) {
+      read_port(e, *port);
+    } else if (const Param* param = type().find_param(e.name)) {
+      read_parameter(e, *param);
+    } else {
+      std::vector<std::string> names;
+      for (const Port& p : type().inputs) names.push_back(p.name);
+      for (const Param& p : type().params) names.push_back(p.name);
+      Complaints complaints = e.by ? e.by->complaints(problems_) : Complaints(problems_, where_);
+      complaints.add(e.place, fmt::format("{} has no port or parameter {}{}", type().name, in_quotes(e.name),
+                                          suggestion(e.name, names)));
+    }
+  }
+
+  void read_parameter(const Entry& e, const Param& param) {
+    Complaints complaints = complaints_about(e, "parameter");
+    const JsonValue given = e.by ? read_command_line(e.by->value, param.type) : *e.value;
+    const std::optional<JsonValue> value = substitution_.expand(given, takes_texts(param.type), complaints);
+    if (!value) return;
+    const std::filesystem::path& base = e.by ? reading_.working_folder : reading_.graph_folder;
+    if (std::optional<ParamValue> read = read_param(*value, param, base, complaints))
+      draft_.node.params.emplace(param.name, std::move(*read));
+  }
+
+  void read_port(const Entry& e, const Port& port) {
+    PortWires wires{&port, {}, complaints_about(e, "port")};
+    const JsonValue given = e.by ? read_command_line(e.by->value, ParamType::texts) : *e.value;
+    const std::string expected = fmt::format("a {} such as \"@node\" or \"@node.port\"{}",
+                                             port.list ? "list of wires" : "wire", port.list ? ", or one wire," : "");
+    if (is_wire(given)) {
+      add_wire(wires, given);
+    } else if (!given.is_list() || !port.list) {
+      wires.complaints.add(given.place,
+                           fmt::format("expected {} found {}", port.list ? expected : expected + ",", found(given)));
+    } else if (given.items.empty() && !port.optional) {
+      wires.complaints.add(given.place, "expected at least one wire such as \"@node\", found an empty list");
+    } else {
+      for (const JsonValue& item : given.items) {
+        if (is_wire(item)) {
+          add_wire(wires, item);
+        } else {
+          wires.complaints.add(item.place, "expected a wire such as \"@node\" or \"@node.port\", found " + found(item));
+        }
+      }
+    }
+    draft_.ports.push_back(std::move(wires));
+  }
+
+  static void add_wire(PortWires& wires, const JsonValue& text) {
+    const std::string end = text.text.substr(1);
+    const size_t dot = end.find('.');
+    wires.wires.push_back({end.substr(0, dot), dot == end.npos ? "" : end.substr(dot + 1), text.place, text.text});
+    if (dot + 1 == end.size())
+      wires.complaints.add(text.place, "expected an output's name after the dot in " + in_quotes(text.text));
+  }
+
+  void add_missing() {
+    for (const Port& p : type().inputs)
+      if (!p.optional && !given_.contains(p.name))
+        complain(member_.place,
+                 fmt::format("the port \"{}\" must be given: expected a wire of type {}", p.name, name_of(p.type)));
+    for (const Param& p : type().params) {
+      if (given_.contains(p.name)) continue;
+      if (p.fallback) {
+        draft_.node.params.emplace(p.name, default_of(p, reading_.graph_folder));
+      } else {
+        complain(member_.place, fmt::format("the parameter \"{}\" must be given: expected {}", p.name, expectation(p)));
+      }
+    }
+  }
+
+  void run_check() {
+    if (!type().check || draft_.node.params.size() < type().params.size()) return;
+    for (const std::string& message : type().check(draft_.node.params)) complain(place_of(message), message);
+  }
+
+  /// Where the parameter stands that a message begins with, in quotes; else the node.
+  Place place_of(const std::string& message) const {
+    const size_t end = message.find('"', 1);
+    const auto at =
+        message.starts_with('"') && end != message.npos ? places_.find(message.substr(1, end - 1)) : places_.end();
+    return at == places_.end() || at->second.line == 0 ? member_.place : at->second;
+  }
+
+  const JsonMember& member_;
+  const NodeReading& reading_;
+  Substitution& substitution_;
+  std::vector<Problem>& problems_;
+  std::string where_;
+  NodeDraft draft_;
+  std::set<std::string> given_;
+  std::map<std::string, Place> places_;
+};
+
+}  // namespace
+
+NodeReading::NodeReading(const std::vector<NodeType>& known) {
+  for (const NodeType& t : known) {
+    types.emplace(t.name, &t);
+    type_names.push_back(t.name);
+  }
+}
+
+std::vector<NodeDraft> read_nodes(const JsonValue& section, const std::vector<Override>& overrides,
+                                  const NodeReading& reading, Substitution& substitution,
+                                  std::vector<Problem>& problems) {
+  std::map<std::string, std::vector<const Override*>> by_node;
+  std::vector<std::string> names;
+  for (const JsonMember& m : section.members) names.push_back(m.name);
+  for (const Override& o : overrides) {
+    if (o.node.empty()) continue;
+    by_node[o.node].push_back(&o);
+    if (std::find(names.begin(), names.end(), o.node) == names.end())
+      o.complaints(problems).add(
+          {}, fmt::format("the graph has no node {}{}", in_quotes(o.node), suggestion(o.node, names)));
+  }
+  std::vector<NodeDraft> drafts;
+  for (const JsonMember& m : section.members) {
+    const auto its = by_node.find(m.name);
+    drafts.push_back(NodeReader(m, reading, substitution, problems)
+                         .read(its == by_node.end() ? std::vector<const Override*>() : its->second));
+  }
+  return drafts;
+}
+
+}  // namespace terrazzo

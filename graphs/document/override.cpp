@@ -1,0 +1,30 @@
+#include "graphs/document/override.h"
+
+#include "graphs/document/json.h"
+
+namespace terrazzo {
+
+Complaints Override::complaints(std::vector<Problem>& all) const {
+  return Complaints(all, "override " + in_quotes(spelled)).from_command_line();
+}
+
+std::vector<Override> read_overrides(const std::vector<std::string>& texts, std::vector<Problem>& problems) {
+  std::vector<Override> out;
+  for (const std::string& text : texts) {
+    Override o{.spelled = text, .node = "", .name = "", .value = ""};
+    const size_t equals = text.find('=');
+    const std::string target = text.substr(0, equals);
+    const size_t dot = target.find('.');
+    if (dot != target.npos) o.node = target.substr(0, dot);
+    o.name = dot == target.npos ? target : target.substr(dot + 1);
+    if (equals == text.npos || o.name.empty() || (dot != target.npos && o.node.empty())) {
+      o.complaints(problems).add({}, "expected name=value for a graph's parameter, or node.parameter=value");
+      continue;
+    }
+    o.value = text.substr(equals + 1);
+    out.push_back(std::move(o));
+  }
+  return out;
+}
+
+}  // namespace terrazzo

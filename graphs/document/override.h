@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "graphs/document/complaints.h"
+
+namespace terrazzo {
+
+/// A value given on the command line: `name=value` for a graph parameter, `node.parameter=value` (or a port) for a
+/// node.
+struct Override {
+  std::string spelled;  ///< as given, for messages
+  std::string node;     ///< empty for a graph parameter
+  std::string name;
+  std::string value;
+
+  Complaints complaints(std::vector<Problem>& all) const;
+};
+
+/// Texts without "=" or without a name become problems.
+std::vector<Override> read_overrides(const std::vector<std::string>& texts, std::vector<Problem>& problems);
+
+}  // namespace terrazzo

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/node.h"
+#include "nodes/registry.h"
+
+/// What there is to know about node types, made from their descriptors.
+namespace terrazzo {
+
+/// One node type for reading: summary, help, ports, and parameters with type, range, unit, choices and default; at most
+/// 80 columns wide.
+std::string node_reference(const NodeType& type);
+
+/// All node types by category, one line each.
+std::string node_list(const std::vector<NodeType>& types = node_types());
+
+/// All descriptors as a JSON array, for programs.
+std::string nodes_json(const std::vector<NodeType>& types = node_types());
+
+}  // namespace terrazzo

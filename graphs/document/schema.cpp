@@ -1,0 +1,192 @@
+#include "graphs/document/schema.h"
+
+#include <nlohmann/json.hpp>
+
+#include "graphs/document/convert.h"
+#include "graphs/document/format.h"
+#include "graphs/document/migrate.h"
+#include "graphs/document/parameters.h"
+
+namespace terrazzo {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json reference(const std::string& definition) {
+  return {{"$ref", "#/$defs/" + definition}};
+}
+
+ordered_json list_of(ordered_json items) {
+  return {{"type", "array"}, {"items", std::move(items)}};
+}
+
+ordered_json any_of(std::vector<ordered_json> options) {
+  return {{"anyOf", std::move(options)}};
+}
+
+ordered_json number(const char* type, const Param& p) {
+  ordered_json out = {{"type", type}};
+  if (p.min) out["minimum"] = *p.min;
+  if (p.max) out["maximum"] = *p.max;
+  return out;
+}
+
+/// What stands in a text's place: any text but a wire.
+ordered_json text() {
+  return {{"type", "string"}, {"pattern", "^($|[^@]|@@)"}};
+}
+
+/// Values of texts and numbers inside lists and maps may be references too.
+ordered_json number_or_reference(const char* type, const Param& p) {
+  return any_of({number(type, p), reference("reference")});
+}
+
+ordered_json map_of(const Param& p, const ordered_json& values) {
+  ordered_json out = {{"type", "object"}, {"additionalProperties", values}};
+  if (!p.choices.empty()) out["propertyNames"] = {{"enum", p.choices}};
+  return out;
+}
+
+ordered_json counted_list(const Param& p, ordered_json items) {
+  ordered_json out = list_of(std::move(items));
+  if (p.min_count > 0) out["minItems"] = p.min_count;
+  if (p.max_count > 0) out["maxItems"] = p.max_count;
+  return out;
+}
+
+ordered_json value_schema(const Param& p) {
+  switch (p.type) {
+    case ParamType::boolean:
+      return {{"type", "boolean"}};
+    case ParamType::integer:
+      return number("integer", p);
+    case ParamType::number:
+      return number("number", p);
+    case ParamType::text:
+    case ParamType::path:
+      return text();
+    case ParamType::size: {
+      ordered_json pair = list_of(number_or_reference("integer", p));
+      pair["minItems"] = pair["maxItems"] = 2;
+      return any_of({pair, {{"type", "string"}, {"pattern", "^[0-9]+x[0-9]+$"}}, number("integer", p)});
+    }
+    case ParamType::numbers: {
+      if (p.min_count > 1) return counted_list(p, number_or_reference("number", p));
+      return any_of({counted_list(p, number_or_reference("number", p)), number("number", p)});
+    }
+    case ParamType::texts:
+      return counted_list(p, text());
+    case ParamType::number_map: {
+      ordered_json list = list_of(number_or_reference("number", p));
+      list["minItems"] = 1;
+      return map_of(p, any_of({number_or_reference("number", p), list}));
+    }
+    case ParamType::text_map:
+      return map_of(p, text());
+    case ParamType::choice:
+      return {{"enum", p.choices}};
+  }
+  return {};
+}
+
+/// A parameter's schema with its default and description; `$name` may always stand for the value.
+ordered_json param_schema(const Param& p) {
+  const bool is_text = p.type == ParamType::text || p.type == ParamType::path;
+  ordered_json out = is_text ? value_schema(p) : any_of({value_schema(p), reference("reference")});
+  out["description"] = p.help + (p.unit.empty() ? "" : " (" + p.unit + ")");
+  if (p.fallback) out["default"] = ordered_json::parse(compact(json_of(*p.fallback)));
+  return out;
+}
+
+ordered_json port_schema(const Port& p) {
+  ordered_json out = reference("wire");
+  if (p.list) {
+    ordered_json wires = list_of(reference("wire"));
+    if (!p.optional) wires["minItems"] = 1;
+    out = any_of({out, wires});
+  }
+  out["description"] = std::string(name_of(p.type)) + ": " + p.help;
+  return out;
+}
+
+ordered_json node_schema(const NodeType& t) {
+  ordered_json properties = {{"type", {{"const", t.name}}}};
+  ordered_json required = {"type"};
+  for (const Port& p : t.inputs) {
+    properties[p.name] = port_schema(p);
+    if (!p.optional) required.push_back(p.name);
+  }
+  for (const Param& p : t.params) {
+    properties[p.name] = param_schema(p);
+    if (!p.fallback) required.push_back(p.name);
+  }
+  return {{"type", "object"},
+          {"description", t.summary},
+          {"properties", properties},
+          {"required", required},
+          {"additionalProperties", false}};
+}
+
+/// A node by its "type": editors follow if-then better than oneOf.
+ordered_json any_node_schema(const std::vector<NodeType>& types) {
+  ordered_json names = ordered_json::array(), cases = ordered_json::array();
+  for (const NodeType& t : types) {
+    names.push_back(t.name);
+    cases.push_back({{"if", {{"properties", {{"type", {{"const", t.name}}}}}, {"required", {"type"}}}},
+                     {"then", reference("node_" + t.name)}});
+  }
+  return {{"type", "object"}, {"properties", {{"type", {{"enum", names}}}}}, {"required", {"type"}}, {"allOf", cases}};
+}
+
+ordered_json parameter_schema() {
+  ordered_json properties = {{"type", {{"enum", parameter_type_names()}}},
+                             {"default", ordered_json::object()},
+                             {"help", {{"type", "string"}}},
+                             {"min", {{"type", "number"}}},
+                             {"max", {{"type", "number"}}},
+                             {"choices", list_of({{"type", "string"}})}};
+  properties["choices"]["minItems"] = 1;
+  return {{"type", "object"}, {"properties", properties}, {"required", {"type"}}, {"additionalProperties", false}};
+}
+
+ordered_json definitions(const std::vector<NodeType>& types) {
+  ordered_json out;
+  out["reference"] = {{"type", "string"},
+                      {"description", "the value of a parameter of the graph"},
+                      {"pattern", "^\\$([A-Za-z][A-Za-z0-9_]*|\\{[A-Za-z][A-Za-z0-9_]*\\})$"}};
+  out["wire"] = {{"type", "string"},
+                 {"description", "an output of another node: @node for its first one, or @node.port"},
+                 {"pattern", "^@[A-Za-z0-9_-]+(\\.[A-Za-z0-9_]+)?$"}};
+  out["parameter"] = parameter_schema();
+  out["node"] = any_node_schema(types);
+  for (const NodeType& t : types) out["node_" + t.name] = node_schema(t);
+  return out;
+}
+
+ordered_json by_name(const std::string& pattern, const std::string& definition) {
+  return {
+      {"type", "object"}, {"propertyNames", {{"pattern", pattern}}}, {"additionalProperties", reference(definition)}};
+}
+
+}  // namespace
+
+std::string json_schema(const std::vector<NodeType>& types) {
+  const ordered_json text_value = {{"type", "string"}};
+  const ordered_json properties = {{"$schema", text_value},
+                                   {"terrazzo", {{"const", document_migrations().size() + 1}}},
+                                   {"summary", text_value},
+                                   {"help", text_value},
+                                   {"parameters", by_name("^[A-Za-z][A-Za-z0-9_]*$", "parameter")},
+                                   {"nodes", by_name("^[A-Za-z0-9_-]+$", "node")}};
+  const ordered_json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                               {"title", "terrazzo graph"},
+                               {"type", "object"},
+                               {"properties", properties},
+                               {"required", {"terrazzo", "nodes"}},
+                               {"additionalProperties", false},
+                               {"$defs", definitions(types)}};
+  return schema.dump(2) + '\n';
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include "core/analysis/feature_distance.h"
+#include "core/analysis/weighting.h"
+
+namespace terrazzo {
+
+namespace {
+
+void compute(NodeContext& node) {
+  const auto material = node.input<Material>("material");
+  EdgeOptions options;
+  options.maps = node.texts("maps");
+  if (node.number("threshold") > 0) options.threshold = node.number("threshold");
+  options.smoothing = node.number("smoothing");
+  const std::string& tiles = node.text("tiles");
+  options.wraps = tiles == "yes" || (tiles == "auto" && seems_to_tile(*material));
+  const Size size = material->size();
+  const Edges edges = find_edges(*material, options, node.task());
+  node.task().check();
+  const double limit = node.number("reach") * std::min(size.width, size.height);
+  node.output("distance", feature_distance(edges, size, options.wraps, float(limit)));
+  const ImageInfo mask{.size = size, .channels = 1, .semantic = Semantic::mask, .depth = Depth::u8};
+  node.output("edges", Image::from_floats(mask, {edges.mask.begin(), edges.mask.end()}));
+  if (!options.threshold)
+    node.note(fmt::format("edges are where strength exceeds {:.3f} (chosen automatically)", edges.threshold));
+}
+
+}  // namespace
+
+NodeType guidance_node() {
+  NodeType t;
+  t.name = "guidance";
+  t.category = "analysis";
+  t.summary = "Extracts edges and the signed feature distance from a material's maps";
+  t.help =
+      "Colours alone cannot tell the middle of a brick from its rim. The distance to the nearest edge can: fed to pca "
+      "as "
+      "guidance, it keeps bricks, cracks and joints whole (signed feature distance, Lefebvre & Hoppe 2006; edges from "
+      "any "
+      "map of a material, Rudolph 2018). Look at the edges output to judge the threshold.";
+  t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}};
+  t.outputs = {
+      {.name = "distance", .type = ValueType::image, .help = "pixels to the nearest edge, negative inside edges"},
+      {.name = "edges", .type = ValueType::image, .help = "the edges, 1 on an edge"}};
+  t.params = {
+      {.name = "maps",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "Maps to look for edges in; none means all, by their default weights."},
+      {.name = "threshold",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "Edge strength, relative to the strongest, above which a pixel is an edge; 0 chooses it automatically.",
+       .min = 0,
+       .max = 1},
+      {.name = "smoothing",
+       .type = ParamType::number,
+       .fallback = 1.0,
+       .help = "Blur before looking for edges; more ignores finer detail.",
+       .min = 0,
+       .max = 16,
+       .unit = "pixels"},
+      {.name = "reach",
+       .type = ParamType::number,
+       .fallback = 0.1,
+       .help = "Distances are limited to this fraction of the exemplar's shorter side.",
+       .min = 0.005,
+       .max = 1},
+      {.name = "tiles",
+       .type = ParamType::choice,
+       .fallback = "auto",
+       .help = "Whether the exemplar tiles; \"auto\" compares opposite borders.",
+       .choices = {"auto", "yes", "no"}},
+  };
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

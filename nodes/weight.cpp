@@ -1,0 +1,50 @@
+#include "core/analysis/weighting.h"
+
+namespace terrazzo {
+
+namespace {
+
+void compute(NodeContext& node) {
+  const auto material = node.input<Material>("material");
+  const std::string& tiles = node.text("tiles");
+  const bool wraps = tiles == "yes" || (tiles == "auto" && seems_to_tile(*material));
+  if (tiles == "auto" && wraps) node.note("the exemplar tiles: its opposite borders are treated as neighbours");
+  node.output("features", weighted_features(*material, node.number_map("weights"), wraps));
+}
+
+}  // namespace
+
+NodeType weight_node() {
+  NodeType t;
+  t.name = "weight";
+  t.category = "analysis";
+  t.summary = "Weights the maps of a material for analysis";
+  t.help =
+      "Says how much each map, or each channel of a map, counts when neighbourhoods are compared. Colours are compared "
+      "in "
+      "Oklab, normals as unit vectors; each map is first brought to the same variance, so that 1 means the same for "
+      "all. Unless given, base colour counts 1, height and opacity 0.7, normal, metallic, emission and masks 0.5, "
+      "roughness, occlusion and specular 0.3.";
+  t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}};
+  t.outputs = {{.name = "features", .type = ValueType::features, .help = "its weighted channels"}};
+  t.params = {
+      {.name = "weights",
+       .type = ParamType::number_map,
+       .fallback = NumberMap{},
+       .help = "By map name, one weight or one per channel: {\"normal\": 2, \"base_color\": [1, 0.5, 0.5]}. 0 leaves a "
+               "map out.",
+       .min = 0,
+       .max = 100},
+      {.name = "tiles",
+       .type = ParamType::choice,
+       .fallback = "auto",
+       .help = "Whether the exemplar tiles, so that what lies beyond a border is the other side. \"auto\" compares "
+               "opposite borders.",
+       .choices = {"auto", "yes", "no"}},
+  };
+  t.persist = Persist::digest;
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,144 @@
+#include "runner/cli.h"
+
+#include <charconv>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/suggest.h"
+#include "graphs/document/problem.h"
+#include "runner/cli_commands.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  terrazzo synth bricks/ -o out --size 2048x2048     a larger material from a folder of maps\n"
+    "  terrazzo new bricks/ -o bricks.json                a graph to start from\n"
+    "  terrazzo run bricks.json --set seed=7 --dry-run    what a run would do, and why\n"
+    "  terrazzo nodes synthesize                          what a node type does and takes\n"
+    "Exit codes: 0 done, 1 a node failed, 2 bad usage or an invalid graph, 130 cancelled.";
+
+void print_error(const std::string& message) {
+  fmt::print(stderr, "error: {}\n", message);
+}
+
+/// The innermost command that has been named.
+const CLI::App* named_command(const CLI::App* app) {
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+  return app;
+}
+
+std::string full_name(const CLI::App* app) {
+  return app->get_parent() ? full_name(app->get_parent()) + " " + app->get_name() : app->get_name();
+}
+
+std::vector<std::string> option_names(const CLI::App* app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* o : app->get_options()) {
+    for (const std::string& n : o->get_lnames()) names.push_back("--" + n);
+    for (const std::string& n : o->get_snames()) names.push_back("-" + n);
+  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App* app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app->get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
+  return names;
+}
+
+/// Arguments that nothing takes, each with the nearest thing that exists; empty if there are none.
+std::string unknown_arguments(const CLI::App* command) {
+  std::string out;
+  for (const std::string& arg : command->remaining()) {
+    const std::vector<std::string> commands = command_names(command);
+    const std::string line =
+        arg.starts_with("-")
+            ? fmt::format("unknown option {}{}", arg, suggestion(arg.substr(0, arg.find('=')), option_names(command)))
+        : commands.empty() ? fmt::format("unexpected argument {}", arg)
+                           : fmt::format("unknown command {}{}", arg, suggestion(arg, commands));
+    out += (out.empty() ? "" : "\n") + line;
+  }
+  return out;
+}
+
+int usage_error(const CLI::App& app, const std::string& what) {
+  const CLI::App* command = named_command(&app);
+  const std::string unknown = unknown_arguments(command);
+  print_error(unknown.empty() ? what : unknown);
+  fmt::print(stderr, "`{} --help` says what it takes.\n", full_name(command));
+  return exit_usage;
+}
+
+}  // namespace
+
+uint64_t parse_bytes(const std::string& text, const std::string& option) {
+  const auto wrong = [&]() -> UsageError {
+    return UsageError(fmt::format(
+        "{} takes a number with a unit, such as 512M or 2G (K, M, G, T; 1K = 1024 bytes); \"{}\" is not one", option,
+        text));
+  };
+  double number = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  std::string unit(end, text.data() + text.size());
+  std::erase(unit, ' ');
+  for (const std::string_view ending : {"iB", "B"})
+    if (unit.size() > 1 && unit.ends_with(ending)) unit.erase(unit.size() - ending.size());
+  const size_t power = unit.size() == 1 ? std::string_view("KMGT").find(static_cast<char>(std::toupper(unit[0])))
+                                        : std::string_view::npos;
+  if (failure != std::errc() || power == std::string_view::npos || !(number > 0) || number > 1e6) throw wrong();
+  return static_cast<uint64_t>(number * static_cast<double>(uint64_t{1} << (10 * (power + 1))));
+}
+
+std::string shown_bytes(uint64_t bytes) {
+  constexpr std::array<std::string_view, 5> units = {"bytes", "KiB", "MiB", "GiB", "TiB"};
+  if (bytes < 1024) return fmt::format("{} bytes", bytes);
+  double value = static_cast<double>(bytes);
+  size_t unit = 0;
+  for (; value >= 1024 && unit + 1 < units.size(); unit++) value /= 1024;
+  return fmt::format("{:.1f} {}", value, units[unit]);
+}
+
+int run_command_line(int argc, const char* const* argv) {
+  CLI::App app("terrazzo turns a small PBR material into as much new, non-repeating material as a scene needs.",
+               "terrazzo");
+  app.set_version_flag("--version", "terrazzo " TERRAZZO_VERSION);
+  app.footer(examples);
+  app.get_formatter()->column_width(32);
+  Chosen chosen;
+  add_run_command(app, chosen);
+  add_synth_command(app, chosen);
+  add_document_commands(app, chosen);
+  add_node_commands(app, chosen);
+  add_cache_command(app, chosen);
+  try {
+    app.parse(argc, argv);
+    if (!chosen) throw CLI::RequiredError("A command");
+    return chosen();
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    return usage_error(app, e.what());
+  } catch (const GraphError& e) {
+    std::istringstream lines(e.what());
+    for (std::string line; std::getline(lines, line);) print_error(line);
+    return exit_usage;
+  } catch (const UsageError& e) {
+    print_error(e.what());
+    return exit_usage;
+  } catch (const Cancelled&) {
+    fmt::print(stderr, "cancelled\n");
+    return exit_cancelled;
+  } catch (const std::exception& e) {
+    print_error(e.what());
+    return exit_failed;
+  }
+}
+
+}  // namespace terrazzo

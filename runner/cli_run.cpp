@@ -1,0 +1,203 @@
+#include "runner/cli_run.h"
+
+#include <fstream>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "graphs/document/load.h"
+#include "runner/cli_commands.h"
+#include "runner/history.h"
+#include "runner/html_report.h"
+#include "runner/signals.h"
+#include "runner/stock_graphs.h"
+#include "runner/trace.h"
+#include "runner/watch.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The cache to use. The usual folder may be out of reach, which costs time; one that was asked for may not.
+std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
+  if (flags.no_cache) return nullptr;
+  try {
+    return std::make_unique<Cache>(flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache));
+  } catch (const Error& e) {
+    if (!flags.cache.empty()) throw UsageError(fmt::format("--cache {}: {}", flags.cache, e.what()));
+    fmt::print(stderr, "warning: running without a cache: {}\n", e.what());
+    return nullptr;
+  }
+}
+
+/// Better to say it before the run than after it.
+void check_writable(const std::string& path, const char* option) {
+  if (path.empty()) return;
+  const bool was_there = fs::exists(path);
+  if (!std::ofstream(path, std::ios::app)) throw UsageError(fmt::format("{} {}: cannot write there", option, path));
+  if (!was_there) fs::remove(path);
+}
+
+bool is_terminal() {
+  const char* term = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && term && std::string_view(term) != "dumb";
+}
+
+/// What people read at the end; programs that asked for json have had it all.
+void print_end(const RunResult& result, Cache* cache) {
+  for (const Failure& f : result.failures) fmt::print(stderr, "error: {}\n", f.message);
+  for (const StageOutcome& s : result.stages)
+    if (s.kind == StageOutcome::Kind::run)
+      for (const OutputFile& f : s.files) fmt::print(stderr, "wrote {}\n", f.path.string());
+  if (cache)
+    for (const std::string& w : cache->take_warnings()) fmt::print(stderr, "warning: {}\n", w);
+  fmt::print(stderr, "{}{}\n", result.cancelled ? "cancelled; " : "", result.summary());
+}
+
+int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
+  std::optional<History> history;
+  if (cache && !graph.file.empty()) history.emplace(cache->folder(), graph.file);
+  RunOptions options;
+  options.targets.only = flags.only;
+  options.cache = cache;
+  options.history = history ? &*history : nullptr;
+  options.threads = flags.threads;
+  options.memory = flags.memory.empty() ? 0 : parse_bytes(flags.memory, "--memory");
+  options.cancelled = &cancelled;
+  if (!flags.report.empty()) options.targets.keep = nodes_for_report(graph, flags.only);
+
+  const Plan plan = [&] {
+    try {
+      return make_plan(graph, cache, options.targets, options.history);
+    } catch (const Error& e) {
+      throw UsageError(fmt::format("--only: {}", e.what()));
+    }
+  }();
+  if (flags.dry_run) {
+    fmt::print("{}", plan.table());
+    return exit_done;
+  }
+  const ProgressMode mode = *progress_mode_from(flags.progress);
+  const std::unique_ptr<Progress> progress = make_progress(mode, std::cerr, is_terminal());
+  options.observer = progress.get();
+  const RunResult result = run_plan(plan, options);
+  progress->closed(result);
+  if (cache) cache->collect();
+  if (mode != ProgressMode::json) print_end(result, cache);
+  if (!flags.trace.empty()) write_trace(result, flags.trace);
+  if (!flags.report.empty()) write_html_report(plan, result, flags.report);
+  return result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
+}
+
+int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
+  Watch watched;
+  for (;;) {
+    Graph graph;
+    graph.file = flags.graph;
+    watched.look_at(graph);
+    try {
+      graph = load();
+      watched.look_at(graph);
+      run_once(graph, flags, cache, cancelled);
+    } catch (const Error& e) {
+      fmt::print(stderr, "error: {}\n", e.what());
+    }
+    if (cancelled) return exit_cancelled;
+    fmt::print(stderr, "watching {} files; Ctrl-C ends it\n", watched.count());
+    if (!watched.wait_for_change(cancelled)) return exit_done;
+  }
+}
+
+}  // namespace
+
+void add_run_flags(CLI::App& command, RunFlags& flags) {
+  command.add_option("--only", flags.only, "Run just what this node needs; may be given several times")
+      ->type_name("NODE")
+      ->take_all()
+      ->expected(1);
+  CLI::Option* cache = command.add_option("--cache", flags.cache, "Folder of the cache, if not the usual one");
+  cache->type_name("DIR");
+  command.add_flag("--no-cache", flags.no_cache, "Reuse nothing and keep nothing")->excludes(cache);
+  command.add_option("--threads", flags.threads, "Threads to use; one per core if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  command
+      .add_option("--memory", flags.memory, "Memory for running nodes, such as 2G; half of the machine's if not given")
+      ->type_name("SIZE");
+  command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
+  command.add_flag("--watch", flags.watch, "Run again whenever the graph file or a file that it reads changes");
+  command.add_option("--report", flags.report, "Write a report with pictures")->type_name("FILE.html");
+  command.add_option("--trace", flags.trace, "Write who did what when, for chrome://tracing")->type_name("FILE.json");
+  command.add_option("--progress", flags.progress, "auto, bar, plain, json or none")
+      ->type_name("MODE")
+      ->check(CLI::IsMember(std::vector<std::string>(progress_mode_names.begin(), progress_mode_names.end())));
+}
+
+int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
+  if (!flags.memory.empty()) parse_bytes(flags.memory, "--memory");
+  check_writable(flags.report, "--report");
+  check_writable(flags.trace, "--trace");
+  const CancelOnSignal signals;
+  const std::unique_ptr<Cache> cache = open_cache(flags);
+  if (flags.watch) return watch(load, flags, cache.get(), signals.flag());
+  return run_once(load(), flags, cache.get(), signals.flag());
+}
+
+void add_run_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* run = app.add_subcommand("run", "Runs a graph: only what has changed since it last ran");
+  struct Flags : RunFlags {
+    std::vector<std::string> set;
+  };
+  const auto flags = std::make_shared<Flags>();
+  run->add_option("GRAPH", flags->graph, "The graph file")->required()->type_name("FILE.json");
+  run->add_option("--set", flags->set, "Sets a graph parameter, or node.parameter; may be given several times")
+      ->type_name("NAME=VALUE")
+      ->take_all()
+      ->expected(1);
+  add_run_flags(*run, *flags);
+  run->footer(
+      "Examples:\n"
+      "  terrazzo run bricks.json --set seed=7 --set size=2048x2048\n"
+      "  terrazzo run bricks.json --only layout --dry-run");
+  run->callback([&chosen, flags] {
+    chosen = [flags] {
+      return run_with_flags(
+          [&] {
+            LoadedGraph loaded = load_graph(flags->graph, flags->set);
+            for (const std::string& w : loaded.warnings) fmt::print(stderr, "warning: {}\n", w);
+            return std::move(loaded.graph);
+          },
+          *flags);
+    };
+  });
+}
+
+void add_synth_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
+  struct Flags : RunFlags {
+    std::string folder, out, size;
+    std::string seed;
+  };
+  const auto flags = std::make_shared<Flags>();
+  synth->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
+  synth->add_option("-o,--out", flags->out, "The folder to write to")->required()->type_name("DIR");
+  synth->add_option("--size", flags->size, "The size of the result")->type_name("WxH");
+  synth->add_option("--seed", flags->seed, "Another number gives another variation")->type_name("N");
+  add_run_flags(*synth, *flags);
+  synth->footer("Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7");
+  synth->callback([&chosen, flags] {
+    chosen = [flags] {
+      std::vector<std::string> set = {"material=" + flags->folder, "out=" + flags->out};
+      if (!flags->size.empty()) set.push_back("size=" + flags->size);
+      if (!flags->seed.empty()) set.push_back("seed=" + flags->seed);
+      return run_with_flags([&] { return load_graph_text(stock_graph("material"), "material.json", set).graph; },
+                            *flags);
+    };
+  });
+}
+
+}  // namespace terrazzo

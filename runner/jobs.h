@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "runner/schedule.h"
+
+namespace terrazzo {
+
+/// A piece of work for one stage, and what came of it. Made by the coordinator, filled in by `perform` on some worker.
+struct Job {
+  enum class Kind : uint8_t {
+    begin,    ///< nothing to do; wakes the coordinator
+    look_up,  ///< resolve the stage's key now that its inputs have names
+    load,     ///< read its values from the cache
+    compute,  ///< run the node
+    store,    ///< put its values and its record into the cache
+  };
+  Kind kind = Kind::begin;
+  int stage = 0;
+  uint64_t memory = 0;                   ///< what a compute job is expected to need
+  std::unique_ptr<NodeContext> context;  ///< for compute
+  std::map<std::string, Value> values;   ///< in for store; out for load (empty if it failed) and compute
+  std::optional<StageRecord> record;     ///< in for store; out for compute
+  std::optional<Resolution> resolution;  ///< out for look_up
+  bool cancelled = false;
+  std::optional<std::string> failure;  ///< a complete message
+  Span span;
+};
+using JobPtr = std::shared_ptr<Job>;
+
+/// Does what the job says; never throws. Reads of the plan only what is settled by then.
+void perform(Job& job, const Plan& plan, const RunOptions& options);
+
+}  // namespace terrazzo

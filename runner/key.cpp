@@ -1,0 +1,106 @@
+#include "runner/key.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Raise it whenever keys are made differently.
+constexpr int key_scheme = 1;
+
+/// `file` relative to `path` if it is that path ("." then) or lies under it; else empty.
+fs::path place_under(const fs::path& path, const fs::path& file) {
+  const fs::path relative = file.lexically_normal().lexically_relative(path);
+  return relative.empty() || *relative.begin() == ".." ? fs::path() : relative;
+}
+
+fs::path without_trailing_slash(const std::string& path) {
+  const fs::path p = fs::path(path).lexically_normal();
+  return p.has_filename() ? p : p.parent_path();
+}
+
+Digest digest_of_param(const std::string& name, const ParamValue& value) {
+  Hasher h;
+  add_to(h, {{name, value}});
+  return h.digest();
+}
+
+struct ShowParam {
+  std::string operator()(bool v) const { return v ? "true" : "false"; }
+  std::string operator()(int64_t v) const { return fmt::format("{}", v); }
+  std::string operator()(double v) const { return fmt::format("{}", v); }
+  std::string operator()(const std::string& v) const { return fmt::format("\"{}\"", v); }
+  std::string operator()(Size v) const { return fmt::format("{}x{}", v.width, v.height); }
+  std::string operator()(const Numbers& v) const { return fmt::format("[{}]", fmt::join(v, ", ")); }
+  std::string operator()(const Texts& v) const { return fmt::format("[{}]", fmt::join(v, ", ")); }
+  template <typename Map>
+  std::string operator()(const Map& v) const {
+    std::string out;
+    for (const auto& [name, value] : v) out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", name, (*this)(value));
+    return "{" + out + "}";
+  }
+};
+
+}  // namespace
+
+std::string shown_value(const ParamValue& value) {
+  constexpr size_t longest = 48;
+  std::string text = std::visit(ShowParam{}, value);
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
+}
+
+std::vector<Ingredient> ingredients_of(const GraphNode& node, const InputNames& inputs,
+                                       const std::function<Digest(const fs::path&)>& file_digest) {
+  const NodeType& type = *node.type;
+  std::vector<Ingredient> out;
+  out.push_back({"type", Hasher().add(type.name).add(type.version).digest(),
+                 fmt::format("{} version {}", type.name, type.version)});
+
+  const std::vector<fs::path> files = type.files_read ? type.files_read(node.params) : std::vector<fs::path>();
+  std::vector<std::string> places;
+  for (const fs::path& f : files) places.push_back(f.string());
+  for (const auto& [name, value] : node.params) {
+    bool covered = false;
+    const Param* param = type.find_param(name);
+    if (param && param->type == ParamType::path) {
+      const fs::path path = without_trailing_slash(std::get<std::string>(value));
+      for (size_t i = 0; i < files.size(); i++) {
+        const fs::path place = place_under(path, files[i]);
+        if (place.empty()) continue;
+        covered = true;
+        // A folder's own name may become the material's, so it counts where the files lie inside it.
+        places[i] = place == "." ? "." : (path.filename() / place).generic_string();
+      }
+    }
+    if (!covered) out.push_back({"parameter " + name, digest_of_param(name, value), shown_value(value)});
+  }
+
+  for (const auto& [port, names] : inputs)
+    for (size_t i = 0; i < names.size(); i++)
+      out.push_back({fmt::format("input {}{}", port, names.size() > 1 ? fmt::format("[{}]", i) : ""), names[i],
+                     "@" + node.inputs.at(port)[i].node});
+  for (size_t i = 0; i < files.size(); i++)
+    out.push_back({"file " + places[i], file_digest(files[i]), files[i].string()});
+  return out;
+}
+
+Digest key_of(const std::vector<Ingredient>& ingredients) {
+  Hasher h;
+  h.add("stage").add(key_scheme).add(int64_t(ingredients.size()));
+  for (const Ingredient& i : ingredients) h.add(i.what).add(i.digest);
+  return h.digest();
+}
+
+Digest derived_name(const Digest& key, std::string_view port) {
+  return Hasher().add("derived").add(key).add(port).digest();
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "graphs/document/graph.h"
+
+namespace terrazzo {
+
+/// One thing that a stage's result depends on. `what` and `digest` are in the key; `shown` is for people only, so that
+/// it may name files and nodes.
+struct Ingredient {
+  std::string what;  ///< "type", "parameter seed", "input features", "file height.png"
+  Digest digest;
+  std::string shown;
+};
+
+/// The names of the values that arrive at a node's inputs, by port and in the document's order.
+using InputNames = std::map<std::string, std::vector<Digest>>;
+
+/// Everything a stage's result depends on: its type and version, its parameters, the names of its inputs, and the
+/// content of the files it reads. A path whose content is covered by `files_read` counts by that content and by the
+/// files' places relative to it, not by where it lies.
+std::vector<Ingredient> ingredients_of(const GraphNode& node, const InputNames& inputs,
+                                       const std::function<Digest(const std::filesystem::path&)>& file_digest);
+
+/// The key of a stage made of these ingredients.
+Digest key_of(const std::vector<Ingredient>& ingredients);
+
+/// What a lazily computed output is called before anything has been computed: its recipe's name.
+Digest derived_name(const Digest& key, std::string_view port);
+
+/// A parameter's value as a person would write it, shortened if it is long.
+std::string shown_value(const ParamValue& value);
+
+}  // namespace terrazzo

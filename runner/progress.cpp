@@ -1,0 +1,230 @@
+#include "runner/progress.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace terrazzo {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+/// Lets something through at most once per interval and key.
+class Throttle {
+ public:
+  explicit Throttle(std::chrono::milliseconds interval) : interval_(interval) {}
+  bool open(const Stage* key) {
+    const Clock::time_point now = Clock::now();
+    const auto [at, fresh] = last_.try_emplace(key, now);
+    if (!fresh && now - at->second < interval_) return false;
+    at->second = now;
+    return true;
+  }
+  /// Counts from now for this key.
+  void start(const Stage* key) { last_[key] = Clock::now(); }
+
+ private:
+  std::chrono::milliseconds interval_;
+  std::map<const Stage*, Clock::time_point> last_;
+};
+
+class NoProgress : public Progress {
+  void closed(const RunResult&) override {}
+};
+
+class JsonProgress : public Progress {
+ public:
+  explicit JsonProgress(std::ostream& out) : out_(out) {}
+  void planned(const Plan& plan) override {
+    Json stages = Json::array();
+    for (const Stage& s : plan.stages) {
+      Json stage = {{"node", s.node->name}, {"type", s.type().name}, {"state", name_of(s.state)}};
+      stage["key"] = s.known ? Json(s.known->key.hex()) : Json();
+      stage["why"] = s.reason;
+      stages.push_back(std::move(stage));
+    }
+    write({{"event", "plan"}, {"stages", std::move(stages)}});
+  }
+  void started(const Stage& s) override { write({{"event", "start"}, {"node", s.node->name}}); }
+  void progressed(const Stage& s, double fraction) override {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!throttle_.open(&s)) return;
+    }
+    write({{"event", "progress"}, {"node", s.node->name}, {"fraction", fraction}});
+  }
+  void noted(const Stage& s, const std::string& message) override {
+    write({{"event", "note"}, {"node", s.node->name}, {"message", message}});
+  }
+  void finished(const Stage& s, double seconds) override {
+    write({{"event", "done"}, {"node", s.node->name}, {"seconds", seconds}});
+  }
+  void reused(const Stage& s) override { write({{"event", "cached"}, {"node", s.node->name}}); }
+  void failed(const Stage& s, const std::string& message) override {
+    write({{"event", "failed"}, {"node", s.node->name}, {"message", message}});
+  }
+  void closed(const RunResult& r) override {
+    using Kind = StageOutcome::Kind;
+    Json files = Json::array();
+    for (const StageOutcome& s : r.stages)
+      for (const OutputFile& f : s.files) files.push_back(f.path.string());
+    write({{"event", "finished"},
+           {"ok", r.ok()},
+           {"cancelled", r.cancelled},
+           {"seconds", r.seconds},
+           {"cached", r.count(Kind::reused)},
+           {"run", r.count(Kind::run)},
+           {"failed", r.count(Kind::failed)},
+           {"unfinished", r.count(Kind::unfinished)},
+           {"files", std::move(files)}});
+  }
+
+ private:
+  void write(const Json& event) {
+    const std::lock_guard lock(mutex_);
+    out_ << event.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+  }
+  std::ostream& out_;
+  std::mutex mutex_;
+  Throttle throttle_{std::chrono::milliseconds(100)};
+};
+
+class PlainProgress : public Progress {
+ public:
+  explicit PlainProgress(std::ostream& out) : out_(out) {}
+  void planned(const Plan& plan) override { all_ = plan.needed() - plan.count(StageState::derived); }
+  void started(const Stage& s) override {
+    const std::lock_guard lock(mutex_);
+    throttle_.start(&s);
+  }
+  void progressed(const Stage& s, double fraction) override {
+    const std::lock_guard lock(mutex_);
+    if (throttle_.open(&s)) line(s, fmt::format("{:.0f} %", 100 * fraction));
+  }
+  void noted(const Stage& s, const std::string& message) override {
+    const std::lock_guard lock(mutex_);
+    out_ << fmt::format("{}: {}", s.node->name, message) << std::endl;
+  }
+  void finished(const Stage& s, double seconds) override {
+    const std::lock_guard lock(mutex_);
+    settled_++;
+    line(s, fmt::format("{:.2f} s", seconds));
+  }
+  void reused(const Stage& s) override {
+    const std::lock_guard lock(mutex_);
+    settled_++;
+    line(s, s.type().is_sink() ? "up to date" : "cached");
+  }
+  void failed(const Stage& s, const std::string&) override {
+    const std::lock_guard lock(mutex_);
+    line(s, "failed");
+  }
+  void closed(const RunResult&) override {}
+
+ private:
+  void line(const Stage& s, const std::string& what) {
+    // Stages that had looked cached, and lazy ones, may run after all.
+    all_ = std::max(all_, settled_);
+    out_ << fmt::format("[{}/{}] {} ({}) {}", settled_, all_, s.node->name, s.type().name, what) << std::endl;
+  }
+  std::ostream& out_;
+  std::mutex mutex_;
+  int settled_ = 0, all_ = 0;
+  Throttle throttle_{std::chrono::milliseconds(5000)};
+};
+
+class BarProgress : public Progress {
+ public:
+  explicit BarProgress(std::ostream& out) : out_(out) {}
+  ~BarProgress() override { erase(); }
+  void planned(const Plan& plan) override { all_ = plan.needed() - plan.count(StageState::derived); }
+  void started(const Stage& s) override {
+    const std::lock_guard lock(mutex_);
+    running_[&s] = 0;
+    draw(false);
+  }
+  void progressed(const Stage& s, double fraction) override {
+    const std::lock_guard lock(mutex_);
+    running_[&s] = fraction;
+    draw(false);
+  }
+  void noted(const Stage& s, const std::string& message) override {
+    const std::lock_guard lock(mutex_);
+    erase();
+    out_ << s.node->name << ": " << message << '\n';
+    draw(true);
+  }
+  void finished(const Stage& s, double) override { settle(s); }
+  void reused(const Stage& s) override { settle(s); }
+  void failed(const Stage& s, const std::string&) override {
+    const std::lock_guard lock(mutex_);
+    running_.erase(&s);
+  }
+  void closed(const RunResult&) override {
+    const std::lock_guard lock(mutex_);
+    erase();
+  }
+
+ private:
+  void settle(const Stage& s) {
+    const std::lock_guard lock(mutex_);
+    running_.erase(&s);
+    settled_++;
+    all_ = std::max(all_, settled_);
+    draw(false);
+  }
+  void erase() {
+    if (drawn_) out_ << "\r\x1b[K" << std::flush;
+    drawn_ = false;
+  }
+  void draw(bool at_once) {
+    if (!throttle_.open(nullptr) && !at_once) return;
+    double done = settled_;
+    std::string names;
+    for (const auto& [stage, fraction] : running_) {
+      done += fraction;
+      names += fmt::format("{}{} {:.0f} %", names.empty() ? "" : ", ", stage->node->name, 100 * fraction);
+    }
+    constexpr int width = 24;
+    const int filled = all_ > 0 ? std::clamp(static_cast<int>(done / all_ * width), 0, width) : 0;
+    constexpr size_t room = 40;  // keeps the line shorter than a terminal of 80 columns
+    if (names.size() > room) names = names.substr(0, room - 3) + "...";
+    out_ << fmt::format("\r\x1b[K[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", width - filled, settled_, all_, names)
+         << std::flush;
+    drawn_ = true;
+  }
+  std::ostream& out_;
+  std::mutex mutex_;
+  int settled_ = 0, all_ = 0;
+  bool drawn_ = false;
+  std::map<const Stage*, double> running_;
+  Throttle throttle_{std::chrono::milliseconds(80)};
+};
+
+}  // namespace
+
+std::optional<ProgressMode> progress_mode_from(std::string_view name) {
+  const auto at = std::find(progress_mode_names.begin(), progress_mode_names.end(), name);
+  if (at == progress_mode_names.end()) return std::nullopt;
+  return static_cast<ProgressMode>(at - progress_mode_names.begin());
+}
+
+std::unique_ptr<Progress> make_progress(ProgressMode mode, std::ostream& out, bool terminal) {
+  if (mode == ProgressMode::automatic) mode = terminal ? ProgressMode::bar : ProgressMode::plain;
+  switch (mode) {
+    case ProgressMode::bar:
+      return std::make_unique<BarProgress>(out);
+    case ProgressMode::json:
+      return std::make_unique<JsonProgress>(out);
+    case ProgressMode::none:
+      return std::make_unique<NoProgress>();
+    default:
+      return std::make_unique<PlainProgress>(out);
+  }
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <string_view>
+
+#include "runner/schedule.h"
+
+/// What a run says while it runs.
+namespace terrazzo {
+
+enum class ProgressMode : uint8_t {
+  automatic,  ///< bar on a terminal, else plain
+  bar,        ///< one line that is drawn again and again; notes above it
+  plain,      ///< a line per finished stage; now and then one for a stage that takes long
+  json,       ///< an object per line, see make_progress
+  none,
+};
+inline constexpr std::array<std::string_view, 5> progress_mode_names = {"auto", "bar", "plain", "json", "none"};
+std::optional<ProgressMode> progress_mode_from(std::string_view name);
+
+/// An observer that also tells how the run ended. Thread-safe.
+class Progress : public RunObserver {
+ public:
+  virtual void closed(const RunResult& result) = 0;
+};
+
+/// `terminal` decides what automatic means. `out` must outlive it.
+///
+/// json writes these objects, one per line, each with "event":
+///   plan      "stages": [{"node", "type", "state", "key" (or null), "why"}]; states as in StageState
+///   start     "node"
+///   progress  "node", "fraction" in [0, 1]; at most ten a second for each node
+///   note      "node", "message"
+///   done      "node", "seconds"
+///   cached    "node": its result was there
+///   failed    "node", "message"
+///   finished  "ok", "cancelled", "seconds", "cached", "run", "failed", "unfinished", "files": [path]; always the last
+std::unique_ptr<Progress> make_progress(ProgressMode mode, std::ostream& out, bool terminal);
+
+}  // namespace terrazzo

@@ -1,0 +1,31 @@
+#include "runner/trace.h"
+
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace terrazzo {
+
+void write_trace(const RunResult& result, const std::filesystem::path& path) {
+  using Json = nlohmann::ordered_json;
+  Json events = Json::array();
+  for (const Span& s : result.spans) {
+    const std::string& node = result.stages[static_cast<size_t>(s.stage)].node;
+    events.push_back({{"name", s.what == "run" ? node : s.what + " " + node},
+                      {"cat", s.what},
+                      {"ph", "X"},
+                      {"ts", s.start * 1e6},
+                      {"dur", (s.end - s.start) * 1e6},
+                      {"pid", 1},
+                      {"tid", s.thread}});
+  }
+  std::ofstream out(path);
+  out << Json({{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}})
+             .dump(1, ' ', false, Json::error_handler_t::replace)
+      << '\n';
+  out.close();
+  if (!out) throw Error(fmt::format("cannot write {}", path.string()));
+}
+
+}  // namespace terrazzo
