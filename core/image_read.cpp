@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/file_facts.h"
 #include "core/image_file.h"
-#include "core/jpeg_file.h"
 #include "core/nearest_name.h"
 
 namespace terrazzo {
@@ -111,16 +111,20 @@ OpenFile open(const fs::path& path) {
   return file;
 }
 
+/// The image library makes up what is missing of these formats.
+void require_complete(const fs::path& path, const OpenFile& file) {
+  const std::string_view format = file.in->format_name();
+  if ((format == "jpeg" && !read_jpeg_facts(path).complete) || (format == "tiff" && !tiff_is_complete(path)))
+    fail(path, "it is cut off: the end of the image is missing");
+}
+
 /// The stored pixels in the type asked for.
 template <typename T>
 std::vector<T> read_stored(const fs::path& path, const OpenFile& file, OIIO::TypeDesc type) {
+  require_complete(path, file);
   std::vector<T> out(size_t(file.stored.area()) * file.spec().nchannels);
   if (!file.in->read_image(0, 0, 0, file.spec().nchannels, type, out.data()))
     fail(path, "it is damaged or cut off: " + one_line(file.in->geterror()));
-  const std::string quiet_error = file.in->geterror();
-  if (!quiet_error.empty()) fail(path, "it is damaged or cut off: " + one_line(quiet_error));
-  if (std::string_view(file.in->format_name()) == "jpeg" && !read_jpeg_facts(path).complete)
-    fail(path, "it is cut off: the end of the image is missing");
   return out;
 }
 

@@ -40,6 +40,7 @@ OIIO::ImageSpec make_spec(const Image& image, const WriteOptions& options) {
   if (spec.nchannels == 2)
     spec.channelnames = has_alpha ? std::vector<std::string>{"Y", "A"} : std::vector<std::string>{"R", "G"};
   spec.attribute("oiio:UnassociatedAlpha", 1);
+  spec.attribute("DateTime", "1970:01:01 00:00:00");  // else the library writes the time of day
   if (info.color_space == "srgb_texture") spec.attribute("oiio:ColorSpace", "sRGB");
   if (info.color_space == "lin_rec709") spec.attribute("oiio:ColorSpace", "Linear");
   if (info.color_space == "acescg" && options.format == FileFormat::exr) {
