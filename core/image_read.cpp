@@ -105,6 +105,9 @@ OpenFile open(const fs::path& path) {
   if (spec.depth > 1) fail(path, fmt::format("it is a volume of {} slices; expected a flat picture", spec.depth));
   if (spec.deep) fail(path, "it is a deep image (several samples per pixel); expected a flat one");
   refuse_ink(path, file);
+  // The library reads some of these as zeros.
+  if (spec.format == OIIO::TypeDesc::DOUBLE && std::string_view(file.in->format_name()) == "tiff")
+    fail(path, "its values are 64-bit floats; expected at most 32 bits: save it as 32-bit float");
   if (spec.nchannels < 1 || spec.nchannels > 4)
     fail(path, fmt::format("it has {} channels ({}); expected 1 to 4: write the wanted ones to a file of their own",
                            spec.nchannels, fmt::join(spec.channelnames, ", ")));

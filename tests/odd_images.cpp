@@ -83,8 +83,8 @@ Bytes make_tiff(Size size, int bits, int format, const Bytes& samples) {
   constexpr int entry_count = 10, samples_at = 8 + 2 + entry_count * 12 + 4;
   Bytes out = {'I', 'I', 42, 0, 8, 0, 0, 0, entry_count, 0};
   const std::pair<int, int> entries[entry_count] = {
-      {256, size.width}, {257, size.height}, {258, bits}, {259, 1},           {262, 1},
-      {273, samples_at}, {277, 1},           {278, size.height}, {279, int(samples.size())}, {339, format}};
+      {256, size.width},  {257, size.height},         {258, bits},  {259, 1}, {262, 1}, {273, samples_at}, {277, 1},
+      {278, size.height}, {279, int(samples.size())}, {339, format}};
   for (const auto& [tag, value] : entries) {
     const bool is_short = tag == 258 || tag == 259 || tag == 262 || tag == 277 || tag == 339;
     append(out, {uint8_t(tag), uint8_t(tag >> 8), uint8_t(is_short ? 3 : 4), 0, 1, 0, 0, 0});

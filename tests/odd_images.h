@@ -31,14 +31,14 @@ Bytes make_cmyk_jpeg();
 struct OddFile {
   Size size;
   int channels = 1;
-  std::string type = "uint8";                   ///< "uint8", "int16", "half", "double", ...
-  std::map<std::string, int> attributes{};      ///< integer attributes
-  std::vector<std::string> channel_names{};     ///< empty: the usual ones
-  Rect display{};                               ///< for EXR; empty: the same as the data
-  int x = 0, y = 0;                             ///< where the data begins
-  int tile = 0;                                 ///< side of the tiles; 0 = none
-  int images = 1;                               ///< so many images, each with the same pixels
-  bool mip = false;                             ///< a second, smaller level
+  std::string type = "uint8";                ///< "uint8", "int16", "half", "double", ...
+  std::map<std::string, int> attributes{};   ///< integer attributes
+  std::vector<std::string> channel_names{};  ///< empty: the usual ones
+  Rect display{};                            ///< for EXR; empty: the same as the data
+  int x = 0, y = 0;                          ///< where the data begins
+  int tile = 0;                              ///< side of the tiles; 0 = none
+  int images = 1;                            ///< so many images, each with the same pixels
+  bool mip = false;                          ///< a second, smaller level
 };
 /// Writes floats (0..1 is the range of integer types) through OpenImageIO, in the format of the path's extension.
 void write_odd(const std::filesystem::path& path, const OddFile& file, const std::vector<float>& pixels);

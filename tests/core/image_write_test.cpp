@@ -99,8 +99,7 @@ TEST_CASE("the same pixels give the same bytes, today and tomorrow") {
   const ImagePtr image = make_image({20, 20}, 3, [](int x, int y, int c) { return float(x + y + c) / 60.0f; });
   const std::vector<std::pair<std::string, Depth>> kinds = {
       {"png", Depth::u8}, {"tif", Depth::u16}, {"exr", Depth::f16}, {"jpg", Depth::u8}};
-  for (const auto& [extension, depth] : kinds)
-    write(image, folder.path() / fmt::format("first.{}", extension), depth);
+  for (const auto& [extension, depth] : kinds) write(image, folder.path() / fmt::format("first.{}", extension), depth);
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // so that a time stamp would differ
   for (const auto& [extension, depth] : kinds) {
     INFO(extension);
@@ -113,9 +112,8 @@ TEST_CASE("the same pixels give the same bytes, today and tomorrow") {
 TEST_CASE("a progress callback that throws stops the writing of any format") {
   const TemporaryFolder folder;
   ImageInfo info{.size = {2048, 2048}, .channels = 1};
-  const ImagePtr image = Image::computed(info, Digest{}, [](const Rect& r, float* out) {
-    std::fill_n(out, r.area(), 0.5f);
-  });
+  const ImagePtr image =
+      Image::computed(info, Digest{}, [](const Rect& r, float* out) { std::fill_n(out, r.area(), 0.5f); });
   for (const std::string name : {"a.png", "a.tif", "a.exr", "a.jpg"}) {
     const FileFormat format = *format_from(name);
     const Depth depth = format == FileFormat::exr ? Depth::f16 : Depth::u8;
@@ -139,9 +137,9 @@ TEST_CASE("what cannot be written is said") {
   for (const std::string name : {"a.png", "a.tif", "a.exr", "a.jpg"}) {
     const FileFormat format = *format_from(name);
     const Depth depth = format == FileFormat::exr ? Depth::f16 : Depth::u8;
-    CHECK_THROWS_AS(write_image(*image, folder.path() / "missing" / name, {.format = format, .depth = depth},
-                                [](double) {}),
-                    Error);
+    CHECK_THROWS_AS(
+        write_image(*image, folder.path() / "missing" / name, {.format = format, .depth = depth}, [](double) {}),
+        Error);
   }
 }
 

@@ -15,7 +15,9 @@ namespace {
 std::string shown(const RecognisedMap& m) {
   return fmt::format("{}={}{}{}{}", m.map, m.inverted ? "~" : "", m.file,
                      m.channels.empty() ? "" : "[" + m.channels + "]",
-                     !m.normal_y ? "" : *m.normal_y == NormalY::up ? " up" : " down");
+                     !m.normal_y                  ? ""
+                     : *m.normal_y == NormalY::up ? " up"
+                                                  : " down");
 }
 
 std::vector<std::string> shown(const std::vector<RecognisedMap>& maps) {
@@ -113,7 +115,8 @@ TEST_CASE("the naming conventions of the usual sources are recognised") {
        {"wood_baseColor.jpeg", "wood_metallicRoughness.png", "wood_normal.png", "wood_occlusion.png",
         "wood_emissive.png"},
        {"base_color=wood_baseColor.jpeg", "normal=wood_normal.png", "roughness=wood_metallicRoughness.png[g]",
-        "metallic=wood_metallicRoughness.png[b]", "ambient_occlusion=wood_occlusion.png", "emission=wood_emissive.png"}},
+        "metallic=wood_metallicRoughness.png[b]", "ambient_occlusion=wood_occlusion.png",
+        "emission=wood_emissive.png"}},
       {"plain names",
        {"basecolor.png", "normal.png", "height.png", "roughness.png", "metallic.png", "ao.png", "opacity.png",
         "emission.png", "specular.png"},
