@@ -166,7 +166,7 @@ TEST_CASE("Oklab has the same bits on every machine") {
       {64, 64}, 3, [](int x, int y, int c) { return float(random_bits(5, x, y, c) >> 40) * 0x1p-24f; },
       Semantic::base_color, "srgb_texture");
   const std::vector<float> lab = to_oklab(image)->pixels();
-  CHECK(Hasher().bytes(lab.data(), lab.size() * sizeof(float)).digest().hex() == "f624c15fcf78887d78038d7ca7a21915");
+  CHECK(Hasher().bytes(lab.data(), lab.size() * sizeof(float)).digest().hex() == "7da3f093d5c8d39a9428b6d3d348ac56");
 }
 
 TEST_CASE("the lightness of grey images comes alone") {
