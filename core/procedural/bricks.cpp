@@ -14,7 +14,7 @@ class Bricks : public Surface {
   Bricks(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
         grid_(canvas, spec.scale, 2.75, 2),
-        masonry_(canvas, spec, palette, grid_.cell_height(), grid_.cell_width()),
+        masonry_(canvas, spec, palette, {.height = grid_.cell_height(), .length = grid_.cell_width()}),
         bend_(grid_.cell_height() * 0.09 * spec.irregularity) {}
 
   SurfacePoint at(double u, double v) const override {

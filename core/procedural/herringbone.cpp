@@ -14,7 +14,7 @@ class Herringbone : public Surface {
   Herringbone(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
         grid_(canvas, cells_across(spec.scale, canvas.wraps()), 1, 4),
-        masonry_(canvas, spec, palette, grid_.cell_height(), 2 * grid_.cell_width()),
+        masonry_(canvas, spec, palette, {grid_.cell_height(), 2 * grid_.cell_width(), 0.1}),
         bend_(grid_.cell_height() * 0.06 * spec.irregularity) {}
 
   SurfacePoint at(double u, double v) const override {

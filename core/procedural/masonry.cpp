@@ -14,14 +14,19 @@ enum Salt : uint64_t { edge = 100, chips, top, pits, grain, sand, stain, smear, 
 
 }  // namespace
 
-Masonry::Masonry(const Canvas& canvas, const PatternSpec& spec, const Palette& palette, double course, double length)
-    : canvas_(canvas), spec_(spec), palette_(palette), unit_(course), per_brick_(1 / length) {}
+Masonry::Masonry(const Canvas& canvas, const PatternSpec& spec, const Palette& palette, const Course& course)
+    : canvas_(canvas),
+      spec_(spec),
+      palette_(palette),
+      unit_(course.height),
+      per_brick_(1 / course.length),
+      mortar_(course.height * course.joint) {}
 
 SurfacePoint Masonry::at(double u, double v, const Brick& b) const {
   Dice dice(b.bits);
-  const double mortar = unit_ * 0.17, loose = mortar * 0.28 * spec_.irregularity;
-  const double half_w = b.half_width - mortar / 2 + loose * dice.both();
-  const double half_h = b.half_height - mortar / 2 + loose * 0.8 * dice.both();
+  const double loose = mortar_ * 0.28 * spec_.irregularity;
+  const double half_w = b.half_width - mortar_ / 2 + loose * dice.both();
+  const double half_h = b.half_height - mortar_ / 2 + loose * 0.8 * dice.both();
   const double x = b.x - loose * dice.both();
   const double down = loose * dice.both(), turn = 0.02 * spec_.irregularity * dice.both();
   const double y = b.y - down + x * turn;
@@ -36,6 +41,7 @@ SurfacePoint Masonry::at(double u, double v, const Brick& b) const {
   d += unit_ * 0.34 * spec_.wear * smoothstep(0.22, 0.62, chip);
 
   const double inside = smoothstep(0.01, -0.075, d / unit_);
+  if (d > 0.02 * unit_) return stained(u, v, joint_at(u, v, d));
   const double shoulder = saturate(-d / (unit_ * 0.16));
   const double rounding = 1 - (1 - shoulder) * (1 - shoulder);
   SurfacePoint brick = brick_at(u, v, x / half_w, base, tone, pitting, burnt, burnt_side);
@@ -47,7 +53,9 @@ SurfacePoint Masonry::at(double u, double v, const Brick& b) const {
   brick.color = mix(brick.color, palette_.joint, 0.5 * wiped);
   brick.roughness = mix(brick.roughness, 0.92, wiped);
 
-  SurfacePoint joint = joint_at(u, v, d);
+  if (shoulder == 1) return stained(u, v, brick);
+
+  const SurfacePoint joint = joint_at(u, v, d);
   SurfacePoint p;
   p.height = mix(joint.height, std::max(brick.height, joint.height), inside);
   p.color = mix(joint.color, brick.color, smoothstep(0.012, -0.03, d / unit_));

@@ -12,11 +12,16 @@ struct Brick {
   uint64_t bits;
 };
 
+/// How bricks are laid: lengths in units of the canvas, with the joint; the joint's width as a fraction of the height.
+struct Course {
+  double height, length;
+  double joint = 0.17;
+};
+
 /// What bricks and the mortar between them look like, however they are laid. Immutable.
 class Masonry {
  public:
-  /// `course`: the lesser side of a brick with its joint, `length`: the greater.
-  Masonry(const Canvas& canvas, const PatternSpec& spec, const Palette& palette, double course, double length);
+  Masonry(const Canvas& canvas, const PatternSpec& spec, const Palette& palette, const Course& course);
   /// The surface at (u, v), a point of `brick` or of the joint around it.
   SurfacePoint at(double u, double v, const Brick& brick) const;
 
@@ -31,6 +36,7 @@ class Masonry {
   Palette palette_;
   double unit_;       ///< the height of a course
   double per_brick_;  ///< bricks per unit: the frequency of details that come once per brick
+  double mortar_;     ///< the width of a joint
 };
 
 }  // namespace terrazzo

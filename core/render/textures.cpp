@@ -58,22 +58,28 @@ Texture load(const Material& material, Semantic semantic, int max_width, Decode 
 }
 
 /// The depth of the relief that explains the normals best: slopes summed over a few texels against differences of
-/// height (least squares through the origin). In widths of the material.
-double depth_from_normals(const Texture& height, const Texture& normal) {
+/// height, along u and v (least squares through the origin). In widths of the material.
+double depth_from_normals(const Texture& height, const Texture& normal, double aspect) {
   constexpr int span = 4;
   const Size size = height.size();
+  const double across = 1.0 / size.width, down = aspect / size.height;  // of a texel, in widths of the material
   double covariance = 0, variance = 0;
-  for (int y = 0; y < size.height; y += 2)
+  const auto add = [&](double rise, double difference) {
+    covariance += rise * difference;
+    variance += difference * difference;
+  };
+  const auto slope = [&](double x, double y) {
+    const Vec n = normal.color(x / size.width, y / size.height);
+    return Vec{-n.x, n.y, 0} * (1 / std::max(0.1, n.z));
+  };
+  for (int y = 0; y + span < size.height; y += 2)
     for (int x = 0; x + span < size.width; x += 2) {
-      double rise = 0;
-      for (int k = 0; k < span; k++) {
-        const double u = (x + k + 1.0) / size.width, v = (y + 0.5) / size.height;
-        const Vec n = normal.color(u, v);
-        rise -= n.x / std::max(0.1, n.z) / size.width;
-      }
-      const double difference = *height.texel(x + span, y) - *height.texel(x, y);
-      covariance += rise * difference;
-      variance += difference * difference;
+      Vec rise;
+      for (int k = 1; k <= span; k++)
+        rise = rise + Vec{slope(x + k, y + 0.5).x * across, slope(x + 0.5, y + k).y * down, 0};
+      const float here = *height.texel(x, y);
+      add(rise.x, *height.texel(x + span, y) - here);
+      add(rise.y, *height.texel(x, y + span) - here);
     }
   return variance > 0 ? std::clamp(covariance / variance, 0.0, 0.2) : 0;
 }
@@ -156,7 +162,7 @@ Textures load_textures(const Material& material, int max_width, double relief, c
   t.aspect = double(material.size().height) / material.size().width;
   if (t.height.empty()) return t;
   if (!t.normal.empty()) {
-    t.depth = depth_from_normals(t.height, t.normal) * relief;
+    t.depth = depth_from_normals(t.height, t.normal, t.aspect) * relief;
   } else {
     t.depth = 0.05 * relief;
     t.normal = normals_from_height(t.height, t.depth);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <doctest/doctest.h>
+#include <tbb/global_control.h>
 
 #include "../run_node.h"
 #include "nodes/registry.h"
@@ -139,6 +140,13 @@ TEST_CASE("the same parameters give the same pattern, other seeds and palettes a
     CHECK(recolored->find("height")->digest() == other->find("height")->digest());
     CHECK(recolored->find("base_color")->digest() != other->find("base_color")->digest());
   }
+}
+
+TEST_CASE("one thread and several make the same pattern") {
+  const Params params = {{"kind", "gravel"}, {"size", Size{64, 48}}};
+  const Digest several = pattern(params)->digest();
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  CHECK(pattern(params)->digest() == several);
 }
 
 TEST_CASE("relief deepens slopes and occlusion and leaves the height map as it is") {
