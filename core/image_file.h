@@ -19,7 +19,6 @@ struct FileInfo {
   Size size;
   int channels = 0;
   Depth depth = Depth::u8;
-  std::string color_space;  ///< as the file declares it, else empty
 };
 
 /// Whether the name ends like an image file that can be read.
@@ -27,10 +26,13 @@ bool looks_like_image(const std::filesystem::path& path);
 
 FileInfo read_image_info(const std::filesystem::path& path);
 
-/// Reads the first image of the file into memory. 1..4 channels come through; palettes are expanded, CMYK and images of
-/// more channels are refused, as are empty, truncated and absurdly large files (over 2^31 pixel values).
-/// Pixels that are not finite become 0, and `warn` is told how many. `info` gives semantic, colour space and normal
-/// convention; size, channels and depth are taken from the file.
+/// Reads the first image of the file into memory. 1..4 channels come through; palettes are expanded; CMYK and images of
+/// more channels are refused, as are empty, truncated and absurdly large files (over 2^31 pixel values). Alpha is never
+/// multiplied in or divided out of formats that keep it apart. An EXR file comes as its display window, an image with
+/// an orientation mark as it is meant to be seen. Values of 8 bits are exactly k / 255, of 16 bits k / 65535; halfs
+/// stay halfs; integers of other depths become floats. Pixels that are not finite become 0. Normals stored as signed
+/// numbers are encoded. `warn` is told whatever the user should know, a sentence each. `info` gives semantic, colour
+/// space and normal convention; size, channels and depth are taken from the file.
 ImagePtr read_image(const std::filesystem::path& path, const ImageInfo& info,
                     const std::function<void(const std::string&)>& warn);
 
@@ -38,14 +40,18 @@ struct WriteOptions {
   FileFormat format = FileFormat::png;
   Depth depth = Depth::u8;  ///< must be one the format can hold, see `holds`
   int jpeg_quality = 95;
+  std::string description{};  ///< stored in the file if not empty
 };
+std::string_view name_of(FileFormat format);
 bool holds(FileFormat format, Depth depth);
 /// From the name's extension; nullopt if it is none of the formats that can be written.
 std::optional<FileFormat> format_from(const std::filesystem::path& path);
 
 /// Writes strip by strip, pulling the image's pixels as it goes; `progress` is called with the fraction done and may
-/// throw to stop. No dithering: a value read from a file of the same depth is written back exactly.
-void write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
-                 const std::function<void(double)>& progress);
+/// throw to stop. No dithering: a value read from a file of the same depth is written back exactly. The same pixels
+/// give the same bytes. JPEG has no alpha channel and leaves it out. Returns how many values lay outside 0..1 and were
+/// clipped by an integer depth.
+int64_t write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
+                    const std::function<void(double)>& progress);
 
 }  // namespace terrazzo

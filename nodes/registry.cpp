@@ -3,7 +3,7 @@
 #include <algorithm>
 
 // One line per node type: the function `NodeType <name>_node()` is defined in nodes/<name>.cpp.
-#define TERRAZZO_NODES(X) X(load_map) X(noise) X(pattern) X(preview)
+#define TERRAZZO_NODES(X) X(load_map) X(load_material) X(noise) X(pattern) X(preview) X(export)
 
 namespace terrazzo {
 

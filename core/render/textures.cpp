@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/color.h"
 #include "core/procedural/exact_math.h"
 #include "core/procedural/finish.h"
 
@@ -13,11 +14,6 @@ namespace {
 
 /// Brings one texel, read from the map, into the space it is filtered in; in place.
 using Decode = void (*)(float* texel, const ImageInfo& info);
-
-void decode_color(float* texel, const ImageInfo& info) {
-  if (info.color_space != "srgb_texture") return;
-  for (int c = 0; c < std::min(3, info.channels); c++) texel[c] = float(srgb_decoded(texel[c]));
-}
 
 void decode_normal(float* texel, const ImageInfo& info) {
   for (int c = 0; c < std::min(3, info.channels); c++) texel[c] = texel[c] * 2 - 1;
@@ -54,7 +50,8 @@ Texture averaged(const Image& image, int factor, Decode decode, const Task& task
 Texture load(const Material& material, Semantic semantic, int max_width, Decode decode, const Task& task) {
   const ImagePtr image = material.find(semantic);
   if (!image) return {};
-  return averaged(*image, std::max(1, image->width() / std::max(1, max_width)), decode, task);
+  const ImagePtr decoded = is_color(semantic) ? convert_color(image, "lin_rec709") : image;
+  return averaged(*decoded, std::max(1, image->width() / std::max(1, max_width)), decode, task);
 }
 
 /// The depth of the relief that explains the normals best: slopes summed over a few texels against differences of
@@ -152,8 +149,8 @@ ShadedPoint Textures::at(double u, double v) const {
 Textures load_textures(const Material& material, int max_width, double relief, const Task& task) {
   Textures t;
   const auto get = [&](Semantic semantic, Decode decode) { return load(material, semantic, max_width, decode, task); };
-  t.base_color = get(Semantic::base_color, decode_color);
-  t.emission = get(Semantic::emission, decode_color);
+  t.base_color = get(Semantic::base_color, decode_value);
+  t.emission = get(Semantic::emission, decode_value);
   t.normal = get(Semantic::normal, decode_normal);
   t.height = get(Semantic::height, decode_value);
   t.roughness = get(Semantic::roughness, decode_value);

@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+
+#include <Imath/half.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/image_file.h"
+
+namespace terrazzo {
+
+namespace {
+
+OIIO::TypeDesc type_of_depth(Depth depth) {
+  switch (depth) {
+    case Depth::u8:
+      return OIIO::TypeDesc::UINT8;
+    case Depth::u16:
+      return OIIO::TypeDesc::UINT16;
+    case Depth::f16:
+      return OIIO::TypeDesc::HALF;
+    case Depth::f32:
+      return OIIO::TypeDesc::FLOAT;
+  }
+  return OIIO::TypeDesc::FLOAT;
+}
+
+int written_channels(const Image& image, FileFormat format) {
+  const bool has_alpha = image.channels() % 2 == 0;
+  return format == FileFormat::jpeg && has_alpha ? image.channels() - 1 : image.channels();
+}
+
+OIIO::ImageSpec make_spec(const Image& image, const WriteOptions& options) {
+  const ImageInfo& info = image.info();
+  OIIO::ImageSpec spec(image.width(), image.height(), written_channels(image, options.format),
+                       type_of_depth(options.depth));
+  const bool has_alpha = spec.nchannels % 2 == 0 && info.semantic != Semantic::data;
+  spec.alpha_channel = has_alpha ? spec.nchannels - 1 : -1;
+  if (spec.nchannels == 2)
+    spec.channelnames = has_alpha ? std::vector<std::string>{"Y", "A"} : std::vector<std::string>{"R", "G"};
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  spec.attribute("DateTime", "1970:01:01 00:00:00");  // else the library writes the time of day
+  if (info.color_space == "srgb_texture") spec.attribute("oiio:ColorSpace", "sRGB");
+  if (info.color_space == "lin_rec709") spec.attribute("oiio:ColorSpace", "Linear");
+  if (info.color_space == "acescg" && options.format == FileFormat::exr) {
+    const float ap1[8] = {0.713f, 0.293f, 0.165f, 0.830f, 0.128f, 0.044f, 0.32168f, 0.33767f};
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), ap1);
+  }
+  if (!options.description.empty()) spec.attribute("ImageDescription", options.description);
+  switch (options.format) {
+    case FileFormat::png:
+      spec.attribute("png:compressionLevel", 4);
+      break;
+    case FileFormat::tiff:
+      spec.attribute("compression", "zip");
+      spec.attribute("tiff:half", 1);
+      break;
+    case FileFormat::exr:
+      spec.attribute("compression", "zip");
+      break;
+    case FileFormat::jpeg:
+      spec.attribute("Compression", fmt::format("jpeg:{}", options.jpeg_quality));
+      spec.attribute("jpeg:subsampling", "4:4:4");
+      break;
+  }
+  return spec;
+}
+
+/// Floats as the file's values; counts those that were clipped.
+class Converter {
+ public:
+  Converter(int in_channels, int out_channels) : in_channels_(in_channels), out_channels_(out_channels) {}
+
+  const void* convert(const float* in, int64_t pixels, Depth depth) {
+    switch (depth) {
+      case Depth::u8:
+        return fill(bytes_, in, pixels, [this](float v) { return uint8_t(rounded(v, 255.0f)); });
+      case Depth::u16:
+        return fill(words_, in, pixels, [this](float v) { return uint16_t(rounded(v, 65535.0f)); });
+      case Depth::f16:
+        return fill(words_, in, pixels, [](float v) {
+          constexpr float largest_half = 65504.0f;
+          return imath_float_to_half(std::clamp(v, -largest_half, largest_half));
+        });
+      case Depth::f32:
+        return fill(floats_, in, pixels, [](float v) { return v; });
+    }
+    return nullptr;
+  }
+  int64_t clipped() const { return clipped_; }
+
+ private:
+  template <typename T, typename Convert>
+  const void* fill(std::vector<T>& out, const float* in, int64_t pixels, Convert convert) {
+    out.resize(size_t(pixels) * out_channels_);
+    for (int64_t i = 0; i < pixels; i++)
+      for (int c = 0; c < out_channels_; c++) out[i * out_channels_ + c] = convert(in[i * in_channels_ + c]);
+    return out.data();
+  }
+  /// k / scale gives k back, for every k.
+  float rounded(float v, float scale) {
+    if (v >= 0.0f && v <= 1.0f) return v * scale + 0.5f;
+    clipped_++;
+    return v > 1.0f ? scale : 0.0f;
+  }
+
+  int in_channels_, out_channels_;
+  int64_t clipped_ = 0;
+  std::vector<uint8_t> bytes_;
+  std::vector<uint16_t> words_;
+  std::vector<float> floats_;
+};
+
+}  // namespace
+
+int64_t write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
+                    const std::function<void(double)>& progress) {
+  const auto fail = [&](const std::string& reason) {
+    throw Error(fmt::format("cannot write {}: {}", path.string(), reason));
+  };
+  if (!holds(options.format, options.depth))
+    fail(fmt::format("{} cannot hold {} values", name_of(options.format), name_of(options.depth)));
+  constexpr std::array<const char*, 4> names = {"png", "tiff", "openexr", "jpeg"};
+  const auto out = OIIO::ImageOutput::create(names[static_cast<size_t>(options.format)]);
+  if (!out) fail(OIIO::geterror());
+  out->threads(1);
+  const OIIO::ImageSpec spec = make_spec(image, options);
+  if (!out->open(path.string(), spec)) fail(out->geterror());
+  Converter converter(image.channels(), spec.nchannels);
+  for_each_strip(image, [&](const Rect& r, const float* pixels) {
+    const void* values = converter.convert(pixels, r.area(), options.depth);
+    if (!out->write_scanlines(r.y, r.bottom(), 0, type_of_depth(options.depth), values)) fail(out->geterror());
+    progress(double(r.bottom()) / image.height());
+  });
+  if (!out->close()) fail(out->geterror());
+  return converter.clipped();
+}
+
+}  // namespace terrazzo

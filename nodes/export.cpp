@@ -1,0 +1,386 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include "core/color.h"
+#include "core/image_file.h"
+#include "core/nearest_name.h"
+#include "core/node.h"
+#include "core/uv_image.h"
+#include "nodes/export_report.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One file to write.
+struct Job {
+  std::string name;  ///< for notes
+  ImagePtr image;
+  fs::path target;
+  fs::path temporary;
+  WriteOptions options{};
+  int64_t clipped = 0;
+};
+
+/// Fills {name} places; throws Error for unknown ones and for braces that do not match.
+std::string filled(const std::string& pattern, const std::map<std::string, std::string>& values) {
+  std::string out;
+  for (size_t i = 0; i < pattern.size(); i++) {
+    if (pattern[i] != '{') {
+      out += pattern[i];
+      continue;
+    }
+    const size_t end = pattern.find('}', i);
+    if (end == std::string::npos) throw Error("path", fmt::format("a {{ without }} in \"{}\"", pattern));
+    const std::string name = pattern.substr(i + 1, end - i - 1);
+    const auto at = values.find(name);
+    if (at == values.end())
+      throw Error("path", fmt::format("unknown place {{{}}} in \"{}\"; known are {{map}}, {{material}}, {{width}} and "
+                                      "{{height}}",
+                                      name, pattern));
+    out += at->second;
+    i = end;
+  }
+  return out;
+}
+
+FileFormat required_format(const char* param, const fs::path& path) {
+  if (const auto format = format_from(path)) return *format;
+  throw Error(param, fmt::format("the extension decides the file format, and \"{}\" ends in {}; expected .png, .tif, "
+                                 ".tiff, .exr, .jpg or .jpeg",
+                                 path.filename().string(),
+                                 path.has_extension() ? "\"" + path.extension().string() + "\"" : "no extension"));
+}
+
+std::optional<Depth> depth_from(const std::string& name) {
+  for (const Depth d : {Depth::u8, Depth::u16, Depth::f16, Depth::f32})
+    if (name == name_of(d)) return d;
+  return std::nullopt;
+}
+
+std::string depths_of(FileFormat format) {
+  std::vector<std::string_view> names;
+  for (const Depth d : {Depth::u8, Depth::u16, Depth::f16, Depth::f32})
+    if (holds(format, d)) names.push_back(name_of(d));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void require_depth(FileFormat format, const std::string& depth) {
+  const std::optional<Depth> wanted = depth_from(depth);
+  if (wanted && !holds(format, *wanted))
+    throw Error("depth", fmt::format("{} files hold {}, not {}; TIFF holds all depths", name_of(format),
+                                     depths_of(format), depth));
+}
+
+/// The format's depth that is nearest to what the map has, and does not lose by it if there is one.
+Depth nearest_depth(FileFormat format, Depth have) {
+  if (holds(format, have)) return have;
+  switch (format) {
+    case FileFormat::png:
+      return Depth::u16;
+    case FileFormat::jpeg:
+      return Depth::u8;
+    case FileFormat::exr:
+      return have == Depth::u8 ? Depth::f16 : Depth::f32;
+    case FileFormat::tiff:
+      break;
+  }
+  return have;
+}
+
+bool loses(Depth have, Depth written) {
+  return have != written && !(have == Depth::u8) && written != Depth::f32;
+}
+
+ImagePtr with_normals(const ImagePtr& image, const std::string& wish) {
+  ImageInfo info = image->info();
+  const NormalY wanted = wish == "down" ? NormalY::down : NormalY::up;
+  if (wish == "keep" || info.semantic != Semantic::normal || info.normal_y == wanted || info.channels < 2) return image;
+  info.normal_y = wanted;
+  const Digest recipe = Hasher().add("flipped green").add(image->digest()).digest();
+  return Image::computed(info, recipe, [image](const Rect& region, float* out) {
+    image->read(region, out);
+    const int64_t values = region.area() * image->channels();
+    for (int64_t i = 1; i < values; i += image->channels()) out[i] = 1.0f - out[i];
+  });
+}
+
+std::vector<Map> chosen_maps(const NodeContext& node, const Material& material) {
+  const Texts& only = node.texts("maps");
+  if (only.empty()) return material.maps();
+  std::vector<std::string> known;
+  for (const Map& m : material.maps()) known.push_back(m.name);
+  std::vector<Map> chosen;
+  for (const std::string& name : only) {
+    const ImagePtr image = material.find(name);
+    if (!image)
+      throw Error("maps", fmt::format("the material has no map \"{}\"; it has {}{}", name, material.map_names(),
+                                      did_you_mean(name, known)));
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const Map& m) { return m.name == name; }))
+      chosen.push_back({name, image});
+  }
+  return chosen;
+}
+
+/// The image as it goes to the file, with the depth it gets there.
+Job job_for(NodeContext& node, const std::string& name, ImagePtr image, const fs::path& target) {
+  const std::string& space = node.text("color_space");
+  if (space != "keep" && is_color(image->info().semantic)) image = convert_color(image, space);
+  Job job{.name = name, .image = with_normals(image, node.text("normals")), .target = target, .temporary = {}};
+  job.options.format = required_format("path", target);
+  require_depth(job.options.format, node.text("depth"));
+  job.options.jpeg_quality = int(node.integer("jpeg_quality"));
+  const Depth have = image->info().depth;
+  const std::optional<Depth> wanted = depth_from(node.text("depth"));
+  job.options.depth = wanted ? *wanted : nearest_depth(job.options.format, have);
+  if (loses(have, job.options.depth))
+    node.note(fmt::format("{}: {} values are written as {}{}", name, name_of(have), name_of(job.options.depth),
+                          wanted ? "" : fmt::format(", the nearest that {} holds", name_of(job.options.format))));
+  if (job.options.format == FileFormat::jpeg && image->channels() % 2 == 0)
+    node.note(fmt::format("{}: JPEG has no alpha channel; it is left out", name));
+  return job;
+}
+
+void add_material(NodeContext& node, const Material& material, std::vector<Job>& jobs) {
+  const std::string& pattern = node.text("path");
+  if (pattern.empty())
+    throw Error("path", "expected a file name pattern such as out/{map}.png, since a material is connected");
+  const std::vector<Map> maps = chosen_maps(node, material);
+  if (maps.size() > 1 && pattern.find("{map}") == std::string::npos)
+    throw Error("path", fmt::format("\"{}\" names one file, but there are {} maps ({}); write {{map}} where the map's "
+                                    "name is to stand, or choose one with the parameter `maps`",
+                                    pattern, maps.size(), material.map_names()));
+  for (const Map& m : maps)
+    jobs.push_back(job_for(node, m.name, m.image,
+                           filled(pattern, {{"map", m.name},
+                                            {"material", material.name()},
+                                            {"width", fmt::format("{}", m.image->width())},
+                                            {"height", fmt::format("{}", m.image->height())}})));
+}
+
+/// Where the uv map goes: `uv_path`, else `path` with "uv" for the map's name.
+fs::path uv_target(const NodeContext& node, const UvMap& uv, const std::string& material) {
+  const std::string& own = node.text("uv_path");
+  const std::string& pattern = own.empty() ? node.text("path") : own;
+  if (pattern.empty()) throw Error("uv_path", "expected a file name such as out/uv.exr, since a uv map is connected");
+  const fs::path target = filled(pattern, {{"map", "uv"},
+                                           {"material", material},
+                                           {"width", fmt::format("{}", uv.size().width)},
+                                           {"height", fmt::format("{}", uv.size().height)}});
+  if (required_format("uv_path", target) == FileFormat::jpeg)
+    throw Error("uv_path", fmt::format("the uv map is exact and JPEG is not; expected .exr, .png or .tif, found \"{}\"",
+                                       target.filename().string()));
+  return target;
+}
+
+void add_uv(NodeContext& node, const UvMapPtr& uv, const std::string& material, std::vector<Job>& jobs) {
+  Job job{.name = "uv", .image = nullptr, .target = uv_target(node, *uv, material), .temporary = {}};
+  job.options.format = *format_from(job.target);
+  const bool fractions = job.options.format == FileFormat::exr;
+  job.image = fractions ? uv_as_fractions(uv) : uv_as_integers(uv);
+  job.options.depth = fractions ? Depth::f32 : Depth::u16;
+  job.options.description =
+      fmt::format("uv map into an exemplar of {}x{} pixels: {}", uv->exemplar().width, uv->exemplar().height,
+                  fractions ? "u = (x + 0.5) / width, v = (y + 0.5) / height, from the top left"
+                            : "red = x, green = y, from the top left");
+  jobs.push_back(std::move(job));
+}
+
+void add_pictures(const Report& report, const fs::path& path, std::vector<Job>& jobs) {
+  for (const Report::Picture& p : report.pictures()) {
+    Job job{.name = p.name, .image = p.image, .target = path, .temporary = {}};
+    job.target.replace_filename(fmt::format("{}_{}.png", path.stem().string(), p.name));
+    jobs.push_back(std::move(job));
+  }
+}
+
+bool is_csv(const fs::path& path) {
+  if (path.extension() == ".csv") return true;
+  if (path.extension() == ".json") return false;
+  throw Error("report_path",
+              fmt::format("expected a file name that ends in .json or .csv, found \"{}\"", path.filename().string()));
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw Error(fmt::format("cannot write {}: is the disk full?", path.string()));
+}
+
+/// No two files may have the same name.
+void require_distinct(const std::vector<Job>& jobs) {
+  std::map<fs::path, std::string> names;
+  for (const Job& job : jobs) {
+    const auto [at, is_new] = names.emplace(job.target.lexically_normal(), job.name);
+    if (!is_new)
+      throw Error("path",
+                  fmt::format("{} and {} would both be written to {}", at->second, job.name, job.target.string()));
+  }
+}
+
+/// Writes all files, several at once; progress is their mean.
+void write_all(NodeContext& node, std::vector<Job>& jobs) {
+  std::mutex mutex;
+  std::vector<double> done(jobs.size());
+  tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
+    Job& job = jobs[i];
+    job.clipped = write_image(*job.image, job.temporary, job.options, [&](double fraction) {
+      double sum = 0;
+      {
+        const std::lock_guard lock(mutex);
+        done[i] = fraction;
+        for (const double d : done) sum += d;
+      }
+      node.task().progress(sum / double(jobs.size()));
+    });
+  });
+  for (const Job& job : jobs)
+    if (job.clipped)
+      node.note(fmt::format("{}: {} values lie outside 0..1 and were clipped by {}; EXR keeps them", job.name,
+                            job.clipped, name_of(job.options.depth)));
+}
+
+void compute(NodeContext& node) {
+  const auto material = node.optional_input<Material>("material");
+  const auto uv = node.optional_input<UvMap>("uv");
+  const auto report = node.optional_input<Report>("report");
+  if (!material && !uv && !report)
+    throw Error("material", "expected a wire to `material`, `uv` or `report`; found none");
+  std::vector<Job> jobs;
+  if (material) add_material(node, *material, jobs);
+  if (uv) add_uv(node, uv, material ? material->name() : "", jobs);
+  const fs::path report_path = node.text("report_path");
+  if (report) {
+    if (report_path.empty())
+      throw Error("report_path", "expected a file name such as out/report.json, since a report is connected");
+    is_csv(report_path);
+    add_pictures(*report, report_path, jobs);
+  }
+  require_distinct(jobs);
+  for (Job& job : jobs) job.temporary = node.stage(job.target);
+  if (report)
+    write_text(node.stage(report_path), is_csv(report_path) ? report_as_csv(*report) : report_as_json(*report));
+  write_all(node, jobs);
+}
+
+/// What can be said of the parameters before anything runs.
+std::vector<std::string> check(const Params& params) {
+  const auto text = [&](const char* name) { return std::get<std::string>(params.at(name)); };
+  std::vector<std::string> problems;
+  const auto attempt = [&](const auto& test) {
+    try {
+      test();
+    } catch (const Error& e) {
+      problems.push_back(fmt::format("\"{}\": {}", e.about(), e.what()));
+    }
+  };
+  for (const char* param : {"path", "uv_path"}) {
+    if (text(param).empty()) continue;
+    attempt([&] {
+      const FileFormat format = required_format(
+          param, filled(text(param), {{"map", "map"}, {"material", "material"}, {"width", "1"}, {"height", "1"}}));
+      if (std::string_view(param) == "path") require_depth(format, text("depth"));
+    });
+  }
+  if (!text("report_path").empty()) attempt([&] { is_csv(text("report_path")); });
+  if (text("color_space") != "keep")
+    attempt([&] {
+      try {
+        canonical_color_space(text("color_space"));
+      } catch (const Error& e) {
+        throw Error("color_space", e.what());
+      }
+    });
+  return problems;
+}
+
+std::vector<Param> params() {
+  return {
+      {.name = "path",
+       .type = ParamType::path,
+       .fallback = "",
+       .help = "Where the maps go: a pattern with {map} for the map's name, and if wanted {material}, {width} and "
+               "{height}. The extension decides the format: png, tif, exr or jpg. Needed if a material is connected."},
+      {.name = "depth",
+       .type = ParamType::choice,
+       .fallback = "keep",
+       .help = "The depth of the values. \"keep\": each map's own, or the nearest the format holds.",
+       .choices = {"keep", "uint8", "uint16", "half", "float"}},
+      {.name = "color_space",
+       .type = ParamType::text,
+       .fallback = "keep",
+       .help = "\"keep\", or a colour space that the colour maps are converted to. Data maps are never converted."},
+      {.name = "normals",
+       .type = ParamType::choice,
+       .fallback = "keep",
+       .help = "Green channel of normal maps: as it is, up as in OpenGL, or down as in DirectX.",
+       .choices = {"keep", "up", "down"}},
+      {.name = "jpeg_quality",
+       .type = ParamType::integer,
+       .fallback = int64_t{95},
+       .help = "The quality of JPEG files.",
+       .min = 1,
+       .max = 100},
+      {.name = "maps",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "Write only the maps of these names; all if empty."},
+      {.name = "uv_path",
+       .type = ParamType::path,
+       .fallback = "",
+       .help =
+           "Where the uv map goes. EXR holds float fractions u = (x + 0.5) / exemplar width and v likewise from the "
+           "top; 16-bit PNG and TIFF hold the integer coordinates, x in red and y in green. Empty: as `path`, with "
+           "\"uv\" for the map's name."},
+      {.name = "report_path",
+       .type = ParamType::path,
+       .fallback = "",
+       .help = "Where the report's figures go, as .json or .csv; its pictures are written beside it."},
+  };
+}
+
+}  // namespace
+
+NodeType export_node() {
+  NodeType t;
+  t.name = "export";
+  t.category = "sink";
+  t.summary = "Writes maps, a uv map and a report to files";
+  t.help =
+      "Writes PNG (8 and 16 bit), TIFF, EXR (half and float) and JPEG, strip by strip, so that a result never has to "
+      "fit "
+      "in memory. Every map keeps its depth, colour space and normal convention unless told otherwise; values read "
+      "from "
+      "a file of the same depth are written back exactly. Files appear complete or not at all. At least one of the "
+      "inputs must be connected.";
+  t.inputs = {
+      {.name = "material", .type = ValueType::material, .help = "the maps to write", .optional = true},
+      {.name = "uv", .type = ValueType::uv_map, .help = "a uv map to write", .optional = true},
+      {.name = "report", .type = ValueType::report, .help = "a report to write", .optional = true},
+  };
+  t.params = params();
+  t.persist = Persist::digest;
+  t.compute = compute;
+  t.files_read = [](const Params& p) {
+    return std::get<std::string>(p.at("color_space")) == "keep" ? std::vector<fs::path>() : color_config_files();
+  };
+  t.memory_hint = [](const NodeContext& node) {
+    const auto material = node.optional_input<Material>("material");
+    constexpr size_t per_file = size_t{12} << 20;  // a strip as floats, and as the file's values
+    return per_file * (1 + (material ? material->maps().size() : 0));
+  };
+  t.check = check;
+  return t;
+}
+
+}  // namespace terrazzo

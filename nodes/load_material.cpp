@@ -1,0 +1,410 @@
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include "core/color.h"
+#include "core/image_file.h"
+#include "core/material_files.h"
+#include "core/nearest_name.h"
+#include "core/node.h"
+#include "core/normal_convention.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> image_names(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code failure;
+  for (const fs::directory_entry& e : fs::directory_iterator(folder, failure)) {
+    std::error_code unreadable;
+    const std::string name = e.path().filename().string();
+    if (name[0] != '.' && e.is_regular_file(unreadable) && looks_like_image(e.path())) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// The map that a name of the `maps` parameter stands for: a semantic's name, or one with a suffix.
+std::optional<Semantic> semantic_of_map(const std::string& map) {
+  for (const std::string_view name : semantic_names)
+    if (map == name || map.starts_with(std::string(name) + "_")) return semantic_from(name);
+  return std::nullopt;
+}
+
+/// "file.png", or "file.png:g" for one channel.
+RecognisedMap given_map(const std::string& map, const std::string& text) {
+  RecognisedMap m{.map = map, .semantic = *semantic_of_map(map), .file = text, .channels = ""};
+  const size_t colon = text.rfind(':');
+  if (colon != std::string::npos && text.find_first_not_of("rgba", colon + 1) == std::string::npos) {
+    m.file = text.substr(0, colon);
+    m.channels = text.substr(colon + 1);
+  }
+  return m;
+}
+
+std::vector<std::string> check(const Params& params) {
+  std::vector<std::string> problems;
+  const std::vector<std::string> known(semantic_names.begin(), semantic_names.end());
+  for (const auto& [map, file] : std::get<TextMap>(params.at("maps")))
+    if (!semantic_of_map(map))
+      problems.push_back(
+          fmt::format("\"maps\": there is no map \"{}\"; maps are {}, or one of these with a suffix as in mask_moss{}",
+                      map, fmt::join(known, ", "), did_you_mean(map, known)));
+  return problems;
+}
+
+void require_folder(const fs::path& folder) {
+  std::error_code failure;
+  if (fs::is_directory(folder, failure)) return;
+  if (fs::exists(folder, failure))
+    throw Error("path", fmt::format("expected a folder with the material's maps, found the file {}; "
+                                    "load_map reads a single file",
+                                    folder.string()));
+  std::vector<std::string> siblings;
+  for (const fs::directory_entry& e : fs::directory_iterator(folder.parent_path(), failure))
+    if (e.is_directory(failure)) siblings.push_back(e.path().filename().string());
+  std::sort(siblings.begin(), siblings.end());
+  throw Error("path", fmt::format("there is no folder {}{}", folder.string(),
+                                  did_you_mean(folder.filename().string(), siblings)));
+}
+
+/// A folder's name without a slash at its end.
+fs::path folder_of(const Params& params) {
+  const fs::path path = fs::path(std::get<std::string>(params.at("path"))).lexically_normal();
+  return path.has_filename() ? path : path.parent_path();
+}
+
+std::string all_words() {
+  std::string words;
+  for (const std::string_view name : semantic_names) {
+    const Semantic s = *semantic_from(name);
+    if (const std::string w = known_words(s); !w.empty())
+      words += fmt::format("{}{}: {}", words.empty() ? "" : "; ", name, w);
+  }
+  return words;
+}
+
+[[noreturn]] void fail_nothing_recognised(const fs::path& folder, const Recognition& recognition) {
+  std::vector<std::string> present;
+  std::error_code failure;
+  for (const fs::directory_entry& e : fs::directory_iterator(folder, failure))
+    present.push_back(e.path().filename().string());
+  std::sort(present.begin(), present.end());
+  constexpr size_t shown = 20;
+  const size_t more = present.size() > shown ? present.size() - shown : 0;
+  present.resize(present.size() - more);
+  std::string found = present.empty() ? "the folder is empty" : fmt::format("it holds {}", fmt::join(present, ", "));
+  if (more) found += fmt::format(" and {} more", more);
+  for (const std::string& note : recognition.notes) found += "; " + note;
+  throw Error("path",
+              fmt::format("no maps recognised in {}: {}. File names say what a map is by a word at their end ({}); the "
+                          "parameter `maps` names files outright",
+                          folder.string(), found, all_words()));
+}
+
+/// Names the folder's files, the ignored ones taken out.
+std::vector<MapFile> files_to_recognise(NodeContext& node, const fs::path& folder, const std::set<std::string>& taken) {
+  std::vector<std::string> names = image_names(folder);
+  for (const std::string& pattern : node.texts("ignore")) {
+    const size_t before = names.size();
+    std::erase_if(names, [&](const std::string& n) { return matches_pattern(n, pattern); });
+    if (names.size() == before)
+      node.note(fmt::format("the pattern \"{}\" of the parameter `ignore` matches no image in the folder", pattern));
+  }
+  std::vector<MapFile> files;
+  for (const std::string& name : names) {
+    if (taken.count(name)) continue;
+    MapFile f{.name = name, .size = {}};
+    try {
+      const FileInfo info = read_image_info(folder / name);
+      f.size = info.size;
+      f.channels = info.channels;
+    } catch (const Error&) {
+      // If the file is chosen all the same, reading it says what is wrong.
+    }
+    files.push_back(std::move(f));
+  }
+  return files;
+}
+
+std::vector<RecognisedMap> find_maps(NodeContext& node, const fs::path& folder) {
+  const TextMap& given = node.text_map("maps");
+  std::vector<RecognisedMap> maps;
+  std::set<std::string> taken;
+  for (const auto& [map, text] : given) {
+    if (text.empty()) continue;
+    maps.push_back(given_map(map, text));
+    if (maps.back().channels.empty()) taken.insert(maps.back().file);
+  }
+  const Recognition recognition = recognise_maps(files_to_recognise(node, folder, taken));
+  for (const RecognisedMap& m : recognition.maps)
+    if (!given.count(m.map)) maps.push_back(m);
+  if (maps.empty()) fail_nothing_recognised(folder, recognition);
+  std::stable_sort(maps.begin(), maps.end(),
+                   [](const RecognisedMap& a, const RecognisedMap& b) { return a.semantic < b.semantic; });
+  for (const RecognisedMap& m : maps) {
+    std::string from = m.file;
+    if (!m.channels.empty()) from += fmt::format(" (channel {})", m.channels);
+    node.note(fmt::format("{}: {}", m.map, from));
+  }
+  for (const std::string& note : recognition.notes) node.note(note);
+  if (!recognition.ignored.empty())
+    node.note(fmt::format("ignored, the name says nothing: {}. Known words are {}",
+                          fmt::join(recognition.ignored, ", "), all_words()));
+  return maps;
+}
+
+/// A file that has been read, with what the reader said of it.
+struct Source {
+  ImagePtr image;
+  std::vector<std::string> warnings;
+};
+
+/// Reads each file once, several at a time.
+std::map<std::string, Source> read_sources(NodeContext& node, const fs::path& folder,
+                                           const std::vector<RecognisedMap>& maps) {
+  std::map<std::string, Source> sources;
+  std::map<std::string, Semantic> semantics;
+  for (const RecognisedMap& m : maps) {
+    sources[m.file];
+    semantics.emplace(m.file, m.semantic);
+  }
+  std::vector<std::pair<const std::string, Source>*> entries;
+  for (auto& entry : sources) entries.push_back(&entry);
+  tbb::parallel_for(size_t{0}, entries.size(), [&](size_t i) {
+    node.task().check();
+    auto& [file, source] = *entries[i];
+    ImageInfo info;
+    info.semantic = semantics.at(file);
+    source.image = read_image(folder / file, info, [&](const std::string& w) { source.warnings.push_back(w); });
+  });
+  for (const auto& [file, source] : sources)
+    for (const std::string& warning : source.warnings) node.note(warning);
+  return sources;
+}
+
+bool is_one_value(Semantic s) {
+  return !is_color(s) && s != Semantic::normal && s != Semantic::data && s != Semantic::guidance;
+}
+
+/// Whether channel c of an image never differs from `value(pixel)` by more than `tolerance`.
+template <typename Value>
+bool channel_is(const Image& image, int c, float tolerance, Value value) {
+  bool same = true;
+  for_each_strip(image, [&](const Rect& r, const float* p) {
+    for (int64_t i = 0; same && i < r.area(); i++, p += image.channels()) same = std::abs(p[c] - value(p)) <= tolerance;
+  });
+  return same;
+}
+
+ImagePtr channels_of(const ImagePtr& image, ImageInfo info, const std::vector<int>& channels, bool inverted) {
+  info.channels = int(channels.size());
+  if (!inverted && info.channels == image->channels()) return Image::redescribed(image, info);
+  std::vector<float> out;
+  out.reserve(size_t(info.size.area()) * channels.size());
+  for_each_strip(*image, [&](const Rect& r, const float* p) {
+    for (int64_t i = 0; i < r.area(); i++, p += image->channels())
+      for (const int c : channels) out.push_back(inverted ? 1.0f - p[c] : p[c]);
+  });
+  return Image::from_floats(info, std::move(out));
+}
+
+/// The channels of the file that make the map. Grey maps stored in colour are reduced to one channel; alpha is left out
+/// of everything but colours.
+std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::vector<std::string>& notes) {
+  std::vector<int> channels;
+  for (const char c : m.channels) {
+    const int index = c == 'r' ? 0 : c == 'g' ? 1 : c == 'b' ? 2 : 3;
+    if (index >= file.channels())
+      throw Error("maps", fmt::format("{} is to be channel {} of {}, which has only {} channel{}", m.map, c, m.file,
+                                      file.channels(), file.channels() == 1 ? "" : "s"));
+    channels.push_back(index);
+  }
+  if (!channels.empty()) return channels;
+  const int colors = file.channels() - (file.channels() % 2 == 0 ? 1 : 0);  // without alpha
+  if (is_one_value(m.semantic)) {
+    constexpr float compression_noise = 8.0f / 255.0f;
+    for (int c = 1; c < colors; c++)
+      if (!channel_is(file, c, compression_noise, [](const float* p) { return p[0]; })) {
+        notes.push_back(fmt::format("{} has different channels in {}; the first is taken", m.map, m.file));
+        break;
+      }
+    return {0};
+  }
+  for (int c = 0; c < colors; c++) channels.push_back(c);
+  return channels;
+}
+
+/// An opacity map out of a colour file's alpha channel; nothing if alpha is 1 everywhere.
+void add_alpha(const RecognisedMap& m, const ImagePtr& file, std::vector<Map>& maps, std::vector<std::string>& notes) {
+  const int alpha = file->channels() - 1;
+  if (file->channels() % 2 != 0 || !m.channels.empty() || m.semantic != Semantic::base_color) return;
+  if (channel_is(*file, alpha, 0, [](const float*) { return 1.0f; })) return;
+  const bool have = std::any_of(maps.begin(), maps.end(), [](const Map& k) { return k.name == "opacity"; });
+  if (have) {
+    notes.push_back(fmt::format("the alpha channel of {} is left out: there is an opacity map", m.file));
+    return;
+  }
+  ImageInfo info = file->info();
+  info.semantic = Semantic::opacity;
+  info.color_space = "raw";
+  maps.push_back({"opacity", channels_of(file, info, {alpha}, false)});
+  notes.push_back(fmt::format("opacity: {} (alpha channel)", m.file));
+}
+
+std::string_view name_of_convention(NormalY y) {
+  return y == NormalY::up ? "up (OpenGL)" : "down (DirectX)";
+}
+
+/// Finds out by looking; says what it found.
+NormalY detect_convention(const Image& normal, const ImagePtr& height, std::vector<std::string>& notes) {
+  if (height) {
+    const ConventionEvidence e = convention_from_height(normal, *height);
+    if (e.normal_y) {
+      notes.push_back(
+          fmt::format("normal: green points {}, judged by the height map (correlation with its slopes x "
+                      "{:.2f}, y {:.2f}){}",
+                      name_of_convention(*e.normal_y), e.along_x, e.along_y,
+                      e.height_inverted ? "; the height map seems to be dark where the surface is high" : ""));
+      return *e.normal_y;
+    }
+  }
+  const ConventionEvidence e = convention_from_curl(normal);
+  if (e.normal_y) {
+    notes.push_back(fmt::format("normal: green points {}, judged by the normals themselves (correlation {:.2f})",
+                                name_of_convention(*e.normal_y), e.along_y));
+    return *e.normal_y;
+  }
+  notes.push_back(
+      "normal: neither its name nor its pixels say whether green points up (OpenGL) or down (DirectX); up is assumed. "
+      "Set `normal_y` if that is wrong");
+  return NormalY::up;
+}
+
+void settle_conventions(NodeContext& node, const std::vector<RecognisedMap>& sources, std::vector<Map>& maps) {
+  ImagePtr height;
+  for (const Map& m : maps)
+    if (m.image->info().semantic == Semantic::height) height = m.image;
+  const std::string& wish = node.text("normal_y");
+  std::vector<std::string> notes;
+  for (Map& m : maps) {
+    if (m.image->info().semantic != Semantic::normal) continue;
+    ImageInfo info = m.image->info();
+    const auto source =
+        std::find_if(sources.begin(), sources.end(), [&](const RecognisedMap& s) { return s.map == m.name; });
+    if (wish != "auto")
+      info.normal_y = wish == "up" ? NormalY::up : NormalY::down;
+    else if (source->normal_y)
+      info.normal_y = *source->normal_y;
+    else
+      info.normal_y = detect_convention(*m.image, height, notes);
+    m.image = Image::redescribed(m.image, info);
+  }
+  for (std::string& n : notes) node.note(std::move(n));
+}
+
+void compute(NodeContext& node) {
+  const fs::path folder = folder_of(node.params());
+  require_folder(folder);
+  const std::string& wish = node.text("color_space");
+  const std::string given_space = wish == "auto" ? "" : canonical_color_space(wish);
+  const std::vector<RecognisedMap> found = find_maps(node, folder);
+  const std::map<std::string, Source> sources = read_sources(node, folder, found);
+  std::vector<Map> maps;
+  std::vector<std::string> notes;
+  for (const RecognisedMap& m : found) {
+    const ImagePtr& file = sources.at(m.file).image;
+    ImageInfo info = file->info();
+    info.semantic = m.semantic;
+    info.color_space = assumed_color_space(m.semantic, info.depth);
+    if (m.semantic == Semantic::base_color && !given_space.empty()) info.color_space = given_space;
+    maps.push_back({m.map, channels_of(file, info, channels_for(m, *file, notes), m.inverted)});
+  }
+  for (const RecognisedMap& m : found) add_alpha(m, sources.at(m.file).image, maps, notes);
+  for (std::string& n : notes) node.note(std::move(n));
+  settle_conventions(node, found, maps);
+  node.output("material", Material::make(folder.filename().string(), std::move(maps)));
+}
+
+std::vector<fs::path> files_read(const Params& params) {
+  const fs::path folder = folder_of(params);
+  std::vector<fs::path> files;
+  for (const std::string& name : image_names(folder)) files.push_back(folder / name);
+  for (const auto& [map, text] : std::get<TextMap>(params.at("maps")))
+    if (!text.empty() && semantic_of_map(map)) files.push_back(folder / given_map(map, text).file);
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  for (fs::path& f : color_config_files()) files.push_back(std::move(f));
+  return files;
+}
+
+}  // namespace
+
+NodeType load_material_node() {
+  NodeType t;
+  t.name = "load_material";
+  t.category = "source";
+  t.summary = "Reads a folder of maps as one material";
+  t.help =
+      "Finds the maps in a folder by the naming conventions of ambientCG, Poly Haven, Substance, Quixel Megascans, "
+      "Unreal, Unity and glTF, and by plain names; the last telling word of a name counts. Packed files (ORM, ARM, "
+      "metallicRoughness, MaskMap, MetallicSmoothness, AlbedoTransparency) are split into their channels, gloss and "
+      "smoothness maps inverted into roughness, grey maps stored in colour reduced to one channel, and a base colour's "
+      "alpha becomes the opacity map. Of several files for one map the OpenGL normal, the larger and the lossless one "
+      "is "
+      "taken. The notes say what was recognised and what was left out.";
+  t.outputs = {
+      {.name = "material", .type = ValueType::material, .help = "the maps found, named after their semantics"}};
+  t.params = {
+      {.name = "path", .type = ParamType::path, .help = "The folder of the maps."},
+      {.name = "normal_y",
+       .type = ParamType::choice,
+       .fallback = "auto",
+       .help =
+           "Green channel of the normal map: up as in OpenGL, down as in DirectX. \"auto\" takes it from the file's "
+           "name, else from the slopes of the height map, else from the normals themselves.",
+       .choices = {"auto", "up", "down"}},
+      {.name = "maps",
+       .type = ParamType::text_map,
+       .fallback = TextMap{},
+       .help =
+           "Files by map name, where the names do not say it: {\"height\": \"scan.tif\", \"roughness\": "
+           "\"packed.png:g\"}; relative to the folder, with the channels after a colon. An empty text leaves the map "
+           "out."},
+      {.name = "ignore",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "File names to leave out; * and ? stand for any characters."},
+      {.name = "color_space",
+       .type = ParamType::text,
+       .fallback = "auto",
+       .help =
+           "The colour space of the base colour. \"auto\": srgb_texture in 8 and 16 bit, lin_rec709 in float files."},
+  };
+  t.persist = Persist::digest;
+  t.compute = compute;
+  t.files_read = files_read;
+  t.memory_hint = [](const NodeContext& node) {
+    size_t bytes = 0;
+    for (const std::string& name : image_names(folder_of(node.params()))) try {
+        const FileInfo info = read_image_info(folder_of(node.params()) / name);
+        bytes += size_t(info.size.area()) * info.channels * sizeof(float);
+      } catch (const Error&) {
+        continue;  // compute reports it
+      }
+    return bytes;
+  };
+  t.check = check;
+  return t;
+}
+
+}  // namespace terrazzo
