@@ -180,7 +180,7 @@ TEST_CASE("an image that becomes a material is shown") {
       load_fake(document(photo_a + R"(, "out": {"type": "write", "material": "@a", "path": "o"})"));
   REQUIRE(loaded.conversions.size() == 1);
   CHECK(loaded.conversions[0] ==
-        "/project/graphs/test.json:1:125: node \"out\", port \"material\": the image of \"@a\" becomes a material of "
+        "/project/graphs/test.json:1:128: node \"out\", port \"material\": the image of \"@a\" becomes a material of "
         "one map");
 }
 

@@ -47,7 +47,7 @@ TEST_CASE("messages about an older document point into the file as it is") {
   const std::vector<Migration> migrations = two_migrations();
   const std::string text = "{\"terrazzo\": 2,\n\"nodes\": {\"a\": {\"type\": \"photo\", \"source\": 3}}}";
   CHECK_THROWS_WITH_AS(load_graph_text(text, "a.json", {}, {.types = fake_types(), .migrations = migrations}),
-                       "a.json:2:46: node \"a\", parameter \"file\": expected a path, found the number 3", GraphError);
+                       "a.json:2:44: node \"a\", parameter \"file\": expected a path, found the number 3", GraphError);
 }
 
 TEST_CASE("upgrading rewrites a document through every version and keeps its comments") {
