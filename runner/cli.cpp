@@ -117,6 +117,7 @@ int run_command_line(int argc, const char* const* argv) {
   add_document_commands(app, chosen);
   add_node_commands(app, chosen);
   add_cache_command(app, chosen);
+  add_compare_command(app, chosen);
   try {
     app.parse(argc, argv);
     if (!chosen) throw CLI::RequiredError("A command");

@@ -33,6 +33,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen);
 void add_document_commands(CLI::App& app, Chosen& chosen);
 void add_node_commands(CLI::App& app, Chosen& chosen);
 void add_cache_command(CLI::App& app, Chosen& chosen);
+void add_compare_command(CLI::App& app, Chosen& chosen);
 
 /// "512M", "2G", "1.5 GiB" in bytes. Throws UsageError.
 uint64_t parse_bytes(const std::string& text, const std::string& option);

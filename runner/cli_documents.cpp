@@ -1,13 +1,15 @@
-#include <fstream>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "graphs/document/draw.h"
 #include "graphs/document/load.h"
 #include "graphs/document/migrate.h"
 #include "runner/cli_commands.h"
+#include "runner/memory_graph.h"
+#include "runner/schedule.h"
+#include "runner/signals.h"
+#include "runner/starting_graph.h"
+#include "runner/text_file.h"
 
 namespace terrazzo {
 
@@ -20,19 +22,6 @@ struct DocumentFlags {
   std::string out;
   std::vector<std::string> set;
 };
-
-/// All of the text or nothing: written beside the target and renamed.
-void write_whole(const fs::path& path, const std::string& text) {
-  const fs::path temporary = path.string() + fmt::format(".{}", ::getpid());
-  std::ofstream out(temporary, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code failure;
-  if (out) fs::rename(temporary, path, failure);
-  if (out && !failure) return;
-  fs::remove(temporary, failure);
-  throw Error(fmt::format("cannot write {}", path.string()));
-}
 
 int check(const DocumentFlags& flags) {
   const LoadedGraph loaded = load_graph(flags.graph, flags.set, {.allow_unset = true});
@@ -52,7 +41,7 @@ int upgrade(const DocumentFlags& flags) {
     fmt::print(stderr, "{} is up to date\n", flags.graph);
     return exit_done;
   }
-  write_whole(target, after);
+  write_whole_file(target, after);
   fmt::print(stderr, "wrote {}\n", target);
   return exit_done;
 }
@@ -62,14 +51,57 @@ int draw(const DocumentFlags& flags) {
   if (ending != ".svg" && ending != ".dot")
     throw UsageError(fmt::format("-o takes a file that ends in .svg or .dot; \"{}\" does not", flags.out));
   const Graph graph = load_graph(flags.graph, flags.set, {.allow_unset = true}).graph;
-  write_whole(flags.out, ending == ".svg" ? draw_svg(graph) : draw_dot(graph));
+  write_whole_file(flags.out, ending == ".svg" ? draw_svg(graph) : draw_dot(graph));
   fmt::print(stderr, "wrote {}\n", flags.out);
   return exit_done;
+}
+
+struct NewFlags {
+  std::string folder;
+  std::string out;
+  bool force = false;
+};
+
+/// The folder as a graph file in `beside` should name it.
+fs::path seen_from(const fs::path& beside, const fs::path& folder) {
+  const fs::path relative =
+      fs::absolute(folder).lexically_normal().lexically_relative(fs::absolute(beside).lexically_normal());
+  return relative.empty() ? fs::absolute(folder) : relative;
+}
+
+int make_new(const NewFlags& flags) {
+  if (!flags.force && fs::exists(flags.out))
+    throw UsageError(fmt::format("{} exists; --force overwrites it", flags.out));
+  const CancelOnSignal signals;
+  Graph graph;
+  graph.nodes = {memory_node("exemplar", "load_material", {{"path", fs::absolute(flags.folder).string()}})};
+  RunOptions options;
+  options.targets.keep = {"exemplar"};
+  options.cancelled = &signals.flag();
+  const RunResult result = run_graph(graph, options);
+  for (const Failure& f : result.failures) fmt::print(stderr, "error: {}\n", f.message);
+  if (!result.ok()) return result.cancelled ? exit_cancelled : exit_failed;
+  const MaterialPtr exemplar = std::get<MaterialPtr>(result.kept.at("exemplar").at("material"));
+  const fs::path place = fs::absolute(flags.out).parent_path();
+  write_whole_file(flags.out, starting_graph(*exemplar, seen_from(place, flags.folder), result.stages[0].notes));
+  fmt::print(stderr, "found {}\nwrote {}\n", exemplar->map_names(), flags.out);
+  return exit_done;
+}
+
+void add_new_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("new", "Writes a graph to start from, for the maps found in a folder");
+  const auto flags = std::make_shared<NewFlags>();
+  command->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
+  command->add_option("-o,--out", flags->out, "The graph file to write")->required()->type_name("FILE.json");
+  command->add_flag("--force", flags->force, "Overwrite the graph file if it exists");
+  command->footer("Example:\n  terrazzo new bricks/ -o bricks.json && terrazzo run bricks.json");
+  command->callback([&chosen, flags] { chosen = [flags] { return make_new(*flags); }; });
 }
 
 }  // namespace
 
 void add_document_commands(CLI::App& app, Chosen& chosen) {
+  add_new_command(app, chosen);
   const auto add = [&](const char* name, const char* help, int (*act)(const DocumentFlags&)) {
     CLI::App* command = app.add_subcommand(name, help);
     const auto flags = std::make_shared<DocumentFlags>();

@@ -179,14 +179,15 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
 void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
   struct Flags : RunFlags {
-    std::string folder, out, size;
-    std::string seed;
+    std::string folder, out, size, seed;
+    bool tileable = false;
   };
   const auto flags = std::make_shared<Flags>();
   synth->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
   synth->add_option("-o,--out", flags->out, "The folder to write to")->required()->type_name("DIR");
   synth->add_option("--size", flags->size, "The size of the result")->type_name("WxH");
   synth->add_option("--seed", flags->seed, "Another number gives another variation")->type_name("N");
+  synth->add_flag("--tileable", flags->tileable, "The result wraps around in both directions");
   add_run_flags(*synth, *flags);
   synth->footer("Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7");
   synth->callback([&chosen, flags] {

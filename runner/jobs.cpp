@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include "graphs/document/problem.h"
+
 namespace terrazzo {
 
 namespace {
@@ -135,17 +137,10 @@ void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
 }  // namespace
 
 std::string located(const Graph& graph, const GraphNode& node, const std::string& about, const std::string& message) {
-  std::string out = graph.file.string();
-  const auto add_number = [&](int n) {
-    if (n > 0) out += fmt::format("{}{}", out.empty() ? "" : ":", n);
-  };
-  add_number(node.place.line);
-  add_number(node.place.column);
-  if (!out.empty()) out += ": ";
-  out += fmt::format("node \"{}\" ({})", node.name, node.type->name);
-  if (node.type->find_input(about)) out += fmt::format(", input \"{}\"", about);
-  if (node.type->find_param(about)) out += fmt::format(", parameter \"{}\"", about);
-  return out + ": " + message;
+  std::string where = fmt::format("node \"{}\" ({})", node.name, node.type->name);
+  if (node.type->find_input(about)) where += fmt::format(", input \"{}\"", about);
+  if (node.type->find_param(about)) where += fmt::format(", parameter \"{}\"", about);
+  return describe(graph.file.string(), {node.place, where, message});
 }
 
 void perform(Job& job, const Plan& plan, const RunOptions& options) {

@@ -1,9 +1,9 @@
 #include "runner/key.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "graphs/document/convert.h"
+#include "graphs/document/format.h"
 
 namespace terrazzo {
 
@@ -31,29 +31,11 @@ Digest digest_of_param(const std::string& name, const ParamValue& value) {
   return h.digest();
 }
 
-struct ShowParam {
-  std::string operator()(bool v) const { return v ? "true" : "false"; }
-  std::string operator()(int64_t v) const { return fmt::format("{}", v); }
-  std::string operator()(double v) const { return fmt::format("{}", v); }
-  std::string operator()(const std::string& v) const { return fmt::format("\"{}\"", v); }
-  std::string operator()(Size v) const { return fmt::format("{}x{}", v.width, v.height); }
-  std::string operator()(const Numbers& v) const { return fmt::format("[{}]", fmt::join(v, ", ")); }
-  std::string operator()(const Texts& v) const { return fmt::format("[{}]", fmt::join(v, ", ")); }
-  template <typename Map>
-  std::string operator()(const Map& v) const {
-    std::string out;
-    for (const auto& [name, value] : v) out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", name, (*this)(value));
-    return "{" + out + "}";
-  }
-};
-
 }  // namespace
 
 std::string shown_value(const ParamValue& value) {
   constexpr size_t longest = 48;
-  std::string text = std::visit(ShowParam{}, value);
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  const std::string text = compact(json_of(value));
   return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
 }
 

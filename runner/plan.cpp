@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/suggest.h"
 #include "runner/history.h"
 
 namespace terrazzo {
@@ -29,7 +30,7 @@ int find_stage(const Graph& graph, const Places& places, const std::string& name
   if (at != places.end()) return at->second;
   std::vector<std::string> names;
   for (const GraphNode& n : graph.nodes) names.push_back(n.name);
-  throw Error(fmt::format("there is no node \"{}\"; the graph's nodes are {}", name, fmt::join(names, ", ")));
+  throw Error(fmt::format("there is no node \"{}\"{}", name, suggestion(name, names)));
 }
 
 std::vector<Stage> make_stages(const Graph& graph, const Places& places) {

@@ -1,0 +1,71 @@
+#include "runner/starting_graph.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "graphs/document/format.h"
+#include "graphs/document/json.h"
+#include "runner/stock_graphs.h"
+
+namespace terrazzo {
+
+namespace {
+
+JsonValue& member(JsonValue& object, std::string_view name) {
+  if (JsonValue* found = object.find(name)) return *found;
+  throw std::logic_error(fmt::format("the stock graph has no \"{}\"", name));
+}
+
+void put(JsonValue& object, const std::string& name, JsonValue value) {
+  if (JsonValue* there = object.find(name))
+    *there = std::move(value);
+  else
+    object.members.push_back({name, {}, std::move(value)});
+}
+
+JsonValue weights_of(const Material& exemplar) {
+  JsonValue weights;
+  weights.kind = JsonValue::Kind::object;
+  for (const Map& m : exemplar.maps()) weights.members.push_back({m.name, {}, JsonValue::of(int64_t{1})});
+  return weights;
+}
+
+/// In documents "$" and a leading "@" mean something.
+std::string escaped(const std::string& text) {
+  std::string out = text.starts_with("@") ? "@" : "";
+  for (const char c : text) out += c == '$' ? "$$" : std::string(1, c);
+  return out;
+}
+
+}  // namespace
+
+std::string starting_graph(const Material& exemplar, const std::filesystem::path& folder,
+                           const std::vector<std::string>& notes) {
+  ParsedJson parsed = parse_json(stock_graph("material"));
+  if (!parsed.value) throw std::logic_error("the stock graph is no JSON");
+  JsonValue& graph = *parsed.value;
+  put(member(member(graph, "parameters"), "material"), "default", JsonValue::of(escaped(folder.generic_string())));
+
+  JsonValue& nodes = member(graph, "nodes");
+  JsonValue& exemplar_node = member(nodes, "exemplar");
+  exemplar_node.comments_before.push_back("What was found in " + folder.generic_string() + ":");
+  for (const Map& m : exemplar.maps())
+    exemplar_node.comments_before.push_back(fmt::format("  {}: {}x{}, {} channel{}", m.name, m.image->width(),
+                                                        m.image->height(), m.image->channels(),
+                                                        m.image->channels() == 1 ? "" : "s"));
+  for (const std::string& note : notes) exemplar_node.comments_before.push_back("  " + note);
+
+  JsonValue& weighted = member(nodes, "weighted");
+  weighted.comments_before.push_back("How much each map counts when neighbourhoods are compared; 0 leaves a map out.");
+  put(weighted, "weights", weights_of(exemplar));
+  member(nodes, "guides")
+      .comments_before.push_back(
+          "Edges keep features such as joints and cracks whole. `terrazzo nodes guidance` says more.");
+  member(nodes, "layout")
+      .comments_before.push_back("Another seed gives another variation; nothing before this node runs again for it.");
+  return formatted(graph);
+}
+
+}  // namespace terrazzo

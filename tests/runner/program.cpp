@@ -1,0 +1,78 @@
+#include "tests/runner/program.h"
+
+#include <chrono>
+#include <thread>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/runner/fakes.h"
+
+namespace terrazzo::test {
+
+namespace {
+
+void redirect(int descriptor, const std::filesystem::path& file) {
+  const int to = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  ::dup2(to, descriptor);
+  ::close(to);
+}
+
+}  // namespace
+
+StartedProgram::StartedProgram(const std::filesystem::path& folder, const std::vector<std::string>& args)
+    : folder_(folder) {
+  // Everything is made ready before the fork: the child of a program with threads may only make system calls.
+  const std::string out = (folder / "stdout").string(), err = (folder / "stderr").string();
+  std::vector<std::string> words = {TERRAZZO_PROGRAM};
+  words.insert(words.end(), args.begin(), args.end());
+  std::vector<char*> argv;
+  for (std::string& w : words) argv.push_back(w.data());
+  argv.push_back(nullptr);
+  std::vector<std::string> settings = {"TERRAZZO_CACHE=" + (folder / "cache").string()};
+  for (char** e = environ; *e; e++)
+    if (!std::string_view(*e).starts_with("TERRAZZO_CACHE=")) settings.push_back(*e);
+  std::vector<char*> environment;
+  for (std::string& s : settings) environment.push_back(s.data());
+  environment.push_back(nullptr);
+  pid_ = ::fork();
+  if (pid_ != 0) return;
+  redirect(STDOUT_FILENO, out);
+  redirect(STDERR_FILENO, err);
+  if (::chdir(folder.c_str()) == 0) ::execve(TERRAZZO_PROGRAM, argv.data(), environment.data());
+  ::_exit(126);
+}
+
+StartedProgram::~StartedProgram() {
+  if (pid_ <= 0) return;
+  ::kill(pid_, SIGKILL);
+  ::waitpid(pid_, nullptr, 0);
+}
+
+void StartedProgram::signal(int number) const {
+  ::kill(pid_, number);
+}
+
+bool StartedProgram::says(const std::string& text) const {
+  for (int i = 0; i < 6000; i++) {
+    if (read_text(folder_ / "stderr").find(text) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+ProgramRun StartedProgram::wait() {
+  int status = 0;
+  ::waitpid(pid_, &status, 0);
+  pid_ = -1;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text(folder_ / "stdout"),
+          read_text(folder_ / "stderr")};
+}
+
+ProgramRun run_program(const std::filesystem::path& folder, const std::vector<std::string>& args) {
+  return StartedProgram(folder, args).wait();
+}
+
+}  // namespace terrazzo::test
