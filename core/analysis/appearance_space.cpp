@@ -41,7 +41,7 @@ float window_weight(int dx, int dy) {
 }
 
 /// The weighted neighbourhood of a pixel: for each of 25 places, all channels.
-void neighbourhood(const Planes& planes, int x, int y, float* out) {
+void neighbourhood(const ExemplarPlanes& planes, int x, int y, float* out) {
   for (int j = -radius; j <= radius; j++)
     for (int i = -radius; i <= radius; i++) {
       const float w = window_weight(i, j);
@@ -50,7 +50,7 @@ void neighbourhood(const Planes& planes, int x, int y, float* out) {
     }
 }
 
-std::vector<float> samples_of(const Planes& planes, int n) {
+std::vector<float> samples_of(const ExemplarPlanes& planes, int n) {
   const auto area = size_t(planes.size.area());
   const size_t count = std::min(area, most_samples);
   std::vector<float> samples(count * n);
@@ -72,7 +72,7 @@ double integer_scale(const std::vector<float>& projected, double deviation) {
   return deviation > 0 ? std::max(fitting, appearance_limit / (5.0 * deviation)) : fitting;
 }
 
-AppearanceLevel make_level(const Planes& planes, const AppearanceOptions& options, const Task& task) {
+AppearanceLevel make_level(const ExemplarPlanes& planes, const AppearanceOptions& options, const Task& task) {
   const int n = window * planes.channels;
   PrincipalComponents pca = principal_components(samples_of(planes, n), n, appearance_dimensions);
   task.check();
@@ -120,9 +120,9 @@ AppearanceLevel make_level(const Planes& planes, const AppearanceOptions& option
 }
 
 /// The features' channels with the guidance's behind them, scaled.
-Planes joined(const Planes& features, const Planes& guidance, double weight) {
+ExemplarPlanes joined(const ExemplarPlanes& features, const ExemplarPlanes& guidance, double weight) {
   if (guidance.channels == 0 || weight <= 0) return features;
-  Planes out{features.size, features.channels + guidance.channels, features.wraps, {}};
+  ExemplarPlanes out{features.size, features.channels + guidance.channels, features.wraps, {}};
   out.values.reserve(size_t(out.size.area()) * out.channels);
   for (int64_t i = 0; i < out.size.area(); i++) {
     for (int c = 0; c < features.channels; c++) out.values.push_back(features.values[i * features.channels + c]);
@@ -149,8 +149,8 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
     throw Error(fmt::format("the exemplar has {}x{} pixels; it needs at least {} and at most 65536 a side", size.width,
                             size.height, smallest_side));
   const int count = level_count(size);
-  Planes planes = weighted_planes(features, task);
-  Planes guides = guidance_planes(guidance, size, features.wraps(), task);
+  ExemplarPlanes planes = weighted_planes(features, task);
+  ExemplarPlanes guides = guidance_planes(guidance, size, features.wraps(), task);
   std::vector<AppearanceLevel> levels;
   for (int l = 0; l < count; l++) {
     const double fade = count > 1 ? double(l) / (count - 1) : 1.0;

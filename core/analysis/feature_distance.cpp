@@ -32,12 +32,12 @@ std::vector<float> binomial_kernel(double deviation) {
   return {k.begin(), k.end()};
 }
 
-Planes smoothed(const Planes& in, double deviation) {
+ExemplarPlanes smoothed(const ExemplarPlanes& in, double deviation) {
   const std::vector<float> kernel = binomial_kernel(deviation);
   const int reach = int(kernel.size()) / 2, n = in.channels;
   if (reach == 0) return in;
-  Planes across = in, out = in;
-  const auto pass = [&](const Planes& from, Planes& to, bool horizontal) {
+  ExemplarPlanes across = in, out = in;
+  const auto pass = [&](const ExemplarPlanes& from, ExemplarPlanes& to, bool horizontal) {
     tbb::parallel_for(0, in.size.height, [&](int y) {
       for (int x = 0; x < in.size.width; x++) {
         float* o = to.at(x, y);
@@ -55,7 +55,7 @@ Planes smoothed(const Planes& in, double deviation) {
 }
 
 /// Gradient magnitude (Scharr's operator) over all channels.
-std::vector<float> gradient_magnitude(const Planes& p) {
+std::vector<float> gradient_magnitude(const ExemplarPlanes& p) {
   std::vector<float> out(size_t(p.size.area()));
   tbb::parallel_for(0, p.size.height, [&](int y) {
     const int up = p.row(y - 1), down = p.row(y + 1);
@@ -117,7 +117,7 @@ Edges find_edges(const Material& material, const EdgeOptions& options, const Tas
       weights[map.name] = {1};
   }
   const FeaturesPtr features = weighted_features(material, weights, options.wraps);
-  const Planes planes = smoothed(weighted_planes(*features, task), options.smoothing);
+  const ExemplarPlanes planes = smoothed(weighted_planes(*features, task), options.smoothing);
   Edges edges;
   edges.strength = gradient_magnitude(planes);
   // Relative to nearly the strongest: a single speck must not set the scale.

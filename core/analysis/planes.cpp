@@ -42,7 +42,7 @@ Moments moments(const Image& image, const std::vector<double>& weights) {
 }
 
 /// Writes an image's weighted channels into the planes from channel `first` on.
-void add_image(const Image& image, const std::vector<double>& weights, Planes& planes, int first) {
+void add_image(const Image& image, const std::vector<double>& weights, ExemplarPlanes& planes, int first) {
   const Moments m = moments(image, weights);
   const double unit = 1.0 / std::max(m.deviation, least_deviation);
   const int channels = image.channels();
@@ -56,14 +56,14 @@ void add_image(const Image& image, const std::vector<double>& weights, Planes& p
   });
 }
 
-Planes empty(Size size, int channels, bool wraps) {
+ExemplarPlanes empty(Size size, int channels, bool wraps) {
   return {size, channels, wraps, std::vector<float>(size_t(size.area()) * channels)};
 }
 
 }  // namespace
 
-Planes weighted_planes(const Features& features, const Task& task) {
-  Planes planes = empty(features.size(), features.channel_count(), features.wraps());
+ExemplarPlanes weighted_planes(const Features& features, const Task& task) {
+  ExemplarPlanes planes = empty(features.size(), features.channel_count(), features.wraps());
   int first = 0;
   for (const FeatureImage& f : features.images()) {
     task.check();
@@ -73,7 +73,7 @@ Planes weighted_planes(const Features& features, const Task& task) {
   return planes;
 }
 
-Planes guidance_planes(const std::vector<ImagePtr>& guidance, Size size, bool wraps, const Task& task) {
+ExemplarPlanes guidance_planes(const std::vector<ImagePtr>& guidance, Size size, bool wraps, const Task& task) {
   int channels = 0;
   for (const ImagePtr& g : guidance) {
     if (g->size() != size)
@@ -81,7 +81,7 @@ Planes guidance_planes(const std::vector<ImagePtr>& guidance, Size size, bool wr
                                           size.width, size.height, g->width(), g->height()));
     channels += g->channels();
   }
-  Planes planes = empty(size, channels, wraps);
+  ExemplarPlanes planes = empty(size, channels, wraps);
   int first = 0;
   for (const ImagePtr& g : guidance) {
     task.check();
@@ -91,9 +91,9 @@ Planes guidance_planes(const std::vector<ImagePtr>& guidance, Size size, bool wr
   return planes;
 }
 
-Planes halved(const Planes& in) {
+ExemplarPlanes halved(const ExemplarPlanes& in) {
   const Size size{(in.size.width + 1) / 2, (in.size.height + 1) / 2};
-  Planes out = empty(size, in.channels, in.wraps);
+  ExemplarPlanes out = empty(size, in.channels, in.wraps);
   constexpr float kernel[4] = {0.125f, 0.375f, 0.375f, 0.125f};
   const int n = in.channels;
   tbb::parallel_for(0, size.height, [&](int y) {

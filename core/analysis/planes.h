@@ -8,7 +8,7 @@
 namespace terrazzo {
 
 /// The weighted channels of one exemplar level, interleaved: value(x, y, c) = values[(y * width + x) * channels + c].
-struct Planes {
+struct ExemplarPlanes {
   Size size;
   int channels = 0;
   bool wraps = false;  ///< the exemplar tiles: what lies outside is the other side; else the border continues
@@ -22,13 +22,13 @@ struct Planes {
 
 /// Pulls the features' weighted channels. Every image is first brought to unit total variance, so that a weight of 1
 /// means the same for each; nearly constant images are not blown up beyond what their 8-bit noise is worth.
-Planes weighted_planes(const Features& features, const Task& task);
+ExemplarPlanes weighted_planes(const Features& features, const Task& task);
 
 /// The same for guidance images (signed feature distances, control maps), which come with one weight.
-Planes guidance_planes(const std::vector<ImagePtr>& guidance, Size size, bool wraps, const Task& task);
+ExemplarPlanes guidance_planes(const std::vector<ImagePtr>& guidance, Size size, bool wraps, const Task& task);
 
 /// Half the size (rounded up), filtered with the binomial kernel 1 3 3 1 in each direction. Normals are averaged as
 /// vectors: their length then tells how much they agree.
-Planes halved(const Planes& planes);
+ExemplarPlanes halved(const ExemplarPlanes& planes);
 
 }  // namespace terrazzo

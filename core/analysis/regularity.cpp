@@ -1,0 +1,239 @@
+#include "core/analysis/regularity.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/analysis/planes.h"
+#include "core/metrics/autocorrelation.h"
+#include "core/metrics/planes.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int most_side = 256;  // periods are found to a fraction of a pixel; more resolution brings nothing
+constexpr double shortest = 4;  // pixels; anything finer is grain
+constexpr int most_peaks = 60;
+
+/// Correlation over lags, all channels together; symmetric about the origin.
+class Correlation {
+ public:
+  Correlation(std::vector<double> values, Size lags) : values_(std::move(values)), lags_(lags) {}
+
+  Size lags() const { return lags_; }
+  bool covers(double dx, double dy) const {
+    return std::abs(dx) <= lags_.width - 3 && std::abs(dy) <= lags_.height - 3;
+  }
+  double at(int dx, int dy) const {
+    if (dx < 0) {
+      dx = -dx;
+      dy = -dy;
+    }
+    return values_[size_t(dy + lags_.height - 1) * lags_.width + dx];
+  }
+  double at(Vector2 d) const { return at(int(std::floor(d.x + 0.5)), int(std::floor(d.y + 0.5))); }
+
+  /// The highest lag within one pixel, to a fraction of a pixel.
+  std::pair<Vector2, double> peak_near(Vector2 d) const {
+    const int cx = int(std::floor(d.x + 0.5)), cy = int(std::floor(d.y + 0.5));
+    int bx = cx, by = cy;
+    for (int y = cy - 1; y <= cy + 1; y++)
+      for (int x = cx - 1; x <= cx + 1; x++)
+        if (at(x, y) > at(bx, by)) {
+          bx = x;
+          by = y;
+        }
+    const auto vertex = [](double left, double middle, double right) {
+      const double bend = left - 2 * middle + right;
+      return bend < 0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0.0;
+    };
+    return {{bx + vertex(at(bx - 1, by), at(bx, by), at(bx + 1, by)),
+             by + vertex(at(bx, by - 1), at(bx, by), at(bx, by + 1))},
+            at(bx, by)};
+  }
+
+ private:
+  std::vector<double> values_;
+  Size lags_;
+};
+
+/// Details only: what varies over more than a tenth of the exemplar would drown the repeats.
+Planes without_gradients(const ExemplarPlanes& in) {
+  Planes out = Planes::zeros(in.size, in.channels);
+  out.values = in.values;
+  const Planes coarse = blurred(out, std::max(2.0, std::min(in.size.width, in.size.height) / 10.0));
+  for (size_t i = 0; i < out.values.size(); i++) out.values[i] -= coarse.values[i];
+  return out;
+}
+
+Correlation correlate(const ExemplarPlanes& planes, const Task& task) {
+  const Planes details = without_gradients(planes);
+  const Size lags{planes.size.width * 6 / 10, planes.size.height * 6 / 10};
+  std::vector<double> variance(planes.channels, 0.0);
+  for (size_t i = 0; i < details.values.size(); i++)
+    variance[i % planes.channels] += double(details.values[i]) * details.values[i];
+  double total = 1e-12;
+  for (const double v : variance) total += v;
+  std::vector<double> sum;
+  const std::vector<Correlogram> all = correlograms(details, lags, task);
+  for (int c = 0; c < planes.channels; c++) {
+    sum.resize(all[c].values.size(), 0.0);
+    for (size_t i = 0; i < sum.size(); i++) sum[i] += all[c].values[i] * variance[c] / total;
+  }
+  return {std::move(sum), lags};
+}
+
+struct Peak {
+  Vector2 at;
+  double value;
+};
+
+std::vector<Peak> strongest_peaks(const Correlation& r) {
+  std::vector<Peak> peaks;
+  for (int y = 0; y < r.lags().height - 3; y++)
+    for (int x = y == 0 ? 1 : 4 - r.lags().width; x < r.lags().width - 3; x++) {
+      if (x * x + y * y < shortest * shortest) continue;
+      const double v = r.at(x, y);
+      bool highest = v > 0.02;
+      for (int j = -2; j <= 2 && highest; j++)
+        for (int i = -2; i <= 2 && highest; i++) highest = r.at(x + i, y + j) <= v;
+      if (highest) peaks.push_back({r.peak_near({double(x), double(y)}).first, v});
+    }
+  // Nearer peaks first among equals: small cells are tried before their multiples.
+  std::stable_sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.value > b.value; });
+  if (peaks.size() > most_peaks) peaks.resize(most_peaks);
+  return peaks;
+}
+
+/// Mean correlation on the lattice's points shifted by (si, sj) cells, within the lags; none if there are too few
+/// points.
+std::optional<double> mean_on(const Correlation& r, Vector2 a, Vector2 b, double si, double sj) {
+  double sum = 0;
+  int count = 0;
+  for (int i = -24; i <= 24; i++)
+    for (int j = 0; j <= 24; j++) {
+      const Vector2 d{(i + si) * a.x + (j + sj) * b.x, (i + si) * a.y + (j + sj) * b.y};
+      if ((i + si == 0 && j + sj == 0) || !r.covers(d.x, d.y)) continue;
+      sum += r.at(d);
+      count++;
+    }
+  if (count < 6) return std::nullopt;
+  return sum / count;
+}
+
+double lattice_score(const Correlation& r, Vector2 a, Vector2 b) {
+  const std::optional<double> on = mean_on(r, a, b, 0, 0);
+  if (!on) return -1;
+  double off = 0;
+  for (const auto& [si, sj] : {std::pair{0.5, 0.0}, {0.0, 0.5}, {0.5, 0.5}})
+    off = std::max(off, mean_on(r, a, b, si, sj).value_or(0));
+  return *on - off;
+}
+
+/// Fits both vectors to all peaks near the lattice's points, out to the farthest.
+void refine(const Correlation& r, Vector2& a, Vector2& b) {
+  for (int reach = 2; reach <= 24; reach *= 2) {
+    double ii = 0, ij = 0, jj = 0;
+    Vector2 pi, pj;
+    for (int i = -reach; i <= reach; i++)
+      for (int j = -reach; j <= reach; j++) {
+        const Vector2 d{i * a.x + j * b.x, i * a.y + j * b.y};
+        if ((i == 0 && j == 0) || !r.covers(d.x, d.y)) continue;
+        const auto [p, value] = r.peak_near(d);
+        const double w = std::max(0.0, value);
+        ii += w * i * i;
+        ij += w * i * j;
+        jj += w * j * j;
+        pi = {pi.x + w * i * p.x, pi.y + w * i * p.y};
+        pj = {pj.x + w * j * p.x, pj.y + w * j * p.y};
+      }
+    const double determinant = ii * jj - ij * ij;
+    if (determinant <= 1e-9 * ii * jj) return;
+    a = {(pi.x * jj - pj.x * ij) / determinant, (pi.y * jj - pj.y * ij) / determinant};
+    b = {(pj.x * ii - pi.x * ij) / determinant, (pj.y * ii - pi.y * ij) / determinant};
+  }
+}
+
+Lattice two_directions(const Correlation& r) {
+  const std::vector<Peak> peaks = strongest_peaks(r);
+  struct Candidate {
+    Vector2 a, b;
+    double area, score;
+  };
+  std::vector<Candidate> candidates;
+  double highest = 0;
+  for (size_t p = 0; p < peaks.size(); p++)
+    for (size_t q = p + 1; q < peaks.size(); q++) {
+      const Vector2 a = peaks[p].at, b = peaks[q].at;
+      const double area = std::abs(a.x * b.y - a.y * b.x);
+      const double lengths = std::sqrt((a.x * a.x + a.y * a.y) * (b.x * b.x + b.y * b.y));
+      if (area < 0.4 * lengths) continue;
+      candidates.push_back({a, b, area, lattice_score(r, a, b)});
+      highest = std::max(highest, candidates.back().score);
+    }
+  // Multiples of a cell score about as well as the cell itself: take the smallest of those that do well.
+  Lattice best;
+  double least_area = std::numeric_limits<double>::max();
+  for (const Candidate& c : candidates)
+    if (c.score >= 0.75 * highest && c.score > 0 && c.area < 0.98 * least_area) {
+      best = {2, c.a, c.b, c.score};
+      least_area = c.area;
+    }
+  if (best.rank == 2) refine(r, best.first, best.second);
+  return best;
+}
+
+/// Bands across one axis: correlation averaged along them.
+Lattice one_direction(const Correlation& r, bool courses) {
+  const int across = (courses ? r.lags().height : r.lags().width) - 3;
+  const int along = (courses ? r.lags().width : r.lags().height) / 2;
+  std::vector<double> profile(across);
+  for (int d = 0; d < across; d++) {
+    for (int t = -along; t <= along; t++) profile[d] += courses ? r.at(t, d) : r.at(d, t);
+    profile[d] /= 2 * along + 1;
+  }
+  const auto sample = [&](double d) {
+    const int i = int(d);
+    return profile[i] + (d - i) * (profile[std::min(across - 1, i + 1)] - profile[i]);
+  };
+  Lattice best;
+  for (double period = shortest; period <= across / 2.5; period += 0.1) {
+    double on = 0, off = 0;
+    int count = 0;
+    for (double d = period; d < across - 1; d += period, count++) {
+      on += sample(d);
+      off += sample(d - period / 2);
+    }
+    // How much of all variance lies in the bands bounds how sure one may be.
+    const double score = (on - off) / count;
+    if (count >= 2 && score > best.certainty + 0.005)
+      best = {1, courses ? Vector2{0, period} : Vector2{period, 0}, {}, score};
+  }
+  return best;
+}
+
+}  // namespace
+
+Lattice find_lattice(const Features& features, double least_certainty, const Task& task) {
+  ExemplarPlanes planes = weighted_planes(features, task);
+  double scale = 1;
+  while (std::max(planes.size.width, planes.size.height) > most_side) {
+    planes = halved(planes);
+    scale *= 2;
+  }
+  const Correlation r = correlate(planes, task);
+  Lattice best = two_directions(r);
+  for (const bool courses : {true, false}) {
+    const Lattice bands = one_direction(r, courses);
+    if (getenv("DBG")) fprintf(stderr,"   2d %.3f bands %d %.2f %.2f c %.3f\n",best.certainty,courses,bands.first.x,bands.first.y,bands.certainty);
+    if (best.certainty < least_certainty && bands.certainty > best.certainty) best = bands;
+  }
+  if (best.certainty < least_certainty) return {0, {}, {}, std::max(0.0, best.certainty)};
+  for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
+  return best;
+}
+
+}  // namespace terrazzo
