@@ -157,6 +157,9 @@ void Coordinator::computed(Job& job) {
   if (options_.cache) enqueue_store(job);
   if (s.known->names.empty()) s.known->names = job.record->outputs;
   live_[stage].values = std::move(job.values);
+  std::erase_if(live_[stage].values, [&](const auto& value) {
+    return std::find(s.used_outputs.begin(), s.used_outputs.end(), value.first) == s.used_outputs.end();
+  });
   named(stage);
   values_there(stage);
   close(stage);
