@@ -154,26 +154,47 @@ std::vector<float> Image::read(const Rect& region) const {
   return out;
 }
 
+namespace {
+
+/// Consecutive positions along one axis of a padded region that are read from consecutive positions of the image, or
+/// all from one.
+struct Run {
+  int at = 0;      ///< in the region
+  int source = 0;  ///< in the image
+  int count = 0;
+  bool repeats = false;  ///< all show the position `source`
+};
+
+std::vector<Run> runs_of(int first, int count, int length, Outside outside) {
+  std::vector<Run> runs;
+  for (int i = 0; i < count;) {
+    const int v = first + i;
+    Run run{i, outside == Outside::wrap ? wrap(v, length) : std::clamp(v, 0, length - 1), 0, false};
+    run.repeats = outside == Outside::clamp && (v < 0 || v >= length);
+    run.count = std::min(count - i, !run.repeats ? length - run.source : v < 0 ? -v : count - i);
+    runs.push_back(run);
+    i += run.count;
+  }
+  return runs;
+}
+
+}  // namespace
+
 std::vector<float> read_padded(const Image& image, const Rect& region, Outside outside) {
   const int c = image.channels();
   if (intersect(region, whole(image.size())) == region) return image.read(region);
-  // Where a wrapped region crosses the border, the rows and columns it shows may be anywhere: read what spans them.
-  std::vector<int> xs(region.width), ys(region.height);
-  const auto place = [outside](int v, int n) {
-    return outside == Outside::wrap ? wrap(v, n) : std::clamp(v, 0, n - 1);
-  };
-  for (int i = 0; i < region.width; i++) xs[i] = place(region.x + i, image.width());
-  for (int i = 0; i < region.height; i++) ys[i] = place(region.y + i, image.height());
-  const auto [x0, x1] = std::minmax_element(xs.begin(), xs.end());
-  const int left = *x0, span = *x1 - *x0 + 1;
-  std::vector<float> out(size_t(region.area()) * c), row(size_t(span) * c);
-  int have = -1;
-  for (int y = 0; y < region.height; y++) {
-    if (ys[y] != have) image.read({left, ys[y], span, 1}, row.data());
-    have = ys[y];
-    for (int x = 0; x < region.width; x++)
-      std::copy_n(&row[size_t(xs[x] - left) * c], c, &out[(size_t(y) * region.width + x) * c]);
-  }
+  std::vector<float> out(size_t(region.area()) * c);
+  const std::vector<Run> columns = runs_of(region.x, region.width, image.width(), outside);
+  for (const Run& rows : runs_of(region.y, region.height, image.height(), outside))
+    for (const Run& run : columns) {
+      // One read for the whole block: the image may be computed, and its own surroundings read with every block.
+      const Rect block{run.source, rows.source, run.repeats ? 1 : run.count, rows.repeats ? 1 : rows.count};
+      const std::vector<float> pixels = image.read(block);
+      for (int y = 0; y < rows.count; y++)
+        for (int x = 0; x < run.count; x++)
+          std::copy_n(&pixels[(size_t(rows.repeats ? 0 : y) * block.width + (run.repeats ? 0 : x)) * c], c,
+                      &out[(size_t(rows.at + y) * region.width + run.at + x) * c]);
+    }
   return out;
 }
 

@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/file_facts.h"
 #include "core/image_file.h"
-#include "core/jpeg_file.h"
 #include "core/nearest_name.h"
 
 namespace terrazzo {
@@ -105,22 +105,29 @@ OpenFile open(const fs::path& path) {
   if (spec.depth > 1) fail(path, fmt::format("it is a volume of {} slices; expected a flat picture", spec.depth));
   if (spec.deep) fail(path, "it is a deep image (several samples per pixel); expected a flat one");
   refuse_ink(path, file);
+  // The library reads some of these as zeros.
+  if (spec.format == OIIO::TypeDesc::DOUBLE && std::string_view(file.in->format_name()) == "tiff")
+    fail(path, "its values are 64-bit floats; expected at most 32 bits: save it as 32-bit float");
   if (spec.nchannels < 1 || spec.nchannels > 4)
     fail(path, fmt::format("it has {} channels ({}); expected 1 to 4: write the wanted ones to a file of their own",
                            spec.nchannels, fmt::join(spec.channelnames, ", ")));
   return file;
 }
 
+/// The image library makes up what is missing of these formats.
+void require_complete(const fs::path& path, const OpenFile& file) {
+  const std::string_view format = file.in->format_name();
+  if ((format == "jpeg" && !read_jpeg_facts(path).complete) || (format == "tiff" && !tiff_is_complete(path)))
+    fail(path, "it is cut off: the end of the image is missing");
+}
+
 /// The stored pixels in the type asked for.
 template <typename T>
 std::vector<T> read_stored(const fs::path& path, const OpenFile& file, OIIO::TypeDesc type) {
+  require_complete(path, file);
   std::vector<T> out(size_t(file.stored.area()) * file.spec().nchannels);
   if (!file.in->read_image(0, 0, 0, file.spec().nchannels, type, out.data()))
     fail(path, "it is damaged or cut off: " + one_line(file.in->geterror()));
-  const std::string quiet_error = file.in->geterror();
-  if (!quiet_error.empty()) fail(path, "it is damaged or cut off: " + one_line(quiet_error));
-  if (std::string_view(file.in->format_name()) == "jpeg" && !read_jpeg_facts(path).complete)
-    fail(path, "it is cut off: the end of the image is missing");
   return out;
 }
 

@@ -126,7 +126,7 @@ Telling find_telling(const std::vector<std::string>& words, int channels) {
         const bool whole_name = first == 0 && last >= end_of_name;
         const bool one_letter = reading.text.size() <= 2;
         const MapWord* w = find_word(reading, last >= end_of_name, first == 0 && (!whole_name || one_letter),
-                                     one_letter && bare != phrase, channels);
+                                     (one_letter || first == 0) && bare != phrase, channels);
         if (w) return {w, first, last, reading.normal_y};
       }
     }

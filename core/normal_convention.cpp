@@ -75,8 +75,13 @@ ConventionEvidence convention_from_height(const Image& normal, const Image& heig
     }
   out.along_x = along_x.value();
   out.along_y = along_y.value();
-  constexpr double clear = 0.1;
-  if (std::abs(out.along_x) < clear || std::abs(out.along_y) < clear) return out;
+  // Grooves that run across (planks, say) leave red without evidence: then a strong green must do.
+  constexpr double clear = 0.1, strong = 0.5;
+  if (std::abs(out.along_y) < (std::abs(out.along_x) < clear ? strong : clear)) return out;
+  if (std::abs(out.along_x) < clear) {
+    out.normal_y = out.along_y > 0 ? NormalY::up : NormalY::down;
+    return out;
+  }
   out.height_inverted = out.along_x < 0;
   out.normal_y = (out.along_x > 0) == (out.along_y > 0) ? NormalY::up : NormalY::down;
   return out;

@@ -14,8 +14,8 @@ struct ConventionEvidence {
   bool height_inverted = false;     ///< the height map seems to be dark where the surface is high
 };
 
-/// Compares the normals with the slopes of a height map (any size). Clear if both correlations are beyond 0.1.
-/// Deterministic; looks at no more than 512x512 averaged points.
+/// Compares the normals with the slopes of a height map (any size). Clear if both correlations are beyond 0.1, or
+/// green's alone is beyond 0.5. Deterministic; looks at no more than 512x512 averaged points.
 ConventionEvidence convention_from_height(const Image& normal, const Image& height);
 
 /// Decides from the normals alone: slopes of a surface have no curl, so of the two readings of the green channel the

@@ -9,12 +9,13 @@ namespace terrazzo {
 
 namespace {
 
-/// x^(1/n) for x > 0: a first guess from the exponent bits, then Newton's method; doubles the good digits each time.
+/// x^(1/n) for x > 0: a first guess from the exponent bits, within 6 %, then Newton's method, which doubles the good
+/// digits each time: three steps leave less than 1e-9.
 template <int n>
 double positive_root(double x) {
   constexpr int64_t one = 0x3ff0000000000000;
   double y = std::bit_cast<double>((std::bit_cast<int64_t>(x) - one) / n + one);
-  for (int i = 0; i < 5; i++) {
+  for (int i = 0; i < 3; i++) {
     double power = y;
     for (int k = 2; k < n; k++) power *= y;
     y += (x / power - y) * (1.0 / n);

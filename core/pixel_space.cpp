@@ -1,8 +1,10 @@
 #include "core/pixel_space.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/color.h"
 #include "core/normal.h"
 
 namespace terrazzo {
@@ -16,23 +18,32 @@ void map_colors(const ImageInfo& info, float* pixels, int64_t count) {
     for (int c = 0; c < colors; c++) pixels[i * info.channels + c] = Curve(pixels[i * info.channels + c]);
 }
 
+float computed_decode(float v) {
+  const float a = std::fabs(v);
+  return std::copysign(a <= 0.04045f ? a / 12.92f : std::pow((a + 0.055f) / 1.055f, 2.4f), v);
+}
+
+/// The values of 8-bit files, which are most of those that are ever decoded.
+std::array<float, 256> table_of_bytes() {
+  std::array<float, 256> table{};
+  for (int i = 0; i < 256; i++) table[i] = computed_decode(float(i) / 255);
+  return table;
+}
+
 bool is_encoded(const ImageInfo& info) {
   return info.color_space == "srgb_texture";
 }
 
 }  // namespace
 
-bool is_color(Semantic semantic) {
-  return semantic == Semantic::base_color || semantic == Semantic::emission || semantic == Semantic::specular;
-}
-
 int value_channels(const ImageInfo& info) {
   return is_color(info.semantic) && info.channels % 2 == 0 ? info.channels - 1 : info.channels;
 }
 
 float decode_srgb(float v) {
-  const float a = std::fabs(v);
-  return std::copysign(a <= 0.04045f ? a / 12.92f : std::pow((a + 0.055f) / 1.055f, 2.4f), v);
+  static const std::array<float, 256> table = table_of_bytes();
+  const int byte = v >= 0 && v <= 1 ? int(v * 255 + 0.5f) : 0;
+  return float(byte) / 255 == v ? table[byte] : computed_decode(v);
 }
 
 float encode_srgb(float v) {

@@ -8,9 +8,6 @@
 /// (colour space "srgb_texture"), vectors for normals, and the stored values for everything else. Thread-safe.
 namespace terrazzo {
 
-/// Colours: base colour, emission, specular.
-bool is_color(Semantic semantic);
-
 /// The channels that carry values; the last of a colour image's two or four is coverage and is not counted.
 int value_channels(const ImageInfo& info);
 

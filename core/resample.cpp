@@ -1,6 +1,7 @@
 #include "core/resample.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -20,7 +21,7 @@ void make_sum_one(std::vector<double>& weights, Taps& taps) {
 }
 
 AxisFilter copying(std::function<int(int)> position) {
-  return {[position](int i) { return Taps{position(i), {1.0f}}; }, true};
+  return {[position](int i) { return Taps{position(i), {1.0f}}; }, true, false};
 }
 
 std::vector<Taps> taps_of(const AxisFilter& filter, int first, int count) {
@@ -39,14 +40,24 @@ std::pair<int, int> span_of(const std::vector<Taps>& taps) {
   return {first, last};
 }
 
-void filter_row(const float* in, int left, int channels, const std::vector<Taps>& taps, float* out) {
-  for (size_t x = 0; x < taps.size(); x++) {
-    const float* p = in + size_t(taps[x].first - left) * channels;
-    float sum[4] = {0, 0, 0, 0};
-    for (const float weight : taps[x].weights)
+template <int channels>
+void filter_row(const float* in, int left, const std::vector<Taps>& taps, float* out) {
+  for (const Taps& t : taps) {
+    const float* p = in + size_t(t.first - left) * channels;
+    float sum[channels] = {};
+    for (const float weight : t.weights)
       for (int c = 0; c < channels; c++) sum[c] += weight * *p++;
-    std::copy_n(sum, channels, out + x * channels);
+    out = std::copy_n(sum, channels, out);
   }
+}
+
+void filter_row(const float* in, int left, int channels, const std::vector<Taps>& taps, float* out) {
+  constexpr std::array by_channels = {filter_row<1>, filter_row<2>, filter_row<3>, filter_row<4>};
+  by_channels[channels - 1](in, left, taps, out);
+}
+
+void add_weighted(const float* in, float weight, size_t count, float* out) {
+  for (size_t i = 0; i < count; i++) out[i] += weight * in[i];
 }
 
 void filter_rows(const Image& source, const AxisFilter& filter, Outside outside, const Rect& region, bool linear,
@@ -57,13 +68,19 @@ void filter_rows(const Image& source, const AxisFilter& filter, Outside outside,
   const Rect from{left, region.y, right - left, region.height};
   std::vector<float> pixels = read_padded(source, from, outside);
   if (linear) to_linear(source.info(), pixels.data(), from.area());
-  for (int y = 0; y < region.height; y++)
-    filter_row(&pixels[size_t(y) * from.width * channels], left, channels, taps,
-               out + size_t(y) * region.width * channels);
-}
-
-void add_weighted(const float* in, float weight, size_t count, float* out) {
-  for (size_t i = 0; i < count; i++) out[i] += weight * in[i];
+  const size_t row_values = size_t(region.width) * channels;
+  for (int y = 0; y < region.height; y++) {
+    const float* in = &pixels[size_t(y) * from.width * channels];
+    if (!filter.slides) {
+      filter_row(in, left, channels, taps, out + y * row_values);
+      continue;
+    }
+    std::fill_n(out + y * row_values, row_values, 0.0f);
+    for (const float weight : taps.front().weights) {
+      add_weighted(in, weight, row_values, out + y * row_values);
+      in += channels;
+    }
+  }
 }
 
 void filter_columns(const Image& source, const AxisFilter& filter, Outside outside, const Rect& region, float* out) {
@@ -105,7 +122,7 @@ AxisFilter scaling_filter(const std::string& name, int from, int to) {
     make_sum_one(weights, taps);
     return taps;
   };
-  return {taps_at};
+  return {taps_at, false, false};
 }
 
 AxisFilter gaussian_filter(double sigma) {
@@ -115,7 +132,7 @@ AxisFilter gaussian_filter(double sigma) {
   std::vector<double> weights;
   for (int p = -reach; p <= reach; p++) weights.push_back(std::exp(-0.5 * p * p / (sigma * sigma)));
   make_sum_one(weights, kernel);
-  return {[kernel](int i) { return Taps{kernel.first + i, kernel.weights}; }};
+  return {[kernel](int i) { return Taps{kernel.first + i, kernel.weights}; }, false, true};
 }
 
 ImagePtr filtered(const ImagePtr& source, const ImageInfo& info, const Digest& recipe, const AxisFilter& horizontal,

@@ -22,6 +22,7 @@ struct Taps {
 struct AxisFilter {
   std::function<Taps(int)> taps;  ///< of any result coordinate
   bool copies = false;            ///< every result is one source pixel as it is
+  bool slides = false;            ///< the same weights everywhere, at the same distance from the result
 };
 
 /// The filters of `scaling_filter`.

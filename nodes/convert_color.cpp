@@ -1,18 +1,9 @@
-#include <cstdlib>
-
 #include "core/color.h"
 #include "nodes/image_work.h"
 
 namespace terrazzo {
 
 namespace {
-
-/// The configuration that will be read: the one given, or the environment's; empty for the built-in one.
-std::string config_path(const Params& params) {
-  const std::string& given = std::get<std::string>(params.at("config"));
-  const char* environment = std::getenv("OCIO");
-  return !given.empty() ? given : environment ? environment : "";
-}
 
 void compute(NodeContext& node) {
   ImagePtr image = node.input<Image>("image");
@@ -47,10 +38,7 @@ NodeType convert_color_node() {
                .fallback = "",
                .help = "An OpenColorIO configuration file; empty for the environment's OCIO or the built-in one."}};
   t.persist = Persist::digest;
-  t.files_read = [](const Params& params) {
-    const std::string path = config_path(params);
-    return path.empty() ? std::vector<std::filesystem::path>{} : std::vector<std::filesystem::path>{path};
-  };
+  t.files_read = [](const Params& params) { return color_config_files(std::get<std::string>(params.at("config"))); };
   t.compute = compute;
   return t;
 }

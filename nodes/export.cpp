@@ -32,7 +32,7 @@ struct Job {
 };
 
 /// Fills {name} places; throws Error for unknown ones and for braces that do not match.
-std::string filled(const std::string& pattern, const std::map<std::string, std::string>& values) {
+std::string filled(const char* param, const std::string& pattern, const std::map<std::string, std::string>& values) {
   std::string out;
   for (size_t i = 0; i < pattern.size(); i++) {
     if (pattern[i] != '{') {
@@ -40,13 +40,13 @@ std::string filled(const std::string& pattern, const std::map<std::string, std::
       continue;
     }
     const size_t end = pattern.find('}', i);
-    if (end == std::string::npos) throw Error("path", fmt::format("a {{ without }} in \"{}\"", pattern));
+    if (end == std::string::npos) throw Error(param, fmt::format("a {{ without }} in \"{}\"", pattern));
     const std::string name = pattern.substr(i + 1, end - i - 1);
     const auto at = values.find(name);
     if (at == values.end())
-      throw Error("path", fmt::format("unknown place {{{}}} in \"{}\"; known are {{map}}, {{material}}, {{width}} and "
-                                      "{{height}}",
-                                      name, pattern));
+      throw Error(param, fmt::format("unknown place {{{}}} in \"{}\"; known are {{map}}, {{material}}, {{width}} and "
+                                     "{{height}}",
+                                     name, pattern));
     out += at->second;
     i = end;
   }
@@ -155,16 +155,19 @@ void add_material(NodeContext& node, const Material& material, std::vector<Job>&
   if (pattern.empty())
     throw Error("path", "expected a file name pattern such as out/{map}.png, since a material is connected");
   const std::vector<Map> maps = chosen_maps(node, material);
+  const auto target_of = [&](const Map& m) {
+    return filled("path", pattern,
+                  {{"map", m.name},
+                   {"material", material.name()},
+                   {"width", fmt::format("{}", m.image->width())},
+                   {"height", fmt::format("{}", m.image->height())}});
+  };
+  target_of(maps.front());  // says what is wrong with the pattern itself
   if (maps.size() > 1 && pattern.find("{map}") == std::string::npos)
     throw Error("path", fmt::format("\"{}\" names one file, but there are {} maps ({}); write {{map}} where the map's "
                                     "name is to stand, or choose one with the parameter `maps`",
                                     pattern, maps.size(), material.map_names()));
-  for (const Map& m : maps)
-    jobs.push_back(job_for(node, m.name, m.image,
-                           filled(pattern, {{"map", m.name},
-                                            {"material", material.name()},
-                                            {"width", fmt::format("{}", m.image->width())},
-                                            {"height", fmt::format("{}", m.image->height())}})));
+  for (const Map& m : maps) jobs.push_back(job_for(node, m.name, m.image, target_of(m)));
 }
 
 /// Where the uv map goes: `uv_path`, else `path` with "uv" for the map's name.
@@ -172,10 +175,11 @@ fs::path uv_target(const NodeContext& node, const UvMap& uv, const std::string& 
   const std::string& own = node.text("uv_path");
   const std::string& pattern = own.empty() ? node.text("path") : own;
   if (pattern.empty()) throw Error("uv_path", "expected a file name such as out/uv.exr, since a uv map is connected");
-  const fs::path target = filled(pattern, {{"map", "uv"},
-                                           {"material", material},
-                                           {"width", fmt::format("{}", uv.size().width)},
-                                           {"height", fmt::format("{}", uv.size().height)}});
+  const fs::path target = filled(own.empty() ? "path" : "uv_path", pattern,
+                                 {{"map", "uv"},
+                                  {"material", material},
+                                  {"width", fmt::format("{}", uv.size().width)},
+                                  {"height", fmt::format("{}", uv.size().height)}});
   if (required_format("uv_path", target) == FileFormat::jpeg)
     throw Error("uv_path", fmt::format("the uv map is exact and JPEG is not; expected .exr, .png or .tif, found \"{}\"",
                                        target.filename().string()));
@@ -288,7 +292,8 @@ std::vector<std::string> check(const Params& params) {
     if (text(param).empty()) continue;
     attempt([&] {
       const FileFormat format = required_format(
-          param, filled(text(param), {{"map", "map"}, {"material", "material"}, {"width", "1"}, {"height", "1"}}));
+          param,
+          filled(param, text(param), {{"map", "map"}, {"material", "material"}, {"width", "1"}, {"height", "1"}}));
       if (std::string_view(param) == "path") require_depth(format, text("depth"));
     });
   }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 
 namespace terrazzo {
 
@@ -62,8 +63,10 @@ Digest map_recipe(const NodeContext& node, const Image& map) {
 
 ImagePtr require_map(const std::string& param, const Material& material, const std::string& map) {
   if (ImagePtr image = material.find(map)) return image;
-  throw Error(param,
-              fmt::format("expected a map of the material, which has {}; found \"{}\"", material.map_names(), map));
+  std::vector<std::string> names;
+  for (const Map& m : material.maps()) names.push_back(m.name);
+  throw Error(param, fmt::format("expected a map of the material, which has {}; found \"{}\"{}", material.map_names(),
+                                 map, did_you_mean(map, names)));
 }
 
 MaterialPtr with_maps_changed(const MaterialPtr& material, const Texts& maps,

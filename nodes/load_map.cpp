@@ -1,3 +1,4 @@
+#include "core/color.h"
 #include "core/image_file.h"
 #include "core/node.h"
 
@@ -13,14 +14,11 @@ void compute(NodeContext& node) {
   ImageInfo info;
   info.semantic = *semantic_from(node.text("semantic"));
   info.normal_y = node.text("normal_y") == "down" ? NormalY::down : NormalY::up;
-  info.color_space = node.text("color_space");
-  if (info.color_space == "auto") {
-    const bool is_color = info.semantic == Semantic::base_color || info.semantic == Semantic::emission ||
-                          info.semantic == Semantic::specular;
-    const bool is_float = read_image_info(node.text("path")).depth >= Depth::f16;
-    info.color_space = !is_color ? "raw" : is_float ? "lin_rec709" : "srgb_texture";
-  }
-  node.output("image", read_image(node.text("path"), info, [&](const std::string& warning) { node.note(warning); }));
+  const std::string& path = node.text("path");
+  const std::string& space = node.text("color_space");
+  info.color_space =
+      space == "auto" ? assumed_color_space(info.semantic, read_image_info(path).depth) : canonical_color_space(space);
+  node.output("image", read_image(path, info, [&](const std::string& warning) { node.note(warning); }));
 }
 
 }  // namespace
@@ -31,8 +29,9 @@ NodeType load_map_node() {
   t.category = "source";
   t.summary = "Reads one image file as a map";
   t.help =
-      "Reads PNG, TIFF, EXR, JPEG and whatever else OpenImageIO reads. Pixels stay as they are in the file; semantic, "
-      "colour space and normal convention say how later nodes read them.";
+      "Reads PNG, TIFF, EXR, JPEG and whatever else OpenImageIO reads. Pixels stay as they are in the file (normals "
+      "stored as signed numbers are encoded, numbers that are not finite become 0); semantic, colour space and normal "
+      "convention say how later nodes read them.";
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "the map"}};
   t.params = {
       {.name = "path", .type = ParamType::path, .help = "The image file."},
@@ -55,7 +54,17 @@ NodeType load_map_node() {
   };
   t.persist = Persist::digest;
   t.files_read = [](const Params& p) {
-    return std::vector<std::filesystem::path>{std::get<std::string>(p.at("path"))};
+    std::vector<std::filesystem::path> files = {std::get<std::string>(p.at("path"))};
+    for (std::filesystem::path& f : color_config_files()) files.push_back(std::move(f));
+    return files;
+  };
+  t.memory_hint = [](const NodeContext& node) {
+    try {
+      const FileInfo info = read_image_info(node.text("path"));
+      return size_t(info.size.area()) * info.channels * 2 * sizeof(float);
+    } catch (const Error&) {
+      return size_t{0};  // compute reports it
+    }
   };
   t.compute = compute;
   return t;

@@ -11,6 +11,7 @@
 #include "core/color.h"
 #include "core/image_file.h"
 #include "core/material_files.h"
+#include "core/material_maps.h"
 #include "core/nearest_name.h"
 #include "core/node.h"
 #include "core/normal_convention.h"
@@ -192,72 +193,17 @@ std::map<std::string, Source> read_sources(NodeContext& node, const fs::path& fo
   return sources;
 }
 
-bool is_one_value(Semantic s) {
-  return !is_color(s) && s != Semantic::normal && s != Semantic::data && s != Semantic::guidance;
-}
-
-/// Whether channel c of an image never differs from `value(pixel)` by more than `tolerance`.
-template <typename Value>
-bool channel_is(const Image& image, int c, float tolerance, Value value) {
-  bool same = true;
-  for_each_strip(image, [&](const Rect& r, const float* p) {
-    for (int64_t i = 0; same && i < r.area(); i++, p += image.channels()) same = std::abs(p[c] - value(p)) <= tolerance;
-  });
-  return same;
-}
-
-ImagePtr channels_of(const ImagePtr& image, ImageInfo info, const std::vector<int>& channels, bool inverted) {
-  info.channels = int(channels.size());
-  if (!inverted && info.channels == image->channels()) return Image::redescribed(image, info);
-  std::vector<float> out;
-  out.reserve(size_t(info.size.area()) * channels.size());
-  for_each_strip(*image, [&](const Rect& r, const float* p) {
-    for (int64_t i = 0; i < r.area(); i++, p += image->channels())
-      for (const int c : channels) out.push_back(inverted ? 1.0f - p[c] : p[c]);
-  });
-  return Image::from_floats(info, std::move(out));
-}
-
-/// The channels of the file that make the map. Grey maps stored in colour are reduced to one channel; alpha is left out
-/// of everything but colours.
-std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::vector<std::string>& notes) {
-  std::vector<int> channels;
-  for (const char c : m.channels) {
-    const int index = c == 'r' ? 0 : c == 'g' ? 1 : c == 'b' ? 2 : 3;
-    if (index >= file.channels())
-      throw Error("maps", fmt::format("{} is to be channel {} of {}, which has only {} channel{}", m.map, c, m.file,
-                                      file.channels(), file.channels() == 1 ? "" : "s"));
-    channels.push_back(index);
-  }
-  if (!channels.empty()) return channels;
-  const int colors = file.channels() - (file.channels() % 2 == 0 ? 1 : 0);  // without alpha
-  if (is_one_value(m.semantic)) {
-    constexpr float compression_noise = 8.0f / 255.0f;
-    for (int c = 1; c < colors; c++)
-      if (!channel_is(file, c, compression_noise, [](const float* p) { return p[0]; })) {
-        notes.push_back(fmt::format("{} has different channels in {}; the first is taken", m.map, m.file));
-        break;
-      }
-    return {0};
-  }
-  for (int c = 0; c < colors; c++) channels.push_back(c);
-  return channels;
-}
-
-/// An opacity map out of a colour file's alpha channel; nothing if alpha is 1 everywhere.
+/// The opacity map that hides in a base colour's alpha channel.
 void add_alpha(const RecognisedMap& m, const ImagePtr& file, std::vector<Map>& maps, std::vector<std::string>& notes) {
-  const int alpha = file->channels() - 1;
-  if (file->channels() % 2 != 0 || !m.channels.empty() || m.semantic != Semantic::base_color) return;
-  if (channel_is(*file, alpha, 0, [](const float*) { return 1.0f; })) return;
+  if (m.semantic != Semantic::base_color || !m.channels.empty()) return;
+  const ImagePtr opacity = opacity_of(file);
+  if (!opacity) return;
   const bool have = std::any_of(maps.begin(), maps.end(), [](const Map& k) { return k.name == "opacity"; });
   if (have) {
     notes.push_back(fmt::format("the alpha channel of {} is left out: there is an opacity map", m.file));
     return;
   }
-  ImageInfo info = file->info();
-  info.semantic = Semantic::opacity;
-  info.color_space = "raw";
-  maps.push_back({"opacity", channels_of(file, info, {alpha}, false)});
+  maps.push_back({"opacity", opacity});
   notes.push_back(fmt::format("opacity: {} (alpha channel)", m.file));
 }
 
@@ -323,11 +269,10 @@ void compute(NodeContext& node) {
   std::vector<std::string> notes;
   for (const RecognisedMap& m : found) {
     const ImagePtr& file = sources.at(m.file).image;
-    ImageInfo info = file->info();
-    info.semantic = m.semantic;
-    info.color_space = assumed_color_space(m.semantic, info.depth);
-    if (m.semantic == Semantic::base_color && !given_space.empty()) info.color_space = given_space;
-    maps.push_back({m.map, channels_of(file, info, channels_for(m, *file, notes), m.inverted)});
+    const bool space_given = m.semantic == Semantic::base_color && !given_space.empty();
+    maps.push_back(
+        {m.map,
+         map_of_file(m, file, space_given ? given_space : assumed_color_space(m.semantic, file->info().depth), notes)});
   }
   for (const RecognisedMap& m : found) add_alpha(m, sources.at(m.file).image, maps, notes);
   for (std::string& n : notes) node.note(std::move(n));

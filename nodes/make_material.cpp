@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "nodes/image_work.h"
 
 namespace terrazzo {
@@ -21,7 +22,8 @@ ImagePtr with_semantic(const ImagePtr& image, const std::string& semantic) {
   const std::optional<Semantic> known = semantic_from(semantic);
   if (!known)
     throw Error("semantics",
-                fmt::format("expected keep or one of {}; found \"{}\"", fmt::join(semantic_names, ", "), semantic));
+                fmt::format("expected keep or one of {}; found \"{}\"{}", fmt::join(semantic_names, ", "), semantic,
+                            did_you_mean(semantic, {semantic_names.begin(), semantic_names.end()})));
   info.semantic = *known;
   return Image::redescribed(image, info);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/color.h"
 #include "core/node.h"
 
 namespace terrazzo {
@@ -32,9 +33,7 @@ T chosen(const std::vector<std::string>& names, const std::string& name) {
 
 void compute(NodeContext& node) {
   ImageInfo info{.size = node.size("size"), .semantic = *semantic_from(node.text("semantic"))};
-  if (info.semantic == Semantic::base_color || info.semantic == Semantic::emission ||
-      info.semantic == Semantic::specular)
-    info.color_space = "srgb_texture";
+  info.color_space = assumed_color_space(info.semantic, Depth::u16);
   NoiseSpec spec;
   spec.basis = chosen<NoiseBasis>(basis_names(), node.text("basis"));
   spec.fractal = chosen<Fractal>(fractal_names(), node.text("fractal"));

@@ -16,7 +16,7 @@ std::string palette_names(const PatternType& type) {
 
 PatternSpec spec_of(const Params& params) {
   PatternSpec s;
-  s.type = std::get<std::string>(params.at("type"));
+  s.type = std::get<std::string>(params.at("kind"));
   s.size = std::get<Size>(params.at("size"));
   s.seed = uint64_t(std::get<int64_t>(params.at("seed")));
   s.scale = std::get<double>(params.at("scale"));
@@ -29,7 +29,7 @@ PatternSpec spec_of(const Params& params) {
 }
 
 std::vector<std::string> check(const Params& params) {
-  const PatternType* type = find_pattern_type(std::get<std::string>(params.at("type")));
+  const PatternType* type = find_pattern_type(std::get<std::string>(params.at("kind")));
   const std::string& palette = std::get<std::string>(params.at("palette"));
   if (!type || find_palette(*type, palette)) return {};
   return {fmt::format("\"palette\": {} come in {}, not in \"{}\"", type->name, palette_names(*type), palette)};
@@ -45,8 +45,8 @@ NodeType pattern_node() {
   t.help =
       "Describes a surface and derives every map from it: base colour, normal (green up), height, roughness and "
       "ambient "
-      "occlusion agree at every pixel. Useful as an exemplar when none is at hand, for examples and for tests. Types:";
-  std::string palettes = "The colours it comes in; empty for the type's first. ";
+      "occlusion agree at every pixel. Useful as an exemplar when none is at hand, for examples and for tests. Kinds:";
+  std::string palettes = "The colours it comes in; empty for the kind's first. ";
   std::vector<std::string> names;
   for (const PatternType& p : pattern_types()) {
     names.push_back(p.name);
@@ -59,7 +59,7 @@ NodeType pattern_node() {
                 .type = ValueType::material,
                 .help = "base_color, normal, height, roughness, ambient_occlusion, all of one size"}};
   t.params = {
-      {.name = "type", .type = ParamType::choice, .fallback = "bricks", .help = "What to make.", .choices = names},
+      {.name = "kind", .type = ParamType::choice, .fallback = "bricks", .help = "What to make.", .choices = names},
       {.name = "size",
        .type = ParamType::size,
        .fallback = Size{512, 512},
@@ -75,7 +75,7 @@ NodeType pattern_node() {
       {.name = "scale",
        .type = ParamType::number,
        .fallback = 0.0,
-       .help = "Pieces (bricks, stones, yarns ...) across the image; 0 for the type's own number. Rounded to whole "
+       .help = "Pieces (bricks, stones, yarns ...) across the image; 0 for the kind's own number. Rounded to whole "
                "pieces where the material tiles.",
        .min = 0,
        .max = 200},
@@ -94,7 +94,7 @@ NodeType pattern_node() {
       {.name = "relief",
        .type = ParamType::number,
        .fallback = 1.0,
-       .help = "Depth as a multiple of the type's natural one; steepens normals and deepens occlusion.",
+       .help = "Depth as a multiple of the kind's natural one; steepens normals and deepens occlusion.",
        .min = 0,
        .max = 10},
       {.name = "palette", .type = ParamType::text, .fallback = "", .help = palettes},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/color.h"
 #include "core/node.h"
 
 namespace terrazzo {
@@ -91,6 +92,13 @@ NodeType preview_node() {
        .max_count = 3},
   };
   t.persist = Persist::payload;
+  t.files_read = [](const Params&) { return color_config_files(); };
+  t.memory_hint = [](const NodeContext& node) {
+    // The sheet, and at most four texels per pixel of one picture, of 13 channels.
+    const size_t area = size_t(node.size("size").area());
+    return area * std::max<size_t>(1, node.numbers("lights").size()) * 3 * sizeof(float) +
+           area * 4 * 13 * sizeof(float);
+  };
   t.compute = compute;
   return t;
 }

@@ -1,4 +1,4 @@
-#include "run_node.h"
+#include "tests/run_node.h"
 
 #include <atomic>
 #include <filesystem>

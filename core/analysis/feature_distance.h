@@ -8,9 +8,9 @@
 namespace terrazzo {
 
 struct EdgeOptions {
-  std::vector<std::string> maps;  ///< which maps to look for edges in; empty = all
-  std::optional<double>
-      threshold;         ///< on edge strength, which is relative to the strongest; none = automatic (Otsu 1979)
+  std::vector<std::string> maps{};  ///< which maps to look for edges in; empty = all
+  /// On edge strength, which is relative to the strongest; none = automatic (Otsu 1979).
+  std::optional<double> threshold{};
   double smoothing = 1;  ///< standard deviation of the Gaussian before differentiation, in pixels
   bool wraps = false;    ///< the exemplar tiles
 };

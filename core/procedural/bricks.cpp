@@ -1,150 +1,42 @@
-#include <cmath>
-
 #include "core/procedural/exact_math.h"
+#include "core/procedural/masonry.h"
 #include "core/procedural/pattern_types.h"
 
 namespace terrazzo {
 
 namespace {
 
-using namespace exact;
-
-enum Salt : uint64_t {
-  brick_cell = 1,
-  warp_u,
-  warp_v,
-  edge,
-  chips,
-  top,
-  pits,
-  grain,
-  sand,
-  stain,
-  smear,
-  blotch,
-  bloom
-};
+enum Salt : uint64_t { brick_cell = 1, warp_u, warp_v };
 
 /// A wall of bricks in running bond.
 class Bricks : public Surface {
  public:
   Bricks(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
-        spec_(spec),
-        palette_(palette),
         grid_(canvas, spec.scale, 2.75, 2),
-        unit_(grid_.cell_height()),
-        per_brick_(1 / grid_.cell_width()) {}
+        masonry_(canvas, spec, palette, {.height = grid_.cell_height(), .length = grid_.cell_width()}),
+        bend_(grid_.cell_height() * 0.09 * spec.irregularity) {}
 
   SurfacePoint at(double u, double v) const override {
-    const double bend = unit_ * 0.09 * spec_.irregularity;
-    const double wu = u + bend * canvas_.fbm(u, v, per_brick_ * 1.2, 3, 0.55, warp_u);
-    const double wv = v + bend * canvas_.fbm(u, v, per_brick_ * 1.2, 3, 0.55, warp_v);
-    const int64_t row = floor_int(wv / grid_.cell_height());
+    const double bends = 1.2 / grid_.cell_width();
+    const double wu = u + bend_ * canvas_.fbm(u, v, bends, 3, 0.55, warp_u);
+    const double wv = v + bend_ * canvas_.fbm(u, v, bends, 3, 0.55, warp_v);
+    const int64_t row = exact::floor_int(wv / grid_.cell_height());
     const double shift = 0.5 * double(row & 1);
-    const int64_t column = floor_int(wu / grid_.cell_width() - shift);
-    Dice dice(grid_.bits(column, row, brick_cell));
-
-    const double mortar = unit_ * 0.17;
-    double half_w = (grid_.cell_width() - mortar) / 2, half_h = (grid_.cell_height() - mortar) / 2;
-    const double loose = mortar * 0.28 * spec_.irregularity;
-    half_w += loose * dice.both();
-    half_h += loose * 0.8 * dice.both();
-    double x = wu - (double(column) + 0.5 + shift) * grid_.cell_width() - loose * dice.both();
-    double y = wv - (double(row) + 0.5) * grid_.cell_height() - loose * dice.both();
-    y += x * 0.02 * spec_.irregularity * dice.both();
-
-    const Rgb base = pick_color(palette_.pieces, dice);
-    const double tone = 1 + 0.16 * dice.both(), lift = dice.both(), lean_x = dice.both(), lean_y = dice.both();
-    const double burnt = dice.unit(), burnt_side = dice.both(), pitting = dice.unit();
-
-    double d = rounded_box(x, y, half_w, half_h, unit_ * 0.07);
-    d += unit_ * (0.012 + 0.03 * spec_.irregularity) * canvas_.fbm(u, v, per_brick_ * 9, 4, 0.6, edge);
-    // Chips: where a coarse noise is high, the edge retreats.
-    const double chip = canvas_.fbm(u, v, per_brick_ * 4.5, 3, 0.5, chips);
-    d += unit_ * 0.34 * spec_.wear * smoothstep(0.22, 0.62, chip);
-
-    const double inside = smoothstep(0.01, -0.075, d / unit_);
-    const double shoulder = saturate(-d / (unit_ * 0.16));
-    const double rounding = 1 - (1 - shoulder) * (1 - shoulder);
-    SurfacePoint brick = brick_at(u, v, x / half_w, base, tone, pitting, burnt, burnt_side);
-    brick.height += 0.035 * lift + 0.03 * (lean_x * x / half_w + lean_y * y / half_h) * spec_.irregularity;
-    brick.height -= 0.13 * (1 - rounding);
-    // Arrises are rubbed pale, and mortar has been wiped over some faces.
-    brick.color = mix(brick.color, brick.color * 1.18 + rgb(0x0a0a08), 0.5 * (1 - rounding) * spec_.wear);
-    const double wiped = smoothstep(0.0, 0.45, canvas_.fbm(u, v, per_brick_ * 2.3, 6, 0.66, smear) - 0.16 * shoulder);
-    brick.color = mix(brick.color, palette_.joint, 0.5 * wiped);
-    brick.roughness = mix(brick.roughness, 0.92, wiped);
-
-    SurfacePoint joint = joint_at(u, v, d);
-    SurfacePoint p;
-    p.height = mix(joint.height, std::max(brick.height, joint.height), inside);
-    p.color = mix(joint.color, brick.color, smoothstep(0.012, -0.03, d / unit_));
-    p.roughness = mix(joint.roughness, brick.roughness, inside);
-    return stained(u, v, p);
+    const int64_t column = exact::floor_int(wu / grid_.cell_width() - shift);
+    return masonry_.at(u, v,
+                       {.x = wu - (double(column) + 0.5 + shift) * grid_.cell_width(),
+                        .y = wv - (double(row) + 0.5) * grid_.cell_height(),
+                        .half_width = grid_.cell_width() / 2,
+                        .half_height = grid_.cell_height() / 2,
+                        .bits = grid_.bits(column, row, brick_cell)});
   }
 
  private:
-  SurfacePoint brick_at(double u, double v, double along, const Rgb& base, double tone, double pitting, double burnt,
-                        double burnt_side) const {
-    SurfacePoint p;
-    const double waves = canvas_.fbm(u, v, per_brick_ * 3.2, 3, 0.5, top);
-    const double fine = canvas_.fbm(u, v, per_brick_ * 22, 5, 0.72, grain);
-    const CellPoint hole = canvas_.cells(u, v, per_brick_ * 13, pits);
-    Dice dice(hole.bits);
-    const double radius =
-        dice.unit() < 0.05 + 0.45 * spec_.wear * pitting * pitting ? 0.1 + 0.3 * dice.unit() * dice.unit() : 0;
-    const double pit = radius > 0 ? smoothstep(radius, radius * 0.35, hole.nearest + 0.3 * fine + 0.22 * waves) : 0;
-    p.height = 0.78 + 0.08 * waves + 0.085 * fine - 0.16 * pit;
-
-    const double patches = canvas_.fbm(u, v, per_brick_ * 2.6, 5, 0.6, blotch);
-    Rgb c = base * (tone + 0.34 * patches + 0.20 * fine);
-    if (burnt > 0.72) {
-      const double fire = smoothstep(-0.5, 1.1, along * burnt_side * 1.2 + 0.8 * patches + 0.4);
-      c = mix(c, saturated(c, 0.5) * 0.5, 0.85 * fire);
-    }
-    // Grog and iron: single pale and dark grains.
-    const CellPoint speck = canvas_.cells(u, v, per_brick_ * 48, grain + 32);
-    Dice kind(speck.bits);
-    const double which = kind.unit(), spot = smoothstep(0.42, 0.2, speck.nearest);
-    if (which < 0.12) c = mix(c, c * 0.5, spot * 0.8);
-    if (which > 0.9) c = mix(c, c * 1.25 + rgb(0x1c1814), spot * 0.7);
-    p.color = mix(c, c * 0.55, pit);
-    p.roughness = 0.74 + 0.12 * patches + 0.1 * fine + 0.1 * pit;
-    return p;
-  }
-
-  SurfacePoint joint_at(double u, double v, double d) const {
-    SurfacePoint p;
-    const double coarse = canvas_.fbm(u, v, per_brick_ * 6, 4, 0.6, sand);
-    const double fine = canvas_.fbm(u, v, per_brick_ * 40, 4, 0.8, sand + 32);
-    // The joint is tooled hollow: mortar climbs where it meets a brick.
-    const double meniscus = smoothstep(0.09, 0.0, d / unit_);
-    p.height = 0.36 + 0.06 * meniscus + 0.07 * coarse + 0.09 * fine;
-    const CellPoint sand_grain = canvas_.cells(u, v, per_brick_ * 60, sand + 64);
-    Dice kind(sand_grain.bits);
-    const double shade = kind.both();
-    p.color =
-        palette_.joint * (0.92 + 0.22 * coarse + 0.22 * fine + 0.13 * shade * smoothstep(0.6, 0.2, sand_grain.nearest));
-    p.roughness = 0.9 + 0.08 * fine;
-    return p;
-  }
-
-  SurfacePoint stained(double u, double v, SurfacePoint p) const {
-    const double damp = smoothstep(0.0, 0.55, canvas_.fbm(u, v, 3, 6, 0.58, stain));
-    p.color = mix(p.color, saturated(p.color, 0.85) * 0.66 + palette_.stain * 0.06, 0.75 * spec_.wear * damp);
-    p.roughness += 0.05 * damp * spec_.wear;
-    const double salt = smoothstep(0.28, 0.7, canvas_.fbm(u, v, 4, 7, 0.66, bloom));
-    p.color = mix(p.color, p.color * 0.6 + rgb(0x6a655e), 0.6 * spec_.wear * salt);
-    return p;
-  }
-
   Canvas canvas_;
-  PatternSpec spec_;
-  Palette palette_;
   Grid grid_;
-  double unit_;       ///< the height of a course
-  double per_brick_;  ///< bricks per unit: the frequency of details that come once per brick
+  Masonry masonry_;
+  double bend_;
 };
 
 }  // namespace
@@ -158,7 +50,7 @@ PatternType bricks_pattern() {
   t.cavity = 0.35;
   t.palettes = {
       {"red",
-       {rgb(0x91402f), rgb(0xa34f3a), rgb(0x7c362b), rgb(0xb0614a), rgb(0x8a4a3a)},
+       {rgb(0x87463a), rgb(0x945042), rgb(0x74403a), rgb(0x9c5f4e), rgb(0x80503f)},
        rgb(0xb3a999),
        rgb(0x3a352c)},
       {"stock",

@@ -85,7 +85,9 @@ class Gravel : public Surface {
     p.inverse_length = 1 / (std::min(0.62, radius * std::sqrt(stretch)));
     p.inverse_width = 1 / (radius / std::sqrt(stretch));
     p.rise = size * radius * (0.55 + 0.25 * dice.unit());
-    p.base = lift - 0.2 * size * dice.unit() - (dice.unit() < share ? 0 : 5);
+    const double sunk = 0.2 * size * dice.unit();
+    const bool is_there = dice.unit() < share;
+    p.base = lift - sunk - (is_there ? 0 : 5);
     p.flatness = dice.unit();
     p.color = pick_color(palette_.pieces, dice);
     p.tone = 1 + 0.2 * dice.both();

@@ -11,8 +11,9 @@
 namespace terrazzo {
 
 const std::vector<PatternType>& pattern_types() {
-  static const std::vector<PatternType> types = {bricks_pattern(), cobbles_pattern(), weave_pattern(),
-                                                 gravel_pattern()};
+  static const std::vector<PatternType> types = {bricks_pattern(),     cobbles_pattern(), weave_pattern(),
+                                                 gravel_pattern(),     tiles_pattern(),   planks_pattern(),
+                                                 herringbone_pattern()};
   return types;
 }
 
@@ -34,7 +35,7 @@ MaterialPtr make_pattern(const PatternSpec& given, const Task& task) {
   if (!type) {
     std::string names;
     for (const PatternType& t : pattern_types()) names += (names.empty() ? "" : ", ") + t.name;
-    throw Error("type", fmt::format("there is no pattern \"{}\"; there are {}", given.type, names));
+    throw Error("kind", fmt::format("there is no pattern \"{}\"; there are {}", given.type, names));
   }
   const Palette* palette = find_palette(*type, given.palette);
   if (!palette) {

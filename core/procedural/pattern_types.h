@@ -14,5 +14,8 @@ PatternType bricks_pattern();
 PatternType cobbles_pattern();
 PatternType weave_pattern();
 PatternType gravel_pattern();
+PatternType tiles_pattern();
+PatternType planks_pattern();
+PatternType herringbone_pattern();
 
 }  // namespace terrazzo

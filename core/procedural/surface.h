@@ -47,7 +47,7 @@ struct PatternSpec {
   double irregularity = 0.5;  ///< 0..1: how much pieces differ in place, size and shape
   double wear = 0.5;          ///< 0..1: chips, pits, stains
   double relief = 1;          ///< depth as a multiple of the type's natural one
-  std::string palette;        ///< empty: the type's first
+  std::string palette{};      ///< empty: the type's first
   bool tileable = true;
 };
 

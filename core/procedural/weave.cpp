@@ -63,7 +63,7 @@ class Weave : public Surface {
     const double thick = dice.both(), tone = dice.both(), turn = dice.unit(), drift = dice.both();
     const double slub = canvas_.fbm(u, v, columns_ * 0.5, 3, 0.5, is_weft ? slub_u : slub_v);
     // Yarns are squeezed where they dive under, and spread on top.
-    const double half = 0.43 + 0.04 * lift + (0.05 * thick + 0.09 * slub) * (0.3 + 0.7 * spec_.irregularity);
+    const double half = 0.43 + 0.04 * lift + (0.07 * thick + 0.14 * slub) * (0.3 + 0.7 * spec_.irregularity);
     const double t = (side - 0.05 * drift * spec_.irregularity) / half;
     s.rim = std::abs(t);
     if (s.rim >= 1) {
@@ -75,7 +75,7 @@ class Weave : public Surface {
     const double slant = t * (1 + 0.25 * t * t);
     const double phase = along * plies - 1.15 * slant * (is_weft ? 1 : -1) + turn;
     const double ridge = std::abs(cos_turns(phase * 0.5));
-    s.twist = 1 - 2 * (1 - ridge) * (1 - ridge) * 1.0;
+    s.twist = 1 - 2 * (1 - ridge) * (1 - ridge);
     const Period period{length * int(plies) * 5, 0};
     const double hair = gradient_noise(phase * 5, slant * 2.2 + turn * 50, bits, period);
     const Period fine_period{length * int(plies) * 11, 0};
@@ -84,7 +84,7 @@ class Weave : public Surface {
     s.height = 0.42 + 0.2 * lift + 0.26 * round + round * (0.055 * s.twist + 0.05 * s.fibre);
     const std::vector<Rgb>& colors = palette_.pieces;
     const Rgb base = is_weft ? colors[1] : colors[0];
-    s.color = base * (1 + 0.11 * tone + 0.10 * slub);
+    s.color = base * (1 + 0.15 * tone + 0.16 * slub);
     return s;
   }
 
@@ -131,7 +131,7 @@ PatternType weave_pattern() {
   PatternType t;
   t.name = "weave";
   t.summary = "cloth in plain weave of twisted yarns";
-  t.scale = 16;
+  t.scale = 20;
   t.depth = 0.55;
   t.cavity = 0.55;
   t.palettes = {

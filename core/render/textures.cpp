@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/color.h"
 #include "core/procedural/exact_math.h"
 #include "core/procedural/finish.h"
 
@@ -13,11 +14,6 @@ namespace {
 
 /// Brings one texel, read from the map, into the space it is filtered in; in place.
 using Decode = void (*)(float* texel, const ImageInfo& info);
-
-void decode_color(float* texel, const ImageInfo& info) {
-  if (info.color_space != "srgb_texture") return;
-  for (int c = 0; c < std::min(3, info.channels); c++) texel[c] = float(srgb_decoded(texel[c]));
-}
 
 void decode_normal(float* texel, const ImageInfo& info) {
   for (int c = 0; c < std::min(3, info.channels); c++) texel[c] = texel[c] * 2 - 1;
@@ -54,26 +50,33 @@ Texture averaged(const Image& image, int factor, Decode decode, const Task& task
 Texture load(const Material& material, Semantic semantic, int max_width, Decode decode, const Task& task) {
   const ImagePtr image = material.find(semantic);
   if (!image) return {};
-  return averaged(*image, std::max(1, image->width() / std::max(1, max_width)), decode, task);
+  const ImagePtr decoded = is_color(semantic) ? convert_color(image, "lin_rec709") : image;
+  return averaged(*decoded, std::max(1, image->width() / std::max(1, max_width)), decode, task);
 }
 
 /// The depth of the relief that explains the normals best: slopes summed over a few texels against differences of
-/// height (least squares through the origin). In widths of the material.
-double depth_from_normals(const Texture& height, const Texture& normal) {
+/// height, along u and v (least squares through the origin). In widths of the material.
+double depth_from_normals(const Texture& height, const Texture& normal, double aspect) {
   constexpr int span = 4;
   const Size size = height.size();
+  const double across = 1.0 / size.width, down = aspect / size.height;  // of a texel, in widths of the material
   double covariance = 0, variance = 0;
-  for (int y = 0; y < size.height; y += 2)
+  const auto add = [&](double rise, double difference) {
+    covariance += rise * difference;
+    variance += difference * difference;
+  };
+  const auto slope = [&](double x, double y) {
+    const Vec n = normal.color(x / size.width, y / size.height);
+    return Vec{-n.x, n.y, 0} * (1 / std::max(0.1, n.z));
+  };
+  for (int y = 0; y + span < size.height; y += 2)
     for (int x = 0; x + span < size.width; x += 2) {
-      double rise = 0;
-      for (int k = 0; k < span; k++) {
-        const double u = (x + k + 1.0) / size.width, v = (y + 0.5) / size.height;
-        const Vec n = normal.color(u, v);
-        rise -= n.x / std::max(0.1, n.z) / size.width;
-      }
-      const double difference = *height.texel(x + span, y) - *height.texel(x, y);
-      covariance += rise * difference;
-      variance += difference * difference;
+      Vec rise;
+      for (int k = 1; k <= span; k++)
+        rise = rise + Vec{slope(x + k, y + 0.5).x * across, slope(x + 0.5, y + k).y * down, 0};
+      const float here = *height.texel(x, y);
+      add(rise.x, *height.texel(x + span, y) - here);
+      add(rise.y, *height.texel(x, y + span) - here);
     }
   return variance > 0 ? std::clamp(covariance / variance, 0.0, 0.2) : 0;
 }
@@ -146,8 +149,8 @@ ShadedPoint Textures::at(double u, double v) const {
 Textures load_textures(const Material& material, int max_width, double relief, const Task& task) {
   Textures t;
   const auto get = [&](Semantic semantic, Decode decode) { return load(material, semantic, max_width, decode, task); };
-  t.base_color = get(Semantic::base_color, decode_color);
-  t.emission = get(Semantic::emission, decode_color);
+  t.base_color = get(Semantic::base_color, decode_value);
+  t.emission = get(Semantic::emission, decode_value);
   t.normal = get(Semantic::normal, decode_normal);
   t.height = get(Semantic::height, decode_value);
   t.roughness = get(Semantic::roughness, decode_value);
@@ -156,7 +159,7 @@ Textures load_textures(const Material& material, int max_width, double relief, c
   t.aspect = double(material.size().height) / material.size().width;
   if (t.height.empty()) return t;
   if (!t.normal.empty()) {
-    t.depth = depth_from_normals(t.height, t.normal) * relief;
+    t.depth = depth_from_normals(t.height, t.normal, t.aspect) * relief;
   } else {
     t.depth = 0.05 * relief;
     t.normal = normals_from_height(t.height, t.depth);

@@ -16,7 +16,8 @@ struct SynthesisOptions {
   double coherence =
       0.75;               ///< factor on the cost of continuing a neighbour's piece of exemplar; smaller: larger pieces
   double evenness = 0.7;  ///< weight of the occupancy term; 0: parts of the exemplar may be over-used
-  std::vector<double> jitter;  ///< per level, coarsest first, in that level's exemplar pixels; missing levels have none
+  std::vector<double>
+      jitter{};  ///< per level, coarsest first, in that level's exemplar pixels; missing levels have none
 };
 
 /// Synthesizes a uv map coarse to fine (Lefebvre & Hoppe 2005 and 2006): random blocks of the exemplar at the coarsest

@@ -337,8 +337,11 @@ std::string expectation(const Param& p) {
       return "a number" + range_of(p);
     case ParamType::text:
       return "a text";
-    case ParamType::size:
-      return fmt::format("a size such as [512, 256], \"512x256\" or 512{}", range_of(p));
+    case ParamType::size: {
+      Param sides = p;
+      sides.min = p.min.value_or(1);
+      return fmt::format("a size such as [512, 256], \"512x256\" or 512, sides{}", range_of(sides));
+    }
     case ParamType::numbers:
       return fmt::format("a list of {}numbers{}", count_of(p), range_of(p));
     case ParamType::texts:

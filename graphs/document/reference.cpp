@@ -49,17 +49,20 @@ std::string wrapped(const std::string& text, const std::string& first, size_t in
   return out + '\n';
 }
 
+std::string described(const std::string& name, const std::string& kind, const std::string& help) {
+  return wrapped(kind, fmt::format("  {}: ", name), 6) + wrapped(help, "      ", 6);
+}
+
 std::string described_port(const Port& p) {
-  const std::string kind =
-      fmt::format("{}{}{}", p.list ? "list of " : "", name_of(p.type), p.optional ? ", optional" : "");
-  return wrapped(fmt::format("({}) {}", kind, p.help), fmt::format("  {}  ", p.name), 6);
+  return described(
+      p.name, fmt::format("{}{}{}", p.list ? "list of " : "", name_of(p.type), p.optional ? ", optional" : ""), p.help);
 }
 
 std::string described_param(const Param& p) {
   const std::string taken =
       p.type == ParamType::choice ? fmt::format("one of {}", fmt::join(p.choices, ", ")) : expectation(p);
   const std::string fallback = p.fallback ? "default " + compact(json_of(*p.fallback)) : "must be given";
-  return wrapped(fmt::format("({}; {}) {}", taken, fallback, p.help), fmt::format("  {}  ", p.name), 6);
+  return described(p.name, taken + "; " + fallback, p.help);
 }
 
 /// The order in which work flows; categories that are not among them come last.

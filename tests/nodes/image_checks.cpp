@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include <doctest/doctest.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
@@ -87,6 +88,7 @@ void check_every_size(const std::function<ImagePtr(Size)>& make) {
       alone = image->pixels();
       check_tiles_agree(*image);
     });
+    const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
     tbb::task_arena(4).execute([&] { together = make(size)->pixels(); });
     CHECK(same_bits(alone, together));
     CHECK(std::all_of(alone.begin(), alone.end(), [](float v) { return std::isfinite(v); }));

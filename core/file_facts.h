@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+/// Facts about image files that the image library does not report or notice, read from the files' own structure.
 namespace terrazzo {
 
 /// What the markers of a JPEG file (ITU T.81, annex B) say; decoders fill in for missing data without a word.
@@ -10,5 +11,8 @@ struct JpegFacts {
   bool complete = false;  ///< the end-of-image marker is there
 };
 JpegFacts read_jpeg_facts(const std::filesystem::path& path);
+
+/// Whether all strips or tiles of a TIFF or BigTIFF file's first image lie inside the file.
+bool tiff_is_complete(const std::filesystem::path& path);
 
 }  // namespace terrazzo

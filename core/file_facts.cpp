@@ -1,0 +1,112 @@
+#include "core/file_facts.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+namespace terrazzo {
+
+namespace {
+
+bool is_frame_header(uint8_t marker) {
+  return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+}
+
+bool stands_alone(uint8_t marker) {
+  return marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8);
+}
+
+/// Reads numbers out of a TIFF file in the file's byte order; past the end everything is 0.
+class TiffNumbers {
+ public:
+  explicit TiffNumbers(const std::filesystem::path& path) : in_(path, std::ios::binary | std::ios::ate) {
+    size_ = uint64_t(std::max<std::streamoff>(0, in_.tellg()));
+    is_big_endian_ = number(0, 1) == 'M';
+  }
+  uint64_t size() const { return size_; }
+  uint64_t number(uint64_t at, int bytes) {
+    uint8_t raw[8] = {};
+    in_.clear();
+    if (at + uint64_t(bytes) <= size_) {
+      in_.seekg(std::streamoff(at));
+      in_.read(reinterpret_cast<char*>(raw), bytes);
+    }
+    uint64_t v = 0;
+    for (int i = 0; i < bytes; i++) v |= uint64_t{raw[i]} << 8 * (is_big_endian_ ? bytes - 1 - i : i);
+    return v;
+  }
+
+ private:
+  std::ifstream in_;
+  uint64_t size_ = 0;
+  bool is_big_endian_ = false;
+};
+
+int bytes_of_type(uint64_t type) {
+  constexpr uint64_t tiff_short = 3, tiff_long8 = 16, tiff_ifd8 = 18;
+  return type == tiff_short ? 2 : type == tiff_long8 || type == tiff_ifd8 ? 8 : 4;
+}
+
+/// The numbers of one directory entry, which begins with its tag at `entry`.
+std::vector<uint64_t> entry_numbers(TiffNumbers& file, uint64_t entry, bool is_big_tiff) {
+  const int bytes = bytes_of_type(file.number(entry + 2, 2));
+  const int word = is_big_tiff ? 8 : 4;
+  const uint64_t count = file.number(entry + 4, word);
+  uint64_t at = entry + 4 + word;
+  if (count > file.size() / bytes) return {UINT64_MAX / 2};  // more than the file can hold
+  if (count * bytes > uint64_t(word)) at = file.number(at, word);
+  std::vector<uint64_t> out(count);
+  for (uint64_t i = 0; i < count; i++) out[i] = file.number(at + i * bytes, bytes);
+  return out;
+}
+
+}  // namespace
+
+JpegFacts read_jpeg_facts(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::vector<char> file((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const auto byte = [&](size_t i) { return static_cast<uint8_t>(file[i]); };
+  JpegFacts facts;
+  size_t i = 0;
+  while (i + 1 < file.size()) {
+    // Outside segments lies entropy-coded data, in which 0xff is followed by 0.
+    if (byte(i) != 0xff || byte(i + 1) == 0 || byte(i + 1) == 0xff) {
+      i++;
+      continue;
+    }
+    const uint8_t marker = byte(i + 1);
+    i += 2;
+    if (marker == 0xd9) {
+      facts.complete = true;
+      break;
+    }
+    if (stands_alone(marker)) continue;
+    if (i + 1 >= file.size()) break;
+    if (is_frame_header(marker) && i + 7 < file.size()) facts.components = byte(i + 7);
+    i += size_t{byte(i)} << 8 | byte(i + 1);
+  }
+  return facts;
+}
+
+bool tiff_is_complete(const std::filesystem::path& path) {
+  TiffNumbers file(path);
+  const bool is_big_tiff = file.number(2, 2) == 43;
+  const uint64_t directory = is_big_tiff ? file.number(8, 8) : file.number(4, 4);
+  const uint64_t entries = file.number(directory, is_big_tiff ? 8 : 2);
+  const uint64_t first = directory + (is_big_tiff ? 8 : 2), entry_size = is_big_tiff ? 20 : 12;
+  if (entries > file.size() / entry_size) return false;
+  std::vector<uint64_t> offsets, byte_counts;
+  for (uint64_t i = 0; i < entries; i++) {
+    const uint64_t entry = first + i * entry_size;
+    const uint64_t tag = file.number(entry, 2);
+    if (tag == 273 || tag == 324) offsets = entry_numbers(file, entry, is_big_tiff);
+    if (tag == 279 || tag == 325) byte_counts = entry_numbers(file, entry, is_big_tiff);
+  }
+  for (size_t i = 0; i < offsets.size(); i++)
+    if (offsets[i] > file.size() || (i < byte_counts.size() && byte_counts[i] > file.size() - offsets[i])) return false;
+  return true;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,50 @@
+#include "core/analysis/feature_distance.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/run_node.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+ImagePtr box() {
+  return make_image(
+      {40, 40}, 1, [](int x, int y, int) { return x >= 12 && x < 28 && y >= 12 && y < 28 ? 0.9f : 0.1f; },
+      Semantic::height);
+}
+}  // namespace
+
+TEST_CASE("edges lie on the outline, and the distance grows away from it on both sides") {
+  const Edges edges = find_edges(*Material::of(box()), {}, Task());
+  CHECK(edges.mask[20 * 40 + 12] == 1);
+  CHECK(edges.mask[20 * 40 + 20] == 0);
+  CHECK(edges.mask[3 * 40 + 3] == 0);
+  const ImagePtr distance = feature_distance(edges, {40, 40}, false, 5);
+  CHECK(distance->info().semantic == Semantic::guidance);
+  const std::vector<float> d = distance->pixels();
+  CHECK(d[20 * 40 + 12] < 0);
+  CHECK(d[20 * 40 + 20] > d[20 * 40 + 15]);
+  CHECK(d[20 * 40 + 3] > d[20 * 40 + 8]);
+  CHECK(d[0] == 5);
+}
+
+TEST_CASE("a given threshold is used, a lower one finds more") {
+  const MaterialPtr material = Material::of(box());
+  const auto count = [&](double threshold) {
+    const Edges e = find_edges(*material, {.threshold = threshold}, Task());
+    return std::count(e.mask.begin(), e.mask.end(), 1);
+  };
+  CHECK(count(0.1) > count(0.9));
+}
+
+TEST_CASE("an unknown map is refused with the known ones") {
+  CHECK_THROWS_WITH_AS(find_edges(*Material::of(box()), {.maps = {"normal"}}, Task()),
+                       "there is no map \"normal\"; the material has height", Error);
+}
+
+TEST_CASE("the guidance node gives a distance and its edges") {
+  const NodeRun run = run_node("guidance", {}, {{"material", {box()}}});
+  CHECK(run.get<Image>("distance")->size() == Size{40, 40});
+  CHECK(run.get<Image>("edges")->info().semantic == Semantic::mask);
+}

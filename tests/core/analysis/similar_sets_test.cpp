@@ -1,0 +1,48 @@
+#include "core/analysis/similar_sets.h"
+
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include "tests/exemplars.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+TEST_CASE("in a periodic exemplar, similar pixels lie whole periods apart") {
+  const ImagePtr dots = make_image({64, 64}, 1, [](int x, int y, int) {
+    const int dx = x % 16 - 8, dy = y % 16 - 8;
+    return dx * dx + dy * dy < 20 ? 1.f : float((x % 16) * 0.01 + (y % 16) * 0.02);
+  });
+  const IndexPtr index = make_index(make_appearance(*plain_features(dots, true), {}, {}, Task()), 3, Task());
+  int whole = 0, all = 0;
+  for (int i = 0; i < 64 * 64; i++)
+    for (int k = 0; k < 3; k++) {
+      const uint32_t p = index->levels()[0].positions[i * 3 + k];
+      whole += (int(p % 64) - i % 64) % 16 == 0 && (int(p / 64) - i / 64) % 16 == 0;
+      all++;
+    }
+  CHECK(whole > all * 9 / 10);
+}
+
+TEST_CASE("members of a set keep apart from the pixel and from one another") {
+  const IndexPtr index = wall_index({80, 72});
+  const std::vector<uint32_t>& positions = index->levels()[0].positions;
+  for (int i = 0; i < 80 * 72; i++)
+    for (int k = 0; k < 3; k++) {
+      const int x = int(positions[i * 3 + k] % 80), y = int(positions[i * 3 + k] / 80);
+      REQUIRE(std::max(std::abs(x - i % 80), std::abs(y - i / 80)) >= 3);
+      for (int j = 0; j < k; j++) {
+        const int u = int(positions[i * 3 + j] % 80), v = int(positions[i * 3 + j] / 80);
+        REQUIRE(std::max(std::abs(x - u), std::abs(y - v)) >= 3);
+      }
+    }
+}
+
+TEST_CASE("similar sets do not depend on the number of threads, for narrow exemplars neither") {
+  for (const Size size : {Size{64, 48}, Size{16, 200}}) {
+    Digest one, four;
+    tbb::task_arena(1).execute([&] { one = wall_index(size)->digest(); });
+    tbb::task_arena(4).execute([&] { four = wall_index(size)->digest(); });
+    CHECK(one == four);
+  }
+}

@@ -1,0 +1,28 @@
+#include "core/linear_algebra.h"
+
+#include <doctest/doctest.h>
+
+using namespace terrazzo;
+
+TEST_CASE("the eigenvectors of a symmetric matrix make up the matrix again, largest eigenvalue first") {
+  const int n = 4;
+  const std::vector<double> matrix = {4, 1, -2, 2, 1, 2, 0, 1, -2, 0, 3, -2, 2, 1, -2, -1};
+  const SymmetricEigen e = eigen_symmetric(matrix, n);
+  for (int i = 1; i < n; i++) CHECK(e.values[i] <= e.values[i - 1]);
+  for (int r = 0; r < n; r++)
+    for (int c = 0; c < n; c++) {
+      double sum = 0, product = 0;
+      for (int i = 0; i < n; i++) {
+        sum += e.values[i] * e.vectors[i * n + r] * e.vectors[i * n + c];
+        product += e.vectors[r * n + i] * e.vectors[c * n + i];
+      }
+      CHECK(sum == doctest::Approx(matrix[r * n + c]).epsilon(1e-12));
+      CHECK(product == doctest::Approx(r == c ? 1 : 0).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("an eigenvector's largest component is positive") {
+  const SymmetricEigen e = eigen_symmetric({2, -1.5, -1.5, 1}, 2);
+  CHECK(e.vectors[0] > 0.5);
+  CHECK(e.vectors[3] > 0.5);
+}

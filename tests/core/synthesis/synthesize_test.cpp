@@ -1,0 +1,121 @@
+#include "core/synthesis/synthesize.h"
+
+#include <set>
+
+#include <doctest/doctest.h>
+#include <hwy/targets.h>
+#include <tbb/task_arena.h>
+
+#include "tests/exemplars.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+
+const Index& index() {
+  static const IndexPtr made = wall_index();
+  return *made;
+}
+
+/// How many neighbouring output pixels show neighbouring exemplar pixels.
+double coherent_share(const UvMap& uv) {
+  int coherent = 0, all = 0;
+  for (int y = 0; y < uv.size().height; y++)
+    for (int x = 0; x + 1 < uv.size().width; x++, all++) {
+      const ExemplarPixel a = uv.at(x, y), b = uv.at(x + 1, y);
+      coherent += b.x == a.x + 1 && b.y == a.y;
+    }
+  return double(coherent) / all;
+}
+
+}  // namespace
+
+TEST_CASE("the same seed gives the same uv map on any number of threads, another seed another") {
+  const SynthesisOptions options{.size = {60, 44}, .seed = 7};
+  std::set<Digest> digests;
+  for (const int threads : {1, 2, 4})
+    tbb::task_arena(threads).execute([&] { digests.insert(synthesize(index(), options, Task())->digest()); });
+  CHECK(digests.size() == 1);
+  digests.insert(synthesize(index(), {.size = {60, 44}, .seed = 8}, Task())->digest());
+  CHECK(digests.size() == 2);
+}
+
+TEST_CASE("every instruction set gives the same uv map") {
+  const Digest expected = synthesize(index(), {.size = {50, 50}}, Task())->digest();
+  int targets = 0;
+  for (int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+    const int64_t target = left & -left;
+    hwy::SetSupportedTargetsForTest(target);
+    CAPTURE(hwy::TargetName(target));
+    CHECK(synthesize(index(), {.size = {50, 50}}, Task())->digest() == expected);
+    targets++;
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  CHECK(targets > 0);
+}
+
+TEST_CASE("any output size works, down to a single pixel") {
+  for (const Size size : {Size{1, 1}, Size{1, 40}, Size{33, 2}, Size{17, 91}, Size{128, 128}}) {
+    const UvMapPtr uv = synthesize(index(), {.size = size, .tile_x = true, .tile_y = true}, Task());
+    CHECK(uv->size() == size);
+    CHECK(uv->exemplar() == Size{48, 40});
+  }
+}
+
+TEST_CASE("the result is made of coherent pieces, not of one copy") {
+  const UvMapPtr uv = synthesize(index(), {.size = {96, 96}}, Task());
+  CHECK(coherent_share(*uv) > 0.75);
+  CHECK(coherent_share(*uv) < 0.999);
+}
+
+TEST_CASE("windows stay inside an exemplar that does not tile") {
+  const UvMapPtr uv = synthesize(index(), {.size = {96, 96}}, Task());
+  for (const ExemplarPixel p : uv->pixels()) {
+    REQUIRE(p.x >= 2);
+    REQUIRE(p.y >= 2);
+    REQUIRE(p.x < 46);
+    REQUIRE(p.y < 38);
+  }
+}
+
+TEST_CASE("evenness spreads the use of the exemplar") {
+  const auto used_pixels = [](double evenness) {
+    const UvMapPtr uv = synthesize(index(), {.size = {96, 96}, .evenness = evenness}, Task());
+    std::set<uint32_t> used;
+    for (const ExemplarPixel p : uv->pixels()) used.insert(uint32_t(p.y) << 16 | p.x);
+    return used.size();
+  };
+  CHECK(used_pixels(2) > used_pixels(0));
+}
+
+TEST_CASE("less coherence makes smaller pieces") {
+  const UvMapPtr large = synthesize(index(), {.size = {96, 96}, .coherence = 0.4}, Task());
+  const UvMapPtr small = synthesize(index(), {.size = {96, 96}, .coherence = 1}, Task());
+  CHECK(coherent_share(*large) > coherent_share(*small));
+}
+
+TEST_CASE("a tileable result fits together across its borders as well as inside") {
+  const ImagePtr exemplar = wall({48, 40});
+  const UvMapPtr uv = synthesize(index(), {.size = {64, 64}, .tile_x = true, .tile_y = true}, Task());
+  const auto red = [&](int x, int y) {
+    const ExemplarPixel p = uv->at(wrap(x, 64), wrap(y, 64));
+    return exemplar->in_memory()[(p.y * 48 + p.x) * 3];
+  };
+  double seam = 0, inside = 0;
+  for (int y = 0; y < 64; y++) {
+    seam += std::abs(red(63, y) - red(64, y)) + std::abs(red(y, 63) - red(y, 64));
+    for (int x = 0; x < 62; x++) inside += std::abs(red(x, y) - red(x + 1, y)) + std::abs(red(y, x) - red(y, x + 1));
+  }
+  CHECK(seam < 1.6 * inside / 62);
+}
+
+TEST_CASE("jitter changes the result") {
+  const Digest still = synthesize(index(), {.size = {50, 50}}, Task())->digest();
+  CHECK(synthesize(index(), {.size = {50, 50}, .jitter = {0, 3}}, Task())->digest() != still);
+}
+
+TEST_CASE("a cancelled synthesis stops") {
+  const std::atomic<bool> cancelled{true};
+  CHECK_THROWS_AS(synthesize(index(), {.size = {50, 50}}, Task(&cancelled, {})), Cancelled);
+}

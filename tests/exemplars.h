@@ -1,0 +1,34 @@
+#pragma once
+
+#include "core/analysis/appearance_space.h"
+#include "core/analysis/similar_sets.h"
+#include "core/analysis/weighting.h"
+#include "core/hash.h"
+#include "tests/run_node.h"
+
+namespace terrazzo::test {
+
+/// A little brick wall: courses of 8 pixels, bricks of 16, joints of 1, every brick with a shade of its own.
+inline ImagePtr wall(Size size) {
+  return make_image(
+      size, 3,
+      [](int x, int y, int c) {
+        const int course = y / 8, shifted = x + (course % 2) * 8;
+        if (y % 8 == 0 || shifted % 16 == 0) return 0.8f;
+        const double shade = unit_double(random_bits(5, course, shifted / 16));
+        const double speckle = unit_double(random_bits(6, x, y));
+        return float(0.3 + 0.2 * shade + 0.05 * speckle - 0.1 * c);
+      },
+      Semantic::base_color, "srgb_texture");
+}
+
+/// Features of an image as they are, without going through colour.
+inline FeaturesPtr plain_features(const ImagePtr& image, bool wraps = false) {
+  return Features::make(image->size(), {{image, std::vector<double>(image->channels(), 1.0)}}, wraps);
+}
+
+inline IndexPtr wall_index(Size size = {48, 40}, bool wraps = false) {
+  return make_index(make_appearance(*plain_features(wall(size), wraps), {}, {}, Task()), 3, Task());
+}
+
+}  // namespace terrazzo::test
