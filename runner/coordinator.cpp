@@ -61,6 +61,7 @@ void Coordinator::resolved(int stage) {
   }
   if (s.known->record) {
     outcome.kind = StageOutcome::Kind::reused;
+    if (options_.history) options_.history->remember(s.node->name, s.known->ingredients);
     if (options_.observer && s.state != StageState::run) {
       options_.observer->reused(s);
       for (const std::string& note : outcome.notes) options_.observer->noted(s, note);

@@ -32,6 +32,13 @@ class Throttle {
   std::map<const Stage*, Clock::time_point> last_;
 };
 
+/// How many stages will be reused or run; lazy ones that have never run may not be asked for.
+int expected(const Plan& plan) {
+  return static_cast<int>(std::count_if(plan.stages.begin(), plan.stages.end(), [](const Stage& s) {
+    return s.needed && (s.state != StageState::derived || s.known->record);
+  }));
+}
+
 class NoProgress : public Progress {
   void closed(const RunResult&) override {}
 };
@@ -96,7 +103,7 @@ class JsonProgress : public Progress {
 class PlainProgress : public Progress {
  public:
   explicit PlainProgress(std::ostream& out) : out_(out) {}
-  void planned(const Plan& plan) override { all_ = plan.needed() - plan.count(StageState::derived); }
+  void planned(const Plan& plan) override { all_ = expected(plan); }
   void started(const Stage& s) override {
     const std::lock_guard lock(mutex_);
     throttle_.start(&s);
@@ -141,7 +148,7 @@ class BarProgress : public Progress {
  public:
   explicit BarProgress(std::ostream& out) : out_(out) {}
   ~BarProgress() override { erase(); }
-  void planned(const Plan& plan) override { all_ = plan.needed() - plan.count(StageState::derived); }
+  void planned(const Plan& plan) override { all_ = expected(plan); }
   void started(const Stage& s) override {
     const std::lock_guard lock(mutex_);
     running_[&s] = 0;
