@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -118,12 +119,12 @@ class PlainProgress : public Progress {
   }
   void finished(const Stage& s, double seconds) override {
     const std::lock_guard lock(mutex_);
-    settled_++;
+    settled_.insert(&s);
     line(s, fmt::format("{:.2f} s", seconds));
   }
   void reused(const Stage& s) override {
     const std::lock_guard lock(mutex_);
-    settled_++;
+    settled_.insert(&s);
     line(s, s.type().is_sink() ? "up to date" : "cached");
   }
   void failed(const Stage& s, const std::string&) override {
@@ -135,12 +136,14 @@ class PlainProgress : public Progress {
  private:
   void line(const Stage& s, const std::string& what) {
     // Stages that had looked cached, and lazy ones, may run after all.
-    all_ = std::max(all_, settled_);
-    out_ << fmt::format("[{}/{}] {} ({}) {}", settled_, all_, s.node->name, s.type().name, what) << std::endl;
+    all_ = std::max(all_, settled());
+    out_ << fmt::format("[{}/{}] {} ({}) {}", settled(), all_, s.node->name, s.type().name, what) << std::endl;
   }
   std::ostream& out_;
   std::mutex mutex_;
-  int settled_ = 0, all_ = 0;
+  int settled() const { return static_cast<int>(settled_.size()); }
+  std::set<const Stage*> settled_;  // a stage may be reused, and then run for a reader
+  int all_ = 0;
   Throttle throttle_{std::chrono::milliseconds(5000)};
 };
 
@@ -180,8 +183,8 @@ class BarProgress : public Progress {
   void settle(const Stage& s) {
     const std::lock_guard lock(mutex_);
     running_.erase(&s);
-    settled_++;
-    all_ = std::max(all_, settled_);
+    settled_.insert(&s);
+    all_ = std::max(all_, settled());
     draw(false);
   }
   void erase() {
@@ -190,7 +193,7 @@ class BarProgress : public Progress {
   }
   void draw(bool at_once) {
     if (!throttle_.open(nullptr) && !at_once) return;
-    double done = settled_;
+    double done = settled();
     std::string names;
     for (const auto& [stage, fraction] : running_) {
       done += fraction;
@@ -200,13 +203,15 @@ class BarProgress : public Progress {
     const int filled = all_ > 0 ? std::clamp(static_cast<int>(done / all_ * width), 0, width) : 0;
     constexpr size_t room = 40;  // keeps the line shorter than a terminal of 80 columns
     if (names.size() > room) names = names.substr(0, room - 3) + "...";
-    out_ << fmt::format("\r\x1b[K[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", width - filled, settled_, all_, names)
+    out_ << fmt::format("\r\x1b[K[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", width - filled, settled(), all_, names)
          << std::flush;
     drawn_ = true;
   }
   std::ostream& out_;
   std::mutex mutex_;
-  int settled_ = 0, all_ = 0;
+  int settled() const { return static_cast<int>(settled_.size()); }
+  std::set<const Stage*> settled_;  // a stage may be reused, and then run for a reader
+  int all_ = 0;
   bool drawn_ = false;
   std::map<const Stage*, double> running_;
   Throttle throttle_{std::chrono::milliseconds(80)};

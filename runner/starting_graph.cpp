@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/analysis/weighting.h"
+#include "graphs/document/convert.h"
 #include "graphs/document/format.h"
 #include "graphs/document/json.h"
 #include "runner/stock_graphs.h"
@@ -28,7 +30,8 @@ void put(JsonValue& object, const std::string& name, JsonValue value) {
 JsonValue weights_of(const Material& exemplar) {
   JsonValue weights;
   weights.kind = JsonValue::Kind::object;
-  for (const Map& m : exemplar.maps()) weights.members.push_back({m.name, {}, JsonValue::of(int64_t{1})});
+  for (const Map& m : exemplar.maps())
+    weights.members.push_back({m.name, {}, json_of(default_weight(m.image->info().semantic))});
   return weights;
 }
 

@@ -304,6 +304,11 @@ TEST_CASE("synth makes a larger material without a graph file") {
   CHECK_MESSAGE(r.code == 0, r.err);
   const FileInfo info = read_image_info(w.path / "big/base_color.png");
   CHECK(info.size == Size{48, 40});
+
+  const ProgramRun other = w.run({"synth", "maps", "-o", "big", "--size", "48x40", "--seed", "4"});
+  CHECK(other.code == 0);
+  CHECK_MESSAGE(other.err.find("8 stages: 4 cached, 4 run, ") != std::string::npos, other.err);
+  CHECK(other.err.find("warning") == std::string::npos);
 }
 
 TEST_CASE("new writes a commented graph that runs") {
