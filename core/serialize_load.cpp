@@ -133,7 +133,7 @@ class ValueReader {
     return items;
   }
 
-  AppearanceLevel level(int channels) {
+  AppearanceLevel level() {
     AppearanceLevel l;
     l.size = size();
     l.dimensions = in_.get<int32_t>();
@@ -145,7 +145,6 @@ class ValueReader {
     for (const AppearanceVector& v : l.vectors)
       for (const int c : v) require(c >= -appearance_limit && c <= appearance_limit, "a component is out of range");
     const uint64_t inputs = array_length<float>();
-    require(inputs % uint64_t(channels) == 0, "a basis does not fit its channels");
     l.mean = array<float>(inputs);
     l.basis = array<float>(inputs * uint64_t(l.dimensions));
     return l;
@@ -165,7 +164,7 @@ class ValueReader {
     const auto count = in_.get<uint32_t>();
     require(count > 0, "an appearance has no levels");
     std::vector<AppearanceLevel> levels;
-    for (uint32_t i = 0; i < count; i++) levels.push_back(level(channels));
+    for (uint32_t i = 0; i < count; i++) levels.push_back(level());
     return checked([&] { return Appearance::make(std::move(levels), channels, wraps); });
   }
 

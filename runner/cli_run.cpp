@@ -195,8 +195,8 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       std::vector<std::string> set = {"material=" + flags->folder, "out=" + flags->out};
       if (!flags->size.empty()) set.push_back("size=" + flags->size);
       if (!flags->seed.empty()) set.push_back("seed=" + flags->seed);
-      return run_with_flags([&] { return load_graph_text(stock_graph("material"), "material.json", set).graph; },
-                            *flags);
+      return run_with_flags(
+          [&] { return load_graph_text(stock_graph("material"), "stock graph material.json", set).graph; }, *flags);
     };
   });
 }

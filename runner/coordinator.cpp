@@ -61,6 +61,7 @@ void Coordinator::resolved(int stage) {
   }
   if (s.known->record) {
     outcome.kind = StageOutcome::Kind::reused;
+    if (options_.history) options_.history->remember(s.node->name, s.known->ingredients);
     if (options_.observer && s.state != StageState::run) {
       options_.observer->reused(s);
       for (const std::string& note : outcome.notes) options_.observer->noted(s, note);
@@ -157,6 +158,9 @@ void Coordinator::computed(Job& job) {
   if (options_.cache) enqueue_store(job);
   if (s.known->names.empty()) s.known->names = job.record->outputs;
   live_[stage].values = std::move(job.values);
+  std::erase_if(live_[stage].values, [&](const auto& value) {
+    return std::find(s.used_outputs.begin(), s.used_outputs.end(), value.first) == s.used_outputs.end();
+  });
   named(stage);
   values_there(stage);
   close(stage);

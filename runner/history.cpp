@@ -44,7 +44,7 @@ std::string difference(const Ingredient& before, const Ingredient& now) {
 }  // namespace
 
 History::History(const fs::path& folder, const fs::path& graph_file)
-    : path_(folder / "history" / (Hasher().add(fs::absolute(graph_file).string()).digest().hex() + ".txt")) {
+    : path_(folder / "history" / (Hasher().add(fs::weakly_canonical(graph_file).string()).digest().hex() + ".txt")) {
   std::ifstream in(path_);
   std::string line;
   if (!std::getline(in, line) || line != first_line) return;
@@ -69,7 +69,10 @@ std::string History::first_difference(const std::string& node, const std::vector
 }
 
 void History::remember(const std::string& node, const std::vector<Ingredient>& now) {
-  nodes_[node] = now;
+  std::vector<Ingredient>& before = nodes_[node];
+  const auto same = [](const Ingredient& a, const Ingredient& b) { return a.what == b.what && a.digest == b.digest; };
+  if (std::equal(before.begin(), before.end(), now.begin(), now.end(), same)) return;
+  before = now;
   changed_ = true;
 }
 

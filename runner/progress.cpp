@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -31,6 +32,13 @@ class Throttle {
   std::chrono::milliseconds interval_;
   std::map<const Stage*, Clock::time_point> last_;
 };
+
+/// How many stages will be reused or run; lazy ones that have never run may not be asked for.
+int expected(const Plan& plan) {
+  return static_cast<int>(std::count_if(plan.stages.begin(), plan.stages.end(), [](const Stage& s) {
+    return s.needed && (s.state != StageState::derived || s.known->record);
+  }));
+}
 
 class NoProgress : public Progress {
   void closed(const RunResult&) override {}
@@ -96,7 +104,7 @@ class JsonProgress : public Progress {
 class PlainProgress : public Progress {
  public:
   explicit PlainProgress(std::ostream& out) : out_(out) {}
-  void planned(const Plan& plan) override { all_ = plan.needed() - plan.count(StageState::derived); }
+  void planned(const Plan& plan) override { all_ = expected(plan); }
   void started(const Stage& s) override {
     const std::lock_guard lock(mutex_);
     throttle_.start(&s);
@@ -111,12 +119,12 @@ class PlainProgress : public Progress {
   }
   void finished(const Stage& s, double seconds) override {
     const std::lock_guard lock(mutex_);
-    settled_++;
+    settled_.insert(&s);
     line(s, fmt::format("{:.2f} s", seconds));
   }
   void reused(const Stage& s) override {
     const std::lock_guard lock(mutex_);
-    settled_++;
+    settled_.insert(&s);
     line(s, s.type().is_sink() ? "up to date" : "cached");
   }
   void failed(const Stage& s, const std::string&) override {
@@ -128,12 +136,14 @@ class PlainProgress : public Progress {
  private:
   void line(const Stage& s, const std::string& what) {
     // Stages that had looked cached, and lazy ones, may run after all.
-    all_ = std::max(all_, settled_);
-    out_ << fmt::format("[{}/{}] {} ({}) {}", settled_, all_, s.node->name, s.type().name, what) << std::endl;
+    all_ = std::max(all_, settled());
+    out_ << fmt::format("[{}/{}] {} ({}) {}", settled(), all_, s.node->name, s.type().name, what) << std::endl;
   }
   std::ostream& out_;
   std::mutex mutex_;
-  int settled_ = 0, all_ = 0;
+  int settled() const { return static_cast<int>(settled_.size()); }
+  std::set<const Stage*> settled_;  // a stage may be reused, and then run for a reader
+  int all_ = 0;
   Throttle throttle_{std::chrono::milliseconds(5000)};
 };
 
@@ -141,7 +151,7 @@ class BarProgress : public Progress {
  public:
   explicit BarProgress(std::ostream& out) : out_(out) {}
   ~BarProgress() override { erase(); }
-  void planned(const Plan& plan) override { all_ = plan.needed() - plan.count(StageState::derived); }
+  void planned(const Plan& plan) override { all_ = expected(plan); }
   void started(const Stage& s) override {
     const std::lock_guard lock(mutex_);
     running_[&s] = 0;
@@ -173,8 +183,8 @@ class BarProgress : public Progress {
   void settle(const Stage& s) {
     const std::lock_guard lock(mutex_);
     running_.erase(&s);
-    settled_++;
-    all_ = std::max(all_, settled_);
+    settled_.insert(&s);
+    all_ = std::max(all_, settled());
     draw(false);
   }
   void erase() {
@@ -183,7 +193,7 @@ class BarProgress : public Progress {
   }
   void draw(bool at_once) {
     if (!throttle_.open(nullptr) && !at_once) return;
-    double done = settled_;
+    double done = settled();
     std::string names;
     for (const auto& [stage, fraction] : running_) {
       done += fraction;
@@ -193,13 +203,15 @@ class BarProgress : public Progress {
     const int filled = all_ > 0 ? std::clamp(static_cast<int>(done / all_ * width), 0, width) : 0;
     constexpr size_t room = 40;  // keeps the line shorter than a terminal of 80 columns
     if (names.size() > room) names = names.substr(0, room - 3) + "...";
-    out_ << fmt::format("\r\x1b[K[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", width - filled, settled_, all_, names)
+    out_ << fmt::format("\r\x1b[K[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", width - filled, settled(), all_, names)
          << std::flush;
     drawn_ = true;
   }
   std::ostream& out_;
   std::mutex mutex_;
-  int settled_ = 0, all_ = 0;
+  int settled() const { return static_cast<int>(settled_.size()); }
+  std::set<const Stage*> settled_;  // a stage may be reused, and then run for a reader
+  int all_ = 0;
   bool drawn_ = false;
   std::map<const Stage*, double> running_;
   Throttle throttle_{std::chrono::milliseconds(80)};

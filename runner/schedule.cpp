@@ -100,6 +100,8 @@ RunResult run_plan(Plan plan, const RunOptions& options) {
   result.kept = coordinator.take_kept();
   result.spans = coordinator.take_spans();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (result.ok() && result.count(StageOutcome::Kind::unfinished) > 0)
+    throw std::logic_error("the scheduler came to rest before its work was done");
   return result;
 }
 

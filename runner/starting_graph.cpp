@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/analysis/weighting.h"
+#include "graphs/document/convert.h"
 #include "graphs/document/format.h"
 #include "graphs/document/json.h"
 #include "runner/stock_graphs.h"
@@ -28,8 +30,13 @@ void put(JsonValue& object, const std::string& name, JsonValue value) {
 JsonValue weights_of(const Material& exemplar) {
   JsonValue weights;
   weights.kind = JsonValue::Kind::object;
-  for (const Map& m : exemplar.maps()) weights.members.push_back({m.name, {}, JsonValue::of(int64_t{1})});
+  for (const Map& m : exemplar.maps())
+    weights.members.push_back({m.name, {}, json_of(default_weight(m.image->info().semantic))});
   return weights;
+}
+
+void comment(JsonValue& value, const std::string& text) {
+  value.comments_before.push_back("// " + text);
 }
 
 /// In documents "$" and a leading "@" mean something.
@@ -50,21 +57,18 @@ std::string starting_graph(const Material& exemplar, const std::filesystem::path
 
   JsonValue& nodes = member(graph, "nodes");
   JsonValue& exemplar_node = member(nodes, "exemplar");
-  exemplar_node.comments_before.push_back("What was found in " + folder.generic_string() + ":");
+  comment(exemplar_node, "What was found in " + folder.generic_string() + ":");
   for (const Map& m : exemplar.maps())
-    exemplar_node.comments_before.push_back(fmt::format("  {}: {}x{}, {} channel{}", m.name, m.image->width(),
-                                                        m.image->height(), m.image->channels(),
-                                                        m.image->channels() == 1 ? "" : "s"));
-  for (const std::string& note : notes) exemplar_node.comments_before.push_back("  " + note);
+    comment(exemplar_node, fmt::format("  {}: {}x{}, {} channel{}", m.name, m.image->width(), m.image->height(),
+                                       m.image->channels(), m.image->channels() == 1 ? "" : "s"));
+  for (const std::string& note : notes) comment(exemplar_node, "  " + note);
 
   JsonValue& weighted = member(nodes, "weighted");
-  weighted.comments_before.push_back("How much each map counts when neighbourhoods are compared; 0 leaves a map out.");
+  comment(weighted, "How much each map counts when neighbourhoods are compared; 0 leaves a map out.");
   put(weighted, "weights", weights_of(exemplar));
-  member(nodes, "guides")
-      .comments_before.push_back(
+  comment(member(nodes, "guides"),
           "Edges keep features such as joints and cracks whole. `terrazzo nodes guidance` says more.");
-  member(nodes, "layout")
-      .comments_before.push_back("Another seed gives another variation; nothing before this node runs again for it.");
+  comment(member(nodes, "layout"), "Another seed gives another variation; nothing before this node runs again for it.");
   return formatted(graph);
 }
 

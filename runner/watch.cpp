@@ -21,10 +21,13 @@ void Watch::look_at(const Graph& graph) {
   if (!graph.file.empty()) add(graph.file);
   for (const GraphNode& n : graph.nodes) {
     if (!n.type->files_read) continue;
-    for (const std::filesystem::path& file : n.type->files_read(n.params)) add(file);
-    // A new file in a folder changes the folder's time.
-    for (const auto& [name, value] : n.params)
-      if (n.type->find_param(name)->type == ParamType::path) add(std::get<std::string>(value));
+    for (const std::filesystem::path& file : n.type->files_read(n.params)) {
+      add(file);
+      // A new file in a folder changes the folder's time.
+      for (const auto& [name, value] : n.params)
+        if (n.type->find_param(name)->type == ParamType::path && file.parent_path() == std::get<std::string>(value))
+          add(file.parent_path());
+    }
   }
 }
 
