@@ -19,6 +19,8 @@ constexpr double shortest = 4;  // pixels; anything finer is grain
 constexpr int most_peaks = 60;
 // Skew lattices have many candidates, so chance agreement is likelier: they must do better than bands.
 constexpr double extra_certainty = 0.25;
+// Along bands anything goes, so any skew lattice that respects them does as well as they do: it must do better.
+constexpr double skew_gain = 0.1;
 
 /// Correlation over lags, all channels together; symmetric about the origin.
 class Correlation {
@@ -237,10 +239,11 @@ Lattice find_lattice(const Features& features, double least_certainty, const Tas
   }
   const Correlation r = correlate(planes, task);
   const Lattice courses = one_direction(r, true), columns = one_direction(r, false);
+  const double bands = std::max(courses.certainty, columns.certainty);
   Lattice best = two_directions(r);
   if (std::min(courses.certainty, columns.certainty) >= least_certainty)
     best = {2, columns.first, courses.first, std::min(courses.certainty, columns.certainty)};
-  else if (best.certainty < least_certainty + extra_certainty)
+  else if (best.certainty < std::max(least_certainty + extra_certainty, bands + skew_gain))
     best = courses.certainty > columns.certainty ? courses : columns;
   if (best.certainty < least_certainty) return {0, {}, {}, best.certainty};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};

@@ -48,30 +48,22 @@ class LevelSearch {
   void offer(Set& set, int x, int y, int u, int v) const {
     level_.settle(u, v);
     if (between(x, u, size().width) < away_ && between(y, v, size().height) < away_) return;
-    // Members too near to the newcomer may only give way together, and only to a better one.
-    int limit = set[per_pixel_ - 1].distance, crowded = 0;
+    // A newcomer may take the place of one member that is too near to it, if it is better; between two it has no place.
+    int limit = set[per_pixel_ - 1].distance, near = -1;
     for (int k = 0; k < per_pixel_ && set[k].distance != none; k++) {
       if (between(set[k].x, u, size().width) >= apart || between(set[k].y, v, size().height) >= apart) continue;
-      limit = crowded == 0 ? set[k].distance : std::min(limit, set[k].distance);
-      crowded++;
+      if (near >= 0) return;
+      near = k;
+      limit = set[k].distance;
     }
     const int d = distance(x, y, u, v, limit);
     if (d >= limit) return;
-    if (crowded > 0) remove_near(set, u, v);
-    int k = per_pixel_ - 1;
+    int k = near >= 0 ? near : per_pixel_ - 1;
     for (; k > 0 && set[k - 1].distance > d; k--) set[k] = set[k - 1];
     set[k] = {d, u, v};
   }
 
  private:
-  void remove_near(Set& set, int u, int v) const {
-    int kept = 0;
-    for (int k = 0; k < per_pixel_; k++)
-      if (set[k].distance == none || between(set[k].x, u, size().width) >= apart ||
-          between(set[k].y, v, size().height) >= apart)
-        set[kept++] = set[k];
-    for (; kept < per_pixel_; kept++) set[kept] = {};
-  }
   int between(int a, int b, int n) const {
     const int d = std::abs(a - b);
     return level_.wraps() ? std::min(d, n - d) : d;
