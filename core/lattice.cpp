@@ -2,9 +2,35 @@
 
 namespace terrazzo {
 
-LatticePhase::Matrix LatticePhase::inverse(const Matrix& m) {
-  const double d = 1.0 / (m.xx * m.yy - m.xy * m.yx);
-  return {m.yy * d, -m.xy * d, -m.yx * d, m.xx * d};
+Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
+  const auto whole = [](double cells, bool wraps) { return wraps ? std::floor(cells + 0.5) : cells; };
+  const double w = size.width, h = size.height;
+  Lattice out = *this;
+  if (rank == 1) {
+    const bool columns = first.x != 0;
+    const double length = columns ? w : h;
+    const double cells = whole(length / (columns ? first.x : first.y), columns ? wraps_x : wraps_y);
+    if (std::abs(cells) >= 1) (columns ? out.first.x : out.first.y) = length / cells;
+  }
+  if (rank == 2) {
+    // Column by column, the cells that the surface spans along x and along y; its inverse gives the vectors.
+    const double d = 1.0 / (first.x * second.y - first.y * second.x);
+    const double ix = whole(second.y * d * w, wraps_x), jx = whole(-first.y * d * w, wraps_x);
+    const double iy = whole(-second.x * d * h, wraps_y), jy = whole(first.x * d * h, wraps_y);
+    const double spanned = ix * jy - iy * jx;
+    if (std::abs(spanned) >= 0.5) {
+      out.first = {w * jy / spanned, -h * jx / spanned};
+      out.second = {-w * iy / spanned, h * ix / spanned};
+    }
+  }
+  return out;
+}
+
+LatticePhase::Matrix LatticePhase::to_cells(const Lattice& l, double scale) {
+  const double ax = l.first.x * scale, ay = l.first.y * scale, bx = l.second.x * scale, by = l.second.y * scale;
+  if (l.rank == 1) return ax != 0 ? Matrix{1 / ax, 0, 0, 0} : Matrix{0, 1 / ay, 0, 0};
+  const double d = 1.0 / (ax * by - ay * bx);
+  return {by * d, -bx * d, -ay * d, ax * d};
 }
 
 LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y)
@@ -15,28 +41,9 @@ LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool 
   second_ = {lattice.second.x * scale, lattice.second.y * scale};
   const double cell =
       rank_ == 1 ? std::abs(first_.x + first_.y) : std::sqrt(std::abs(first_.x * second_.y - first_.y * second_.x));
-  if (cell < smallest_cell) {
-    rank_ = 0;
-    return;
-  }
-  const auto cells_along = [](double cells, bool tiles) { return tiles ? nearest(cells) : cells; };
-  if (rank_ == 1) {
-    const bool columns = first_.x != 0;
-    const double length = columns ? output.width : output.height;
-    const double cells = cells_along(length / cell, columns ? tile_x : tile_y);
-    const double output_period = cells > 0 ? length / cells : cell;
-    (columns ? to_exemplar_.xx : to_exemplar_.xy) = 1 / cell;
-    (columns ? to_output_.xx : to_output_.xy) = 1 / output_period;
-    return;
-  }
-  to_exemplar_ = inverse({first_.x, second_.x, first_.y, second_.y});
-  // The cells that the output spans along each axis, whole where it wraps around.
-  const Matrix& e = to_exemplar_;
-  const double w = output.width, h = output.height;
-  const Matrix spans{cells_along(e.xx * w, tile_x), cells_along(e.xy * h, tile_y), cells_along(e.yx * w, tile_x),
-                     cells_along(e.yy * h, tile_y)};
-  const bool too_small = std::abs(spans.xx * spans.yy - spans.xy * spans.yx) < 0.5;
-  to_output_ = too_small ? to_exemplar_ : Matrix{spans.xx / w, spans.xy / h, spans.yx / w, spans.yy / h};
+  if (cell < smallest_cell) rank_ = 0;
+  to_exemplar_ = to_cells(lattice, scale);
+  to_output_ = to_cells(lattice.fitted(output, tile_x, tile_y), scale);
 }
 
 }  // namespace terrazzo

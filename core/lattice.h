@@ -26,6 +26,9 @@ struct Lattice {
     if (rank == 1) return (first.x == 0) != (first.y == 0);
     return rank == 0 || (rank == 2 && std::abs(first.x * second.y - first.y * second.x) >= 1);
   }
+  /// The nearest lattice of which a surface of `size` holds a whole number of cells, along each axis in which it wraps.
+  Lattice fitted(Size size, bool wraps_x, bool wraps_y) const;
+
   void add_to(Hasher& h) const { h.add(rank).add(first.x).add(first.y).add(second.x).add(second.y).add(certainty); }
 };
 
@@ -34,9 +37,9 @@ struct Lattice {
 class LatticePhase {
  public:
   LatticePhase() = default;
-  /// `level`: 0 = the finest. `output`: the result's size on that level. A result that wraps around must hold a whole
-  /// number of cells: its lattice is stretched until it does. Inactive where a cell has become too small to speak of
-  /// places within it.
+  /// `level`: 0 = the finest. `output`: the result's size at the finest level. A result that wraps around must hold a
+  /// whole number of cells: its lattice is stretched until it does. Inactive where a cell has become too small to speak
+  /// of places within it.
   LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y);
 
   bool active() const { return rank_ > 0; }
@@ -68,7 +71,7 @@ class LatticePhase {
   struct Matrix {
     double xx = 0, xy = 0, yx = 0, yy = 0;
   };
-  static Matrix inverse(const Matrix& m);
+  static Matrix to_cells(const Lattice& lattice, double scale);
   static double nearest(double v) { return std::floor(v + 0.5); }
 
   static constexpr double smallest_cell = 3;  // pixels of the level

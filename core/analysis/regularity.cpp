@@ -21,6 +21,8 @@ constexpr int most_peaks = 60;
 constexpr double extra_certainty = 0.25;
 // Along bands anything goes, so any skew lattice that respects them does as well as they do: it must do better.
 constexpr double skew_gain = 0.1;
+// Of what correlation remains between bands, the part that must repeat along them before bricks count as of one length.
+constexpr double least_bond = 0.25;
 
 /// Correlation over lags, all channels together; symmetric about the origin.
 class Correlation {
@@ -228,6 +230,58 @@ Lattice one_direction(const Correlation& r, bool courses) {
   return {1, courses ? Vector2{0, best_period} : Vector2{best_period, 0}, {}, certainty};
 }
 
+/// Bricks in courses: whether what remains of the correlation, once the bands themselves are taken out, repeats along
+/// them too, each band shifted against the next by a usual bond.
+Lattice with_bond(const Correlation& r, const Lattice& bands) {
+  const bool courses = bands.first.x == 0;
+  const double period = courses ? bands.first.y : bands.first.x;
+  const int along = (courses ? r.lags().width : r.lags().height) - 3,
+            across = (courses ? r.lags().height : r.lags().width) - 3;
+  const int band_count = std::min(6, int((across - 1) / period));
+  // One row of remaining correlation per band; lag 0 stands in the middle.
+  std::vector<std::vector<double>> rows;
+  for (int j = 0; j <= band_count; j++) {
+    const int d = int(std::floor(j * period + 0.5));
+    std::vector<double> row;
+    double mean = 0;
+    for (int t = -along; t <= along; t++) {
+      row.push_back(courses ? r.at(t, d) : r.at(d, t));
+      mean += row.back() / (2 * along + 1);
+    }
+    for (double& v : row) v -= mean;
+    rows.push_back(std::move(row));
+  }
+  const double unit = rows[0][along];
+  if (unit <= 0.02) return bands;
+  const auto score = [&](double length, double shift) {
+    double sum[2] = {0, 0};
+    int count[2] = {0, 0};
+    for (int j = 0; j <= band_count; j++)
+      for (int i = -60; i <= 60; i++) {
+        const double at = (i * 0.5 + j * shift) * length;
+        if (std::abs(at) > along - 1 || (j == 0 && i == 0)) continue;
+        sum[i & 1] += rows[j][size_t(int(std::floor(at + 0.5)) + along)];
+        count[i & 1]++;
+      }
+    return count[0] < 6 || count[1] < 6 ? 0.0 : (sum[0] / count[0] - sum[1] / count[1]) / unit;
+  };
+  double best = least_bond, best_length = 0, best_shift = 0;
+  // Shorter bricks first: a multiple must be clearly better.
+  for (double length = std::max(shortest, period / 2); length < along / 1.5; length += 0.25)
+    for (const double shift : {0.0, 1 / 2.0, 1 / 3.0, 2 / 3.0, 1 / 4.0, 3 / 4.0})
+      if (const double c = score(length, shift);
+          c > best * (length > 1.5 * best_length && best_length > 0 ? 1.3 : 1.0)) {
+        best = c;
+        best_length = length;
+        best_shift = shift;
+      }
+  if (best_length == 0) return bands;
+  Lattice bond{2, {best_length, 0}, {best_shift * best_length, period}, bands.certainty};
+  if (!courses) bond = {2, {0, best_length}, {period, best_shift * best_length}, bands.certainty};
+  refine(r, bond.first, bond.second);
+  return bond;
+}
+
 }  // namespace
 
 Lattice find_lattice(const Features& features, double least_certainty, const Task& task) {
@@ -244,10 +298,10 @@ Lattice find_lattice(const Features& features, double least_certainty, const Tas
   if (std::min(courses.certainty, columns.certainty) >= least_certainty)
     best = {2, columns.first, courses.first, std::min(courses.certainty, columns.certainty)};
   else if (best.certainty < std::max(least_certainty + extra_certainty, bands + skew_gain))
-    best = courses.certainty > columns.certainty ? courses : columns;
-  if (best.certainty < least_certainty) return {0, {}, {}, best.certainty};
+    best = bands > 0 ? with_bond(r, courses.certainty > columns.certainty ? courses : columns) : best;
+  if (best.certainty < least_certainty || !best.is_valid()) return {0, {}, {}, best.certainty};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
-  return best;
+  return best.fitted(features.size(), features.wraps(), features.wraps());
 }
 
 }  // namespace terrazzo

@@ -90,7 +90,7 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
     const Size size = level_size(options.size, l);
     const size_t order = size_t(levels - 1 - l);
     const double amplitude = order < options.jitter.size() ? options.jitter[order] : 0;
-    const LatticePhase phase(appearance.lattice(), l, size, options.tile_x, options.tile_y);
+    const LatticePhase phase(appearance.lattice(), l, options.size, options.tile_x, options.tile_y);
     field = l == levels - 1 ? random_blocks(size, exemplar, options.seed)
                             : upsampled(field, size, exemplar, phase, amplitude, options.seed, l);
     const std::vector<ExemplarPixel> similar = similar_pixels(index.levels()[l], exemplar_level.size);
