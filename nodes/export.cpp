@@ -10,9 +10,10 @@
 
 #include "core/color.h"
 #include "core/image_file.h"
-#include "core/nearest_name.h"
 #include "core/node.h"
+#include "core/suggest.h"
 #include "core/uv_image.h"
+#include "nodes/color_space.h"
 #include "nodes/export_report.h"
 
 namespace terrazzo {
@@ -298,14 +299,7 @@ std::vector<std::string> check(const Params& params) {
     });
   }
   if (!text("report_path").empty()) attempt([&] { is_csv(text("report_path")); });
-  if (text("color_space") != "keep")
-    attempt([&] {
-      try {
-        canonical_color_space(text("color_space"));
-      } catch (const Error& e) {
-        throw Error("color_space", e.what());
-      }
-    });
+  for (std::string& p : color_space_problems(params, "color_space", "keep")) problems.push_back(std::move(p));
   return problems;
 }
 

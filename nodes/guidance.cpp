@@ -2,6 +2,7 @@
 
 #include "core/analysis/feature_distance.h"
 #include "core/analysis/weighting.h"
+#include "core/color.h"
 
 namespace terrazzo {
 
@@ -73,6 +74,7 @@ NodeType guidance_node() {
        .help = "Whether the exemplar tiles; \"auto\" compares opposite borders.",
        .choices = {"auto", "yes", "no"}},
   };
+  t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
   return t;
 }

@@ -1,4 +1,5 @@
 #include "core/analysis/weighting.h"
+#include "core/color.h"
 
 namespace terrazzo {
 
@@ -43,6 +44,7 @@ NodeType weight_node() {
        .choices = {"auto", "yes", "no"}},
   };
   t.persist = Persist::digest;
+  t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
   return t;
 }
