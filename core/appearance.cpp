@@ -4,9 +4,10 @@
 
 namespace terrazzo {
 
-AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels, bool wraps) {
+AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Lattice& lattice) {
   Hasher h;
   h.add("appearance").add(channels).add(wraps).add(int64_t(levels.size()));
+  lattice.add_to(h);
   for (const AppearanceLevel& l : levels) {
     if (l.vectors.size() != size_t(l.size.area())) throw std::logic_error("one appearance vector per pixel");
     h.add(l.size.width).add(l.size.height).add(l.dimensions).add(l.scale);
@@ -18,6 +19,7 @@ AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels
   a->levels_ = std::move(levels);
   a->channels_ = channels;
   a->wraps_ = wraps;
+  a->lattice_ = lattice;
   a->digest_ = h.digest();
   return a;
 }

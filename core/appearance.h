@@ -7,6 +7,7 @@
 
 #include "core/geometry.h"
 #include "core/hash.h"
+#include "core/lattice.h"
 
 namespace terrazzo {
 
@@ -25,6 +26,7 @@ struct AppearanceLevel {
   /// The PCA basis: neighbourhood (window * channels values, weighted by a Gaussian) minus `mean`, projected on each of
   /// `dimensions` rows of `basis`, times `scale`, rounded. Lets other images be brought into this space.
   int dimensions = 0;
+  /// Levels at which guidance has no weight have the features' channels only.
   std::vector<float> mean;   ///< window area * channels
   std::vector<float> basis;  ///< dimensions rows of window area * channels
   double scale = 1;
@@ -38,12 +40,13 @@ using AppearancePtr = std::shared_ptr<const Appearance>;
 /// finest level first, each level with a PCA of its own. Immutable.
 class Appearance {
  public:
-  static AppearancePtr make(std::vector<AppearanceLevel> levels, int channels, bool wraps);
+  static AppearancePtr make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Lattice& lattice = {});
 
   const std::vector<AppearanceLevel>& levels() const { return levels_; }
   Size size() const { return levels_.front().size; }
-  int channels() const { return channels_; }  ///< features and guidance channels that went in
-  bool wraps() const { return wraps_; }       ///< the exemplar tiles in x and y
+  int channels() const { return channels_; }           ///< features and guidance channels that went in
+  bool wraps() const { return wraps_; }                ///< the exemplar tiles in x and y
+  const Lattice& lattice() const { return lattice_; }  ///< how the exemplar repeats, if it does
   const Digest& digest() const { return digest_; }
 
  private:
@@ -51,6 +54,7 @@ class Appearance {
   std::vector<AppearanceLevel> levels_;
   int channels_ = 0;
   bool wraps_ = false;
+  Lattice lattice_;
   Digest digest_;
 };
 

@@ -4,9 +4,10 @@
 
 namespace terrazzo {
 
-FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wraps) {
+FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wraps, const Lattice& lattice) {
   Hasher h;
   h.add("features").add(size.width).add(size.height).add(wraps).add(int64_t(images.size()));
+  lattice.add_to(h);
   bool any = false;
   for (const FeatureImage& f : images) {
     if (f.image->size() != size || int(f.weights.size()) != f.image->channels())
@@ -23,6 +24,7 @@ FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wra
   auto features = std::shared_ptr<Features>(new Features);
   features->size_ = size;
   features->wraps_ = wraps;
+  features->lattice_ = lattice;
   features->images_ = std::move(images);
   features->digest_ = h.digest();
   return features;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/lattice.h"
 
 namespace terrazzo {
 
@@ -21,10 +22,13 @@ using FeaturesPtr = std::shared_ptr<const Features>;
 class Features {
  public:
   /// All images must have `size`. Throws Error if every weight is 0. `wraps`: the exemplar tiles in x and y.
-  static FeaturesPtr make(Size size, std::vector<FeatureImage> images, bool wraps);
+  static FeaturesPtr make(Size size, std::vector<FeatureImage> images, bool wraps, const Lattice& lattice = {});
+  /// The same features of an exemplar that is known to repeat.
+  FeaturesPtr with(const Lattice& lattice) const { return make(size_, images_, wraps_, lattice); }
 
   Size size() const { return size_; }
   bool wraps() const { return wraps_; }
+  const Lattice& lattice() const { return lattice_; }  ///< rank 0 unless it has been looked for and found
   const std::vector<FeatureImage>& images() const { return images_; }
   /// Channels of non-zero weight.
   int channel_count() const;
@@ -34,6 +38,7 @@ class Features {
   Features() = default;
   Size size_;
   bool wraps_ = false;
+  Lattice lattice_;
   std::vector<FeatureImage> images_;
   Digest digest_;
 };

@@ -104,9 +104,21 @@ class ValueReader {
     return checked([&] { return Material::make(std::move(name), std::move(maps)); });
   }
 
+  Lattice lattice() {
+    Lattice l;
+    l.rank = in_.get_below<uint8_t>(3);
+    for (double* v : {&l.first.x, &l.first.y, &l.second.x, &l.second.y, &l.certainty}) {
+      *v = in_.get<double>();
+      require(std::isfinite(*v), "a lattice has a component that is not a number");
+    }
+    require(l.is_valid(), "a lattice has no extent");
+    return l;
+  }
+
   FeaturesPtr features() {
     const Size s = size();
     const bool wraps = in_.get_below<uint8_t>(2) != 0;
+    const Lattice repeats = lattice();
     std::vector<FeatureImage> images;
     const auto count = in_.get<uint32_t>();
     for (uint32_t i = 0; i < count; i++) {
@@ -114,7 +126,7 @@ class ValueReader {
       for (int c = 0; c < f.image->channels(); c++) f.weights.push_back(in_.get<double>());
       images.push_back(std::move(f));
     }
-    return checked([&] { return Features::make(s, std::move(images), wraps); });
+    return checked([&] { return Features::make(s, std::move(images), wraps, repeats); });
   }
 
   /// `count` items. Memory grows with what is really in the file, whatever it says.
@@ -161,11 +173,12 @@ class ValueReader {
     const int channels = in_.get<int32_t>();
     require(channels > 0, "an appearance has no channels");
     const bool wraps = in_.get_below<uint8_t>(2) != 0;
+    const Lattice repeats = lattice();
     const auto count = in_.get<uint32_t>();
     require(count > 0, "an appearance has no levels");
     std::vector<AppearanceLevel> levels;
     for (uint32_t i = 0; i < count; i++) levels.push_back(level());
-    return checked([&] { return Appearance::make(std::move(levels), channels, wraps); });
+    return checked([&] { return Appearance::make(std::move(levels), channels, wraps, repeats); });
   }
 
   IndexPtr index() {

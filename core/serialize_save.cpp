@@ -69,6 +69,7 @@ class ValueWriter {
   void operator()(const FeaturesPtr& features) {
     put(features->size());
     out_.put(uint8_t(features->wraps()));
+    put(features->lattice());
     out_.put(uint32_t(features->images().size()));
     for (const FeatureImage& f : features->images()) {
       (*this)(f.image);
@@ -79,6 +80,7 @@ class ValueWriter {
   void operator()(const AppearancePtr& appearance) {
     out_.put(int32_t(appearance->channels()));
     out_.put(uint8_t(appearance->wraps()));
+    put(appearance->lattice());
     out_.put(uint32_t(appearance->levels().size()));
     for (const AppearanceLevel& l : appearance->levels()) {
       put(l.size);
@@ -125,6 +127,12 @@ class ValueWriter {
   }
 
  private:
+  void put(const Lattice& lattice) {
+    out_.put(uint8_t(lattice.rank));
+    for (const double v : {lattice.first.x, lattice.first.y, lattice.second.x, lattice.second.y, lattice.certainty})
+      out_.put(v);
+  }
+
   void put(Size size) {
     out_.put(int32_t(size.width));
     out_.put(int32_t(size.height));

@@ -17,6 +17,10 @@ namespace {
 constexpr int most_side = 256;  // periods are found to a fraction of a pixel; more resolution brings nothing
 constexpr double shortest = 4;  // pixels; anything finer is grain
 constexpr int most_peaks = 60;
+// Skew lattices have many candidates, so chance agreement is likelier: they must do better than bands.
+constexpr double extra_certainty = 0.25;
+// Along bands anything goes, so any skew lattice that respects them does as well as they do: it must do better.
+constexpr double skew_gain = 0.1;
 
 /// Correlation over lags, all channels together; symmetric about the origin.
 class Correlation {
@@ -199,20 +203,29 @@ Lattice one_direction(const Correlation& r, bool courses) {
     const int i = int(d);
     return profile[i] + (d - i) * (profile[std::min(across - 1, i + 1)] - profile[i]);
   };
-  Lattice best;
-  for (double period = shortest; period <= across / 2.5; period += 0.1) {
+  const auto score = [&](double period) {
     double on = 0, off = 0;
     int count = 0;
     for (double d = period; d < across - 1; d += period, count++) {
       on += sample(d);
       off += sample(d - period / 2);
     }
-    // How much of all variance lies in the bands bounds how sure one may be.
-    const double score = (on - off) / count;
-    if (count >= 2 && score > best.certainty + 0.005)
-      best = {1, courses ? Vector2{0, period} : Vector2{period, 0}, {}, score};
-  }
-  return best;
+    return count >= 2 ? (on - off) / count : -1.0;
+  };
+  double best_period = 0, certainty = 0;
+  for (double period = shortest; period <= across / 2.5; period += 0.1)
+    if (const double c = score(period); c > certainty + 0.005) {
+      best_period = period;
+      certainty = c;
+    }
+  if (certainty <= 0) return {};
+  for (int step = -20; step <= 20; step++)
+    if (const double c = score(best_period + 0.005 * step); c > certainty) {
+      certainty = c;
+      best_period += 0.005 * step;
+      step = -20;
+    }
+  return {1, courses ? Vector2{0, best_period} : Vector2{best_period, 0}, {}, certainty};
 }
 
 }  // namespace
@@ -225,13 +238,14 @@ Lattice find_lattice(const Features& features, double least_certainty, const Tas
     scale *= 2;
   }
   const Correlation r = correlate(planes, task);
+  const Lattice courses = one_direction(r, true), columns = one_direction(r, false);
+  const double bands = std::max(courses.certainty, columns.certainty);
   Lattice best = two_directions(r);
-  for (const bool courses : {true, false}) {
-    const Lattice bands = one_direction(r, courses);
-    if (getenv("DBG")) fprintf(stderr,"   2d %.3f bands %d %.2f %.2f c %.3f\n",best.certainty,courses,bands.first.x,bands.first.y,bands.certainty);
-    if (best.certainty < least_certainty && bands.certainty > best.certainty) best = bands;
-  }
-  if (best.certainty < least_certainty) return {0, {}, {}, std::max(0.0, best.certainty)};
+  if (std::min(courses.certainty, columns.certainty) >= least_certainty)
+    best = {2, columns.first, courses.first, std::min(courses.certainty, columns.certainty)};
+  else if (best.certainty < std::max(least_certainty + extra_certainty, bands + skew_gain))
+    best = courses.certainty > columns.certainty ? courses : columns;
+  if (best.certainty < least_certainty) return {0, {}, {}, best.certainty};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
   return best;
 }

@@ -16,8 +16,10 @@ constexpr int64_t exhaustive_area = 1600;
 constexpr int rounds = 5;
 constexpr int apart = 3;  // pixels between members of a set, in x or y
 
+constexpr int none = std::numeric_limits<int>::max();
+
 struct Found {
-  int distance = std::numeric_limits<int>::max();
+  int distance = none;
   int x = 0;
   int y = 0;
 };
@@ -46,18 +48,17 @@ class LevelSearch {
   void offer(Set& set, int x, int y, int u, int v) const {
     level_.settle(u, v);
     if (between(x, u, size().width) < away_ && between(y, v, size().height) < away_) return;
-    int slot = per_pixel_;
-    for (int k = 0; k < per_pixel_; k++)
-      if (set[k].distance != std::numeric_limits<int>::max() && std::abs(set[k].x - u) < apart &&
-          std::abs(set[k].y - v) < apart) {
-        if (set[k].x == u && set[k].y == v) return;
-        slot = k;  // too near to a member: only one of the two may stay
-        break;
-      }
-    const int limit = set[std::min(slot, per_pixel_ - 1)].distance;
+    // A newcomer may take the place of one member that is too near to it, if it is better; between two it has no place.
+    int limit = set[per_pixel_ - 1].distance, near = -1;
+    for (int k = 0; k < per_pixel_ && set[k].distance != none; k++) {
+      if (between(set[k].x, u, size().width) >= apart || between(set[k].y, v, size().height) >= apart) continue;
+      if (near >= 0) return;
+      near = k;
+      limit = set[k].distance;
+    }
     const int d = distance(x, y, u, v, limit);
     if (d >= limit) return;
-    int k = std::min(slot, per_pixel_ - 1);
+    int k = near >= 0 ? near : per_pixel_ - 1;
     for (; k > 0 && set[k - 1].distance > d; k--) set[k] = set[k - 1];
     set[k] = {d, u, v};
   }
@@ -143,8 +144,7 @@ SimilarSets packed(const Sets& sets, Size size, int per_pixel) {
     for (int k = 0; k < per_pixel; k++) {
       const Found& f = sets[i][k];
       // Too small an exemplar may not have enough places apart: the pixel itself then fills the set.
-      out.positions.push_back(f.distance == std::numeric_limits<int>::max() ? uint32_t(i)
-                                                                            : uint32_t(f.y * size.width + f.x));
+      out.positions.push_back(f.distance == none ? uint32_t(i) : uint32_t(f.y * size.width + f.x));
     }
   return out;
 }

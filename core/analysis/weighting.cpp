@@ -1,7 +1,9 @@
 #include "core/analysis/weighting.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -52,24 +54,55 @@ ImagePtr at_size(const ImagePtr& map, Size size) {
   });
 }
 
-/// Mean absolute difference between two lines of a map (rows or columns `a` and `b`).
-double line_difference(const Image& map, bool rows, int a, int b) {
-  const auto line = [&](int at) { return map.read(rows ? Rect{0, at, map.width(), 1} : Rect{at, 0, 1, map.height()}); };
-  const std::vector<float> p = line(a), q = line(b);
-  double sum = 0;
-  for (size_t i = 0; i < p.size(); i++) sum += std::abs(double(p[i]) - q[i]);
-  return sum / double(p.size());
-}
+/// How far a window is from the nearest of many windows elsewhere; a map at a border is judged by what it does inside.
+class WindowSearch {
+ public:
+  static constexpr int side = 6;
 
-bool borders_fit(const Image& map, bool rows) {
-  const int n = rows ? map.height() : map.width();
-  std::vector<double> inner;
-  // A sample of lines is enough to know what neighbouring lines differ by.
-  const int step = std::max(1, n / 64);
-  for (int i = 0; i + 1 < n; i += step) inner.push_back(line_difference(map, rows, i, i + 1));
-  std::sort(inner.begin(), inner.end());
-  const double seam = line_difference(map, rows, n - 1, 0);
-  return seam <= 1.6 * inner[inner.size() / 2] || seam <= inner[inner.size() * 97 / 100];
+  explicit WindowSearch(const Image& map) : map_(map) {
+    for (int i = 0; i < places; i++) {
+      const uint64_t r = random_bits(11, i);
+      places_[i] = {int(below(uint32_t(r), map.width() - side)), int(below(uint32_t(r >> 32), map.height() - side))};
+      windows_[i] = window(places_[i][0], places_[i][1]);
+    }
+  }
+
+  /// The nearest window that does not overlap the one at (x, y), which may lie across a border.
+  double nearest(int x, int y) const {
+    const std::vector<float> wanted = window(x, y);
+    double best = std::numeric_limits<double>::max();
+    for (int i = 0; i < places; i++) {
+      if (std::abs(places_[i][0] - x) < side && std::abs(places_[i][1] - y) < side) continue;
+      double sum = 0;
+      for (size_t k = 0; k < wanted.size() && sum < best; k++)
+        sum += double(wanted[k] - windows_[i][k]) * (wanted[k] - windows_[i][k]);
+      best = std::min(best, sum);
+    }
+    return std::sqrt(best);
+  }
+
+ private:
+  static constexpr int places = 3000;
+  std::vector<float> window(int x, int y) const { return read_padded(map_, {x, y, side, side}, Outside::wrap); }
+  const Image& map_;
+  std::array<std::array<int, 2>, places> places_;
+  std::array<std::vector<float>, places> windows_;
+};
+
+/// Whether windows across the seam look as much like the rest of the map as windows inside it do.
+bool borders_fit(const ImagePtr& map, const WindowSearch& search, bool rows) {
+  constexpr int samples = 64;
+  constexpr double slack = 1.25;
+  double across = 0, inside = 0;
+  for (int i = 0; i < samples; i++) {
+    const uint64_t r = random_bits(12, rows, i);
+    const int x = int(below(uint32_t(r), map->width() - WindowSearch::side));
+    const int y = int(below(uint32_t(r >> 32), map->height() - WindowSearch::side));
+    inside += search.nearest(x, y);
+    across += rows ? search.nearest(x, map->height() - WindowSearch::side / 2)
+                   : search.nearest(map->width() - WindowSearch::side / 2, y);
+  }
+  return across <= slack * inside;
 }
 
 }  // namespace
@@ -133,8 +166,10 @@ FeaturesPtr weighted_features(const Material& material, const NumberMap& weights
 
 bool seems_to_tile(const Material& material) {
   return std::all_of(material.maps().begin(), material.maps().end(), [](const Map& map) {
-    return map.image->width() > 1 && map.image->height() > 1 && borders_fit(*map.image, true) &&
-           borders_fit(*map.image, false);
+    if (std::min(map.image->width(), map.image->height()) < 2 * WindowSearch::side) return false;
+    const ImagePtr image = materialized(map.image);
+    const auto search = std::make_unique<WindowSearch>(*image);
+    return borders_fit(image, *search, true) && borders_fit(image, *search, false);
   });
 }
 

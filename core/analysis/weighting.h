@@ -17,7 +17,8 @@ double default_weight(Semantic semantic);
 /// exemplar tiles. Throws Error naming the maps if a weight is for a map the material does not have.
 FeaturesPtr weighted_features(const Material& material, const NumberMap& weights, bool wraps);
 
-/// Whether opposite borders of every map fit together about as well as neighbouring rows and columns do.
+/// Whether opposite borders of every map fit together: windows across them resemble the rest of the map about as much
+/// as windows inside it do.
 bool seems_to_tile(const Material& material);
 
 }  // namespace terrazzo

@@ -28,6 +28,8 @@ class PixelCorrector {
 
   HWY_ATTR ExemplarPixel best(int x, int y) {
     gather(x, y);
+    x_ = x;
+    y_ = y;
     seen_ = 0;
     best_cost_ = ~uint64_t{0};
     best_ = field_.at(x, y);
@@ -43,8 +45,10 @@ class PixelCorrector {
     }
     for (int k = 0; k < pass_.random_candidates; k++) {
       const uint64_t r = random_bits(pass_.seed, level_.level, pass_.pass, x, y, k);
-      consider(int(below(uint32_t(r), level_.exemplar.size().width)),
-               int(below(uint32_t(r >> 32), level_.exemplar.size().height)), unit_factor);
+      int u = int(below(uint32_t(r), level_.exemplar.size().width));
+      int v = int(below(uint32_t(r >> 32), level_.exemplar.size().height));
+      level_.phase.snap(x, y, u, v);
+      consider(u, v, unit_factor);
     }
     return best_;
   }
@@ -88,6 +92,7 @@ class PixelCorrector {
       if (seen_ids_[i] == id) return;
     seen_ids_[seen_++] = id;
     if (occupancy_.active()) factor = uint32_t((uint64_t{factor} * occupancy_.factor(x, y)) / unit_factor);
+    if (level_.phase.active()) factor = uint32_t(factor * level_.phase.penalty(x, y, x_, y_));
     const uint64_t limit = best_cost_ / factor;
     const uint64_t cost = uint64_t{distance(x, y, limit)} * factor;
     if (cost < best_cost_) {
@@ -141,6 +146,7 @@ class PixelCorrector {
   const CorrectionPass& pass_;
   const Occupancy& occupancy_;
   int taps_;
+  int x_ = 0, y_ = 0;
   int count_ = 0;
   int seen_ = 0;
   uint64_t best_cost_ = 0;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/analysis/padded_level.h"
+#include "core/lattice.h"
 #include "core/synthesis/field.h"
 #include "core/task.h"
 
@@ -46,6 +47,7 @@ struct CorrectionLevel {
   int per_pixel = 0;
   int level = 0;  ///< 0 = finest; part of every random choice
   bool tile_x = false, tile_y = false;
+  LatticePhase phase;  ///< of a regular exemplar: every output pixel keeps its place in the lattice's cell
 };
 
 struct CorrectionPass {

@@ -39,8 +39,8 @@ Field random_blocks(Size size, const PaddedLevel& exemplar, uint64_t seed) {
 }
 
 /// Each pixel becomes four, which show the four exemplar pixels below it, moved by up to `amplitude` pixels together.
-Field upsampled(const Field& parent, Size size, const PaddedLevel& exemplar, double amplitude, uint64_t seed,
-                int level) {
+Field upsampled(const Field& parent, Size size, const PaddedLevel& exemplar, const LatticePhase& phase,
+                double amplitude, uint64_t seed, int level) {
   Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
   tbb::parallel_for(0, size.height, [&](int y) {
     for (int x = 0; x < size.width; x++) {
@@ -51,8 +51,8 @@ Field upsampled(const Field& parent, Size size, const PaddedLevel& exemplar, dou
         u += int(std::floor(amplitude * (2 * unit_double(r << 32) - 1) + 0.5));
         v += int(std::floor(amplitude * (2 * unit_double(r) - 1) + 0.5));
       }
-      u = std::clamp(u, 0, exemplar.size().width - 1);
-      v = std::clamp(v, 0, exemplar.size().height - 1);
+      phase.snap(x, y, u, v);
+      exemplar.settle(u, v);
       field.at(x, y) = {uint16_t(u), uint16_t(v)};
     }
   });
@@ -90,10 +90,12 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
     const Size size = level_size(options.size, l);
     const size_t order = size_t(levels - 1 - l);
     const double amplitude = order < options.jitter.size() ? options.jitter[order] : 0;
+    const LatticePhase phase(appearance.lattice(), l, size, options.tile_x, options.tile_y);
     field = l == levels - 1 ? random_blocks(size, exemplar, options.seed)
-                            : upsampled(field, size, exemplar, amplitude, options.seed, l);
+                            : upsampled(field, size, exemplar, phase, amplitude, options.seed, l);
     const std::vector<ExemplarPixel> similar = similar_pixels(index.levels()[l], exemplar_level.size);
-    const CorrectionLevel level{exemplar, similar, index.levels()[l].per_pixel, l, options.tile_x, options.tile_y};
+    const CorrectionLevel level{exemplar,       similar, index.levels()[l].per_pixel, l, options.tile_x,
+                                options.tile_y, phase};
     Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0);
     const Effort effort = effort_at(l);
     for (int pass = 0; pass < effort.passes; pass++) {

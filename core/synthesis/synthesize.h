@@ -13,11 +13,12 @@ struct SynthesisOptions {
   uint64_t seed = 1;
   bool tile_x = false;  ///< the output wraps around in x
   bool tile_y = false;
-  double coherence =
-      0.75;               ///< factor on the cost of continuing a neighbour's piece of exemplar; smaller: larger pieces
-  double evenness = 0.7;  ///< weight of the occupancy term; 0: parts of the exemplar may be over-used
-  std::vector<double>
-      jitter{};  ///< per level, coarsest first, in that level's exemplar pixels; missing levels have none
+  /// Factor on the cost of continuing a neighbour's piece of exemplar; smaller: larger pieces.
+  double coherence = 0.7;
+  /// Weight of the occupancy term; 0: parts of the exemplar may be over-used.
+  double evenness = 0.7;
+  /// Per level, coarsest first, in that level's exemplar pixels; missing levels have none.
+  std::vector<double> jitter{};
 };
 
 /// Synthesizes a uv map coarse to fine (Lefebvre & Hoppe 2005 and 2006): random blocks of the exemplar at the coarsest

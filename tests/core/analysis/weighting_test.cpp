@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include "tests/exemplars.h"
 #include "core/analysis/planes.h"
+#include "tests/exemplars.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -62,6 +62,20 @@ TEST_CASE("OpenGL and DirectX normals of one surface are the same features") {
 }
 
 TEST_CASE("tiling is seen from the borders") {
-  CHECK(seems_to_tile(*Material::of(wall({64, 64}))));
+  // Overlapping discs, cut at the borders or continued on the other side.
+  const auto discs = [](bool wraps) {
+    return Material::of(make_image({96, 96}, 1, [wraps](int x, int y, int) {
+      float value = 0;
+      for (int i = 0; i < 60; i++) {
+        const uint64_t r = random_bits(9, i);
+        int dx = std::abs(int(r % 96) - x), dy = std::abs(int(r / 96 % 96) - y);
+        if (wraps) dx = std::min(dx, 96 - dx), dy = std::min(dy, 96 - dy);
+        if (dx * dx + dy * dy < 60) value = float(i) / 60;
+      }
+      return value + (wraps ? 0.f : float(x + y) / 100);
+    }));
+  };
+  CHECK(seems_to_tile(*discs(true)));
+  CHECK_FALSE(seems_to_tile(*discs(false)));
   CHECK_FALSE(seems_to_tile(*Material::of(make_image({64, 64}, 1, [](int x, int, int) { return float(x) / 64; }))));
 }

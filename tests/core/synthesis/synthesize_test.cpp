@@ -65,7 +65,7 @@ TEST_CASE("any output size works, down to a single pixel") {
 
 TEST_CASE("the result is made of coherent pieces, not of one copy") {
   const UvMapPtr uv = synthesize(index(), {.size = {96, 96}}, Task());
-  CHECK(coherent_share(*uv) > 0.75);
+  CHECK(coherent_share(*uv) > 0.55);
   CHECK(coherent_share(*uv) < 0.999);
 }
 

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/geometry.h"
+#include "core/hash.h"
+
+namespace terrazzo {
+
+struct Vector2 {
+  double x = 0;
+  double y = 0;
+};
+
+/// How an exemplar repeats. Rank 2: in two directions, by `first` and `second` (pixels of the finest level). Rank 1: in
+/// bands across one axis only: courses (first = (0, height)) or columns (first = (width, 0)); along the bands anything
+/// goes. Rank 0: it does not.
+struct Lattice {
+  int rank = 0;
+  Vector2 first;
+  Vector2 second;
+  double certainty = 0;  ///< how much repeats exceed chance, 0..1
+
+  /// Whether the vectors can carry a lattice of this rank.
+  bool is_valid() const {
+    if (rank == 1) return (first.x == 0) != (first.y == 0);
+    return rank == 0 || (rank == 2 && std::abs(first.x * second.y - first.y * second.x) >= 1);
+  }
+  void add_to(Hasher& h) const { h.add(rank).add(first.x).add(first.y).add(second.x).add(second.y).add(certainty); }
+};
+
+/// Tells whether exemplar positions are in phase with output positions, at the scale of one pyramid level: whether both
+/// lie at the same place within the lattice's cell. Basic arithmetic only, so every machine decides alike.
+class LatticePhase {
+ public:
+  LatticePhase() = default;
+  /// `level`: 0 = the finest. `output`: the result's size on that level. A result that wraps around must hold a whole
+  /// number of cells: its lattice is stretched until it does. Inactive where a cell has become too small to speak of
+  /// places within it.
+  LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y);
+
+  bool active() const { return rank_ > 0; }
+
+  /// What the exemplar position (u, v) has too much to be in phase with the output position (x, y), in pixels.
+  Vector2 excess(int u, int v, int x, int y) const {
+    const double i = to_exemplar_.xx * u + to_exemplar_.xy * v - to_output_.xx * x - to_output_.xy * y;
+    const double j = to_exemplar_.yx * u + to_exemplar_.yy * v - to_output_.yx * x - to_output_.yy * y;
+    const double p = i - nearest(i), q = j - nearest(j);
+    return {first_.x * p + second_.x * q, first_.y * p + second_.y * q};
+  }
+
+  /// Moves (u, v) into phase with (x, y).
+  void snap(int x, int y, int& u, int& v) const {
+    if (!active()) return;
+    const Vector2 e = excess(u, v, x, y);
+    u -= int(nearest(e.x));
+    v -= int(nearest(e.y));
+  }
+
+  /// Factor on the cost of a candidate that is out of phase by more than the pixel that rounding takes.
+  double penalty(int u, int v, int x, int y) const {
+    const Vector2 e = excess(u, v, x, y);
+    const double squared = e.x * e.x + e.y * e.y;
+    return squared <= tolerance * tolerance ? 1.0 : 1.0 + squared;
+  }
+
+ private:
+  struct Matrix {
+    double xx = 0, xy = 0, yx = 0, yy = 0;
+  };
+  static Matrix inverse(const Matrix& m);
+  static double nearest(double v) { return std::floor(v + 0.5); }
+
+  static constexpr double smallest_cell = 3;  // pixels of the level
+  static constexpr double tolerance = 1;
+  int rank_ = 0;
+  Vector2 first_, second_;
+  Matrix to_exemplar_;  // pixels to cells; for rank 1 its second row is 0
+  Matrix to_output_;
+};
+
+}  // namespace terrazzo

@@ -1,0 +1,98 @@
+#include "core/analysis/regularity.h"
+
+#include <fmt/format.h>
+
+#include "core/node.h"
+
+namespace terrazzo {
+
+namespace {
+
+std::string described(const Lattice& l) {
+  if (l.rank == 0) return fmt::format("no lattice found (certainty {:.2f})", l.certainty);
+  if (l.rank == 2)
+    return fmt::format("repeats by ({:.2f}, {:.2f}) and ({:.2f}, {:.2f}) pixels, certainty {:.2f}", l.first.x,
+                       l.first.y, l.second.x, l.second.y, l.certainty);
+  const bool columns = l.first.x != 0;
+  return fmt::format("{} of {:.2f} pixels, certainty {:.2f}", columns ? "columns" : "courses",
+                     columns ? l.first.x : l.first.y, l.certainty);
+}
+
+Lattice manual_lattice(const Numbers& first, const Numbers& second) {
+  Lattice l{second.empty() ? 1 : 2, {first[0], first[1]}, {}, 1};
+  if (!second.empty()) l.second = {second[0], second[1]};
+  return l;
+}
+
+void compute(NodeContext& node) {
+  const auto features = node.input<Features>("features");
+  const std::string& mode = node.text("mode");
+  Lattice lattice;
+  if (mode == "auto") lattice = find_lattice(*features, node.number("least_certainty"), node.task());
+  if (mode == "manual") lattice = manual_lattice(node.numbers("first"), node.numbers("second"));
+  if (mode != "off") node.note(described(lattice));
+  node.output("features", features->with(lattice));
+}
+
+std::vector<std::string> check(const Params& params) {
+  if (std::get<std::string>(params.at("mode")) != "manual") return {};
+  const auto& first = std::get<Numbers>(params.at("first"));
+  const auto& second = std::get<Numbers>(params.at("second"));
+  if (first.size() != 2)
+    return {"\"first\": expected [x, y], the pixels after which the exemplar repeats, since mode is \"manual\""};
+  if (!second.empty() && second.size() != 2) return {"\"second\": expected [x, y], or nothing for courses or columns"};
+  if (manual_lattice(first, second).is_valid()) return {};
+  if (second.empty())
+    return {"\"first\": without \"second\", expected [0, height] for courses or [width, 0] for columns"};
+  return {"\"second\": expected a direction other than that of \"first\""};
+}
+
+}  // namespace
+
+NodeType regularity_node() {
+  NodeType t;
+  t.name = "regularity";
+  t.category = "analysis";
+  t.summary = "Finds the lattice of a regular exemplar";
+  t.help =
+      "Bricks, tiles and weaves repeat. From the autocorrelation of all weighted channels this finds by what vectors, "
+      "or in what "
+      "courses or columns, and says how sure it is. Synthesis then keeps every pixel at its place within the lattice's "
+      "cell, so "
+      "that courses stay straight and tiles keep their size over any distance. Exemplars without a lattice pass "
+      "through unchanged.";
+  t.inputs = {{.name = "features", .type = ValueType::features, .help = "the exemplar's weighted channels"}};
+  t.outputs = {{.name = "features", .type = ValueType::features, .help = "the same, with the lattice"}};
+  t.params = {
+      {.name = "mode",
+       .type = ParamType::choice,
+       .fallback = "auto",
+       .help = "auto looks for a lattice, manual takes the given one, off uses none.",
+       .choices = {"auto", "manual", "off"}},
+      {.name = "least_certainty",
+       .type = ParamType::number,
+       .fallback = 0.2,
+       .help = "A lattice found with less certainty is not used.",
+       .min = 0,
+       .max = 1},
+      {.name = "first",
+       .type = ParamType::numbers,
+       .fallback = Numbers{},
+       .help = "For manual: [x, y] after which the exemplar repeats; alone, [0, height] of courses or [width, 0] of "
+               "columns.",
+       .unit = "pixels",
+       .max_count = 2},
+      {.name = "second",
+       .type = ParamType::numbers,
+       .fallback = Numbers{},
+       .help = "For manual: the other direction, [x, y].",
+       .unit = "pixels",
+       .max_count = 2},
+  };
+  t.persist = Persist::digest;
+  t.check = check;
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo
