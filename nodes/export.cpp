@@ -136,7 +136,7 @@ std::vector<Map> chosen_maps(const NodeContext& node, const Material& material) 
 Job job_for(NodeContext& node, const std::string& name, ImagePtr image, const fs::path& target) {
   const std::string& space = node.text("color_space");
   if (space != "keep" && is_color(image->info().semantic)) image = convert_color(image, space);
-  Job job{.name = name, .image = with_normals(image, node.text("normals")), .target = target, .temporary = {}};
+  Job job{.name = name, .image = with_normals(image, node.text("normal_y")), .target = target, .temporary = {}};
   job.options.format = required_format("path", target);
   require_depth(job.options.format, node.text("depth"));
   job.options.jpeg_quality = int(node.integer("jpeg_quality"));
@@ -319,10 +319,10 @@ std::vector<Param> params() {
        .type = ParamType::text,
        .fallback = "keep",
        .help = "\"keep\", or a colour space that the colour maps are converted to. Data maps are never converted."},
-      {.name = "normals",
+      {.name = "normal_y",
        .type = ParamType::choice,
        .fallback = "keep",
-       .help = "Green channel of normal maps: as it is, up as in OpenGL, or down as in DirectX.",
+       .help = "Green channel of normal maps: as it is (keep), up as in OpenGL, or down as in DirectX.",
        .choices = {"keep", "up", "down"}},
       {.name = "jpeg_quality",
        .type = ParamType::integer,
@@ -330,10 +330,7 @@ std::vector<Param> params() {
        .help = "The quality of JPEG files.",
        .min = 1,
        .max = 100},
-      {.name = "maps",
-       .type = ParamType::texts,
-       .fallback = Texts{},
-       .help = "Write only the maps of these names; all if empty."},
+      {.name = "maps", .type = ParamType::texts, .fallback = Texts{}, .help = "The maps to write; empty for all."},
       {.name = "uv_path",
        .type = ParamType::path,
        .fallback = "",
