@@ -1,7 +1,6 @@
 #include "core/color.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -12,7 +11,8 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
+#include "core/suggest.h"
+#include "core/text.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -41,13 +41,8 @@ const std::vector<CommonSpace>& common_spaces() {
   return spaces;
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 const CommonSpace* find_common(const std::string& name) {
-  const std::string wanted = lower(name);
+  const std::string wanted = lowercase(name);
   for (const CommonSpace& s : common_spaces())
     if (s.name == wanted || std::find(s.aliases.begin(), s.aliases.end(), wanted) != s.aliases.end()) return &s;
   return nullptr;

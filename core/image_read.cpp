@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/file_facts.h"
 #include "core/image_file.h"
-#include "core/nearest_name.h"
+#include "core/suggest.h"
 
 namespace terrazzo {
 

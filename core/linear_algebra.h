@@ -11,8 +11,8 @@ struct SymmetricEigen {
   std::vector<double> vectors;  ///< n rows of n; row i belongs to values[i], its largest component is positive
 };
 
-/// The eigendecomposition of a symmetric matrix of n rows (only the lower triangle is read). In plain scalar
-/// arithmetic, so that the bits are the same on every machine. Thread-safe.
-SymmetricEigen eigen_symmetric(const std::vector<double>& matrix, int n);
+/// The eigendecomposition of a symmetric matrix of n rows, by cyclic Jacobi rotations (Golub & Van Loan, Matrix
+/// Computations, section 8.5): for small matrices, tens of rows. The same bits on every machine. Thread-safe.
+SymmetricEigen eigen_symmetric(std::vector<double> matrix, int n);
 
 }  // namespace terrazzo

@@ -1,7 +1,6 @@
 #include "core/material_files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <set>
 #include <tuple>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/map_words.h"
+#include "core/text.h"
 
 namespace terrazzo {
 
@@ -24,15 +24,9 @@ bool is_lower(char c) {
   return c >= 'a' && c <= 'z';
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
-  return out;
-}
-
 std::string extension_of(const std::string& name) {
   const size_t dot = name.rfind('.');
-  return dot == std::string::npos ? "" : lower(name.substr(dot + 1));
+  return dot == std::string::npos ? "" : lowercase(name.substr(dot + 1));
 }
 
 /// The words of a name in lower case: cut at everything that is no letter or digit, and where camel case begins a word
@@ -50,7 +44,7 @@ std::vector<std::string> words_of(const std::string& name) {
     if (part_of_word) words.back() += c;
   }
   if (words.back().empty()) words.pop_back();
-  for (std::string& w : words) w = lower(w);
+  for (std::string& w : words) w = lowercase(w);
   return words;
 }
 
@@ -275,14 +269,20 @@ std::string known_words(Semantic semantic) {
   return words;
 }
 
-bool matches_pattern(std::string_view name, std::string_view pattern) {
+namespace {
+
+/// Both in lower case.
+bool matches(std::string_view name, std::string_view pattern) {
   if (pattern.empty()) return name.empty();
-  if (pattern[0] == '*')
-    return matches_pattern(name, pattern.substr(1)) || (!name.empty() && matches_pattern(name.substr(1), pattern));
+  if (pattern[0] == '*') return matches(name, pattern.substr(1)) || (!name.empty() && matches(name.substr(1), pattern));
   if (name.empty()) return false;
-  const bool same =
-      std::tolower(static_cast<unsigned char>(name[0])) == std::tolower(static_cast<unsigned char>(pattern[0]));
-  return (pattern[0] == '?' || same) && matches_pattern(name.substr(1), pattern.substr(1));
+  return (pattern[0] == '?' || pattern[0] == name[0]) && matches(name.substr(1), pattern.substr(1));
+}
+
+}  // namespace
+
+bool matches_pattern(std::string_view name, std::string_view pattern) {
+  return matches(lowercase(name), lowercase(pattern));
 }
 
 }  // namespace terrazzo

@@ -1,58 +1,14 @@
-#include <array>
-#include <bit>
-#include <cmath>
-
 #include "core/color.h"
+#include "core/srgb.h"
 
-// Only + - * /, comparisons and integer operations are used here: all of them give the same bits everywhere.
+// Only operations that give the same bits everywhere are used here.
 namespace terrazzo {
 
 namespace {
 
-/// x^(1/n) for x > 0: a first guess from the exponent bits, within 6 %, then Newton's method, which doubles the good
-/// digits each time: three steps leave less than 1e-9.
-template <int n>
-double positive_root(double x) {
-  constexpr int64_t one = 0x3ff0000000000000;
-  double y = std::bit_cast<double>((std::bit_cast<int64_t>(x) - one) / n + one);
-  for (int i = 0; i < 3; i++) {
-    double power = y;
-    for (int k = 2; k < n; k++) power *= y;
-    y += (x / power - y) * (1.0 / n);
-  }
-  return y;
-}
-
 double cube_root(double x) {
   if (x == 0) return 0;
-  return x > 0 ? positive_root<3>(x) : -positive_root<3>(-x);
-}
-
-/// The sRGB transfer function (IEC 61966-2-1), odd below zero. x^2.4 = x^2 (x^(1/5))^2.
-double srgb_to_linear(double v) {
-  if (v < 0) return -srgb_to_linear(-v);
-  if (v <= 0.04045) return v / 12.92;
-  const double x = (v + 0.055) / 1.055;
-  const double fifth = positive_root<5>(x);
-  return x * x * fifth * fifth;
-}
-
-const std::array<double, 256>& srgb_table() {
-  static const std::array<double, 256> table = [] {
-    std::array<double, 256> t{};
-    for (int k = 0; k < 256; k++) t[k] = srgb_to_linear(float(k) / 255.0f);
-    return t;
-  }();
-  return table;
-}
-
-/// Values of 8-bit files are looked up; others computed. Both ways give the same result.
-double decoded_srgb(float v) {
-  if (v >= 0 && v <= 1) {
-    const int k = int(v * 255.0f + 0.5f);
-    if (float(k) / 255.0f == v) return srgb_table()[k];
-  }
-  return srgb_to_linear(v);
+  return x > 0 ? exact::root<3>(x) : -exact::root<3>(-x);
 }
 
 double as_linear(float v) {
@@ -89,7 +45,7 @@ void convert(const float* in, int channels, size_t pixels, float* out) {
 
 ImagePtr to_oklab(const ImagePtr& image, const std::string& config) {
   ImagePtr source = image;
-  auto converter = convert<decoded_srgb>;
+  auto converter = convert<decode_srgb>;
   const std::string& space = image->info().color_space;
   if (space == "lin_rec709") {
     converter = convert<as_linear>;
@@ -101,7 +57,7 @@ ImagePtr to_oklab(const ImagePtr& image, const std::string& config) {
   info.channels = info.channels < 3 ? 1 : 3;
   info.color_space = "raw";
   info.depth = Depth::f32;
-  const Digest recipe = Hasher().add("oklab 1").add(source->digest()).digest();
+  const Digest recipe = Hasher().add("oklab 2").add(source->digest()).digest();
   return Image::computed(info, recipe, [source, converter](const Rect& region, float* out) {
     const std::vector<float> in = source->read(region);
     converter(in.data(), source->channels(), size_t(region.area()), out);

@@ -11,10 +11,6 @@ namespace terrazzo {
 /// The channels that carry values; the last of a colour image's two or four is coverage and is not counted.
 int value_channels(const ImageInfo& info);
 
-/// The sRGB transfer function (IEC 61966-2-1), continued for negative values by symmetry.
-float decode_srgb(float encoded);
-float encode_srgb(float linear);
-
 /// Stored pixels to that space, in place. `count` pixels of info.channels values. Normals need no change: decoding them
 /// is affine, and commutes with averaging.
 void to_linear(const ImageInfo& info, float* pixels, int64_t count);

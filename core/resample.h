@@ -8,8 +8,8 @@
 #include "core/task.h"
 
 /// Separable filters on images: scaling and Gaussian blur, with the kernels of OpenImageIO's Filter1D. The sums are
-/// taken here, one axis after the other, because ImageBufAlgo::resize visits the whole square of taps for every pixel
-/// (eight times slower at a quarter of the size). Pixels are filtered in the space of core/pixel_space.h. Thread-safe.
+/// taken here, one axis after the other, because ImageBufAlgo::resize visits the whole square of taps for every pixel.
+/// Pixels are filtered in the space of core/pixel_space.h. Thread-safe.
 namespace terrazzo {
 
 /// Which source pixels, with which weights, make one row or column of the result. Weights sum to 1.

@@ -1,19 +1,14 @@
 #include "core/suggest.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
+
+#include "core/text.h"
 
 namespace terrazzo {
 
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
 
 /// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`; anything above `limit` counts as
 /// limit + 1. (Optimal string alignment, three rolling rows.)
@@ -47,12 +42,12 @@ bool is_short_form(std::string_view a, std::string_view b) {
 std::string nearest(std::string_view wrong, const std::vector<std::string>& names) {
   constexpr size_t longest = 64;
   if (wrong.empty() || wrong.size() > longest) return "";
-  const std::string typed = lower(wrong);
+  const std::string typed = lowercase(wrong);
   std::string best;
   size_t least = (typed.size() + 2) / 3 + 1;
   for (const std::string& name : names) {
     if (name == wrong) continue;
-    const std::string known = lower(name);
+    const std::string known = lowercase(name);
     const size_t distance = edit_distance(typed, known, least);
     if (distance < least && distance < std::max(typed.size(), known.size())) {
       least = distance;
@@ -61,14 +56,18 @@ std::string nearest(std::string_view wrong, const std::vector<std::string>& name
   }
   if (!best.empty()) return best;
   const auto at = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
-    return name != wrong && is_short_form(typed, lower(name));
+    return name != wrong && is_short_form(typed, lowercase(name));
   });
   return at == names.end() ? "" : *at;
 }
 
+std::string did_you_mean(std::string_view wrong, const std::vector<std::string>& names) {
+  const std::string best = nearest(wrong, names);
+  return best.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", best);
+}
+
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& names) {
-  if (const std::string best = nearest(wrong, names); !best.empty())
-    return fmt::format(" (did you mean \"{}\"?)", best);
+  if (std::string question = did_you_mean(wrong, names); !question.empty()) return question;
   return names.empty() ? "" : fmt::format(" (valid: {})", listed(names));
 }
 

@@ -10,6 +10,10 @@ namespace terrazzo {
 /// The first of several equally near ones.
 std::string nearest(std::string_view wrong, const std::vector<std::string>& names);
 
+/// ` (did you mean "x"?)`, or nothing if no name is near: for messages that list the valid names themselves, or where
+/// these are too many.
+std::string did_you_mean(std::string_view wrong, const std::vector<std::string>& names);
+
 /// The end of a message about an unknown name: ` (did you mean "x"?)`, or the valid names if none is near, or
 /// nothing if there are none.
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& names);

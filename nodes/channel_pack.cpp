@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "core/color.h"
 #include "core/error.h"
 #include "core/image_ops.h"
+#include "nodes/color_space.h"
 #include "nodes/image_work.h"
 
 namespace terrazzo {
@@ -69,7 +71,7 @@ ImageInfo packed_info(const NodeContext& node, const std::vector<Source>& source
   if (!first) throw Error("r", "expected an image on at least one of r, g, b and a, found none");
   info.channels = int(sources.size());
   info.semantic = *semantic_from(node.text("semantic"));
-  info.color_space = node.text("color_space");
+  info.color_space = color_space_of(node, "color_space");
   return info;
 }
 
@@ -131,6 +133,8 @@ NodeType channel_pack_node() {
                .help = "The colour space the result's values are in, such as srgb_texture for the colour of an 8-bit "
                        "map; nothing is converted."}};
   t.persist = Persist::derived;
+  t.files_read = [](const Params&) { return color_config_files(); };
+  t.check = [](const Params& p) { return color_space_problems(p, "color_space"); };
   t.compute = compute;
   return t;
 }

@@ -1,4 +1,5 @@
 #include "core/color.h"
+#include "nodes/color_space.h"
 #include "nodes/image_work.h"
 
 namespace terrazzo {
@@ -8,10 +9,18 @@ namespace {
 void compute(NodeContext& node) {
   ImagePtr image = node.input<Image>("image");
   ImageInfo info = image->info();
-  if (node.text("from") != "auto") info.color_space = node.text("from");
+  const std::string& config = node.text("config");
+  if (node.text("from") != "auto") info.color_space = color_space_of(node, "from", config);
   image = Image::redescribed(image, info);
   if (info.color_space == "raw") node.note("the image is raw and stays as it is; give \"from\" to convert it");
-  node.output("image", convert_color(image, node.text("to"), node.text("config")));
+  node.output("image", convert_color(image, color_space_of(node, "to", config), config));
+}
+
+std::vector<std::string> check(const Params& params) {
+  const std::string& config = std::get<std::string>(params.at("config"));
+  std::vector<std::string> problems = color_space_problems(params, "to", "", config);
+  for (std::string& p : color_space_problems(params, "from", "auto", config)) problems.push_back(std::move(p));
+  return problems;
 }
 
 }  // namespace
@@ -39,6 +48,7 @@ NodeType convert_color_node() {
                .help = "An OpenColorIO configuration file; empty for the environment's OCIO or the built-in one."}};
   t.persist = Persist::digest;
   t.files_read = [](const Params& params) { return color_config_files(std::get<std::string>(params.at("config"))); };
+  t.check = check;
   t.compute = compute;
   return t;
 }

@@ -10,9 +10,10 @@
 
 #include "core/color.h"
 #include "core/image_file.h"
-#include "core/nearest_name.h"
 #include "core/node.h"
+#include "core/suggest.h"
 #include "core/uv_image.h"
+#include "nodes/color_space.h"
 #include "nodes/export_report.h"
 
 namespace terrazzo {
@@ -135,7 +136,7 @@ std::vector<Map> chosen_maps(const NodeContext& node, const Material& material) 
 Job job_for(NodeContext& node, const std::string& name, ImagePtr image, const fs::path& target) {
   const std::string& space = node.text("color_space");
   if (space != "keep" && is_color(image->info().semantic)) image = convert_color(image, space);
-  Job job{.name = name, .image = with_normals(image, node.text("normals")), .target = target, .temporary = {}};
+  Job job{.name = name, .image = with_normals(image, node.text("normal_y")), .target = target, .temporary = {}};
   job.options.format = required_format("path", target);
   require_depth(job.options.format, node.text("depth"));
   job.options.jpeg_quality = int(node.integer("jpeg_quality"));
@@ -298,14 +299,7 @@ std::vector<std::string> check(const Params& params) {
     });
   }
   if (!text("report_path").empty()) attempt([&] { is_csv(text("report_path")); });
-  if (text("color_space") != "keep")
-    attempt([&] {
-      try {
-        canonical_color_space(text("color_space"));
-      } catch (const Error& e) {
-        throw Error("color_space", e.what());
-      }
-    });
+  for (std::string& p : color_space_problems(params, "color_space", "keep")) problems.push_back(std::move(p));
   return problems;
 }
 
@@ -325,10 +319,10 @@ std::vector<Param> params() {
        .type = ParamType::text,
        .fallback = "keep",
        .help = "\"keep\", or a colour space that the colour maps are converted to. Data maps are never converted."},
-      {.name = "normals",
+      {.name = "normal_y",
        .type = ParamType::choice,
        .fallback = "keep",
-       .help = "Green channel of normal maps: as it is, up as in OpenGL, or down as in DirectX.",
+       .help = "Green channel of normal maps: as it is (keep), up as in OpenGL, or down as in DirectX.",
        .choices = {"keep", "up", "down"}},
       {.name = "jpeg_quality",
        .type = ParamType::integer,
@@ -336,10 +330,7 @@ std::vector<Param> params() {
        .help = "The quality of JPEG files.",
        .min = 1,
        .max = 100},
-      {.name = "maps",
-       .type = ParamType::texts,
-       .fallback = Texts{},
-       .help = "Write only the maps of these names; all if empty."},
+      {.name = "maps", .type = ParamType::texts, .fallback = Texts{}, .help = "The maps to write; empty for all."},
       {.name = "uv_path",
        .type = ParamType::path,
        .fallback = "",

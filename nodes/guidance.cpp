@@ -2,6 +2,8 @@
 
 #include "core/analysis/feature_distance.h"
 #include "core/analysis/weighting.h"
+#include "core/color.h"
+#include "nodes/exemplar_tiles.h"
 
 namespace terrazzo {
 
@@ -13,8 +15,7 @@ void compute(NodeContext& node) {
   options.maps = node.texts("maps");
   if (node.number("threshold") > 0) options.threshold = node.number("threshold");
   options.smoothing = node.number("smoothing");
-  const std::string& tiles = node.text("tiles");
-  options.wraps = tiles == "yes" || (tiles == "auto" && seems_to_tile(*material));
+  options.wraps = exemplar_tiles(node, *material);
   const Size size = material->size();
   const Edges edges = find_edges(*material, options, node.task());
   node.task().check();
@@ -37,8 +38,7 @@ NodeType guidance_node() {
       "Colours alone cannot tell the middle of a brick from its rim. The distance to the nearest edge can: fed to pca "
       "as "
       "guidance, it keeps bricks, cracks and joints whole (signed feature distance, Lefebvre & Hoppe 2006; edges from "
-      "any "
-      "map of a material, Rudolph 2018). Look at the edges output to judge the threshold.";
+      "any map of a material, Rudolph 2018). Look at the edges output to judge the threshold.";
   t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}};
   t.outputs = {
       {.name = "distance", .type = ValueType::image, .help = "pixels to the nearest edge, negative inside edges"},
@@ -47,7 +47,7 @@ NodeType guidance_node() {
       {.name = "maps",
        .type = ParamType::texts,
        .fallback = Texts{},
-       .help = "Maps to look for edges in; none means all, by their default weights."},
+       .help = "The maps to look for edges in; empty for all, by their default weights."},
       {.name = "threshold",
        .type = ParamType::number,
        .fallback = 0.0,
@@ -67,12 +67,9 @@ NodeType guidance_node() {
        .help = "Distances are limited to this fraction of the exemplar's shorter side.",
        .min = 0.005,
        .max = 1},
-      {.name = "tiles",
-       .type = ParamType::choice,
-       .fallback = "auto",
-       .help = "Whether the exemplar tiles; \"auto\" compares opposite borders.",
-       .choices = {"auto", "yes", "no"}},
+      tiles_param(),
   };
+  t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
   return t;
 }

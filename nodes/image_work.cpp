@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
+#include "core/suggest.h"
 
 namespace terrazzo {
 

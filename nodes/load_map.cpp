@@ -1,6 +1,7 @@
 #include "core/color.h"
 #include "core/image_file.h"
 #include "core/node.h"
+#include "nodes/color_space.h"
 
 namespace terrazzo {
 
@@ -15,9 +16,9 @@ void compute(NodeContext& node) {
   info.semantic = *semantic_from(node.text("semantic"));
   info.normal_y = node.text("normal_y") == "down" ? NormalY::down : NormalY::up;
   const std::string& path = node.text("path");
-  const std::string& space = node.text("color_space");
-  info.color_space =
-      space == "auto" ? assumed_color_space(info.semantic, read_image_info(path).depth) : canonical_color_space(space);
+  info.color_space = node.text("color_space") == "auto"
+                         ? assumed_color_space(info.semantic, read_image_info(path).depth)
+                         : color_space_of(node, "color_space");
   node.output("image", read_image(path, info, [&](const std::string& warning) { node.note(warning); }));
 }
 
@@ -66,6 +67,7 @@ NodeType load_map_node() {
       return size_t{0};  // compute reports it
     }
   };
+  t.check = [](const Params& p) { return color_space_problems(p, "color_space", "auto"); };
   t.compute = compute;
   return t;
 }

@@ -12,9 +12,11 @@
 #include "core/image_file.h"
 #include "core/material_files.h"
 #include "core/material_maps.h"
-#include "core/nearest_name.h"
 #include "core/node.h"
 #include "core/normal_convention.h"
+#include "core/paths.h"
+#include "core/suggest.h"
+#include "nodes/color_space.h"
 
 namespace terrazzo {
 
@@ -53,13 +55,13 @@ RecognisedMap given_map(const std::string& map, const std::string& text) {
 }
 
 std::vector<std::string> check(const Params& params) {
-  std::vector<std::string> problems;
+  std::vector<std::string> problems = color_space_problems(params, "color_space", "auto");
   const std::vector<std::string> known(semantic_names.begin(), semantic_names.end());
   for (const auto& [map, file] : std::get<TextMap>(params.at("maps")))
     if (!semantic_of_map(map))
       problems.push_back(
-          fmt::format("\"maps\": there is no map \"{}\"; maps are {}, or one of these with a suffix as in mask_moss{}",
-                      map, fmt::join(known, ", "), did_you_mean(map, known)));
+          fmt::format("\"maps\": there is no map \"{}\"{}; maps are {}, or one of these with a suffix as in mask_moss",
+                      map, did_you_mean(map, known), fmt::join(known, ", ")));
   return problems;
 }
 
@@ -78,10 +80,8 @@ void require_folder(const fs::path& folder) {
                                   did_you_mean(folder.filename().string(), siblings)));
 }
 
-/// A folder's name without a slash at its end.
 fs::path folder_of(const Params& params) {
-  const fs::path path = fs::path(std::get<std::string>(params.at("path"))).lexically_normal();
-  return path.has_filename() ? path : path.parent_path();
+  return without_trailing_slash(std::get<std::string>(params.at("path")));
 }
 
 std::string all_words() {
@@ -261,8 +261,7 @@ void settle_conventions(NodeContext& node, const std::vector<RecognisedMap>& sou
 void compute(NodeContext& node) {
   const fs::path folder = folder_of(node.params());
   require_folder(folder);
-  const std::string& wish = node.text("color_space");
-  const std::string given_space = wish == "auto" ? "" : canonical_color_space(wish);
+  const std::string given_space = node.text("color_space") == "auto" ? "" : color_space_of(node, "color_space");
   const std::vector<RecognisedMap> found = find_maps(node, folder);
   const std::map<std::string, Source> sources = read_sources(node, folder, found);
   std::vector<Map> maps;

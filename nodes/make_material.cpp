@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
+#include "core/suggest.h"
 #include "nodes/image_work.h"
 
 namespace terrazzo {

@@ -110,7 +110,7 @@ NodeType noise_node() {
       {.name = "seed",
        .type = ParamType::integer,
        .fallback = int64_t{1},
-       .help = "Another number, another noise of the same kind.",
+       .help = "Another seed gives another noise of the same kind.",
        .min = 0},
       {.name = "tileable",
        .type = ParamType::boolean,

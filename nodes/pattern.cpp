@@ -70,7 +70,7 @@ NodeType pattern_node() {
       {.name = "seed",
        .type = ParamType::integer,
        .fallback = int64_t{1},
-       .help = "Another number, another piece of the same material.",
+       .help = "Another seed gives another piece of the same material.",
        .min = 0},
       {.name = "scale",
        .type = ParamType::number,

@@ -20,7 +20,7 @@ void compute(NodeContext& node) {
   s.ambient = node.number("ambient");
   s.exposure = node.number("exposure");
   s.relief = node.number("relief");
-  s.tile = node.number("tile");
+  s.tile = node.number("repeats");
   s.tilt = node.number("tilt");
   s.distance = node.number("distance");
   std::copy_n(node.numbers("background").begin(), 3, s.background);
@@ -79,7 +79,7 @@ NodeType preview_node() {
       number("ambient", 0.25, 0, 100, "", "Brightness of the even surroundings."),
       number("exposure", 0, -10, 10, "stops", "Brightness of the whole picture."),
       number("relief", 1, 0, 20, "", "Depth of parallax and shadows, times what the normals say; 0 switches them off."),
-      number("tile", 1, 0.01, 64, "", "Repeats of the material across the picture, or across the side of the ball."),
+      number("repeats", 1, 0.01, 64, "", "Repeats of the material across the picture, or across the side of the ball."),
       number("tilt", 0, 0, 75, "degrees", "Plane only: how far it leans back."),
       number("distance", 4, 1.1, 100, "radii", "Sphere only: from the camera to the ball's centre."),
       {.name = "background",

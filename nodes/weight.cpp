@@ -1,4 +1,6 @@
 #include "core/analysis/weighting.h"
+#include "core/color.h"
+#include "nodes/exemplar_tiles.h"
 
 namespace terrazzo {
 
@@ -6,9 +8,7 @@ namespace {
 
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
-  const std::string& tiles = node.text("tiles");
-  const bool wraps = tiles == "yes" || (tiles == "auto" && seems_to_tile(*material));
-  if (tiles == "auto" && wraps) node.note("the exemplar tiles: its opposite borders are treated as neighbours");
+  const bool wraps = exemplar_tiles(node, *material);
   node.output("features", weighted_features(*material, node.number_map("weights"), wraps));
 }
 
@@ -35,14 +35,10 @@ NodeType weight_node() {
                "map out.",
        .min = 0,
        .max = 100},
-      {.name = "tiles",
-       .type = ParamType::choice,
-       .fallback = "auto",
-       .help = "Whether the exemplar tiles, so that what lies beyond a border is the other side. \"auto\" compares "
-               "opposite borders.",
-       .choices = {"auto", "yes", "no"}},
+      tiles_param(),
   };
   t.persist = Persist::digest;
+  t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
   return t;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/paths.h"
 #include "graphs/document/convert.h"
 #include "graphs/document/format.h"
 
@@ -18,11 +19,6 @@ constexpr int key_scheme = 1;
 fs::path place_under(const fs::path& path, const fs::path& file) {
   const fs::path relative = file.lexically_normal().lexically_relative(path);
   return relative.empty() || *relative.begin() == ".." ? fs::path() : relative;
-}
-
-fs::path without_trailing_slash(const std::string& path) {
-  const fs::path p = fs::path(path).lexically_normal();
-  return p.has_filename() ? p : p.parent_path();
 }
 
 Digest digest_of_param(const std::string& name, const ParamValue& value) {

@@ -1,6 +1,5 @@
 #include "core/analysis/feature_distance.h"
 
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "core/analysis/distance_transform.h"
 #include "core/analysis/planes.h"
 #include "core/analysis/weighting.h"
+#include "core/distribution.h"
 #include "core/error.h"
 
 namespace terrazzo {
@@ -76,31 +76,6 @@ std::vector<float> gradient_magnitude(const ExemplarPlanes& p) {
   return out;
 }
 
-/// The threshold in 0..1 that best separates two classes of values (Otsu 1979).
-double otsu(const std::vector<float>& values) {
-  std::array<int64_t, 256> histogram{};
-  for (const float v : values) histogram[std::clamp(int(v * 256), 0, 255)]++;
-  double total = 0, all = 0;
-  for (int i = 0; i < 256; i++) {
-    total += double(histogram[i]);
-    all += double(i) * double(histogram[i]);
-  }
-  double below_count = 0, below_sum = 0, best = -1;
-  int cut = 127;
-  for (int i = 0; i < 255; i++) {
-    below_count += double(histogram[i]);
-    below_sum += double(i) * double(histogram[i]);
-    if (below_count == 0 || below_count == total) continue;
-    const double gap = below_sum / below_count - (all - below_sum) / (total - below_count);
-    const double between = below_count * (total - below_count) * gap * gap;
-    if (between > best) {
-      best = between;
-      cut = i;
-    }
-  }
-  return (cut + 1) / 256.0;
-}
-
 }  // namespace
 
 Edges find_edges(const Material& material, const EdgeOptions& options, const Task& task) {
@@ -126,7 +101,12 @@ Edges find_edges(const Material& material, const EdgeOptions& options, const Tas
   std::nth_element(sorted.begin(), sorted.begin() + ptrdiff_t(strong), sorted.end());
   const float unit = std::max(sorted[strong], 1e-6f);
   for (float& v : edges.strength) v = std::min(1.0f, v / unit);
-  edges.threshold = options.threshold ? *options.threshold : otsu(edges.strength);
+  if (options.threshold) {
+    edges.threshold = *options.threshold;
+  } else {
+    const ImageInfo info{.size = planes.size, .channels = 1, .semantic = Semantic::data};
+    edges.threshold = Distribution::of(*Image::from_floats(info, edges.strength), task).front().otsu_threshold();
+  }
   for (const float v : edges.strength) edges.mask.push_back(v >= float(edges.threshold));
   return edges;
 }

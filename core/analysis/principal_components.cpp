@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/hash.h"
+#include "core/linear_algebra.h"
 
 namespace terrazzo {
 
@@ -13,11 +14,12 @@ namespace {
 
 /// The covariance matrix of centred samples, n x n. Each element is summed by one thread in sample order: in single
 /// precision within a block, in double across blocks.
-std::vector<double> covariance(const std::vector<float>& centred, int n) {
+std::vector<double> covariance(const std::vector<float>& centred, int n, const Task& task) {
   const size_t count = centred.size() / n;
   std::vector<double> matrix(size_t(n) * n, 0.0);
   constexpr size_t block = 128;
   tbb::parallel_for(0, n, [&](int i) {
+    task.check();
     std::vector<float> partial(n);
     double* row = &matrix[size_t(i) * n];
     for (size_t begin = 0; begin < count; begin += block) {
@@ -63,66 +65,30 @@ void orthonormalise(std::vector<double>& rows, int count, int n) {
   }
 }
 
-/// Eigenvectors of a small symmetric matrix by cyclic Jacobi rotations; `vectors` gets them as rows.
-void jacobi(std::vector<double>& a, std::vector<double>& vectors, int m) {
-  vectors.assign(size_t(m) * m, 0.0);
-  for (int i = 0; i < m; i++) vectors[size_t(i) * m + i] = 1.0;
-  for (int sweep = 0; sweep < 30; sweep++) {
-    double off = 0, on = 0;
-    for (int i = 0; i < m; i++)
-      for (int j = 0; j < m; j++) (i == j ? on : off) += a[i * m + j] * a[i * m + j];
-    if (off <= 1e-24 * on) break;
-    for (int p = 0; p < m; p++)
-      for (int q = p + 1; q < m; q++) {
-        if (a[p * m + q] == 0) continue;
-        const double theta = (a[q * m + q] - a[p * m + p]) / (2 * a[p * m + q]);
-        const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-        for (int k = 0; k < m; k++) {
-          const double kp = a[k * m + p], kq = a[k * m + q];
-          a[k * m + p] = c * kp - s * kq;
-          a[k * m + q] = s * kp + c * kq;
-        }
-        for (int k = 0; k < m; k++) {
-          const double pk = a[p * m + k], qk = a[q * m + k];
-          a[p * m + k] = c * pk - s * qk;
-          a[q * m + k] = s * pk + c * qk;
-          const double vp = vectors[p * m + k], vq = vectors[q * m + k];
-          vectors[p * m + k] = c * vp - s * vq;
-          vectors[q * m + k] = s * vp + c * vq;
-        }
-      }
-  }
-}
-
 /// Turns the rows into Ritz vectors of `matrix` within their span, largest value first. Returns the values.
 std::vector<double> rayleigh_ritz(const std::vector<double>& matrix, std::vector<double>& rows, int m, int n) {
-  std::vector<double> image(size_t(m) * n), small(size_t(m) * m), vectors;
+  std::vector<double> image(size_t(m) * n), small(size_t(m) * m);
   tbb::parallel_for(0, m, [&](int r) {
     for (int i = 0; i < n; i++) image[size_t(r) * n + i] = dot(&matrix[size_t(i) * n], &rows[size_t(r) * n], n);
   });
   for (int r = 0; r < m; r++)
     for (int q = 0; q <= r; q++)
       small[r * m + q] = small[q * m + r] = dot(&rows[size_t(r) * n], &image[size_t(q) * n], n);
-  jacobi(small, vectors, m);
-  std::vector<int> order(m);
-  for (int i = 0; i < m; i++) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return small[a * m + a] > small[b * m + b]; });
-  std::vector<double> turned(size_t(m) * n, 0.0), values;
-  for (int r = 0; r < m; r++) {
-    values.push_back(std::max(0.0, small[order[r] * m + order[r]]));
+  SymmetricEigen eigen = eigen_symmetric(std::move(small), m);
+  std::vector<double> turned(size_t(m) * n, 0.0);
+  for (int r = 0; r < m; r++)
     for (int q = 0; q < m; q++) {
-      const double w = vectors[size_t(order[r]) * m + q];
+      const double w = eigen.vectors[size_t(r) * m + q];
       for (int i = 0; i < n; i++) turned[size_t(r) * n + i] += w * rows[size_t(q) * n + i];
     }
-  }
+  for (double& v : eigen.values) v = std::max(0.0, v);
   rows = std::move(turned);
-  return values;
+  return eigen.values;
 }
 
 }  // namespace
 
-PrincipalComponents principal_components(const std::vector<float>& samples, int n, int count) {
+PrincipalComponents principal_components(const std::vector<float>& samples, int n, int count, const Task& task) {
   const size_t total = samples.size() / n;
   PrincipalComponents out;
   std::vector<double> mean(n, 0.0);
@@ -133,7 +99,7 @@ PrincipalComponents principal_components(const std::vector<float>& samples, int 
   std::vector<float> centred(samples.size());
   for (size_t s = 0; s < total; s++)
     for (int i = 0; i < n; i++) centred[s * n + i] = samples[s * n + i] - out.mean[i];
-  const std::vector<double> matrix = covariance(centred, n);
+  const std::vector<double> matrix = covariance(centred, n, task);
   for (int i = 0; i < n; i++) out.total_variance += matrix[size_t(i) * n + i];
 
   // A few more rows than asked for: the gap beyond them is what sets the speed of convergence.
@@ -142,6 +108,7 @@ PrincipalComponents principal_components(const std::vector<float>& samples, int 
   for (size_t i = 0; i < rows.size(); i++) rows[i] = unit_double(random_bits(n, i)) - 0.5;
   orthonormalise(rows, m, n);
   for (int step = 0; step < 24; step++) {
+    task.check();
     tbb::parallel_for(0, m, [&](int r) {
       for (int i = 0; i < n; i++) next[size_t(r) * n + i] = dot(&matrix[size_t(i) * n], &rows[size_t(r) * n], n);
     });

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <vector>
+
+#include "core/task.h"
 
 namespace terrazzo {
 
@@ -16,6 +17,7 @@ struct PrincipalComponents {
 /// Computes the `count` leading components of vectors of length n by subspace iteration on the covariance matrix
 /// (Golub & Van Loan, Matrix Computations, section 8.2). `samples` holds the vectors one after the other. Arithmetic is
 /// done in one fixed order, so the result has the same bits on every machine and thread count.
-PrincipalComponents principal_components(const std::vector<float>& samples, int n, int count);
+/// Throws Cancelled.
+PrincipalComponents principal_components(const std::vector<float>& samples, int n, int count, const Task& task = {});
 
 }  // namespace terrazzo

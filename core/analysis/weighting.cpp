@@ -108,16 +108,8 @@ bool borders_fit(const ImagePtr& map, const WindowSearch& search, bool rows) {
 }  // namespace
 
 ImagePtr analysis_image(const ImagePtr& map) {
-  switch (map->info().semantic) {
-    case Semantic::base_color:
-    case Semantic::emission:
-    case Semantic::specular:
-      return to_oklab(map);
-    case Semantic::normal:
-      return map->channels() >= 2 ? unit_normals(map) : map;
-    default:
-      return map;
-  }
+  if (is_color(map->info().semantic)) return to_oklab(map);
+  return map->info().semantic == Semantic::normal && map->channels() >= 2 ? unit_normals(map) : map;
 }
 
 double default_weight(Semantic semantic) {

@@ -25,10 +25,10 @@ class Turned {
     std::vector<double> covariance(size_t(channels_) * channels_);
     for (size_t i = 0; i < exemplar.values.size(); i += channels_)
       for (int a = 0; a < channels_; a++)
-        for (int b = 0; b <= a; b++)
+        for (int b = 0; b < channels_; b++)
           covariance[size_t(a) * channels_ + b] +=
               (exemplar.values[i + a] - mean_[a]) * (exemplar.values[i + b] - mean_[b]);
-    axes_ = eigen_symmetric(covariance, channels_).vectors;
+    axes_ = eigen_symmetric(std::move(covariance), channels_).vectors;
   }
   Planes operator()(const Planes& image) const {
     Planes out = Planes::zeros(image.size, channels_);

@@ -60,7 +60,7 @@ double verbatim_copies(const Planes& exemplar, const Planes& output, const Task&
   constexpr int dimensions = 16;
   constexpr double slack = 0.2;
   const PatchList from_exemplar = all_patches(exemplar.size), from_output = all_patches(output.size);
-  const Projection space = principal_components(exemplar, from_exemplar, dimensions, task);
+  const Projection space = principal_projection(exemplar, from_exemplar, dimensions, task);
   const NearestPoints tree(project(exemplar, from_exemplar, space, task), dimensions);
   const std::vector<float> points = project(output, from_output, space, task);
   const int across = patch_positions(exemplar.size).width, width = patch_positions(output.size).width;

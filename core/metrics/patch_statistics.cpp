@@ -90,7 +90,7 @@ double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Ta
 PatchSimilarity patch_similarity(const Planes& exemplar, const Planes& output, const Task& task) {
   const PatchList from_exemplar = random_patches(exemplar.size, pool, exemplar_seed);
   const PatchList from_output = random_patches(output.size, pool, output_seed);
-  const Projection space = principal_components(exemplar, from_exemplar, dimensions, task);
+  const Projection space = principal_projection(exemplar, from_exemplar, dimensions, task);
   const std::vector<float> e = project(exemplar, from_exemplar, space, task);
   const std::vector<float> o = project(output, from_output, space, task);
   std::array<std::unique_ptr<NearestPoints>, 2> trees;

@@ -7,8 +7,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/analysis/principal_components.h"
 #include "core/hash.h"
-#include "core/linear_algebra.h"
 
 namespace terrazzo {
 
@@ -16,7 +16,6 @@ namespace {
 
 constexpr int lane = 8;     ///< outputs computed at once
 constexpr int at_once = 4;  ///< patches computed at once
-constexpr int rows_of = 8;  ///< covariance rows per piece of work
 
 void gather(const Planes& image, uint32_t patch, const std::vector<float>& mean, float* out) {
   const int across = patch_positions(image.size).width, row = patch_side * image.channels;
@@ -39,26 +38,6 @@ void multiply(const float* patches, const Projection& p, float* const* out) {
       }
     for (int s = 0; s < at_once; s++) std::copy_n(sum[s], lane, out[s] + first);
   }
-}
-
-std::vector<double> covariance(const std::vector<float>& rows, int inputs, const Task& task) {
-  const size_t count = rows.size() / inputs;
-  std::vector<double> sums(size_t(inputs) * inputs);
-  // Each piece owns some rows of the result and sees the patches in order: no sum depends on the number of threads.
-  tbb::parallel_for(0, (inputs + rows_of - 1) / rows_of, [&](int piece) {
-    task.check();
-    const int begin = piece * rows_of, end = std::min(inputs, begin + rows_of);
-    for (size_t s = 0; s < count; s++) {
-      const float* v = &rows[s * inputs];
-      for (int i = begin; i < end; i++) {
-        const double a = v[i];
-        double* to = &sums[size_t(i) * inputs];
-        for (int j = 0; j < end; j++) to[j] += a * v[j];
-      }
-    }
-  });
-  for (double& s : sums) s /= double(count);
-  return sums;
 }
 
 }  // namespace
@@ -84,23 +63,16 @@ PatchList random_patches(Size image, size_t count, uint64_t seed) {
   return out;
 }
 
-Projection principal_components(const Planes& image, const PatchList& patches, int outputs, const Task& task) {
+Projection principal_projection(const Planes& image, const PatchList& patches, int outputs, const Task& task) {
   const int inputs = patch_values(image);
   const size_t count = std::min<size_t>(patches.size(), 20000);
   std::vector<float> rows(count * inputs);
   const std::vector<float> nothing(inputs);
-  std::vector<double> sum(inputs);
-  for (size_t s = 0; s < count; s++) {
-    gather(image, patches[s * patches.size() / count], nothing, &rows[s * inputs]);
-    for (int i = 0; i < inputs; i++) sum[i] += rows[s * inputs + i];
-  }
-  Projection p{inputs, outputs, std::vector<float>(inputs), std::vector<float>(size_t(inputs) * outputs)};
-  for (int i = 0; i < inputs; i++) p.mean[i] = float(sum[i] / double(count));
-  for (size_t s = 0; s < count; s++)
-    for (int i = 0; i < inputs; i++) rows[s * inputs + i] -= p.mean[i];
-  const SymmetricEigen eigen = eigen_symmetric(covariance(rows, inputs, task), inputs);
-  for (int k = 0; k < std::min(outputs, inputs); k++)
-    for (int i = 0; i < inputs; i++) p.weights[size_t(i) * outputs + k] = float(eigen.vectors[size_t(k) * inputs + i]);
+  for (size_t i = 0; i < count; i++) gather(image, patches[i * patches.size() / count], nothing, &rows[i * inputs]);
+  const PrincipalComponents pca = principal_components(rows, inputs, outputs, task);
+  Projection p{inputs, outputs, pca.mean, std::vector<float>(size_t(inputs) * outputs)};
+  for (size_t k = 0; k < pca.variances.size(); k++)
+    for (int i = 0; i < inputs; i++) p.weights[size_t(i) * outputs + k] = pca.components[k * inputs + i];
   return p;
 }
 

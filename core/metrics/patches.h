@@ -29,8 +29,8 @@ struct Projection {
   std::vector<float> weights;  ///< inputs rows of outputs
 };
 
-/// The patches' leading principal components; learnt from at most 20 000 of them.
-Projection principal_components(const Planes& image, const PatchList& patches, int outputs, const Task& task);
+/// Onto the patches' leading principal components; learnt from at most 20 000 of them.
+Projection principal_projection(const Planes& image, const PatchList& patches, int outputs, const Task& task);
 /// Random unit vectors, evenly spread over all directions.
 Projection random_directions(int inputs, int outputs, uint64_t seed);
 

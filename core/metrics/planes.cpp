@@ -5,26 +5,18 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/exact_math.h"
+
 namespace terrazzo {
 
 namespace {
-
-/// exp(-x) from products and sums alone, so that its bits are the same everywhere.
-double exp_of_minus(double x) {
-  int halvings = 0;
-  for (; x > 0.5; x /= 2) halvings++;
-  double sum = 1, term = 1;
-  for (int i = 1; i < 20; i++) sum += term *= -x / i;
-  for (; halvings > 0; halvings--) sum *= sum;
-  return sum;
-}
 
 std::vector<float> gaussian_weights(double sigma) {
   const int radius = int(4 * sigma + 0.5);
   std::vector<double> weights;
   double sum = 0;
   for (int i = -radius; i <= radius; i++) {
-    weights.push_back(exp_of_minus(double(i) * i / (2 * sigma * sigma)));
+    weights.push_back(exact::exp(-double(i) * i / (2 * sigma * sigma)));
     sum += weights.back();
   }
   std::vector<float> out;

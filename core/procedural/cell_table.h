@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/procedural/exact_math.h"
+#include "core/exact_math.h"
 #include "core/procedural/surface.h"
 
 namespace terrazzo {

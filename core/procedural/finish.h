@@ -20,12 +20,4 @@ struct Finish {
 /// the steps of their depth.
 MaterialPtr finished_material(const std::string& name, const Surface& surface, const Finish& finish, const Task& task);
 
-/// The fraction of the sky that each pixel of a height field sees, cosine weighted, from the horizon in 16 directions
-/// (after Bavoil et al., Image-space horizon-based ambient occlusion, 2008). `relief`: pixels per unit of height.
-std::vector<float> horizon_occlusion(const std::vector<float>& height, Size size, bool wraps, double relief,
-                                     double reach, const Task& task);
-
-/// Encoded tangent-space normals, green up, from central differences of a height field.
-std::vector<float> normals_of(const std::vector<float>& height, Size size, bool wraps, double relief);
-
 }  // namespace terrazzo

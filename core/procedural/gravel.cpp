@@ -1,8 +1,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/exact_math.h"
 #include "core/procedural/cell_table.h"
-#include "core/procedural/exact_math.h"
 #include "core/procedural/pattern_types.h"
 
 namespace terrazzo {

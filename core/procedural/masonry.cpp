@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/procedural/exact_math.h"
+#include "core/exact_math.h"
 
 namespace terrazzo {
 

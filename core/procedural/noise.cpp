@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/procedural/exact_math.h"
+#include "core/exact_math.h"
 
 namespace terrazzo {
 

@@ -5,10 +5,11 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/procedural/exact_math.h"
+#include "core/exact_math.h"
 #include "core/render/relief.h"
 #include "core/render/shading.h"
 #include "core/render/textures.h"
+#include "core/srgb.h"
 
 namespace terrazzo {
 
@@ -91,7 +92,7 @@ class Renderer {
                          exact::sin_turns(spec.elevation / 360)});
     }
     const double* b = spec.background;
-    background_ = {srgb_decoded(b[0]), srgb_decoded(b[1]), srgb_decoded(b[2])};
+    background_ = {decode_srgb(b[0]), decode_srgb(b[1]), decode_srgb(b[2])};
   }
 
   /// Display-linear colour of a pixel under one light.
@@ -130,7 +131,7 @@ class Renderer {
 };
 
 float stored(double linear) {
-  return float(exact::floor_int(exact::saturate(srgb_encoded(linear)) * 255 + 0.5)) / 255.0f;
+  return float(exact::floor_int(exact::saturate(encode_srgb(linear)) * 255 + 0.5)) / 255.0f;
 }
 
 }  // namespace

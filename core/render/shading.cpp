@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/procedural/exact_math.h"
-
 namespace terrazzo::render {
 
 namespace {
@@ -59,14 +57,6 @@ Vec tone_mapped(const Vec& color) {
     return knee + (1 - knee) * over / (1 + over);
   };
   return {curve(color.x), curve(color.y), curve(color.z)};
-}
-
-double srgb_encoded(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * exact::pow(linear, 1 / 2.4) - 0.055;
-}
-
-double srgb_decoded(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : exact::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
 }  // namespace terrazzo::render

@@ -27,8 +27,4 @@ Vec reflected_ambient(const ShadedPoint& point, const Vec& view, const Vec& up);
 /// Brightness to display: as it is up to 0.75, then a shoulder that reaches 1 at infinity.
 Vec tone_mapped(const Vec& color);
 
-/// One channel between linear light and the sRGB transfer function (IEC 61966-2-1).
-double srgb_encoded(double linear);
-double srgb_decoded(double encoded);
-
 }  // namespace terrazzo::render

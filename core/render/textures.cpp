@@ -5,8 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include "core/color.h"
-#include "core/procedural/exact_math.h"
-#include "core/procedural/finish.h"
+#include "core/exact_math.h"
+#include "core/normal.h"
 
 namespace terrazzo::render {
 
@@ -15,9 +15,10 @@ namespace {
 /// Brings one texel, read from the map, into the space it is filtered in; in place.
 using Decode = void (*)(float* texel, const ImageInfo& info);
 
-void decode_normal(float* texel, const ImageInfo& info) {
-  for (int c = 0; c < std::min(3, info.channels); c++) texel[c] = texel[c] * 2 - 1;
-  if (info.channels > 1 && info.normal_y == NormalY::down) texel[1] = -texel[1];
+void decode_vector(float* texel, const ImageInfo& info) {
+  if (info.channels < 3) return;
+  const Vector3 n = decode_normal(texel, info.normal_y);
+  std::copy(n.begin(), n.end(), texel);
 }
 
 void decode_value(float*, const ImageInfo&) {}
@@ -81,13 +82,17 @@ double depth_from_normals(const Texture& height, const Texture& normal, double a
   return variance > 0 ? std::clamp(covariance / variance, 0.0, 0.2) : 0;
 }
 
-Texture normals_from_height(const Texture& height, double depth) {
-  std::vector<float> values(size_t(height.size().area()));
-  for (int y = 0; y < height.size().height; y++)
-    for (int x = 0; x < height.size().width; x++) values[size_t(y) * height.size().width + x] = *height.texel(x, y);
-  std::vector<float> normals = normals_of(values, height.size(), true, depth * height.size().width);
-  for (float& v : normals) v = v * 2 - 1;
-  return Texture(height.size(), 3, std::move(normals));
+Texture normals_of(const Texture& height, double depth) {
+  const Size size = height.size();
+  std::vector<float> values(size_t(size.area())), normals(values.size() * 3);
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) values[size_t(y) * size.width + x] = *height.texel(x, y);
+  const ImageInfo info{.size = size, .channels = 1, .semantic = Semantic::height};
+  normals_from_height(*Image::from_floats(info, std::move(values)), {0, 0, size.width, size.height}, depth * size.width,
+                      SlopeFilter::central, Outside::wrap, NormalY::up, normals.data());
+  const ImageInfo made{.size = size, .channels = 3, .semantic = Semantic::normal};
+  for (size_t i = 0; i < normals.size(); i += 3) decode_vector(&normals[i], made);
+  return Texture(size, 3, std::move(normals));
 }
 
 }  // namespace
@@ -151,7 +156,7 @@ Textures load_textures(const Material& material, int max_width, double relief, c
   const auto get = [&](Semantic semantic, Decode decode) { return load(material, semantic, max_width, decode, task); };
   t.base_color = get(Semantic::base_color, decode_value);
   t.emission = get(Semantic::emission, decode_value);
-  t.normal = get(Semantic::normal, decode_normal);
+  t.normal = get(Semantic::normal, decode_vector);
   t.height = get(Semantic::height, decode_value);
   t.roughness = get(Semantic::roughness, decode_value);
   t.metallic = get(Semantic::metallic, decode_value);
@@ -162,7 +167,7 @@ Textures load_textures(const Material& material, int max_width, double relief, c
     t.depth = depth_from_normals(t.height, t.normal, t.aspect) * relief;
   } else {
     t.depth = 0.05 * relief;
-    t.normal = normals_from_height(t.height, t.depth);
+    t.normal = normals_of(t.height, t.depth);
   }
   return t;
 }

@@ -211,8 +211,7 @@ class Reader {
     if (!v.is_text()) return wrong(v);
     for (const std::string& c : param_.choices)
       if (c == v.text) return v.text;
-    const std::string meant = nearest(v.text, param_.choices);
-    return wrong(v, meant.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", meant));
+    return wrong(v, did_you_mean(v.text, param_.choices));
   }
 
   std::optional<std::string> path(const JsonValue& v) {

@@ -72,9 +72,8 @@ class NodeReader {
     if (!given->is_text()) {
       complain(given->place, "expected the name of a node type, found " + found(*given));
     } else {
-      const std::string meant = nearest(given->text, reading_.type_names);
       complain(given->place, fmt::format("unknown node type {}{}; `terrazzo nodes` lists all", in_quotes(given->text),
-                                         meant.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", meant)));
+                                         did_you_mean(given->text, reading_.type_names)));
     }
     return false;
   }

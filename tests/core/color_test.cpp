@@ -103,7 +103,7 @@ TEST_CASE("common other names are understood, unknown ones refused with the know
   CHECK(color_space_names().size() == 4);
   CHECK_THROWS_WITH_AS(canonical_color_space("srbg"),
                        "there is no colour space \"srbg\" in the built-in configuration, which knows lin_rec709, "
-                       "srgb_texture, acescg, raw; did you mean \"srgb\"?",
+                       "srgb_texture, acescg, raw (did you mean \"srgb\"?)",
                        Error);
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("Oklab has the same bits on every machine") {
       {64, 64}, 3, [](int x, int y, int c) { return float(random_bits(5, x, y, c) >> 40) * 0x1p-24f; },
       Semantic::base_color, "srgb_texture");
   const std::vector<float> lab = to_oklab(image)->pixels();
-  CHECK(Hasher().bytes(lab.data(), lab.size() * sizeof(float)).digest().hex() == "7da3f093d5c8d39a9428b6d3d348ac56");
+  CHECK(Hasher().bytes(lab.data(), lab.size() * sizeof(float)).digest().hex() == "594577e61a6e816253679d00c4b7469d");
 }
 
 TEST_CASE("the lightness of grey images comes alone") {

@@ -109,7 +109,7 @@ TEST_CASE("files that are no images are refused, whatever their names say") {
     CHECK(says(error_of(path), "the file is empty"));
   }
   CHECK(says(error_of(folder.path()), "it is a folder"));
-  CHECK(says(error_of(folder.path() / "noise.pgn"), "there is no such file; did you mean \"noise.png\"?"));
+  CHECK(says(error_of(folder.path() / "noise.pgn"), "there is no such file (did you mean \"noise.png\"?)"));
 }
 
 TEST_CASE("absurd sizes in a header are refused before memory is asked for") {

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "core/normal.h"
-#include "core/pixel_space.h"
+#include "core/srgb.h"
 #include "tests/nodes/image_checks.h"
 
 using namespace terrazzo;

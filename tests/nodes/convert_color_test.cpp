@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "core/pixel_space.h"
+#include "core/srgb.h"
 #include "tests/nodes/image_checks.h"
 
 using namespace terrazzo;
@@ -10,8 +10,8 @@ TEST_CASE("convert_color decodes the sRGB curve and leaves a fourth channel") {
   const ImagePtr image = flat_image({3, 2}, {0.2f, 0.5f, 0.8f, 0.5f}, Semantic::base_color, "srgb_texture");
   const ImagePtr linear = run_image("convert_color", {}, {{"image", image}});
   CHECK(linear->info().color_space == "lin_rec709");
-  CHECK(greatest_difference(
-            *linear, *flat_image({3, 2}, {decode_srgb(0.2f), decode_srgb(0.5f), decode_srgb(0.8f), 0.5f})) < 1e-5);
+  CHECK(greatest_difference(*linear, *flat_image({3, 2}, {float(decode_srgb(0.2)), float(decode_srgb(0.5)),
+                                                          float(decode_srgb(0.8)), 0.5f})) < 1e-5);
   const ImagePtr back = run_image("convert_color", {{"to", "srgb_texture"}}, {{"image", linear}});
   CHECK(greatest_difference(*back, *image) < 1e-5);
 }

@@ -127,11 +127,11 @@ TEST_CASE("colours are converted on request, data never") {
 
 TEST_CASE("normals are turned to the convention asked for") {
   const TemporaryFolder folder;
-  run(folder.path(), "{map}.tif", {{"normals", "down"}, {"depth", "float"}});
+  run(folder.path(), "{map}.tif", {{"normal_y", "down"}, {"depth", "float"}});
   const std::vector<float> up = bricks()->find("normal")->read({3, 2, 1, 1});
   const std::vector<float> down = read(folder.path() / "normal.tif")->read({3, 2, 1, 1});
   CHECK(down == std::vector<float>{up[0], 1.0f - up[1], up[2]});
-  run(folder.path(), "{map}.tif", {{"normals", "up"}, {"depth", "float"}});
+  run(folder.path(), "{map}.tif", {{"normal_y", "up"}, {"depth", "float"}});
   CHECK(read(folder.path() / "normal.tif")->pixels() == bricks()->find("normal")->pixels());
 }
 

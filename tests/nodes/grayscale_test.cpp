@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "core/pixel_space.h"
+#include "core/srgb.h"
 #include "tests/nodes/image_checks.h"
 
 using namespace terrazzo;

@@ -165,7 +165,7 @@ TEST_CASE("the parameters maps and ignore overrule the names") {
   CHECK(contains(error_of({{"path", folder.path().string()}, {"maps", TextMap{{"height", "scan.png:a"}}}}),
                  "height is to be channel a of scan.png, which has only 3 channels"));
   const NodeType* type = find_node_type("load_material");
-  Params params = {{"maps", TextMap{{"hieght", "scan.png"}}}};
+  Params params = {{"maps", TextMap{{"hieght", "scan.png"}}}, {"color_space", "auto"}};
   REQUIRE(type->check(params).size() == 1);
   CHECK(contains(type->check(params)[0], "did you mean \"height\"?"));
 }

@@ -150,8 +150,8 @@ TEST_CASE("maps of other sizes, odd shapes and tilted planes render") {
   const MaterialPtr m = Material::make("odd", {{"base_color", white({40, 10})}, {"height", height}});
   for (const std::string shape : {"plane", "sphere"})
     for (const Size size : {Size{16, 16}, Size{33, 7}, Size{1, 1}}) {
-      const ImagePtr p = preview(m, {{"shape", shape}, {"size", size}, {"tilt", 50.0}, {"tile", 2.5}});
+      const ImagePtr p = preview(m, {{"shape", shape}, {"size", size}, {"tilt", 50.0}, {"repeats", 2.5}});
       CHECK(p->size() == size);
-      CHECK(p->digest() == preview(m, {{"shape", shape}, {"size", size}, {"tilt", 50.0}, {"tile", 2.5}})->digest());
+      CHECK(p->digest() == preview(m, {{"shape", shape}, {"size", size}, {"tilt", 50.0}, {"repeats", 2.5}})->digest());
     }
 }

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "core/normal.h"
-#include "core/pixel_space.h"
+#include "core/srgb.h"
 #include "tests/nodes/image_checks.h"
 
 using namespace terrazzo;
@@ -36,7 +36,7 @@ TEST_CASE("resize by a box of two averages colours in linear light") {
   const ImagePtr stripes = make_image(
       {8, 8}, 3, [](int x, int, int) { return float(x % 2); }, Semantic::base_color, "srgb_texture");
   const ImagePtr half = run_image("resize", {{"scale", 0.5}, {"filter", "box"}}, {{"material", stripes}});
-  CHECK(greatest_difference(*half, *flat_image({4, 4}, std::vector<float>(3, encode_srgb(0.5f)))) < 1e-6);
+  CHECK(greatest_difference(*half, *flat_image({4, 4}, std::vector<float>(3, float(encode_srgb(0.5))))) < 1e-6);
 }
 
 TEST_CASE("resize keeps the mean of an image that wraps") {

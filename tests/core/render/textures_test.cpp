@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "../../run_node.h"
-#include "core/procedural/finish.h"
+#include "core/normal.h"
 
 using namespace terrazzo;
 using namespace terrazzo::render;
@@ -30,7 +30,10 @@ TEST_CASE("the relief's depth is found again from normals and height") {
   const ImagePtr height = hills(size);
   for (const double pixels : {2.0, 6.0}) {
     const ImageInfo info{.size = size, .channels = 3, .semantic = Semantic::normal};
-    const ImagePtr normal = Image::from_floats(info, normals_of(height->pixels(), size, true, pixels));
+    std::vector<float> normals(size_t(size.area()) * 3);
+    normals_from_height(*height, {0, 0, size.width, size.height}, pixels, SlopeFilter::central, Outside::wrap,
+                        NormalY::up, normals.data());
+    const ImagePtr normal = Image::from_floats(info, std::move(normals));
     const MaterialPtr m = Material::make("hills", {{"normal", normal}, {"height", height}});
     CHECK(load_textures(*m, 64, 1, Task()).depth == doctest::Approx(pixels / 64).epsilon(0.05));
     CHECK(load_textures(*m, 64, 2, Task()).depth == doctest::Approx(2 * pixels / 64).epsilon(0.05));

@@ -1,4 +1,4 @@
-#include "core/procedural/exact_math.h"
+#include "core/exact_math.h"
 
 #include <cmath>
 
@@ -16,6 +16,10 @@ TEST_CASE("exact elementary functions agree with the library's to nine digits") 
   }
   for (double x = 0.003; x < 40; x *= 1.7) CHECK(exact::pow(x, 2.4) == doctest::Approx(std::pow(x, 2.4)).epsilon(1e-9));
   CHECK(exact::pow(0, 2.4) == 0);
+  for (double x = 1e-30; x < 1e30; x *= 7.3) {
+    CHECK(exact::root<3>(x) == doctest::Approx(std::cbrt(x)).epsilon(1e-9));
+    CHECK(exact::root<5>(x) == doctest::Approx(std::pow(x, 0.2)).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("floor rounds down on both sides of zero") {

@@ -1,0 +1,25 @@
+#include "nodes/exemplar_tiles.h"
+
+#include "core/analysis/weighting.h"
+
+namespace terrazzo {
+
+Param tiles_param() {
+  return {.name = "tiles",
+          .type = ParamType::choice,
+          .fallback = "auto",
+          .help =
+              "Whether the exemplar tiles, so that what lies beyond a border is the other side. \"auto\" compares "
+              "opposite borders.",
+          .choices = {"auto", "yes", "no"}};
+}
+
+bool exemplar_tiles(NodeContext& node, const Material& material) {
+  const std::string& tiles = node.text("tiles");
+  if (tiles != "auto") return tiles == "yes";
+  const bool fits = seems_to_tile(material);
+  if (fits) node.note("the exemplar tiles: its opposite borders are treated as neighbours");
+  return fits;
+}
+
+}  // namespace terrazzo
