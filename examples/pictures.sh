@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# Makes the pictures that the README shows, from nothing but the project itself. Needs a build (examples/quickstart.sh).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+for kind in bricks cobbles herringbone gravel; do
+  build/terrazzo run examples/pictures.json --progress none --set "kind=$kind" --set out=examples/pictures
+done
