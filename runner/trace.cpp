@@ -1,5 +1,4 @@
 #include "runner/trace.h"
-
 #include <nlohmann/json.hpp>
 
 #include "runner/text_file.h"
