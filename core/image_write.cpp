@@ -126,7 +126,8 @@ class WrittenFile final : public OIIO::Filesystem::IOProxy {
       : IOProxy(path.string(), Write), path_(path), file_(File::open(path, O_WRONLY | O_CREAT | O_TRUNC)) {
     if (!file_.ok()) throw_system_error("write", path, errno);
   }
-  const char* proxytype() const override { return "file"; }
+  /// Not "file", which the library takes for its own class.
+  const char* proxytype() const override { return "written file"; }
   size_t write(const void* data, size_t size) override {
     const size_t written = pwrite(data, size, m_pos);
     m_pos += int64_t(written);
