@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/file_facts.h"
 #include "core/file_io.h"
 #include "core/image_file.h"
 
@@ -179,7 +180,8 @@ int64_t write_image(const Image& image, const std::filesystem::path& path, const
     refuse(reason);
   };
   out->threads(1);
-  out->set_ioproxy(&file);
+  // TIFF's library finishes half-float files by ways of its own, so it gets none; what it wrote is checked below.
+  if (options.format != FileFormat::tiff) out->set_ioproxy(&file);
   const OIIO::ImageSpec spec = make_spec(image, options);
   if (!out->open(path.string(), spec)) fail(out->geterror());
   Converter converter(image.channels(), spec.nchannels);
@@ -190,6 +192,8 @@ int64_t write_image(const Image& image, const std::filesystem::path& path, const
   });
   if (!out->close()) fail(out->geterror());
   file.close_and_check();
+  if (options.format == FileFormat::tiff && !tiff_is_complete(path))
+    refuse("not all of it could be written; is the disk full?");
   return converter.clipped();
 }
 
