@@ -49,13 +49,15 @@ void File::write_at(uint64_t offset, const void* data, size_t size, const std::f
   }
 }
 
+void File::close(const std::filesystem::path& path) {
+  if (::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) throw_system_error("write", path, errno);
+}
+
 void File::sync_and_close(const std::filesystem::path& path) {
   // Devices and pipes cannot be synced, which is no failure.
   const bool synced = ::fsync(descriptor_) == 0 || errno == EINVAL || errno == EROFS;
-  const int sync_error = errno;
-  const bool closed = ::close(std::exchange(descriptor_, -1)) == 0 || errno == EINTR;
-  if (!synced) throw_system_error("write", path, sync_error);
-  if (!closed) throw_system_error("write", path, errno);
+  if (!synced) throw_system_error("write", path, errno);
+  close(path);
 }
 
 std::string system_message(int code) {

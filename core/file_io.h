@@ -44,6 +44,8 @@ class File {
   size_t read_at(uint64_t offset, void* out, size_t size, const std::filesystem::path& path) const;
   /// Writes all bytes at `offset`. Throws FileError naming `path`.
   void write_at(uint64_t offset, const void* data, size_t size, const std::filesystem::path& path) const;
+  /// Throws FileError naming `path`: some file systems find only now that there was no room.
+  void close(const std::filesystem::path& path);
   /// Waits until the content is on the disk, then closes. Throws FileError naming `path`.
   void sync_and_close(const std::filesystem::path& path);
 

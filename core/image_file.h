@@ -50,7 +50,8 @@ std::optional<FileFormat> format_from(const std::filesystem::path& path);
 /// Writes strip by strip, pulling the image's pixels as it goes; `progress` is called with the fraction done and may
 /// throw to stop. No dithering: a value read from a file of the same depth is written back exactly. The same pixels
 /// give the same bytes. JPEG has no alpha channel and leaves it out. Returns how many values lay outside 0..1 and were
-/// clipped by an integer depth.
+/// clipped by an integer depth. Throws FileError where the operating system refuses (no space, no permission), Error
+/// where the format does; the file is then incomplete and the caller's to remove.
 int64_t write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
                     const std::function<void(double)>& progress);
 

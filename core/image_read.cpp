@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <new>
 
@@ -7,9 +8,11 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include "core/error.h"
 #include "core/file_facts.h"
+#include "core/file_io.h"
 #include "core/image_file.h"
 #include "core/suggest.h"
 
@@ -25,14 +28,19 @@ namespace fs = std::filesystem;
 
 void require_file(const fs::path& path) {
   std::error_code failure;
-  if (fs::is_directory(path, failure)) fail(path, "it is a folder; expected an image file");
-  if (!fs::exists(path, failure)) {
+  const fs::file_status status = fs::status(path, failure);
+  if (fs::is_directory(status)) fail(path, "it is a folder; expected an image file");
+  if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(path, failure)))
+    fail(path, fmt::format("it is a link to {}, which does not exist", fs::read_symlink(path, failure).string()));
+  if (status.type() == fs::file_type::none) throw_system_error("read", path, failure.value());
+  if (!fs::exists(status)) {
     std::vector<std::string> others;
     for (const fs::directory_entry& e : fs::directory_iterator(path.parent_path(), failure))
       others.push_back(e.path().filename().string());
     std::sort(others.begin(), others.end());
     fail(path, "there is no such file" + did_you_mean(path.filename().string(), others));
   }
+  if (::access(path.c_str(), R_OK) != 0) throw_system_error("read", path, errno);
   if (fs::file_size(path, failure) == 0) fail(path, "the file is empty (0 bytes)");
 }
 

@@ -1,11 +1,16 @@
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 
 #include <Imath/half.h>
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/file_facts.h"
+#include "core/file_io.h"
 #include "core/image_file.h"
 
 namespace terrazzo {
@@ -114,19 +119,69 @@ class Converter {
   std::vector<float> floats_;
 };
 
+/// The file that an image library writes to. The libraries lose what the operating system says (a PNG on a full disk
+/// counts as written), so it is kept here.
+class WrittenFile final : public OIIO::Filesystem::IOProxy {
+ public:
+  explicit WrittenFile(const std::filesystem::path& path)
+      : IOProxy(path.string(), Write), path_(path), file_(File::open(path, O_WRONLY | O_CREAT | O_TRUNC)) {
+    if (!file_.ok()) throw_system_error("write", path, errno);
+  }
+  /// Not "file", which the library takes for its own class.
+  const char* proxytype() const override { return "written file"; }
+  size_t write(const void* data, size_t size) override {
+    const size_t written = pwrite(data, size, m_pos);
+    m_pos += int64_t(written);
+    return written;
+  }
+  size_t pwrite(const void* data, size_t size, int64_t offset) override {
+    try {
+      file_.write_at(uint64_t(offset), data, size, path_);
+    } catch (const FileError& e) {
+      failure_ = e.code();
+      return 0;
+    }
+    size_ = std::max(size_, size_t(offset) + size);
+    return size;
+  }
+  size_t size() const override { return size_; }
+
+  /// Throws what the operating system said, if it refused anything.
+  void check() const {
+    if (failure_ != 0) throw_system_error("write", path_, failure_);
+  }
+  void close_and_check() {
+    check();
+    file_.close(path_);
+  }
+
+ private:
+  std::filesystem::path path_;
+  File file_;
+  size_t size_ = 0;
+  int failure_ = 0;
+};
+
 }  // namespace
 
 int64_t write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
                     const std::function<void(double)>& progress) {
-  const auto fail = [&](const std::string& reason) {
+  const auto refuse = [&](const std::string& reason) {
     throw Error(fmt::format("cannot write {}: {}", path.string(), reason));
   };
   if (!holds(options.format, options.depth))
-    fail(fmt::format("{} cannot hold {} values", name_of(options.format), name_of(options.depth)));
+    refuse(fmt::format("{} cannot hold {} values", name_of(options.format), name_of(options.depth)));
   constexpr std::array<const char*, 4> names = {"png", "tiff", "openexr", "jpeg"};
+  WrittenFile file(path);
   const auto out = OIIO::ImageOutput::create(names[static_cast<size_t>(options.format)]);
-  if (!out) fail(OIIO::geterror());
+  if (!out) refuse(OIIO::geterror());
+  const auto fail = [&](const std::string& reason) {
+    file.check();
+    refuse(reason);
+  };
   out->threads(1);
+  // TIFF's library finishes half-float files by ways of its own, so it gets none; what it wrote is checked below.
+  if (options.format != FileFormat::tiff) out->set_ioproxy(&file);
   const OIIO::ImageSpec spec = make_spec(image, options);
   if (!out->open(path.string(), spec)) fail(out->geterror());
   Converter converter(image.channels(), spec.nchannels);
@@ -136,6 +191,9 @@ int64_t write_image(const Image& image, const std::filesystem::path& path, const
     progress(double(r.bottom()) / image.height());
   });
   if (!out->close()) fail(out->geterror());
+  file.close_and_check();
+  if (options.format == FileFormat::tiff && !tiff_is_complete(path))
+    refuse("not all of it could be written; is the disk full?");
   return converter.clipped();
 }
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include "core/file_io.h"
 
 namespace terrazzo {
 
@@ -107,6 +110,8 @@ std::filesystem::path NodeContext::stage(const std::filesystem::path& target) {
   std::filesystem::create_directories(target.parent_path(), failure);
   if (failure)
     throw Error(fmt::format("cannot make the folder {}: {}", target.parent_path().string(), failure.message()));
+  if (::access(target.parent_path().c_str(), W_OK) != 0)
+    throw_system_error("write into the folder", target.parent_path(), errno);
   // The extension stays last: image libraries choose the format by it.
   const std::filesystem::path temporary =
       target.parent_path() /

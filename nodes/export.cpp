@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/color.h"
+#include "core/file_io.h"
 #include "core/image_file.h"
 #include "core/node.h"
 #include "core/suggest.h"
@@ -233,13 +234,21 @@ void require_distinct(const std::vector<Job>& jobs) {
   }
 }
 
+/// Writes one file; an error names the file that was asked for, not the temporary one.
+void write_one(Job& job, const std::function<void(double)>& progress) {
+  try {
+    job.clipped = write_image(*job.image, job.temporary, job.options, progress);
+  } catch (const FileError& e) {
+    throw_system_error("write", job.target, e.code());
+  }
+}
+
 /// Writes all files, several at once; progress is their mean.
 void write_all(NodeContext& node, std::vector<Job>& jobs) {
   std::mutex mutex;
   std::vector<double> done(jobs.size());
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
-    Job& job = jobs[i];
-    job.clipped = write_image(*job.image, job.temporary, job.options, [&](double fraction) {
+    write_one(jobs[i], [&](double fraction) {
       double sum = 0;
       {
         const std::lock_guard lock(mutex);

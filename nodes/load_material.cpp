@@ -24,13 +24,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A link to a missing file counts, so that reading it complains: without it the material would silently lack a map.
+bool is_file_or_broken_link(const fs::directory_entry& entry) {
+  std::error_code failure;
+  return entry.is_regular_file(failure) || (entry.is_symlink(failure) && !entry.exists(failure));
+}
+
 std::vector<std::string> image_names(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code failure;
   for (const fs::directory_entry& e : fs::directory_iterator(folder, failure)) {
-    std::error_code unreadable;
     const std::string name = e.path().filename().string();
-    if (name[0] != '.' && e.is_regular_file(unreadable) && looks_like_image(e.path())) names.push_back(name);
+    if (name[0] != '.' && is_file_or_broken_link(e) && looks_like_image(e.path())) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -67,8 +72,12 @@ std::vector<std::string> check(const Params& params) {
 
 void require_folder(const fs::path& folder) {
   std::error_code failure;
-  if (fs::is_directory(folder, failure)) return;
-  if (fs::exists(folder, failure))
+  const fs::file_status status = fs::status(folder, failure);
+  if (fs::is_directory(status)) fs::directory_iterator(folder, failure);
+  if (failure && status.type() != fs::file_type::not_found)
+    throw Error("path", fmt::format("cannot read the folder {}: {}", folder.string(), failure.message()));
+  if (fs::is_directory(status)) return;
+  if (fs::exists(status))
     throw Error("path", fmt::format("expected a folder with the material's maps, found the file {}; "
                                     "load_map reads a single file",
                                     folder.string()));

@@ -10,6 +10,7 @@
 #include "core/suggest.h"
 #include "graphs/document/problem.h"
 #include "runner/cli_commands.h"
+#include "runner/say.h"
 
 namespace terrazzo {
 
@@ -24,7 +25,7 @@ constexpr const char* examples =
     "Exit codes: 0 done, 1 a node failed, 2 bad usage or an invalid graph, 130 cancelled.";
 
 void print_error(const std::string& message) {
-  fmt::print(stderr, "error: {}\n", message);
+  say("error: {}\n", message);
 }
 
 /// The innermost command that has been named.
@@ -72,7 +73,7 @@ int usage_error(const CLI::App& app, const std::string& what) {
   const CLI::App* command = named_command(&app);
   const std::string unknown = unknown_arguments(command);
   print_error(unknown.empty() ? what : unknown);
-  fmt::print(stderr, "`{} --help` says what it takes.\n", full_name(command));
+  say("`{} --help` says what it takes.\n", full_name(command));
   return exit_usage;
 }
 
@@ -134,7 +135,7 @@ int run_command_line(int argc, const char* const* argv) {
     print_error(e.what());
     return exit_usage;
   } catch (const Cancelled&) {
-    fmt::print(stderr, "cancelled\n");
+    say("cancelled\n");
     return exit_cancelled;
   } catch (const std::exception& e) {
     print_error(e.what());

@@ -4,6 +4,7 @@
 
 #include "runner/cli_commands.h"
 #include "runner/memory_graph.h"
+#include "runner/say.h"
 #include "runner/schedule.h"
 #include "runner/signals.h"
 
@@ -58,7 +59,7 @@ int compare(const CompareFlags& flags) {
   options.targets.keep = {"figures"};
   options.cancelled = &signals.flag();
   const RunResult result = run_graph(graph, options);
-  for (const Failure& f : result.failures) fmt::print(stderr, "error: {}\n", f.message);
+  for (const Failure& f : result.failures) say("error: {}\n", f.message);
   if (result.cancelled) return exit_cancelled;
   if (!result.ok()) return exit_failed;
   const ReportPtr report = std::get<ReportPtr>(result.kept.at("figures").at("report"));

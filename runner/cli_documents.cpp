@@ -6,6 +6,7 @@
 #include "graphs/document/migrate.h"
 #include "runner/cli_commands.h"
 #include "runner/memory_graph.h"
+#include "runner/say.h"
 #include "runner/schedule.h"
 #include "runner/signals.h"
 #include "runner/starting_graph.h"
@@ -26,7 +27,7 @@ struct DocumentFlags {
 int check(const DocumentFlags& flags) {
   const LoadedGraph loaded = load_graph(flags.graph, flags.set, {.allow_unset = true});
   for (const std::string& c : loaded.conversions) fmt::print("{}\n", c);
-  for (const std::string& w : loaded.warnings) fmt::print(stderr, "warning: {}\n", w);
+  for (const std::string& w : loaded.warnings) say("warning: {}\n", w);
   const auto counted = [](size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
   fmt::print("{} is valid: {}, {}\n", flags.graph, counted(loaded.graph.nodes.size(), "node"),
              counted(loaded.parameters.size(), "parameter"));
@@ -38,11 +39,11 @@ int upgrade(const DocumentFlags& flags) {
   const std::string after = upgraded(before, flags.graph);
   const std::string& target = flags.out.empty() ? flags.graph : flags.out;
   if (flags.out.empty() && before == after) {
-    fmt::print(stderr, "{} is up to date\n", flags.graph);
+    say("{} is up to date\n", flags.graph);
     return exit_done;
   }
   write_whole_file(target, after);
-  fmt::print(stderr, "wrote {}\n", target);
+  say("wrote {}\n", target);
   return exit_done;
 }
 
@@ -52,7 +53,7 @@ int draw(const DocumentFlags& flags) {
     throw UsageError(fmt::format("-o takes a file that ends in .svg or .dot; \"{}\" does not", flags.out));
   const Graph graph = load_graph(flags.graph, flags.set, {.allow_unset = true}).graph;
   write_whole_file(flags.out, ending == ".svg" ? draw_svg(graph) : draw_dot(graph));
-  fmt::print(stderr, "wrote {}\n", flags.out);
+  say("wrote {}\n", flags.out);
   return exit_done;
 }
 
@@ -79,12 +80,12 @@ int make_new(const NewFlags& flags) {
   options.targets.keep = {"exemplar"};
   options.cancelled = &signals.flag();
   const RunResult result = run_graph(graph, options);
-  for (const Failure& f : result.failures) fmt::print(stderr, "error: {}\n", f.message);
+  for (const Failure& f : result.failures) say("error: {}\n", f.message);
   if (!result.ok()) return result.cancelled ? exit_cancelled : exit_failed;
   const MaterialPtr exemplar = std::get<MaterialPtr>(result.kept.at("exemplar").at("material"));
   const fs::path place = fs::absolute(flags.out).parent_path();
   write_whole_file(flags.out, starting_graph(*exemplar, seen_from(place, flags.folder), result.stages[0].notes));
-  fmt::print(stderr, "found {}\nwrote {}\n", exemplar->map_names(), flags.out);
+  say("found {}\nwrote {}\n", exemplar->map_names(), flags.out);
   return exit_done;
 }
 

@@ -11,6 +11,7 @@
 #include "runner/cli_commands.h"
 #include "runner/history.h"
 #include "runner/html_report.h"
+#include "runner/say.h"
 #include "runner/signals.h"
 #include "runner/stock_graphs.h"
 #include "runner/trace.h"
@@ -29,7 +30,7 @@ std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
     return std::make_unique<Cache>(flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache));
   } catch (const Error& e) {
     if (!flags.cache.empty()) throw UsageError(fmt::format("--cache {}: {}", flags.cache, e.what()));
-    fmt::print(stderr, "warning: running without a cache: {}\n", e.what());
+    say("warning: running without a cache: {}\n", e.what());
     return nullptr;
   }
 }
@@ -49,13 +50,13 @@ bool is_terminal() {
 
 /// What people read at the end; programs that asked for json have had it all.
 void print_end(const RunResult& result, Cache* cache) {
-  for (const Failure& f : result.failures) fmt::print(stderr, "error: {}\n", f.message);
+  for (const Failure& f : result.failures) say("error: {}\n", f.message);
   for (const StageOutcome& s : result.stages)
     if (s.kind == StageOutcome::Kind::run)
-      for (const OutputFile& f : s.files) fmt::print(stderr, "wrote {}\n", f.path.string());
+      for (const OutputFile& f : s.files) say("wrote {}\n", f.path.string());
   if (cache)
-    for (const std::string& w : cache->take_warnings()) fmt::print(stderr, "warning: {}\n", w);
-  fmt::print(stderr, "{}{}\n", result.cancelled ? "cancelled; " : "", result.summary());
+    for (const std::string& w : cache->take_warnings()) say("warning: {}\n", w);
+  say("{}{}\n", result.cancelled ? "cancelled; " : "", result.summary());
 }
 
 int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
@@ -104,10 +105,10 @@ int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cach
       watched.look_at(graph);
       run_once(graph, flags, cache, cancelled);
     } catch (const Error& e) {
-      fmt::print(stderr, "error: {}\n", e.what());
+      say("error: {}\n", e.what());
     }
     if (cancelled) return exit_cancelled;
-    fmt::print(stderr, "watching {} files; Ctrl-C ends it\n", watched.count());
+    say("watching {} files; Ctrl-C ends it\n", watched.count());
     if (!watched.wait_for_change(cancelled)) return exit_done;
   }
 }
@@ -168,7 +169,7 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       return run_with_flags(
           [&] {
             LoadedGraph loaded = load_graph(flags->graph, flags->set);
-            for (const std::string& w : loaded.warnings) fmt::print(stderr, "warning: {}\n", w);
+            for (const std::string& w : loaded.warnings) say("warning: {}\n", w);
             return std::move(loaded.graph);
           },
           *flags);

@@ -1,10 +1,10 @@
 #include "runner/html_report.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include <fmt/format.h>
 
+#include "runner/text_file.h"
 #include "runner/thumbnail.h"
 
 namespace terrazzo {
@@ -151,10 +151,7 @@ void write_html_report(const Plan& plan, const RunResult& result, const std::fil
   page += values_html(result);
   page += "<h2>Stages</h2>\n" + stages_html(plan, result);
   page += lists_html(result);
-  std::ofstream out(path, std::ios::binary);
-  out << page;
-  out.close();
-  if (!out) throw Error(fmt::format("cannot write {}", path.string()));
+  write_whole_file(path, page);
 }
 
 }  // namespace terrazzo

@@ -4,8 +4,9 @@
 
 namespace terrazzo {
 
-/// While it lives, the first SIGINT or SIGTERM sets the flag, so that a run can stop in good order; the second one ends
-/// the program at once. One at a time.
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP sets the flag, so that a run can stop in good order; the second
+/// one ends the program at once. A reader of the messages that goes away (SIGPIPE) does not stop the run. One at a
+/// time.
 class CancelOnSignal {
  public:
   CancelOnSignal();
@@ -13,6 +14,9 @@ class CancelOnSignal {
   CancelOnSignal(const CancelOnSignal&) = delete;
   CancelOnSignal& operator=(const CancelOnSignal&) = delete;
   const std::atomic<bool>& flag() const;
+
+ private:
+  void (*pipe_handler_before_)(int);
 };
 
 }  // namespace terrazzo

@@ -1,9 +1,7 @@
 #include "runner/trace.h"
-
-#include <fstream>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "runner/text_file.h"
 
 namespace terrazzo {
 
@@ -20,12 +18,8 @@ void write_trace(const RunResult& result, const std::filesystem::path& path) {
                       {"pid", 1},
                       {"tid", s.thread}});
   }
-  std::ofstream out(path);
-  out << Json({{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}})
-             .dump(1, ' ', false, Json::error_handler_t::replace)
-      << '\n';
-  out.close();
-  if (!out) throw Error(fmt::format("cannot write {}", path.string()));
+  const Json trace = {{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}};
+  write_whole_file(path, trace.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace terrazzo

@@ -1,9 +1,11 @@
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <unistd.h>
 
 #include "../odd_images.h"
 #include "../run_node.h"
@@ -110,6 +112,20 @@ TEST_CASE("files that are no images are refused, whatever their names say") {
   }
   CHECK(says(error_of(folder.path()), "it is a folder"));
   CHECK(says(error_of(folder.path() / "noise.pgn"), "there is no such file (did you mean \"noise.png\"?)"));
+}
+
+TEST_CASE("what the system refuses is said") {
+  const TemporaryFolder folder;
+  fs::create_symlink("gone.png", folder.path() / "link.png");
+  CHECK(says(error_of(folder.path() / "link.png"), "link.png: it is a link to gone.png, which does not exist"));
+  CHECK(says(error_of(folder.path() / (std::string(300, 'n') + ".png")), "File name too long"));
+  if (::geteuid() == 0) {
+    MESSAGE("skipped the rest: root may read everything");
+    return;
+  }
+  std::ofstream(folder.path() / "locked.png") << "x";
+  fs::permissions(folder.path() / "locked.png", fs::perms::none);
+  CHECK(says(error_of(folder.path() / "locked.png"), "locked.png: Permission denied"));
 }
 
 TEST_CASE("absurd sizes in a header are refused before memory is asked for") {

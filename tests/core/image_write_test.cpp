@@ -7,6 +7,7 @@
 #include "../odd_images.h"
 #include "../run_node.h"
 #include "core/error.h"
+#include "core/file_io.h"
 #include "core/image_file.h"
 
 using namespace terrazzo;
@@ -141,6 +142,20 @@ TEST_CASE("what cannot be written is said") {
         write_image(*image, folder.path() / "missing" / name, {.format = format, .depth = depth}, [](double) {}),
         Error);
   }
+}
+
+TEST_CASE("a full disk is an error in every format, never a cut-off file that counts as written") {
+  const ImagePtr image =
+      make_image({64, 64}, 3, [](int x, int y, int c) { return float((x * 37 + y * 91 + c) % 251) / 250.0f; });
+  for (const FileFormat format : {FileFormat::png, FileFormat::exr, FileFormat::jpeg}) {
+    CAPTURE(name_of(format));
+    const Depth depth = format == FileFormat::exr ? Depth::f16 : Depth::u8;
+    CHECK_THROWS_WITH_AS(write_image(*image, "/dev/full", {.format = format, .depth = depth}, [](double) {}),
+                         "cannot write /dev/full: No space left on device", FileError);
+  }
+  CHECK_THROWS_WITH_AS(
+      write_image(*image, "/dev/full", {.format = FileFormat::tiff, .depth = Depth::u8}, [](double) {}),
+      doctest::Contains("cannot write /dev/full"), Error);
 }
 
 TEST_CASE("formats are told by their extensions, whatever their case") {

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "../odd_images.h"
 #include "../run_node.h"
@@ -222,6 +223,18 @@ TEST_CASE("what cannot be exported is refused, and nothing is left behind") {
       Material::make("m", {{"height", map_of(Semantic::height, 1, Depth::u8)}, {"data", broken}});
   CHECK(contains(error_of({{"path", in("{map}.png")}}, {{"material", {half_broken}}}), "the source is gone"));
   CHECK(count_files(folder.path()) == 0);
+}
+
+TEST_CASE("a folder that may not be written is named, not a temporary file in it") {
+  if (::geteuid() == 0) {
+    MESSAGE("skipped: root may write everywhere");
+    return;
+  }
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  CHECK(contains(error_of({{"path", (folder.path() / "{map}.png").string()}}, {{"material", {bricks()}}}),
+                 "cannot write into the folder " + folder.path().string() + ": Permission denied"));
+  fs::permissions(folder.path(), fs::perms::owner_all);
 }
 
 TEST_CASE("wrong parameters are found before anything runs") {

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "../odd_images.h"
 #include "../run_node.h"
@@ -184,6 +185,26 @@ TEST_CASE("a folder that gives no material is refused with what was found") {
                  "there is no colour space \"srbg\""));
   write_bytes(folder.path() / "bricks" / "height.png", {1, 2, 3});
   CHECK(contains(error_of({{"path", (folder.path() / "bricks").string()}}), "height.png"));
+}
+
+TEST_CASE("a link to a missing file is an error, not a material without that map") {
+  const TemporaryFolder folder;
+  write(folder.path() / "height.png", 1, ramp);
+  fs::create_symlink("gone.png", folder.path() / "color.png");
+  CHECK(contains(error_of({{"path", folder.path().string()}}), "color.png: it is a link to gone.png, which does not"));
+}
+
+TEST_CASE("a folder that cannot be read is not called empty or missing") {
+  const TemporaryFolder folder;
+  fs::create_symlink("loop", folder.path() / "loop");
+  CHECK(contains(error_of({{"path", (folder.path() / "loop").string()}}), "loop: Too many levels of symbolic links"));
+  if (::geteuid() == 0) {
+    MESSAGE("skipped the rest: root may read everything");
+    return;
+  }
+  fs::create_directory(folder.path() / "locked");
+  fs::permissions(folder.path() / "locked", fs::perms::none);
+  CHECK(contains(error_of({{"path", (folder.path() / "locked").string()}}), "locked: Permission denied"));
 }
 
 TEST_CASE("the files read are the folder's images and those given, sorted") {

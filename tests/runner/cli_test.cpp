@@ -1,7 +1,9 @@
 #include <csignal>
+#include <cstdlib>
 #include <sstream>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/image_file.h"
@@ -189,17 +191,45 @@ TEST_CASE("trace and report are written") {
   CHECK(report.find("data:image/png;base64,iVBOR") != std::string::npos);
 }
 
+TEST_CASE("a trace or report that cannot be written is an error with the reason, after the run itself") {
+  const Workplace w;
+  for (const std::string option : {"--trace", "--report"}) {
+    const ProgramRun r = w.run({"run", "soft.json", option, "/dev/full"});
+    CHECK(r.code == 1);
+    CHECK_MESSAGE(r.err.find("error: cannot write /dev/full: No space left on device") != std::string::npos, r.err);
+    CHECK(fs::exists(w.path / "out/base_color.png"));
+  }
+}
+
+TEST_CASE("a run whose messages nobody can receive does its work all the same") {
+  const Workplace w;
+  const auto code_of = [&](const std::string& messages) {
+    fs::remove_all(w.path / "out");
+    const std::string command = fmt::format("cd '{}' && {{ '{}' run soft.json --no-cache; echo $? > code; }} {}",
+                                            w.path.string(), TERRAZZO_PROGRAM, messages);
+    REQUIRE(std::system(command.c_str()) == 0);
+    return read_text(w.path / "code");
+  };
+  CHECK(code_of("2>/dev/full") == "0\n");
+  CHECK(listing(w.path / "out").size() == 1);
+  CHECK(code_of("2>&-") == "0\n");
+  CHECK(code_of("2>&1 | true") == "0\n");
+  CHECK(listing(w.path / "out").size() == 1);
+}
+
 TEST_CASE("an interrupted run ends with code 130, leaves no file and a usable cache") {
   const Workplace w;
   write_picture(w.path / "maps/stone_basecolor.png", 5);
-  StartedProgram program(w.path, {"synth", "maps", "-o", "out", "--size", "8192x8192", "--progress", "json"});
-  REQUIRE(program.says("\"start\",\"node\":\"layout\""));
-  program.signal(SIGINT);
-  const ProgramRun r = program.wait();
-  CHECK(r.code == 130);
-  CHECK(r.err.find("\"cancelled\":true") != std::string::npos);
-  if (fs::exists(w.path / "out")) CHECK(listing(w.path / "out").empty());
-  CHECK(w.run({"cache", "verify"}).code == 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    StartedProgram program(w.path, {"synth", "maps", "-o", "out", "--size", "8192x8192", "--progress", "json"});
+    REQUIRE(program.says("\"start\",\"node\":\"layout\""));
+    program.signal(signal);
+    const ProgramRun r = program.wait();
+    CHECK(r.code == 130);
+    CHECK(r.err.find("\"cancelled\":true") != std::string::npos);
+    if (fs::exists(w.path / "out")) CHECK(listing(w.path / "out").empty());
+    CHECK(w.run({"cache", "verify"}).code == 0);
+  }
 }
 
 TEST_CASE("a damaged cache entry costs time, not the picture") {
