@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "core/analysis/planes.h"
@@ -16,11 +15,9 @@ namespace {
 
 constexpr int most_side = 256;  // periods are found to a fraction of a pixel; more resolution brings nothing
 constexpr double shortest = 4;  // pixels; anything finer is grain
+constexpr double grain = 0.8;   // pixels; a light blur keeps noise from drowning what repeats
 constexpr int most_peaks = 60;
-// Skew lattices have many candidates, so chance agreement is likelier: they must do better than bands.
-constexpr double extra_certainty = 0.25;
-// Along bands anything goes, so any skew lattice that respects them does as well as they do: it must do better.
-constexpr double skew_gain = 0.1;
+constexpr double about = 0.05;  // scores that differ by less are as good as equal
 // Of what correlation remains between bands, the part that must repeat along them before bricks count as of one length.
 constexpr double least_bond = 0.25;
 
@@ -70,6 +67,7 @@ class Correlation {
 Planes without_gradients(const ExemplarPlanes& in) {
   Planes out = Planes::zeros(in.size, in.channels);
   out.values = in.values;
+  out = blurred(out, grain);
   const Planes coarse = blurred(out, std::max(2.0, std::min(in.size.width, in.size.height) / 10.0));
   for (size_t i = 0; i < out.values.size(); i++) out.values[i] -= coarse.values[i];
   return out;
@@ -114,29 +112,32 @@ std::vector<Peak> strongest_peaks(const Correlation& r) {
   return peaks;
 }
 
-/// Mean correlation on the lattice's points shifted by (si, sj) cells, within the lags; none if there are too few
-/// points.
-std::optional<double> mean_on(const Correlation& r, Vector2 a, Vector2 b, double si, double sj) {
-  double sum = 0;
-  int count = 0;
+/// Correlation on the lattice's points shifted by (si, sj) cells, within the lags.
+std::vector<double> values_on(const Correlation& r, Vector2 a, Vector2 b, double si, double sj) {
+  std::vector<double> values;
   for (int i = -24; i <= 24; i++)
     for (int j = 0; j <= 24; j++) {
       const Vector2 d{(i + si) * a.x + (j + sj) * b.x, (i + si) * a.y + (j + sj) * b.y};
-      if ((i + si == 0 && j + sj == 0) || !r.covers(d.x, d.y)) continue;
-      sum += r.at(d);
-      count++;
+      if ((i + si != 0 || j + sj != 0) && r.covers(d.x, d.y)) values.push_back(r.at(d));
     }
-  if (count < 6) return std::nullopt;
-  return sum / count;
+  return values;
 }
 
+/// How far the lattice's points stand out. Nearly all must: chance alignments have some good points, a lattice has no
+/// bad ones.
 double lattice_score(const Correlation& r, Vector2 a, Vector2 b) {
-  const std::optional<double> on = mean_on(r, a, b, 0, 0);
-  if (!on) return -1;
+  std::vector<double> on = values_on(r, a, b, 0, 0);
+  if (on.size() < 6) return -1;
+  const auto low = on.begin() + ptrdiff_t(on.size() / 8);
+  std::nth_element(on.begin(), low, on.end());
   double off = 0;
-  for (const auto& [si, sj] : {std::pair{0.5, 0.0}, {0.0, 0.5}, {0.5, 0.5}})
-    off = std::max(off, mean_on(r, a, b, si, sj).value_or(0));
-  return *on - off;
+  for (const auto& [si, sj] : {std::pair{0.5, 0.0}, {0.0, 0.5}, {0.5, 0.5}}) {
+    const std::vector<double> between = values_on(r, a, b, si, sj);
+    double sum = 0;
+    for (const double v : between) sum += v;
+    if (!between.empty()) off = std::max(off, sum / double(between.size()));
+  }
+  return *low - off;
 }
 
 /// Fits both vectors to all peaks near the lattice's points, out to the farthest.
@@ -184,7 +185,7 @@ Lattice two_directions(const Correlation& r) {
   Lattice best;
   double least_area = std::numeric_limits<double>::max();
   for (const Candidate& c : candidates)
-    if (c.score >= 0.75 * highest && c.score > 0 && c.area < 0.98 * least_area) {
+    if (c.score >= 0.9 * highest && c.score > 0 && c.area < 0.98 * least_area) {
       best = {2, c.a, c.b, c.score};
       least_area = c.area;
     }
@@ -282,6 +283,19 @@ Lattice with_bond(const Correlation& r, const Lattice& bands) {
   return bond;
 }
 
+/// Upright grids before skew lattices before bands, each where it explains about as much as the next.
+Lattice most_telling(const Correlation& r, double least_certainty) {
+  const Lattice courses = one_direction(r, true), columns = one_direction(r, false);
+  const Lattice skew = two_directions(r);
+  const double both = std::min(courses.certainty, columns.certainty);
+  if (both >= least_certainty && lattice_score(r, columns.first, courses.first) >= skew.certainty - about)
+    return {2, columns.first, courses.first, both};
+  const Lattice& bands = courses.certainty > columns.certainty ? courses : columns;
+  // What bands explain, any skew lattice that respects them explains too, up to a half.
+  if (skew.certainty >= std::max(least_certainty, bands.certainty / 2)) return skew;
+  return bands.certainty >= least_certainty ? with_bond(r, bands) : bands;
+}
+
 }  // namespace
 
 Lattice find_lattice(const Features& features, double least_certainty, const Task& task) {
@@ -291,14 +305,7 @@ Lattice find_lattice(const Features& features, double least_certainty, const Tas
     planes = halved(planes);
     scale *= 2;
   }
-  const Correlation r = correlate(planes, task);
-  const Lattice courses = one_direction(r, true), columns = one_direction(r, false);
-  const double bands = std::max(courses.certainty, columns.certainty);
-  Lattice best = two_directions(r);
-  if (std::min(courses.certainty, columns.certainty) >= least_certainty)
-    best = {2, columns.first, courses.first, std::min(courses.certainty, columns.certainty)};
-  else if (best.certainty < std::max(least_certainty + extra_certainty, bands + skew_gain))
-    best = bands > 0 ? with_bond(r, courses.certainty > columns.certainty ? courses : columns) : best;
+  Lattice best = most_telling(correlate(planes, task), least_certainty);
   if (best.certainty < least_certainty || !best.is_valid()) return {0, {}, {}, best.certainty};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
   return best.fitted(features.size(), features.wraps(), features.wraps());
