@@ -54,6 +54,15 @@ class PixelCorrector {
   }
 
  private:
+  /// How many of the pixels a little way off show nearly what the candidate would show here. A piece that comes back
+  /// after a few pixels makes combed streaks.
+  uint32_t repeats(int x, int y) const {
+    uint32_t count = 0;
+    for (int n = 0; n < ring_count_; n++)
+      count += std::abs(ring_[n].x - x) < ring_radius / 2 && std::abs(ring_[n].y - y) < ring_radius / 2;
+    return count;
+  }
+
   static int step(int n, int axis) {
     constexpr int steps[9][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
     return steps[n][axis];
@@ -75,6 +84,10 @@ class PixelCorrector {
 
   HWY_ATTR void gather(int x, int y) {
     for (int n = 0; n < 9; n++) around_[n] = neighbour(x + step(n, 0), y + step(n, 1));
+    ring_count_ = 0;
+    for (int n = 1; n < 9; n++)
+      if (const ExemplarPixel* p = neighbour(x + ring_radius * step(n, 0), y + ring_radius * step(n, 1)))
+        ring_[ring_count_++] = *p;
     count_ = 0;
     for (int t = 0; t < taps_; t++) {
       const auto [dx, dy] = (*pass_.window)[t];
@@ -92,6 +105,7 @@ class PixelCorrector {
       if (seen_ids_[i] == id) return;
     seen_ids_[seen_++] = id;
     if (occupancy_.active()) factor = uint32_t((uint64_t{factor} * occupancy_.factor(x, y)) / unit_factor);
+    factor += factor / 2 * repeats(x, y);
     if (level_.phase.active()) factor = uint32_t(factor * level_.phase.penalty(x, y, x_, y_));
     const uint64_t limit = best_cost_ / factor;
     const uint64_t cost = uint64_t{distance(x, y, limit)} * factor;
@@ -139,6 +153,7 @@ class PixelCorrector {
   }
 
   static constexpr int taps_at_once = 8;
+  static constexpr int ring_radius = 6;
   static constexpr int most_taps = 24;
   static constexpr int most_candidates = 128;
   const Field& field_;
@@ -147,6 +162,8 @@ class PixelCorrector {
   const Occupancy& occupancy_;
   int taps_;
   int x_ = 0, y_ = 0;
+  int ring_count_ = 0;
+  std::array<ExemplarPixel, 8> ring_{};
   int count_ = 0;
   int seen_ = 0;
   uint64_t best_cost_ = 0;
