@@ -51,7 +51,7 @@ NodeType synthesize_node() {
        .choices = {"none", "x", "y", "xy"}},
       {.name = "coherence",
        .type = ParamType::number,
-       .fallback = 0.7,
+       .fallback = 0.55,
        .help = "Factor on the cost of continuing a neighbouring piece of the exemplar. Smaller values copy larger "
                "pieces: more faithful, less varied.",
        .min = 0.05,
