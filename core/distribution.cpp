@@ -22,6 +22,11 @@ struct Range {
     min = std::min(min, v);
     max = std::max(max, v);
   }
+  /// The other range may be empty.
+  void include(const Range& other) {
+    min = std::min(min, other.min);
+    max = std::max(max, other.max);
+  }
 };
 
 struct Bin {
@@ -54,10 +59,7 @@ std::vector<Range> ranges_of(const Image& image, const Task& task) {
   });
   std::vector<Range> all(channels);
   for (const std::vector<Range>& ranges : states)
-    for (int c = 0; c < channels; c++) {
-      all[c].include(ranges[c].min);
-      all[c].include(ranges[c].max);
-    }
+    for (int c = 0; c < channels; c++) all[c].include(ranges[c]);
   return all;
 }
 
@@ -82,8 +84,7 @@ std::vector<std::vector<Bin>> bins_of(const Image& image, const std::vector<Rang
     for (int c = 0; c < channels; c++)
       for (int b = 0; b < bins; b++) {
         sum[c][b].count += part[c][b].count;
-        sum[c][b].values.include(part[c][b].values.min);
-        sum[c][b].values.include(part[c][b].values.max);
+        sum[c][b].values.include(part[c][b].values);
       }
   return sum;
 }

@@ -3,6 +3,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-for kind in bricks cobbles herringbone gravel; do
+for kind in bricks cobbles planks gravel; do
   build/terrazzo run examples/pictures.json --progress none --set "kind=$kind" --set out=examples/pictures
 done

@@ -9,10 +9,11 @@ examples/packages.sh
 cmake --build build --target terrazzo_program
 
 out=out/quickstart
+export TERRAZZO_CACHE=$out/cache
 build/terrazzo run graphs/generate-exemplar.json --set type=bricks --set size=512x512 --set "out=$out/exemplar"
 build/terrazzo run examples/quickstart.json --set "material=$out/exemplar" --set "out=$out"
 
 echo
-echo "The exemplar, 512x512:        $out/exemplar/ (preview.png shows it lit)"
+echo "The exemplar, 512x512:        $out/exemplar/ (preview.png shows it lit from four sides)"
 echo "The new material, 1024x1024:  $out/material/"
-echo "The new material, lit:        $out/preview.png, $out/lights.png"
+echo "The new material, lit:        $out/preview.png, from four sides: $out/lights.png"

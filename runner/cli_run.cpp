@@ -1,5 +1,6 @@
 #include "runner/cli_run.h"
 
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -177,6 +178,11 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   });
 }
 
+bool same_folder(const std::string& a, const std::string& b) {
+  std::error_code missing;
+  return std::filesystem::equivalent(a, b, missing);
+}
+
 void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
   struct Flags : RunFlags {
@@ -196,6 +202,10 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       std::vector<std::string> set = {"material=" + flags->folder, "out=" + flags->out};
       if (!flags->size.empty()) set.push_back("size=" + flags->size);
       if (!flags->seed.empty()) set.push_back("seed=" + flags->seed);
+      if (flags->tileable) set.push_back("tileable=xy");
+      if (same_folder(flags->folder, flags->out))
+        throw UsageError(
+            fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
       return run_with_flags(
           [&] { return load_graph_text(stock_graph("material"), "stock graph material.json", set).graph; }, *flags);
     };

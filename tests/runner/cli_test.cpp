@@ -341,6 +341,19 @@ TEST_CASE("synth makes a larger material without a graph file") {
   CHECK(other.err.find("warning") == std::string::npos);
 }
 
+TEST_CASE("synth --tileable asks for a result that wraps, and synth never overwrites its exemplar") {
+  const Workplace w;
+  write_picture(w.path / "maps/stone_basecolor.png", 5);
+  const ProgramRun plain = w.run({"synth", "maps", "-o", "plain", "--size", "40x40"});
+  const ProgramRun wraps = w.run({"synth", "maps", "-o", "wraps", "--size", "40x40", "--tileable"});
+  REQUIRE(plain.code == 0);
+  REQUIRE(wraps.code == 0);
+  CHECK(read_text(w.path / "plain/base_color.png") != read_text(w.path / "wraps/base_color.png"));
+  const ProgramRun onto = w.run({"synth", "maps", "-o", "maps"});
+  CHECK(onto.code == 2);
+  CHECK(onto.err.find("would overwrite the exemplar") != std::string::npos);
+}
+
 TEST_CASE("new writes a commented graph that runs") {
   const Workplace w;
   write_picture(w.path / "maps/stone_basecolor.png", 5);
