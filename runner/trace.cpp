@@ -1,4 +1,5 @@
 #include "runner/trace.h"
+
 #include <nlohmann/json.hpp>
 
 #include "runner/text_file.h"

@@ -106,7 +106,7 @@ ExemplarPlanes halved(const ExemplarPlanes& in) {
     for (int x = 0; x < size.width; x++) {
       float* o = out.at(x, y);
       for (int i = 0; i < 4; i++) {
-        const float* v = &row[size_t(in.column(2 * x + i - 1)) * n];
+        const float* v = row.data() + size_t(in.column(2 * x + i - 1)) * n;
         for (int c = 0; c < n; c++) o[c] += kernel[i] * v[c];
       }
     }

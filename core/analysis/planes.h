@@ -14,8 +14,8 @@ struct ExemplarPlanes {
   bool wraps = false;  ///< the exemplar tiles: what lies outside is the other side; else the border continues
   std::vector<float> values;
 
-  const float* at(int x, int y) const { return &values[(size_t(y) * size.width + x) * channels]; }
-  float* at(int x, int y) { return &values[(size_t(y) * size.width + x) * channels]; }
+  const float* at(int x, int y) const { return values.data() + (size_t(y) * size.width + x) * channels; }
+  float* at(int x, int y) { return values.data() + (size_t(y) * size.width + x) * channels; }
   int column(int x) const { return wraps ? wrap(x, size.width) : std::clamp(x, 0, size.width - 1); }
   int row(int y) const { return wraps ? wrap(y, size.height) : std::clamp(y, 0, size.height - 1); }
 };
