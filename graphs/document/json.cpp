@@ -158,7 +158,7 @@ class Parser {
     if (i < text_.size() && text_[i] == '-') i++;
     const size_t leading = i;
     well_formed &= digits() > 0;
-    well_formed &= i - leading == 1 || text_[leading] != '0';
+    well_formed &= i - leading < 2 || text_[leading] != '0';
     if (i < text_.size() && text_[i] == '.') {
       i++;
       whole = false;
