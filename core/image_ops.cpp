@@ -1,5 +1,7 @@
 #include "core/image_ops.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -48,6 +50,22 @@ ImagePtr pixel_by_pixel(ImageInfo info, const Digest& recipe, std::vector<ImageP
                            for (const std::vector<float>& p : pixels) pointers.push_back(p.data());
                            function(pointers, out, region.area());
                          });
+}
+
+ImagePtr at_size(const ImagePtr& map, Size size) {
+  if (map->size() == size) return map;
+  ImageInfo info = map->info();
+  info.size = size;
+  const Digest digest = Hasher().add("at size").add(map->digest()).add(size.width).add(size.height).digest();
+  return Image::computed(info, digest, [map, size](const Rect& r, float* out) {
+    const int n = map->channels();
+    std::vector<float> row(size_t(map->width()) * n);
+    for (int y = 0; y < r.height; y++) {
+      map->read({0, int(int64_t{r.y + y} * map->height() / size.height), map->width(), 1}, row.data());
+      for (int x = 0; x < r.width; x++, out += n)
+        std::copy_n(&row[size_t(int64_t{r.x + x} * map->width() / size.width) * n], n, out);
+    }
+  });
 }
 
 }  // namespace terrazzo

@@ -30,4 +30,7 @@ using PixelFunction = std::function<void(std::span<const float* const> inputs, f
 /// `recipe` as for Image::computed.
 ImagePtr pixel_by_pixel(ImageInfo info, const Digest& recipe, std::vector<ImagePtr> inputs, PixelFunction function);
 
+/// Nearest samples at another size, computed when pulled: keeps maps of different sizes aligned.
+ImagePtr at_size(const ImagePtr& map, Size size);
+
 }  // namespace terrazzo

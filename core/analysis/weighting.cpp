@@ -9,6 +9,7 @@
 
 #include "core/color.h"
 #include "core/error.h"
+#include "core/image_ops.h"
 
 namespace terrazzo {
 
@@ -33,23 +34,6 @@ ImagePtr unit_normals(const ImagePtr& map) {
       out[0] = x;
       out[1] = y;
       out[2] = std::sqrt(1.0f - squared);
-    }
-  });
-}
-
-/// Nearest samples at another size: keeps maps of different sizes aligned.
-ImagePtr at_size(const ImagePtr& map, Size size) {
-  if (map->size() == size) return map;
-  ImageInfo info = map->info();
-  info.size = size;
-  const Digest digest = Hasher().add("at size").add(map->digest()).add(size.width).add(size.height).digest();
-  return Image::computed(info, digest, [map, size](const Rect& r, float* out) {
-    const int n = map->channels();
-    std::vector<float> row(size_t(map->width()) * n);
-    for (int y = 0; y < r.height; y++) {
-      map->read({0, int(int64_t{r.y + y} * map->height() / size.height), map->width(), 1}, row.data());
-      for (int x = 0; x < r.width; x++, out += n)
-        std::copy_n(&row[size_t(int64_t{r.x + x} * map->width() / size.width) * n], n, out);
     }
   });
 }
@@ -162,6 +146,19 @@ FeaturesPtr weighted_features(const Material& material, const NumberMap& weights
       images.push_back({image, channel_weights});
   }
   return Features::make(material.size(), std::move(images), wraps);
+}
+
+NumberMap weights_of_chosen(const Material& material, const std::vector<std::string>& maps) {
+  for (const std::string& name : maps)
+    if (!material.find(name))
+      throw Error("maps", fmt::format("there is no map \"{}\"; the material has {}", name, material.map_names()));
+  NumberMap weights;
+  const bool any_counts = std::any_of(material.maps().begin(), material.maps().end(),
+                                      [](const Map& map) { return default_weight(map.image->info().semantic) > 0; });
+  if (maps.empty() && any_counts) return weights;
+  for (const Map& map : material.maps())
+    weights[map.name] = {maps.empty() || std::find(maps.begin(), maps.end(), map.name) != maps.end() ? 1.0 : 0.0};
+  return weights;
 }
 
 bool seems_to_tile(const Material& material) {
