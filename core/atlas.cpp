@@ -71,7 +71,7 @@ Layout layout_of(const std::vector<Size>& sizes, int gap, int multiple) {
   for (const size_t i : order) {
     width += gap + sizes[i].width;
     std::vector<Shelf> shelves = shelves_of(sizes, order, std::max(width, widest), gap);
-    if (best.empty() || Extent(shelves).cost() < Extent(best).cost()) best = std::move(shelves);
+    if (best.empty() || Extent(shelves).cost() <= Extent(best).cost()) best = std::move(shelves);
   }
   const Extent extent(best);
   if (extent.width > longest_side || extent.height > longest_side)
