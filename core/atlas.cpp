@@ -167,7 +167,7 @@ void read_parts(const std::vector<Part>& parts, int channels, Outside outside, c
   }
 }
 
-ImagePtr map_of_parts(ImageInfo info, std::vector<Part> parts, Outside outside) {
+ImagePtr map_of_parts(const ImageInfo& info, std::vector<Part> parts, Outside outside) {
   Hasher recipe;
   recipe.add("atlas").add(int(outside)).add(info.size.width).add(info.size.height);
   for (const Part& p : parts) recipe.add(p.image->digest()).add(p.place.x).add(p.place.y).add(p.cell.x).add(p.cell.y);
@@ -194,7 +194,7 @@ ImagePtr atlas_map(const std::vector<Exemplar>& exemplars, const std::string& na
     const ImagePtr map = adapted(material.find(name), info, name, i, material);
     info.depth = std::max(info.depth, map->info().depth);
     const Rect place = divided(layout.places[i], divisor);
-    parts.push_back({at_size(map, {place.width, place.height}), place, divided(layout.cells[i], divisor)});
+    parts.push_back({nearest_at_size(map, {place.width, place.height}), place, divided(layout.cells[i], divisor)});
   }
   info.size = {layout.size.width / divisor, layout.size.height / divisor};
   return map_of_parts(info, std::move(parts), outside);
@@ -213,7 +213,7 @@ ImagePtr atlas_mask(const std::vector<Exemplar>& exemplars, const Layout& layout
   for (size_t i = 0; i < exemplars.size(); i++) {
     const Rect& place = layout.places[i];
     const Size size{place.width, place.height};
-    parts.push_back({exemplars[i].mask ? at_size(exemplars[i].mask, size) : constant(size, 1), place, place});
+    parts.push_back({exemplars[i].mask ? nearest_at_size(exemplars[i].mask, size) : constant(size, 1), place, place});
   }
   Hasher recipe;
   recipe.add("atlas mask").add(info.size.width).add(info.size.height);
@@ -242,6 +242,7 @@ ImagePtr atlas_labels(const Layout& layout) {
 Atlas make_atlas(const std::vector<Exemplar>& exemplars, int gap, Outside outside) {
   require_same_maps(exemplars);
   std::vector<Size> sizes;
+  sizes.reserve(exemplars.size());
   for (const Exemplar& e : exemplars) sizes.push_back(e.material->size());
   int multiple = 1;
   for (const Map& m : exemplars.front().material->maps())

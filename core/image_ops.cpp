@@ -1,6 +1,7 @@
 #include "core/image_ops.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -41,6 +42,29 @@ void require_same_size(const std::string& port, const Image& image, const std::s
                         other_port, describe(other.size()), describe(image.size())));
 }
 
+void require_shape(const std::string& port, const Image& image, const std::string& of, Size size) {
+  const int64_t across = int64_t{image.width()} * size.height, down = int64_t{image.height()} * size.width;
+  if (std::abs(across - down) <= std::max({size.width, size.height, image.width(), image.height()})) return;
+  throw Error(port, fmt::format("expected an image of the shape of {}, {} pixels or a multiple of that, found {}", of,
+                                describe(size), describe(image)));
+}
+
+ImagePtr nearest_at_size(const ImagePtr& image, Size size) {
+  if (image->size() == size) return image;
+  ImageInfo info = image->info();
+  info.size = size;
+  const Digest digest = Hasher().add("at size").add(image->digest()).add(size.width).add(size.height).digest();
+  return Image::computed(info, digest, [image, size](const Rect& r, float* out) {
+    const int n = image->channels();
+    std::vector<float> row(size_t(image->width()) * n);
+    for (int y = 0; y < r.height; y++) {
+      image->read({0, int(int64_t{r.y + y} * image->height() / size.height), image->width(), 1}, row.data());
+      for (int x = 0; x < r.width; x++, out += n)
+        std::copy_n(&row[size_t(int64_t{r.x + x} * image->width() / size.width) * n], n, out);
+    }
+  });
+}
+
 ImagePtr pixel_by_pixel(ImageInfo info, const Digest& recipe, std::vector<ImagePtr> inputs, PixelFunction function) {
   return Image::computed(std::move(info), recipe,
                          [inputs = std::move(inputs), function = std::move(function)](const Rect& region, float* out) {
@@ -50,22 +74,6 @@ ImagePtr pixel_by_pixel(ImageInfo info, const Digest& recipe, std::vector<ImageP
                            for (const std::vector<float>& p : pixels) pointers.push_back(p.data());
                            function(pointers, out, region.area());
                          });
-}
-
-ImagePtr at_size(const ImagePtr& map, Size size) {
-  if (map->size() == size) return map;
-  ImageInfo info = map->info();
-  info.size = size;
-  const Digest digest = Hasher().add("at size").add(map->digest()).add(size.width).add(size.height).digest();
-  return Image::computed(info, digest, [map, size](const Rect& r, float* out) {
-    const int n = map->channels();
-    std::vector<float> row(size_t(map->width()) * n);
-    for (int y = 0; y < r.height; y++) {
-      map->read({0, int(int64_t{r.y + y} * map->height() / size.height), map->width(), 1}, row.data());
-      for (int x = 0; x < r.width; x++, out += n)
-        std::copy_n(&row[size_t(int64_t{r.x + x} * map->width() / size.width) * n], n, out);
-    }
-  });
 }
 
 }  // namespace terrazzo

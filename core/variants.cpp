@@ -278,7 +278,7 @@ Exemplar turned(const Exemplar& exemplar, double degrees, Outside outside) {
   const auto rounded_up = [&](double side) { return multiple * int(std::ceil(side / multiple - 1e-6)); };
   turn.to = {rounded_up(size.width * c + size.height * s), rounded_up(size.width * s + size.height * c)};
   Exemplar out = with_each(exemplar, [&](const ImagePtr& map) { return turned(map, turn, outside); });
-  if (out.mask) out.mask = at_size(out.mask, turn.to);
+  if (out.mask) out.mask = nearest_at_size(out.mask, turn.to);
   if (outside == Outside::wrap) return out;
   out.mask = out.mask ? both(out.mask, coverage(turn)) : coverage(turn);
   return out;

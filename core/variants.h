@@ -8,7 +8,8 @@ namespace terrazzo {
 /// A material and the part of it that may be sampled.
 struct Exemplar {
   MaterialPtr material;
-  ImagePtr mask;  ///< one channel of any size, above 0.5 where the material may be sampled; null: everywhere
+  ImagePtr
+      mask;  ///< one channel of the material's shape, above 0.5 where the material may be sampled; null: everywhere
 };
 
 /// What is done to an exemplar, in this order.

@@ -36,8 +36,10 @@ ExemplarPlanes planes_of(const NodeContext& node) {
       throw Error("images", fmt::format("expected {}, the size of the {}; found {}", describe(size),
                                         features ? "features" : "first image", describe(*image)));
   if (images.empty()) return weighted_planes(*features, node.task());
+  std::vector<FeatureImage> channels;
+  for (const ImagePtr& image : images) channels.push_back({image, std::vector<double>(size_t(image->channels()), 1.0)});
   const bool wraps = features && features->wraps();
-  const ExemplarPlanes of_images = guidance_planes(images, size, wraps, node.task());
+  const ExemplarPlanes of_images = weighted_planes(*Features::make(size, std::move(channels), wraps), node.task());
   return features ? joined(weighted_planes(*features, node.task()), of_images) : of_images;
 }
 

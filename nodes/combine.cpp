@@ -17,7 +17,7 @@ void compute(NodeContext& node) {
                                      materials.size(), masks.size()));
   std::vector<Exemplar> exemplars;
   for (size_t i = 0; i < materials.size(); i++)
-    exemplars.push_back({materials[i], masks.empty() ? nullptr : exemplar_mask("masks", masks[i])});
+    exemplars.push_back(masked_exemplar(materials[i], "masks", masks.empty() ? nullptr : masks[i]));
   output_atlas(node, exemplars);
 }
 

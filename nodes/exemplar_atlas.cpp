@@ -41,12 +41,13 @@ void output_atlas(NodeContext& node, const std::vector<Exemplar>& exemplars) {
   node.output("labels", atlas.labels);
 }
 
-ImagePtr exemplar_mask(const std::string& port, const ImagePtr& image) {
-  if (!image) return nullptr;
-  require_one_channel(port, *image);
-  ImageInfo info = image->info();
+Exemplar masked_exemplar(const MaterialPtr& material, const std::string& port, const ImagePtr& mask) {
+  if (!mask) return {material, nullptr};
+  require_one_channel(port, *mask);
+  require_shape(port, *mask, "its material", material->size());
+  ImageInfo info = mask->info();
   info.semantic = Semantic::mask;
-  return Image::redescribed(image, info);
+  return {material, Image::redescribed(mask, info)};
 }
 
 }  // namespace terrazzo

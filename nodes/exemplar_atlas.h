@@ -12,7 +12,8 @@ std::vector<Port> atlas_outputs();
 std::vector<Param> atlas_params();
 /// Sets the outputs from the exemplars, as the parameters say.
 void output_atlas(NodeContext& node, const std::vector<Exemplar>& exemplars);
-/// A mask of an exemplar that came in at `port`; null if none did. Throws Error unless it has one channel.
-ImagePtr exemplar_mask(const std::string& port, const ImagePtr& image);
+/// The material with a mask that came in at `port`, if one did. Throws Error unless it has the material's shape and one
+/// channel.
+Exemplar masked_exemplar(const MaterialPtr& material, const std::string& port, const ImagePtr& mask);
 
 }  // namespace terrazzo

@@ -47,7 +47,8 @@ std::vector<std::string> check(const Params& params) {
 }
 
 void compute(NodeContext& node) {
-  const Exemplar original{node.input<Material>("material"), exemplar_mask("mask", node.optional_input<Image>("mask"))};
+  const Exemplar original =
+      masked_exemplar(node.input<Material>("material"), "mask", node.optional_input<Image>("mask"));
   std::vector<Exemplar> exemplars;
   for (const Variant& v : asked_variants(node.params())) exemplars.push_back(varied(original, v, edges_of(node)));
   output_atlas(node, exemplars);

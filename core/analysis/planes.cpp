@@ -42,10 +42,9 @@ Moments moments(const Image& image, const std::vector<double>& weights) {
 }
 
 /// Writes an image's weighted channels into the planes from channel `first` on.
-void add_image(const Image& image, const std::vector<double>& weights, double least, ExemplarPlanes& planes,
-               int first) {
+void add_image(const Image& image, const std::vector<double>& weights, ExemplarPlanes& planes, int first) {
   const Moments m = moments(image, weights);
-  const double unit = 1.0 / std::max(m.deviation, least);
+  const double unit = 1.0 / std::max(m.deviation, least_deviation);
   const int channels = image.channels();
   for_each_strip(image, [&](const Rect& r, const float* v) {
     for (int y = 0; y < r.height; y++)
@@ -68,7 +67,7 @@ ExemplarPlanes weighted_planes(const Features& features, const Task& task) {
   int first = 0;
   for (const FeatureImage& f : features.images()) {
     task.check();
-    add_image(*f.image, f.weights, least_deviation, planes, first);
+    add_image(*f.image, f.weights, planes, first);
     for (const double w : f.weights) first += w > 0;
   }
   return planes;
@@ -86,9 +85,7 @@ ExemplarPlanes guidance_planes(const std::vector<ImagePtr>& guidance, Size size,
   int first = 0;
   for (const ImagePtr& g : guidance) {
     task.check();
-    // Computed guidance may be faint, such as filter responses, and is no less exact for that.
-    const double least = g->info().depth == Depth::u8 ? least_deviation : 1e-4;
-    add_image(*g, std::vector<double>(g->channels(), 1.0), least, planes, first);
+    add_image(*g, std::vector<double>(g->channels(), 1.0), planes, first);
     first += g->channels();
   }
   return planes;

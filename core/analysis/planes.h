@@ -24,8 +24,7 @@ struct ExemplarPlanes {
 /// means the same for each; nearly constant images are not blown up beyond what their 8-bit noise is worth.
 ExemplarPlanes weighted_planes(const Features& features, const Task& task);
 
-/// The same for guidance images (signed feature distances, control maps), which come with one weight; faint ones count
-/// as much as others, unless they have 8 bit.
+/// The same for guidance images (signed feature distances, control maps), which come with one weight.
 ExemplarPlanes guidance_planes(const std::vector<ImagePtr>& guidance, Size size, bool wraps, const Task& task);
 
 /// Half the size (rounded up), filtered with the binomial kernel 1 3 3 1 in each direction. Normals are averaged as

@@ -131,7 +131,7 @@ FeaturesPtr weighted_features(const Material& material, const NumberMap& weights
       throw Error("weights", fmt::format("there is no map \"{}\"; the material has {}", name, material.map_names()));
   std::vector<FeatureImage> images;
   for (const Map& map : material.maps()) {
-    const ImagePtr image = at_size(analysis_image(map.image), material.size());
+    const ImagePtr image = nearest_at_size(analysis_image(map.image), material.size());
     const auto given = weights.find(map.name);
     Numbers channel_weights =
         given != weights.end() ? given->second : Numbers{default_weight(map.image->info().semantic)};
