@@ -31,11 +31,7 @@ std::vector<Param> atlas_params() {
 
 void output_atlas(NodeContext& node, const std::vector<Exemplar>& exemplars) {
   const Atlas atlas = make_atlas(exemplars, int(node.integer("gap")), edges_of(node));
-  const Size size = atlas.material->size();
-  int64_t used = 0;
-  for (const Rect& r : atlas.places) used += r.area();
-  node.note(fmt::format("{} exemplars in {} pixels, {:.0f} % of them in use", exemplars.size(), describe(size),
-                        100.0 * double(used) / double(size.area())));
+  node.note(fmt::format("{} exemplars in {} pixels", exemplars.size(), describe(atlas.material->size())));
   node.output("material", atlas.material);
   node.output("mask", atlas.mask);
   node.output("labels", atlas.labels);

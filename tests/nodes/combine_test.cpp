@@ -26,7 +26,7 @@ TEST_CASE("combine lays materials side by side with a mask, labels and a note") 
   CHECK(run.get<Image>("mask")->read({22, 5, 10, 1}) == std::vector<float>{1, 1, 0, 0, 0, 0, 0, 0, 1, 1});
   CHECK(run.get<Image>("labels")->read({22, 5, 10, 1}) == std::vector<float>{0, 0, 0, 0, 0, 1, 1, 1, 1, 1});
   REQUIRE(run.notes.size() == 1);
-  CHECK(run.notes.front() == "2 exemplars in 40x16 pixels, 85 % of them in use");
+  CHECK(run.notes.front() == "2 exemplars in 40x16 pixels");
 }
 
 TEST_CASE("a uv map of the atlas resolves to the exemplars' own pixels") {
