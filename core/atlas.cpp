@@ -49,7 +49,7 @@ struct Extent {
   }
   /// What a layout costs: its area, and less so how far it is from a square.
   double cost() const {
-    return double(width) * double(height) + 0.01 * double(width - height) * double(width - height);
+    return double(width) * double(height) + 0.05 * double(width - height) * double(width - height);
   }
 };
 
