@@ -9,16 +9,17 @@
 
 #include "core/error.h"
 #include "core/fine_layout.h"
+#include "core/local_mean.h"
+#include "core/normal.h"
 #include "core/pixel_space.h"
 
 namespace terrazzo {
 
 namespace {
 
-/// The map in the space in which pixels are averaged; empty if that is how they are stored.
+/// The map in the space in which pixels are averaged.
 std::vector<float> linear_pixels(const Image& map) {
   const ImageInfo& info = map.info();
-  if (info.color_space != "srgb_texture") return {};
   std::vector<float> pixels(map.in_memory(), map.in_memory() + info.size.area() * info.channels);
   tbb::parallel_for(0, info.size.height, [&](int y) {
     to_linear(info, &pixels[size_t(y) * info.size.width * info.channels], info.size.width);
@@ -31,7 +32,12 @@ class ResolvedPixels : public PixelSource {
  public:
   ResolvedPixels(const ImagePtr& map, std::shared_ptr<const FineLayout> layout)
       : map_(materialized(map)), layout_(std::move(layout)), same_(map->size() == layout_->exemplar()) {
-    if (layout_->reach() > 0) linear_ = linear_pixels(*map_);
+    if (layout_->reach() == 0) return;
+    const UvMap& uv = layout_->uv();
+    detail_radius_ = layout_->radius() * layout_->exemplar().width / uv.exemplar().width;
+    const int radius = std::max(1, int(detail_radius_ * map->width() / layout_->exemplar().width + 0.5));
+    linear_ = linear_pixels(*map_);
+    smooth_ = local_mean(linear_, map_->size(), map_->channels(), radius, uv.wraps().exemplar);
   }
 
   void read(const Rect& region, float* out) const override {
@@ -88,6 +94,7 @@ class ResolvedPixels : public PixelSource {
 
   struct Proposal {
     size_t position;
+    int x, y;  ///< in the exemplar
     double weight;
   };
 
@@ -107,7 +114,7 @@ class ResolvedPixels : public PixelSource {
         const auto end = proposals.begin() + count;
         const auto known = std::find_if(proposals.begin(), end, [at](const Proposal& p) { return p.position == at; });
         if (known == end)
-          proposals[size_t(count++)] = {at, share * share};
+          proposals[size_t(count++)] = {at, u, v, share * share};
         else
           known->weight += share * share;
       }
@@ -116,25 +123,62 @@ class ResolvedPixels : public PixelSource {
     return mean(proposals.data(), count, out);
   }
 
-  float* mean(const Proposal* proposals, int count, float* out) const {
+  /// The factor on the mean of details that gives it the variance of each of them. Details correlate where they come
+  /// from nearly the same place.
+  double contrast(const Proposal* proposals, int count) const {
+    double variance = 0;
+    for (int i = 0; i < count; i++)
+      for (int j = 0; j < count; j++) {
+        const int apart =
+            std::max(std::abs(proposals[i].x - proposals[j].x), std::abs(proposals[i].y - proposals[j].y));
+        variance += proposals[i].weight * proposals[j].weight * std::max(0.0, 1 - apart / detail_radius_);
+      }
+    return 1 / std::sqrt(variance);
+  }
+
+  float* mean(Proposal* proposals, int count, float* out) const {
     const ImageInfo& info = map_->info();
-    const float* pixels = linear_.empty() ? map_->in_memory() : linear_.data();
-    std::array<double, 4> sums{};
     double weights = 0;
-    for (int i = 0; i < count; i++) {
-      weights += proposals[i].weight;
-      for (int c = 0; c < info.channels; c++)
-        sums[c] += proposals[i].weight * double(pixels[proposals[i].position + c]);
+    for (int i = 0; i < count; i++) weights += proposals[i].weight;
+    for (int i = 0; i < count; i++) proposals[i].weight /= weights;
+    const double factor = contrast(proposals, count);
+    for (size_t c = 0; c < size_t(info.channels); c++) {
+      double smooth = 0, detail = 0;
+      float least = linear_[proposals->position + c], most = least;
+      for (int i = 0; i < count; i++) {
+        const size_t at = proposals[i].position + c;
+        smooth += proposals[i].weight * double(smooth_[at]);
+        detail += proposals[i].weight * (double(linear_[at]) - double(smooth_[at]));
+        least = std::min(least, linear_[at]);
+        most = std::max(most, linear_[at]);
+      }
+      // Where the pieces agree after all, their details need no more contrast.
+      out[c] = std::clamp(float(smooth + factor * detail), least, most);
     }
-    for (int c = 0; c < info.channels; c++) out[c] = float(sums[c] / weights);
     to_stored(info, out, 1);
+    if (info.semantic == Semantic::normal && info.channels >= 3) set_length(proposals, count, out);
     return out + info.channels;
+  }
+
+  /// Gives a unit normal the length that the proposals have: 1, unless the map was filtered carelessly, where a normal
+  /// of another length than its neighbours' would show.
+  void set_length(const Proposal* proposals, int count, float* out) const {
+    const auto length = [](const Vector3& n) { return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]); };
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+      sum += proposals[i].weight * double(length(decode_normal(&linear_[proposals[i].position], NormalY::up)));
+    Vector3 normal = decode_normal(out, NormalY::up);
+    for (float& v : normal) v *= float(sum);
+    encode_normal(normal, NormalY::up, out);
+    keep_in_range(map_->info(), out, 1);
   }
 
   ImagePtr map_;
   std::shared_ptr<const FineLayout> layout_;
-  bool same_;  ///< the map has the exemplar's size
-  std::vector<float> linear_;
+  bool same_;                  ///< the map has the exemplar's size
+  double detail_radius_ = 0;   ///< in pixels of the exemplar
+  std::vector<float> linear_;  ///< the map in the space of averages,
+  std::vector<float> smooth_;  ///< and its local mean
 };
 
 ImagePtr resolved_map(const ImagePtr& map, const std::shared_ptr<const FineLayout>& layout) {

@@ -23,9 +23,12 @@ bool can_blend(Semantic semantic);
 /// Without blending each pixel is exactly one exemplar pixel. With it, every pixel q of the uv map within the radius of
 /// an output pixel p proposes the exemplar pixel that continues q's piece to p, and p shows their mean, weighted by
 /// (1 - (distance / radius)^2)^2: the magnification of Lefebvre & Hoppe (Parallel controllable texture synthesis, 2005)
-/// with a wider and smoother kernel. Where all proposals are one exemplar pixel, that pixel is shown bit for bit.
-/// Proposals beyond an exemplar that does not wrap are left out. Averages are taken in the space of core/pixel_space.h:
-/// colours in linear light, normals as vectors that are made unit length again.
+/// with a wider and smoother kernel. The mean of what is unlike would be flat: so only the pieces' local means are
+/// averaged plainly, and the mean of their details gets back the variance that it lost (Heitz & Neyret,
+/// High-performance by-example noise using a histogram-preserving blending operator, 2018). Where all proposals are one
+/// exemplar pixel, that pixel is shown bit for bit. Proposals beyond an exemplar that does not wrap are left out.
+/// Averages are taken in the space of core/pixel_space.h: colours in linear light, normals as vectors that get
+/// back the length the exemplar's have.
 ///
 /// `exemplar`'s size (that of its largest map) is the analysed exemplar's times `scale`; smaller maps of it are sampled
 /// at the same relative place. All maps get the size of the uv map times `scale`. Throws Error if sizes do not fit.

@@ -12,10 +12,12 @@ NodeType resolve_uv_node() {
   t.summary = "Shows a material through a uv map";
   t.help =
       "Every output pixel of every map is exactly the exemplar pixel that the uv map names, so maps cannot drift "
-      "apart. Pixels are looked up when a later node pulls them; nothing is held in memory. "
+      "apart. Pixels are looked up when a later node pulls them; only the exemplar is held in memory. "
       "With `blend`, seams are softened: near a seam a pixel is the mean of what the pieces around it would continue "
-      "with (Lefebvre & Hoppe 2005). Colours are averaged in linear light, normals as vectors that are made unit "
-      "length again, heights become continuous; away from seams every pixel stays exactly the exemplar's. Maps that "
+      "with (Lefebvre & Hoppe 2005). Colours are averaged in linear light, normals as vectors that get back the length "
+      "they had, heights "
+      "become continuous, and details keep their contrast (Heitz & Neyret 2018); away from seams every pixel stays "
+      "exactly the exemplar's. Maps that "
       "mean mask or data stay exact everywhere, since their values may be labels. "
       "With `scale`, an exemplar that is larger than the analysed one is shown: analyse and synthesize a copy made "
       "smaller by `resize`, which is quicker and sees larger features, and give resolve_uv the original.";
@@ -48,6 +50,13 @@ NodeType resolve_uv_node() {
                       "{}",
                       scale));
     return problems;
+  };
+  t.memory_hint = [](const NodeContext& node) {
+    size_t values = 0;
+    for (const Map& m : node.input<Material>("material")->maps())
+      values += size_t(m.image->size().area()) * m.image->channels();
+    // The exemplar, and for blending its linear pixels and their local means.
+    return values * sizeof(float) * (node.number("blend") > 0 ? 3 : 1);
   };
   t.compute = [](NodeContext& node) {
     const ResolveOptions options{.blend = node.number("blend"), .scale = node.number("scale")};
