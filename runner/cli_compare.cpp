@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CompareFlags {
-  std::string exemplar, output, sheet;
+  std::string exemplar, output, uv, sheet;
   bool json = false;
 };
 
@@ -36,12 +36,18 @@ void check_sheet(const std::string& path) {
 
 Graph compare_graph(const CompareFlags& flags) {
   Graph graph;
-  graph.nodes = {reading_node("exemplar", flags.exemplar), reading_node("output", flags.output),
-                 memory_node("figures", "compare", {})};
-  for (const char* side : {"exemplar", "output"}) {
-    const Port& first = graph.find(side)->type->outputs.front();
-    graph.nodes.back().inputs[side] = {{side, first.name}};
+  GraphNode figures = memory_node("figures", "compare", {});
+  for (const auto& [side, path] : {std::pair("exemplar", flags.exemplar), std::pair("output", flags.output)}) {
+    graph.nodes.push_back(reading_node(side, path));
+    figures.inputs[side] = {{side, graph.nodes.back().type->outputs.front().name}};
   }
+  if (!flags.uv.empty()) {
+    GraphNode uv = memory_node("uv", "load_uv", {{"path", fs::absolute(flags.uv).string()}});
+    uv.inputs["exemplar"] = figures.inputs.at("exemplar");
+    graph.nodes.push_back(std::move(uv));
+    figures.inputs["uv"] = {{"uv", "uv"}};
+  }
+  graph.nodes.push_back(std::move(figures));
   if (!flags.sheet.empty() && !is_page(flags.sheet)) {
     graph.nodes.push_back(memory_node("sheet", "export", {{"path", fs::absolute(flags.sheet).string()}}));
     graph.nodes.back().inputs["material"] = {{"figures", "sheet"}};
@@ -97,6 +103,10 @@ void add_compare_command(CLI::App& app, Chosen& chosen) {
   const auto flags = std::make_shared<CompareFlags>();
   command->add_option("EXEMPLAR", flags->exemplar, "A folder of maps, or one image")->required()->type_name("PATH");
   command->add_option("OUTPUT", flags->output, "What was made from it")->required()->type_name("PATH");
+  command
+      ->add_option("--uv", flags->uv,
+                   "The uv map that was exported with the output: adds figures about seams, copies and evenness of use")
+      ->type_name("FILE");
   command->add_flag("--json", flags->json, "For programs");
   command
       ->add_option("--sheet", flags->sheet,

@@ -358,6 +358,22 @@ TEST_CASE("compare prints figures as a table or as json") {
   CHECK(missing.err.find("gone.png") != std::string::npos);
 }
 
+TEST_CASE("compare measures the layout too when it is given the uv map") {
+  const Workplace w;
+  std::vector<ExemplarPixel> pixels;
+  for (int i = 0; i < 32 * 24; i++) pixels.push_back({uint16_t(i % 32), uint16_t(i / 32)});
+  run_node("export", {{"uv_path", (w.path / "uv.png").string()}},
+           {{"uv", {UvMap::make({32, 24}, {32, 24}, std::move(pixels))}}});
+  const ProgramRun r = w.run({"compare", "photo.png", "photo.png", "--uv", "uv.png", "--json"});
+  CHECK_MESSAGE(r.code == 0, r.err);
+  std::map<std::string, double> figures;
+  const nlohmann::json report = nlohmann::json::parse(r.out);
+  for (const auto& f : report["figures"]) figures[f["name"]] = f["value"];
+  CHECK(figures.at("seam_energy") == 0);
+  CHECK(figures.at("usage_entropy") == doctest::Approx(1).epsilon(0.02));
+  CHECK(figures.at("largest_copy") == 1);
+}
+
 TEST_CASE("synth makes a larger material without a graph file") {
   const Workplace w;
   write_picture(w.path / "maps/stone_basecolor.png", 5);
