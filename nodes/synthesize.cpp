@@ -21,6 +21,7 @@ void compute(NodeContext& node) {
 NodeType synthesize_node() {
   NodeType t;
   t.name = "synthesize";
+  t.version = 2;
   t.category = "synthesis";
   t.summary = "Makes a uv map of any size from an index";
   t.help =
