@@ -1,5 +1,8 @@
 #include "core/image_ops.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -37,6 +40,29 @@ void require_same_size(const std::string& port, const Image& image, const std::s
   throw Error(
       port, fmt::format("expected the same size as \"{}\", {}, found {}; put \"resize\" or \"crop\" before one of them",
                         other_port, describe(other.size()), describe(image.size())));
+}
+
+void require_shape(const std::string& port, const Image& image, const std::string& of, Size size) {
+  const int64_t across = int64_t{image.width()} * size.height, down = int64_t{image.height()} * size.width;
+  if (std::abs(across - down) <= std::max({size.width, size.height, image.width(), image.height()})) return;
+  throw Error(port, fmt::format("expected an image of the shape of {}, {} pixels or a multiple of that, found {}", of,
+                                describe(size), describe(image)));
+}
+
+ImagePtr nearest_at_size(const ImagePtr& image, Size size) {
+  if (image->size() == size) return image;
+  ImageInfo info = image->info();
+  info.size = size;
+  const Digest digest = Hasher().add("at size").add(image->digest()).add(size.width).add(size.height).digest();
+  return Image::computed(info, digest, [image, size](const Rect& r, float* out) {
+    const int n = image->channels();
+    std::vector<float> row(size_t(image->width()) * n);
+    for (int y = 0; y < r.height; y++) {
+      image->read({0, int(int64_t{r.y + y} * image->height() / size.height), image->width(), 1}, row.data());
+      for (int x = 0; x < r.width; x++, out += n)
+        std::copy_n(&row[size_t(int64_t{r.x + x} * image->width() / size.width) * n], n, out);
+    }
+  });
 }
 
 ImagePtr pixel_by_pixel(ImageInfo info, const Digest& recipe, std::vector<ImagePtr> inputs, PixelFunction function) {

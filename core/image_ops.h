@@ -23,6 +23,12 @@ void require_no_normals(const std::string& port, const Image& image);
 /// Throws Error about `port` unless both images have the same size.
 void require_same_size(const std::string& port, const Image& image, const std::string& other_port, const Image& other);
 
+/// Throws Error about `port` unless the image has the same shape as what it belongs to, to a pixel.
+void require_shape(const std::string& port, const Image& image, const std::string& of, Size size);
+
+/// The image at another size by nearest samples: keeps maps of different sizes aligned. Computed when pulled.
+ImagePtr nearest_at_size(const ImagePtr& image, Size size);
+
 /// Makes `count` pixels out of the same pixels of each input.
 using PixelFunction = std::function<void(std::span<const float* const> inputs, float* out, int64_t count)>;
 

@@ -9,6 +9,7 @@
 
 #include "core/color.h"
 #include "core/error.h"
+#include "core/image_ops.h"
 
 namespace terrazzo {
 
@@ -33,23 +34,6 @@ ImagePtr unit_normals(const ImagePtr& map) {
       out[0] = x;
       out[1] = y;
       out[2] = std::sqrt(1.0f - squared);
-    }
-  });
-}
-
-/// Nearest samples at another size: keeps maps of different sizes aligned.
-ImagePtr at_size(const ImagePtr& map, Size size) {
-  if (map->size() == size) return map;
-  ImageInfo info = map->info();
-  info.size = size;
-  const Digest digest = Hasher().add("at size").add(map->digest()).add(size.width).add(size.height).digest();
-  return Image::computed(info, digest, [map, size](const Rect& r, float* out) {
-    const int n = map->channels();
-    std::vector<float> row(size_t(map->width()) * n);
-    for (int y = 0; y < r.height; y++) {
-      map->read({0, int(int64_t{r.y + y} * map->height() / size.height), map->width(), 1}, row.data());
-      for (int x = 0; x < r.width; x++, out += n)
-        std::copy_n(&row[size_t(int64_t{r.x + x} * map->width() / size.width) * n], n, out);
     }
   });
 }
@@ -141,13 +125,14 @@ double default_weight(Semantic semantic) {
   return 0;
 }
 
-FeaturesPtr weighted_features(const Material& material, const NumberMap& weights, bool wraps) {
+FeaturesPtr weighted_features(const Material& material, const NumberMap& weights, bool wraps, const ImagePtr& mask) {
+  if (mask) require_shape("mask", *mask, "the exemplar", material.size());
   for (const auto& [name, unused] : weights)
     if (!material.find(name))
       throw Error("weights", fmt::format("there is no map \"{}\"; the material has {}", name, material.map_names()));
   std::vector<FeatureImage> images;
   for (const Map& map : material.maps()) {
-    const ImagePtr image = at_size(analysis_image(map.image), material.size());
+    const ImagePtr image = nearest_at_size(analysis_image(map.image), material.size());
     const auto given = weights.find(map.name);
     Numbers channel_weights =
         given != weights.end() ? given->second : Numbers{default_weight(map.image->info().semantic)};
@@ -161,7 +146,8 @@ FeaturesPtr weighted_features(const Material& material, const NumberMap& weights
     if (std::any_of(channel_weights.begin(), channel_weights.end(), [](double w) { return w > 0; }))
       images.push_back({image, channel_weights});
   }
-  return Features::make(material.size(), std::move(images), wraps);
+  return Features::make(material.size(), std::move(images), wraps, {},
+                        mask ? nearest_at_size(mask, material.size()) : nullptr);
 }
 
 bool seems_to_tile(const Material& material) {

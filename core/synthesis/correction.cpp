@@ -45,8 +45,7 @@ class PixelCorrector {
     }
     for (int k = 0; k < pass_.random_candidates; k++) {
       const uint64_t r = random_bits(pass_.seed, level_.level, pass_.pass, x, y, k);
-      int u = int(below(uint32_t(r), level_.exemplar.size().width));
-      int v = int(below(uint32_t(r >> 32), level_.exemplar.size().height));
+      auto [u, v] = level_.exemplar.place(r);
       level_.phase.snap(x, y, u, v);
       consider(u, v, unit_factor);
     }

@@ -26,8 +26,9 @@ const Window& sparse_window();
 /// more: above 1 where use exceeds an even share.
 class Occupancy {
  public:
-  /// `weight`: how much a doubled use adds to the cost; 0 turns the term off.
-  Occupancy(Size exemplar, double weight);
+  /// `weight`: how much a doubled use adds to the cost; 0 turns the term off. `demand`: how often each exemplar pixel
+  /// is wanted, relative to the others; empty: all alike.
+  Occupancy(Size exemplar, double weight, const std::vector<double>& demand = {});
   void recount(const Field& field);
   bool active() const { return weight_ > 0; }
   uint32_t factor(int x, int y) const { return factors_[size_t(y / cell_) * columns_ + x / cell_]; }
@@ -37,6 +38,7 @@ class Occupancy {
   int cell_;
   int columns_;
   int rows_;
+  std::vector<double> shares_;  // of all use, by cell; empty: all alike
   std::vector<uint32_t> factors_;
 };
 

@@ -1,6 +1,7 @@
 #include "core/synthesis/synthesize.h"
 
 #include <cmath>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -18,22 +19,62 @@ Size level_size(Size size, int level) {
   return {(size.width + round_up) >> level, (size.height + round_up) >> level};
 }
 
+constexpr int draws = 16;  // of a block that must fit
+
+/// The exemplar position from which a block starts.
+std::array<int, 2> random_start(const PaddedLevel& exemplar, int side, uint64_t bits) {
+  if (exemplar.masked()) {
+    const auto [u, v] = exemplar.place(bits);
+    return {u - side / 2, v - side / 2};
+  }
+  const int keep_off = exemplar.wraps() ? 0 : PaddedLevel::keep_off;
+  const auto start = [&](uint32_t half, int n) {
+    const int room = exemplar.wraps() ? n : std::max(1, n - side - 2 * keep_off);
+    return keep_off + int(below(half, uint32_t(room)));
+  };
+  return {start(uint32_t(bits), exemplar.size().width), start(uint32_t(bits >> 32), exemplar.size().height)};
+}
+
+/// Where a mask makes some places better than others, the best of several.
+std::array<int, 2> best_start(const PaddedLevel& exemplar, const Rect& block, int side, uint64_t seed) {
+  const uint64_t bits = random_bits(seed, Purpose::blocks, block.x / side, block.y / side);
+  if (!exemplar.masked()) return random_start(exemplar, side, bits);
+  std::array<int, 2> best{};
+  int64_t least = std::numeric_limits<int64_t>::max();
+  for (int draw = 0; draw < draws; draw++) {
+    const std::array<int, 2> start = random_start(exemplar, side, random_bits(bits, draw));
+    int64_t misfit = 0;
+    for (int y = 0; y < block.height; y++)
+      for (int x = 0; x < block.width; x++) {
+        int u = start[0] + x, v = start[1] + y;
+        exemplar.settle(u, v);
+        misfit += u != start[0] + x || v != start[1] + y;
+      }
+    if (misfit >= least) continue;
+    least = misfit;
+    best = start;
+  }
+  return best;
+}
+
+void place_block(Field& field, const Rect& block, std::array<int, 2> start, const PaddedLevel& exemplar) {
+  for (int y = 0; y < block.height; y++)
+    for (int x = 0; x < block.width; x++) {
+      int u = start[0] + x, v = start[1] + y;
+      exemplar.settle(u, v);
+      field.at(block.x + x, block.y + y) = {uint16_t(u), uint16_t(v)};
+    }
+}
+
 /// The coarsest level: square blocks of a quarter of the exemplar's side, from random places.
 Field random_blocks(Size size, const PaddedLevel& exemplar, uint64_t seed) {
   Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
   const Size from = exemplar.size();
   const int side = std::max(4, std::min(from.width, from.height) / 4);
-  const int keep_off = exemplar.wraps() ? 0 : PaddedLevel::keep_off;
-  const auto start = [&](uint32_t bits, int n) {
-    const int room = exemplar.wraps() ? n : std::max(1, n - side - 2 * keep_off);
-    return keep_off + int(below(bits, uint32_t(room)));
-  };
-  for (int y = 0; y < size.height; y++)
-    for (int x = 0; x < size.width; x++) {
-      const uint64_t r = random_bits(seed, Purpose::blocks, x / side, y / side);
-      int u = start(uint32_t(r), from.width) + x % side, v = start(uint32_t(r >> 32), from.height) + y % side;
-      exemplar.settle(u, v);
-      field.at(x, y) = {uint16_t(u), uint16_t(v)};
+  for (int top = 0; top < size.height; top += side)
+    for (int left = 0; left < size.width; left += side) {
+      const Rect block = intersect(whole(size), {left, top, side, side});
+      place_block(field, block, best_start(exemplar, block, side, seed), exemplar);
     }
   return field;
 }
@@ -66,6 +107,11 @@ std::vector<ExemplarPixel> similar_pixels(const SimilarSets& sets, Size size) {
   return out;
 }
 
+/// What a mask lets synthesis use, as demand.
+std::vector<double> demand_of(const AppearanceLevel& level) {
+  return {level.usable.begin(), level.usable.end()};
+}
+
 struct Effort {
   int passes;
   int random_candidates;
@@ -96,7 +142,7 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
     const std::vector<ExemplarPixel> similar = similar_pixels(index.levels()[l], exemplar_level.size);
     const CorrectionLevel level{exemplar,       similar, index.levels()[l].per_pixel, l, options.tile_x,
                                 options.tile_y, phase};
-    Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0);
+    Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0, demand_of(exemplar_level));
     const Effort effort = effort_at(l);
     for (int pass = 0; pass < effort.passes; pass++) {
       correct(field, level,
