@@ -24,17 +24,18 @@ class PaddedLevel {
   /// Brings a position that a shift may have moved out of the exemplar back to where a window fits: around the other
   /// side, or `keep_off` pixels inside the border; and then to the nearest usable pixel.
   void settle(int& x, int& y) const {
-    if (wraps_) {
-      x = x < 0 ? x + size_.width : x >= size_.width ? x - size_.width : x;
-      y = y < 0 ? y + size_.height : y >= size_.height ? y - size_.height : y;
-    } else {
-      x = std::clamp(x, keep_off, size_.width - 1 - keep_off);
-      y = std::clamp(y, keep_off, size_.height - 1 - keep_off);
-    }
+    settle_inside(x, y);
     if (nearest_usable_.empty()) return;
     const uint32_t at = nearest_usable_[size_t(y) * size_.width + x];
     x = int(at % size_.width);
     y = int(at / size_.width);
+  }
+  /// As settle, but false for a position that has to make way for a mask: it does not continue what it should.
+  bool settles(int& x, int& y) const {
+    settle_inside(x, y);
+    if (nearest_usable_.empty()) return true;
+    const size_t at = size_t(y) * size_.width + x;
+    return nearest_usable_[at] == at;
   }
   /// Whether only some pixels are usable.
   bool masked() const { return !nearest_usable_.empty(); }
@@ -48,6 +49,15 @@ class PaddedLevel {
   static constexpr int keep_off = 2;
 
  private:
+  void settle_inside(int& x, int& y) const {
+    if (wraps_) {
+      x = x < 0 ? x + size_.width : x >= size_.width ? x - size_.width : x;
+      y = y < 0 ? y + size_.height : y >= size_.height ? y - size_.height : y;
+    } else {
+      x = std::clamp(x, keep_off, size_.width - 1 - keep_off);
+      y = std::clamp(y, keep_off, size_.height - 1 - keep_off);
+    }
+  }
   Size size_;
   bool wraps_;
   int stride_;

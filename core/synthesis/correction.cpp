@@ -98,7 +98,7 @@ class PixelCorrector {
   }
 
   HWY_ATTR void consider(int x, int y, uint32_t factor) {
-    level_.exemplar.settle(x, y);
+    if (!level_.exemplar.settles(x, y)) return;
     const uint32_t id = uint32_t(y) << 16 | uint32_t(x);
     for (int i = 0; i < seen_; i++)
       if (seen_ids_[i] == id) return;
