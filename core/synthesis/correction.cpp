@@ -178,7 +178,8 @@ class PixelCorrector {
 HWY_ATTR void correct_row(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
                           const Occupancy& occupancy, int first, int y, ExemplarPixel* out) {
   PixelCorrector corrector(field, level, pass, occupancy);
-  for (int x = first; x < field.size.width; x += 2) *out++ = corrector.best(x, y);
+  for (int x = first; x < field.size.width; x += 2, out++)
+    *out = level.fixed.at(size_t(y) * field.size.width + x) ? field.at(x, y) : corrector.best(x, y);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -219,7 +220,7 @@ void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& p
   const Size size = field.size;
   std::vector<ExemplarPixel> next;
   for (int sub = 0; sub < 4; sub++) {
-    occupancy.recount(field);
+    occupancy.recount(field, level.fixed);
     const int first_x = (sub ^ pass.pass) & 1, first_y = sub >> 1;
     const int columns = (size.width - first_x + 1) / 2, rows = (size.height - first_y + 1) / 2;
     if (columns <= 0 || rows <= 0) continue;

@@ -7,6 +7,7 @@
 #include "core/analysis/padded_level.h"
 #include "core/lattice.h"
 #include "core/synthesis/field.h"
+#include "core/synthesis/kept.h"
 #include "core/task.h"
 
 namespace terrazzo {
@@ -29,7 +30,8 @@ class Occupancy {
   /// `weight`: how much a doubled use adds to the cost; 0 turns the term off. `demand`: how often each exemplar pixel
   /// is wanted, relative to the others; empty: all alike.
   Occupancy(Size exemplar, double weight, const std::vector<double>& demand = {});
-  void recount(const Field& field);
+  /// Fixed pixels do not count.
+  void recount(const Field& field, const FixedPixels& fixed);
   bool active() const { return weight_ > 0; }
   uint32_t factor(int x, int y) const { return factors_[size_t(y / cell_) * columns_ + x / cell_]; }
 
@@ -50,6 +52,7 @@ struct CorrectionLevel {
   int level = 0;  ///< 0 = finest; part of every random choice
   bool tile_x = false, tile_y = false;
   LatticePhase phase;  ///< of a regular exemplar: every output pixel keeps its place in the lattice's cell
+  FixedPixels fixed;   ///< pixels that are not corrected
 };
 
 struct CorrectionPass {

@@ -21,13 +21,18 @@ Occupancy::Occupancy(Size exemplar, double weight, const std::vector<double>& de
     shares_[size_t(int(i) / exemplar.width / cell_) * columns_ + int(i) % exemplar.width / cell_] += demand[i] / sum;
 }
 
-void Occupancy::recount(const Field& field) {
+void Occupancy::recount(const Field& field, const FixedPixels& fixed) {
   if (!active()) return;
   std::vector<int64_t> use(factors_.size(), 0);
-  for (const ExemplarPixel p : field.pixels) use[size_t(p.y / cell_) * columns_ + p.x / cell_]++;
-  const double even = double(field.size.area()) / double(factors_.size());
+  int64_t free = 0;
+  for (size_t i = 0; i < field.pixels.size(); i++) {
+    if (fixed.at(i)) continue;
+    use[size_t(field.pixels[i].y / cell_) * columns_ + field.pixels[i].x / cell_]++;
+    free++;
+  }
+  const double even = std::max(least_expected, double(free) / double(factors_.size()));
   for (size_t i = 0; i < use.size(); i++) {
-    const double expected = shares_.empty() ? even : std::max(least_expected, double(field.size.area()) * shares_[i]);
+    const double expected = shares_.empty() ? even : std::max(least_expected, double(free) * shares_[i]);
     const double excess = std::clamp(double(use[i]) / expected - 1.0, 0.0, 4.0);
     factors_[i] = uint32_t(unit_factor * (1.0 + weight_ * excess));
   }

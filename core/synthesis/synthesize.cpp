@@ -112,6 +112,13 @@ std::vector<double> demand_of(const AppearanceLevel& level) {
   return {level.usable.begin(), level.usable.end()};
 }
 
+/// Kept pixels have the exemplar's lattice as it is. One that would have to be stretched to wrap around contradicts
+/// them; the free pixels then do better without.
+Lattice lattice_of(const Appearance& appearance, const SynthesisOptions& options) {
+  const Lattice& lattice = appearance.lattice();
+  return options.kept.empty() || lattice.fits(options.size, options.tile_x, options.tile_y) ? lattice : Lattice{};
+}
+
 struct Effort {
   int passes;
   int random_candidates;
@@ -129,6 +136,7 @@ Effort effort_at(int level) {
 UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const Task& task) {
   const Appearance& appearance = *index.appearance();
   const int levels = int(appearance.levels().size());
+  const Lattice lattice = lattice_of(appearance, options);
   Field field;
   for (int l = levels - 1; l >= 0; l--) {
     const AppearanceLevel& exemplar_level = appearance.levels()[l];
@@ -136,12 +144,15 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
     const Size size = level_size(options.size, l);
     const size_t order = size_t(levels - 1 - l);
     const double amplitude = order < options.jitter.size() ? options.jitter[order] : 0;
-    const LatticePhase phase(appearance.lattice(), l, options.size, options.tile_x, options.tile_y);
+    const LatticePhase phase(lattice, l, options.size, options.tile_x, options.tile_y,
+                             {double(options.origin[0]), double(options.origin[1])});
+    const FixedPixels fixed(options.kept, options.size, l, exemplar_level.size);
     field = l == levels - 1 ? random_blocks(size, exemplar, options.seed)
                             : upsampled(field, size, exemplar, phase, amplitude, options.seed, l);
+    fixed.apply(field);
     const std::vector<ExemplarPixel> similar = similar_pixels(index.levels()[l], exemplar_level.size);
-    const CorrectionLevel level{exemplar,       similar, index.levels()[l].per_pixel, l, options.tile_x,
-                                options.tile_y, phase};
+    const CorrectionLevel level{exemplar, similar, index.levels()[l].per_pixel, l, options.tile_x, options.tile_y,
+                                phase,    fixed};
     Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0, demand_of(exemplar_level));
     const Effort effort = effort_at(l);
     for (int pass = 0; pass < effort.passes; pass++) {

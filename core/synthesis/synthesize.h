@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/appearance.h"
+#include "core/synthesis/kept.h"
 #include "core/task.h"
 #include "core/uv_map.h"
 
@@ -19,6 +21,10 @@ struct SynthesisOptions {
   double evenness = 0.7;
   /// Per level, coarsest first, in that level's exemplar pixels; missing levels have none.
   std::vector<double> jitter{};
+  /// Output pixels that are there already: they stay bit for bit, and the others continue them.
+  KeptPixels kept{};
+  /// The output position of the kept pixels' (0, 0): where a lattice starts.
+  std::array<int, 2> origin{};
 };
 
 /// Synthesizes a uv map coarse to fine (Lefebvre & Hoppe 2005 and 2006): random blocks of the exemplar at the coarsest
