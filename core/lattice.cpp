@@ -40,6 +40,20 @@ bool Lattice::fits(Size size, bool wraps_x, bool wraps_y) const {
   return drift(first, to.first) <= 1 && drift(second, to.second) <= 1;
 }
 
+Size Lattice::largest_fitting(Size size, bool wraps_x, bool wraps_y) const {
+  // How far (x, y) is from the next place at which the exemplar comes back to itself.
+  const LatticePhase phase(*this, 0, size, false, false);
+  const auto largest = [&](int length, int dx, int dy) {
+    for (int n = length; 2 * n > length; n--) {
+      const Vector2 e = phase.excess(n * dx, n * dy, 0, 0);
+      if (std::max(std::abs(e.x), std::abs(e.y)) <= 0.5) return n;
+    }
+    return length;
+  };
+  if (!phase.active()) return size;
+  return {wraps_x ? largest(size.width, 1, 0) : size.width, wraps_y ? largest(size.height, 0, 1) : size.height};
+}
+
 LatticePhase::Matrix LatticePhase::to_cells(const Lattice& l, double scale) {
   const double ax = l.first.x * scale, ay = l.first.y * scale, bx = l.second.x * scale, by = l.second.y * scale;
   if (l.rank == 1) return ax != 0 ? Matrix{1 / ax, 0, 0, 0} : Matrix{0, 1 / ay, 0, 0};

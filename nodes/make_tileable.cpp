@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/image_ops.h"
 #include "core/synthesis/kept.h"
 #include "nodes/synthesis_params.h"
 
@@ -36,18 +37,22 @@ KeptPixels interior(Size size, int border_x, int border_y) {
 
 void compute(NodeContext& node) {
   const auto index = node.input<Index>("index");
-  const Appearance& appearance = *index->appearance();
   SynthesisOptions options = synthesis_options(node, *index);
   const std::string& directions = node.text("directions");
   options.tile_x = directions != "y";
   options.tile_y = directions != "x";
+  const Lattice& lattice = index->appearance()->lattice();
+  if (node.text("fit") == "repeats")
+    options.size = lattice.largest_fitting(options.size, options.tile_x, options.tile_y);
+  if (options.size != index->appearance()->size())
+    node.note(fmt::format("the exemplar repeats: the result has {} pixels, so that it holds a whole number of repeats",
+                          describe(options.size)));
   const double border = node.number("border");
   options.kept = interior(options.size, border_pixels(border, options.size.width, options.tile_x),
                           border_pixels(border, options.size.height, options.tile_y));
-  if (!appearance.lattice().fits(options.size, options.tile_x, options.tile_y))
+  if (!lattice.fits(options.size, options.tile_x, options.tile_y))
     node.note(
-        "the exemplar does not hold a whole number of its repeats, so some will be cut short in the border; crop it to "
-        "a whole number for a regular result");
+        "the result does not hold a whole number of the exemplar's repeats: some will be cut short in the border");
   node.output("uv", synthesize(*index, options, node.task()));
 }
 
@@ -59,7 +64,8 @@ NodeType make_tileable_node() {
   t.category = "synthesis";
   t.summary = "Keeps an exemplar's interior and makes its border wrap";
   t.help =
-      "The result has the exemplar's size. Its interior stays exactly as it is; a border is made anew from the "
+      "The result has the exemplar's size, or a little less where the exemplar repeats. Its interior stays exactly as "
+      "it is; a border is made anew from the "
       "exemplar so that opposite sides, and all four corners, fit together in every map. resolve_uv shows it.";
   t.inputs = {index_port()};
   t.outputs = {uv_output()};
@@ -77,6 +83,12 @@ NodeType make_tileable_node() {
        .fallback = "xy",
        .help = "Directions in which the result wraps around.",
        .choices = {"x", "y", "xy"}},
+      {.name = "fit",
+       .type = ParamType::choice,
+       .fallback = "repeats",
+       .help = "For exemplars that repeat: \"repeats\" makes the result the largest that holds a whole number of "
+               "repeats, \"size\" keeps the exemplar's size and cuts some repeats short.",
+       .choices = {"repeats", "size"}},
   });
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {

@@ -122,13 +122,16 @@ Lattice lattice_of(const Appearance& appearance, const SynthesisOptions& options
 struct Effort {
   int passes;
   int random_candidates;
+  const Window* window;
 };
 
-/// The budget belongs to the coarse levels, where pixels are few and decisions are large.
-Effort effort_at(int level) {
-  if (level == 0) return {2, 0};
-  if (level == 1) return {3, 0};
-  return {10, level >= 3 ? 24 : 8};
+/// The budget belongs to the coarse levels, where pixels are few and decisions are large. Filling in between kept
+/// pixels is harder than going on freely, and there are fewer pixels to do it for.
+Effort effort_at(int level, bool between_kept) {
+  if (between_kept && level <= 1) return {6, 4, &full_window()};
+  if (level == 0) return {2, 0, &sparse_window()};
+  if (level == 1) return {3, 0, &full_window()};
+  return {10, level >= 3 ? 24 : 8, &full_window()};
 }
 
 }  // namespace
@@ -154,11 +157,11 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
     const CorrectionLevel level{exemplar, similar, index.levels()[l].per_pixel, l, options.tile_x, options.tile_y,
                                 phase,    fixed};
     Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0, demand_of(exemplar_level));
-    const Effort effort = effort_at(l);
+    const Effort effort = effort_at(l, fixed.any());
     for (int pass = 0; pass < effort.passes; pass++) {
       correct(field, level,
-              {l >= 1 ? &full_window() : &sparse_window(), uint32_t(std::floor(options.coherence * unit_factor)),
-               effort.random_candidates, random_bits(options.seed, Purpose::correction), pass},
+              {effort.window, uint32_t(std::floor(options.coherence * unit_factor)), effort.random_candidates,
+               random_bits(options.seed, Purpose::correction), pass},
               occupancy, task);
       task.progress(std::pow(0.25, l) * (pass + 1) / effort.passes);
     }
