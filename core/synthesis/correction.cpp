@@ -15,6 +15,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Corrects single pixels: gathers what surrounds them and picks the best candidate. One per thread and row.
+/// `steered`: the level has a control.
+template <bool steered>
 class PixelCorrector {
  public:
   PixelCorrector(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
@@ -30,6 +32,7 @@ class PixelCorrector {
     gather(x, y);
     x_ = x;
     y_ = y;
+    if constexpr (steered) target_ = level_.control->target(int64_t{y} * field_.size.width + x);
     seen_ = 0;
     best_cost_ = ~uint64_t{0};
     best_ = field_.at(x, y);
@@ -107,7 +110,12 @@ class PixelCorrector {
     factor += factor / 2 * repeats(x, y);
     if (level_.phase.active()) factor = uint32_t(factor * level_.phase.penalty(x, y, x_, y_));
     const uint64_t limit = best_cost_ / factor;
-    const uint64_t cost = uint64_t{distance(x, y, limit)} * factor;
+    uint64_t off_target = 0;
+    if constexpr (steered) {
+      off_target = level_.control->cost(x, y, target_) * uint64_t(count_);
+      if (off_target > limit) return;
+    }
+    const uint64_t cost = (distance(x, y, limit - off_target) + off_target) * factor;
     if (cost < best_cost_) {
       best_cost_ = cost;
       best_ = {uint16_t(x), uint16_t(y)};
@@ -161,6 +169,7 @@ class PixelCorrector {
   const Occupancy& occupancy_;
   int taps_;
   int x_ = 0, y_ = 0;
+  const uint8_t* target_ = nullptr;
   int ring_count_ = 0;
   std::array<ExemplarPixel, 8> ring_{};
   int count_ = 0;
@@ -174,12 +183,19 @@ class PixelCorrector {
   alignas(16) std::array<AppearanceVector, most_taps> wanted_{};
 };
 
+template <bool steered>
+HWY_ATTR void correct_pixels(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
+                             const Occupancy& occupancy, int first, int y, ExemplarPixel* out) {
+  PixelCorrector<steered> corrector(field, level, pass, occupancy);
+  for (int x = first; x < field.size.width; x += 2, out++)
+    *out = level.fixed.at(size_t(y) * field.size.width + x) ? field.at(x, y) : corrector.best(x, y);
+}
+
 /// Every second pixel of a row, from `first` on, into `out`.
 HWY_ATTR void correct_row(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
                           const Occupancy& occupancy, int first, int y, ExemplarPixel* out) {
-  PixelCorrector corrector(field, level, pass, occupancy);
-  for (int x = first; x < field.size.width; x += 2, out++)
-    *out = level.fixed.at(size_t(y) * field.size.width + x) ? field.at(x, y) : corrector.best(x, y);
+  const auto correct = level.control ? correct_pixels<true> : correct_pixels<false>;
+  correct(field, level, pass, occupancy, first, y, out);
 }
 
 }  // namespace HWY_NAMESPACE

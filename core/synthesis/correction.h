@@ -6,6 +6,7 @@
 
 #include "core/analysis/padded_level.h"
 #include "core/lattice.h"
+#include "core/synthesis/control.h"
 #include "core/synthesis/field.h"
 #include "core/synthesis/kept.h"
 #include "core/task.h"
@@ -53,6 +54,7 @@ struct CorrectionLevel {
   bool tile_x = false, tile_y = false;
   LatticePhase phase;  ///< of a regular exemplar: every output pixel keeps its place in the lattice's cell
   FixedPixels fixed;   ///< pixels that are not corrected
+  const LevelControl* control = nullptr;  ///< null: nothing steers
 };
 
 struct CorrectionPass {

@@ -1,7 +1,7 @@
 #include "core/synthesis/synthesize.h"
 
 #include <cmath>
-#include <limits>
+#include <memory>
 
 #include <tbb/parallel_for.h>
 
@@ -35,19 +35,22 @@ std::array<int, 2> random_start(const PaddedLevel& exemplar, int side, uint64_t 
   return {start(uint32_t(bits), exemplar.size().width), start(uint32_t(bits >> 32), exemplar.size().height)};
 }
 
-/// Where a mask makes some places better than others, the best of several.
-std::array<int, 2> best_start(const PaddedLevel& exemplar, const Rect& block, int side, uint64_t seed) {
+/// Where a mask or controls make some places better than others, the best of several.
+std::array<int, 2> best_start(const PaddedLevel& exemplar, const LevelControl* control, Size output, const Rect& block,
+                              int side, uint64_t seed) {
   const uint64_t bits = random_bits(seed, Purpose::blocks, block.x / side, block.y / side);
-  if (!exemplar.masked()) return random_start(exemplar, side, bits);
+  if (!exemplar.masked() && !control) return random_start(exemplar, side, bits);
   std::array<int, 2> best{};
-  int64_t least = std::numeric_limits<int64_t>::max();
+  uint64_t least = ~uint64_t{0};
   for (int draw = 0; draw < draws; draw++) {
     const std::array<int, 2> start = random_start(exemplar, side, random_bits(bits, draw));
-    int64_t misfit = 0;
+    uint64_t misfit = 0;
     for (int y = 0; y < block.height; y++)
       for (int x = 0; x < block.width; x++) {
         int u = start[0] + x, v = start[1] + y;
         exemplar.settle(u, v);
+        const int64_t pixel = int64_t{block.y + y} * output.width + block.x + x;
+        if (control) misfit += control->cost(u, v, control->target(pixel));
         misfit += u != start[0] + x || v != start[1] + y;
       }
     if (misfit >= least) continue;
@@ -67,14 +70,14 @@ void place_block(Field& field, const Rect& block, std::array<int, 2> start, cons
 }
 
 /// The coarsest level: square blocks of a quarter of the exemplar's side, from random places.
-Field random_blocks(Size size, const PaddedLevel& exemplar, uint64_t seed) {
+Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* control, uint64_t seed) {
   Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
   const Size from = exemplar.size();
   const int side = std::max(4, std::min(from.width, from.height) / 4);
   for (int top = 0; top < size.height; top += side)
     for (int left = 0; left < size.width; left += side) {
       const Rect block = intersect(whole(size), {left, top, side, side});
-      place_block(field, block, best_start(exemplar, block, side, seed), exemplar);
+      place_block(field, block, best_start(exemplar, control, size, block, side, seed), exemplar);
     }
   return field;
 }
@@ -107,8 +110,9 @@ std::vector<ExemplarPixel> similar_pixels(const SimilarSets& sets, Size size) {
   return out;
 }
 
-/// What a mask lets synthesis use, as demand.
-std::vector<double> demand_of(const AppearanceLevel& level) {
+/// What a mask lets synthesis use and controls want.
+std::vector<double> demand_of(const AppearanceLevel& level, const LevelControl* control) {
+  if (control) return control->demand(level.usable);
   return {level.usable.begin(), level.usable.end()};
 }
 
@@ -140,6 +144,7 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
   const Appearance& appearance = *index.appearance();
   const int levels = int(appearance.levels().size());
   const Lattice lattice = lattice_of(appearance, options);
+  const ControlPyramid controls(options.controls, appearance.size(), options.size, levels, task);
   Field field;
   for (int l = levels - 1; l >= 0; l--) {
     const AppearanceLevel& exemplar_level = appearance.levels()[l];
@@ -150,13 +155,15 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
     const LatticePhase phase(lattice, l, options.size, options.tile_x, options.tile_y,
                              {double(options.origin[0]), double(options.origin[1])});
     const FixedPixels fixed(options.kept, options.size, l, exemplar_level.size);
-    field = l == levels - 1 ? random_blocks(size, exemplar, options.seed)
+    std::unique_ptr<const LevelControl> control;
+    if (!controls.empty()) control = std::make_unique<LevelControl>(controls, l, exemplar);
+    field = l == levels - 1 ? random_blocks(size, exemplar, control.get(), options.seed)
                             : upsampled(field, size, exemplar, phase, amplitude, options.seed, l);
     fixed.apply(field);
     const std::vector<ExemplarPixel> similar = similar_pixels(index.levels()[l], exemplar_level.size);
-    const CorrectionLevel level{exemplar, similar, index.levels()[l].per_pixel, l, options.tile_x, options.tile_y,
-                                phase,    fixed};
-    Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0, demand_of(exemplar_level));
+    const CorrectionLevel level{
+        exemplar, similar, index.levels()[l].per_pixel, l, options.tile_x, options.tile_y, phase, fixed, control.get()};
+    Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0, demand_of(exemplar_level, control.get()));
     const Effort effort = effort_at(l, fixed.any());
     for (int pass = 0; pass < effort.passes; pass++) {
       correct(field, level,
