@@ -46,7 +46,9 @@ void compute(NodeContext& node) {
 std::vector<std::string> check(const Params& params) {
   const auto& at = std::get<Numbers>(params.at("at"));
   const bool whole = at.size() == 2 && at[0] == std::floor(at[0]) && at[1] == std::floor(at[1]);
-  return whole ? std::vector<std::string>{} : std::vector<std::string>{"\"at\": expected [x, y] in whole pixels"};
+  std::vector<std::string> problems = check_synthesis_params(params);
+  if (!whole) problems.push_back("\"at\": expected [x, y] in whole pixels");
+  return problems;
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ NodeType inpaint_node() {
                .optional = true}};
   t.outputs = {uv_output()};
   t.params = with_synthesis_params({tileable_param()});
+  t.check = check_synthesis_params;
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
     const auto uv = node.optional_input<UvMap>("uv");

@@ -90,6 +90,7 @@ NodeType make_tileable_node() {
                "repeats, \"size\" keeps the exemplar's size and cuts some repeats short.",
        .choices = {"repeats", "size"}},
   });
+  t.check = check_synthesis_params;
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
     return 3 * synthesis_memory(node.input<Index>("index")->appearance()->size());

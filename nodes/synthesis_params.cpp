@@ -1,13 +1,25 @@
 #include "nodes/synthesis_params.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/image_ops.h"
+#include "core/synthesis/jitter.h"
 
 namespace terrazzo {
 
 namespace {
+
+/// In the order of JitterSpec::Shape.
+const std::vector<std::string> shape_names = {"automatic", "list", "constant", "peak", "rising", "falling"};
+
+JitterSpec jitter_spec(const NodeContext& node) {
+  const auto shape = std::find(shape_names.begin(), shape_names.end(), node.text("jitter_shape"));
+  return {static_cast<JitterSpec::Shape>(shape - shape_names.begin()), node.numbers("jitter"),
+          node.number("jitter_peak"), node.number("jitter_spread")};
+}
 
 const std::vector<Param>& shared_params() {
   static const std::vector<Param> params = {
@@ -32,11 +44,33 @@ const std::vector<Param>& shared_params() {
       {.name = "jitter",
        .type = ParamType::numbers,
        .fallback = Numbers{},
-       .help = "Random displacement per level, coarsest level first; levels not listed have none. More jitter, more "
-               "variety, less structure.",
+       .help = "Random displacement per level, coarsest level first; levels not listed have none, and a single number "
+               "counts for every level. More jitter, more variety, less structure.",
        .min = 0,
        .max = 1024,
        .unit = "exemplar pixels of the level"},
+      {.name = "jitter_shape",
+       .type = ParamType::choice,
+       .fallback = "automatic",
+       .help =
+           "automatic takes \"jitter\" as it is and, if it is empty, what suits the exemplar; list takes it as it is. "
+           "The others spread one number over the levels: constant alike, peak as a Gaussian around "
+           "\"jitter_peak\", rising only up to the peak, falling only from it on.",
+       .choices = shape_names},
+      {.name = "jitter_peak",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "For peak, rising and falling: the level with the full jitter, counted from the coarsest, 0.",
+       .min = 0,
+       .max = 16,
+       .unit = "levels"},
+      {.name = "jitter_spread",
+       .type = ParamType::number,
+       .fallback = 1.0,
+       .help = "For peak, rising and falling: the Gaussian's standard deviation.",
+       .min = 0.1,
+       .max = 16,
+       .unit = "levels"},
   };
   return params;
 }
@@ -74,6 +108,15 @@ std::vector<Param> with_synthesis_params(std::vector<Param> own) {
   return own;
 }
 
+std::vector<std::string> check_synthesis_params(const Params& params) {
+  const std::string& shape = std::get<std::string>(params.at("jitter_shape"));
+  const size_t given = std::get<Numbers>(params.at("jitter")).size();
+  if (shape == "automatic" || shape == "list" || given == 1) return {};
+  return {
+      fmt::format("\"jitter\": expected one number to spread over the levels, since jitter_shape is \"{}\"; found {}",
+                  shape, given)};
+}
+
 SynthesisOptions synthesis_options(const NodeContext& node, const Index& index) {
   SynthesisOptions options;
   options.size = node.type().find_param("size") ? node.size("size") : index.appearance()->size();
@@ -85,7 +128,7 @@ SynthesisOptions synthesis_options(const NodeContext& node, const Index& index) 
   options.seed = uint64_t(node.integer("seed"));
   options.coherence = node.number("coherence");
   options.evenness = node.number("evenness");
-  options.jitter = node.numbers("jitter");
+  options.jitter = jitter_amplitudes(jitter_spec(node), *index.appearance());
   return options;
 }
 

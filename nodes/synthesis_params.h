@@ -15,8 +15,10 @@ Port uv_output();
 Param result_size_param();
 /// Parameter "tileable": directions in which the result wraps around.
 Param tileable_param();
-/// `own` parameters, followed by those of every synthesis: seed, coherence, evenness, jitter.
+/// `own` parameters, followed by those of every synthesis: seed, coherence, evenness, and jitter.
 std::vector<Param> with_synthesis_params(std::vector<Param> own);
+/// Checks them; for NodeType::check.
+std::vector<std::string> check_synthesis_params(const Params& params);
 
 /// What the parameters above say; "size" and "tileable" if the node has them.
 SynthesisOptions synthesis_options(const NodeContext& node, const Index& index);

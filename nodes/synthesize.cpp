@@ -7,6 +7,7 @@ namespace terrazzo {
 NodeType synthesize_node() {
   NodeType t;
   t.name = "synthesize";
+  t.version = 2;
   t.category = "synthesis";
   t.summary = "Makes a uv map of any size from an index";
   t.help =
@@ -16,6 +17,7 @@ NodeType synthesize_node() {
   t.inputs = {index_port()};
   t.outputs = {uv_output()};
   t.params = with_synthesis_params({result_size_param(), tileable_param()});
+  t.check = check_synthesis_params;
   t.compute = [](NodeContext& node) {
     const auto index = node.input<Index>("index");
     node.output("uv", synthesize(*index, synthesis_options(node, *index), node.task()));

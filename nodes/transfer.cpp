@@ -87,6 +87,7 @@ NodeType transfer_node() {
                "lightest become the same. none: values mean the same already.",
        .choices = {"histogram", "range", "none"}},
   });
+  t.check = check_synthesis_params;
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
     const auto channels = int64_t(4 * node.list<Image>("target").size());

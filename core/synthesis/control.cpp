@@ -21,7 +21,7 @@ namespace {
 
 constexpr size_t most_labels = 32;
 // What the largest difference of values costs, relative to missing a label.
-constexpr double values_factor = 4;
+constexpr double values_factor = 8;
 
 using Plane = std::vector<float>;
 

@@ -82,6 +82,27 @@ Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* 
   return field;
 }
 
+/// Moves a position by up to `amplitude` pixels each way, any number of times around an exemplar that tiles.
+void displace(int& u, int& v, const PaddedLevel& exemplar, double amplitude, uint64_t bits) {
+  u += int(std::floor(amplitude * (2 * unit_double(bits << 32) - 1) + 0.5));
+  v += int(std::floor(amplitude * (2 * unit_double(bits) - 1) + 0.5));
+  if (!exemplar.wraps()) return;
+  u = wrap(u, exemplar.size().width);
+  v = wrap(v, exemplar.size().height);
+}
+
+/// Moves every pixel of the coarsest level by up to `amplitude` pixels.
+void scatter(Field& field, const PaddedLevel& exemplar, double amplitude, uint64_t seed, int level) {
+  if (amplitude <= 0) return;
+  for (int y = 0; y < field.size.height; y++)
+    for (int x = 0; x < field.size.width; x++) {
+      int u = field.at(x, y).x, v = field.at(x, y).y;
+      displace(u, v, exemplar, amplitude, random_bits(seed, Purpose::jitter, level, x, y));
+      exemplar.settle(u, v);
+      field.at(x, y) = {uint16_t(u), uint16_t(v)};
+    }
+}
+
 /// Each pixel becomes four, which show the four exemplar pixels below it, moved by up to `amplitude` pixels together.
 Field upsampled(const Field& parent, Size size, const PaddedLevel& exemplar, const LatticePhase& phase,
                 double amplitude, uint64_t seed, int level) {
@@ -90,11 +111,7 @@ Field upsampled(const Field& parent, Size size, const PaddedLevel& exemplar, con
     for (int x = 0; x < size.width; x++) {
       const ExemplarPixel p = parent.at(x / 2, y / 2);
       int u = 2 * p.x + (x & 1), v = 2 * p.y + (y & 1);
-      if (amplitude > 0) {
-        const uint64_t r = random_bits(seed, Purpose::jitter, level, x / 2, y / 2);
-        u += int(std::floor(amplitude * (2 * unit_double(r << 32) - 1) + 0.5));
-        v += int(std::floor(amplitude * (2 * unit_double(r) - 1) + 0.5));
-      }
+      if (amplitude > 0) displace(u, v, exemplar, amplitude, random_bits(seed, Purpose::jitter, level, x / 2, y / 2));
       phase.snap(x, y, u, v);
       exemplar.settle(u, v);
       field.at(x, y) = {uint16_t(u), uint16_t(v)};
@@ -159,6 +176,7 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
     if (!controls.empty()) control = std::make_unique<LevelControl>(controls, l, exemplar);
     field = l == levels - 1 ? random_blocks(size, exemplar, control.get(), options.seed)
                             : upsampled(field, size, exemplar, phase, amplitude, options.seed, l);
+    if (l == levels - 1) scatter(field, exemplar, amplitude, options.seed, l);
     fixed.apply(field);
     const std::vector<ExemplarPixel> similar = similar_pixels(index.levels()[l], exemplar_level.size);
     const CorrectionLevel level{
