@@ -26,13 +26,7 @@ NodeType weight_node() {
       "Oklab, normals as unit vectors; each map is first brought to the same variance, so that 1 means the same for "
       "all. Unless given, base colour counts 1, height and opacity 0.7, normal, metallic, emission and masks 0.5, "
       "roughness, occlusion and specular 0.3.";
-  t.inputs = {
-      {.name = "material", .type = ValueType::material, .help = "the exemplar"},
-      {.name = "mask",
-       .type = ValueType::image,
-       .help = "where the exemplar may be sampled: above 0.5 (white) it may, elsewhere never. Of the exemplar's "
-               "shape, at any size; if it has several channels, the first counts",
-       .optional = true}};
+  t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}, mask_port()};
   t.outputs = {{.name = "features", .type = ValueType::features, .help = "its weighted channels"}};
   t.params = {
       {.name = "weights",
