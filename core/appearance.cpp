@@ -1,5 +1,6 @@
 #include "core/appearance.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace terrazzo {
@@ -10,8 +11,13 @@ AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels
   lattice.add_to(h);
   for (const AppearanceLevel& l : levels) {
     if (l.vectors.size() != size_t(l.size.area())) throw std::logic_error("one appearance vector per pixel");
+    if (!l.usable.empty() && l.usable.size() != l.vectors.size())
+      throw std::logic_error("usable needs one entry per pixel");
+    if (!l.usable.empty() && std::find(l.usable.begin(), l.usable.end(), 1) == l.usable.end())
+      throw std::logic_error("a level without a usable pixel");
     h.add(l.size.width).add(l.size.height).add(l.dimensions).add(l.scale);
     h.bytes(l.vectors.data(), l.vectors.size() * sizeof(AppearanceVector));
+    h.bytes(l.usable.data(), l.usable.size());
     h.bytes(l.mean.data(), l.mean.size() * sizeof(float));
     h.bytes(l.basis.data(), l.basis.size() * sizeof(float));
   }

@@ -23,6 +23,7 @@ static_assert(25LL * appearance_dimensions * (2LL * appearance_limit) * (2LL * a
 struct AppearanceLevel {
   Size size;
   std::vector<AppearanceVector> vectors;  ///< size.area(), row by row
+  std::vector<uint8_t> usable{};          ///< 1 where synthesis may take a pixel, one per vector; empty: everywhere
   /// The PCA basis: neighbourhood (window * channels values, weighted by a Gaussian) minus `mean`, projected on each of
   /// `dimensions` rows of `basis`, times `scale`, rounded. Lets other images be brought into this space.
   int dimensions = 0;

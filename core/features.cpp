@@ -4,10 +4,13 @@
 
 namespace terrazzo {
 
-FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wraps, const Lattice& lattice) {
+FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wraps, const Lattice& lattice,
+                           ImagePtr mask) {
   Hasher h;
   h.add("features").add(size.width).add(size.height).add(wraps).add(int64_t(images.size()));
   lattice.add_to(h);
+  if (mask && mask->size() != size) throw std::logic_error("the mask needs the features' size");
+  if (mask) h.add(mask->digest());
   bool any = false;
   for (const FeatureImage& f : images) {
     if (f.image->size() != size || int(f.weights.size()) != f.image->channels())
@@ -26,6 +29,7 @@ FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wra
   features->wraps_ = wraps;
   features->lattice_ = lattice;
   features->images_ = std::move(images);
+  features->mask_ = std::move(mask);
   features->digest_ = h.digest();
   return features;
 }

@@ -21,15 +21,18 @@ using FeaturesPtr = std::shared_ptr<const Features>;
 /// The weighted, concatenated channels of an exemplar, not yet reduced. Images are pulled lazily. Immutable.
 class Features {
  public:
-  /// All images must have `size`. Throws Error if every weight is 0. `wraps`: the exemplar tiles in x and y.
-  static FeaturesPtr make(Size size, std::vector<FeatureImage> images, bool wraps, const Lattice& lattice = {});
+  /// All images must have `size`. Throws Error if every weight is 0. `wraps`: the exemplar tiles in x and y. `mask`:
+  /// where its first channel exceeds 0.5 the exemplar may be sampled; null: everywhere.
+  static FeaturesPtr make(Size size, std::vector<FeatureImage> images, bool wraps, const Lattice& lattice = {},
+                          ImagePtr mask = nullptr);
   /// The same features of an exemplar that is known to repeat.
-  FeaturesPtr with(const Lattice& lattice) const { return make(size_, images_, wraps_, lattice); }
+  FeaturesPtr with(const Lattice& lattice) const { return make(size_, images_, wraps_, lattice, mask_); }
 
   Size size() const { return size_; }
   bool wraps() const { return wraps_; }
   const Lattice& lattice() const { return lattice_; }  ///< rank 0 unless it has been looked for and found
   const std::vector<FeatureImage>& images() const { return images_; }
+  const ImagePtr& mask() const { return mask_; }  ///< null: all of the exemplar may be sampled
   /// Channels of non-zero weight.
   int channel_count() const;
   const Digest& digest() const { return digest_; }
@@ -40,6 +43,7 @@ class Features {
   bool wraps_ = false;
   Lattice lattice_;
   std::vector<FeatureImage> images_;
+  ImagePtr mask_;
   Digest digest_;
 };
 

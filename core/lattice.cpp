@@ -1,5 +1,7 @@
 #include "core/lattice.h"
 
+#include <algorithm>
+
 namespace terrazzo {
 
 Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
@@ -26,6 +28,32 @@ Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
   return out;
 }
 
+bool Lattice::fits(Size size, bool wraps_x, bool wraps_y) const {
+  if (rank == 0) return true;
+  const Lattice to = fitted(size, wraps_x, wraps_y);
+  // How far a step of one cell is off, times the steps that cross the surface.
+  const auto drift = [&](const Vector2& a, const Vector2& b) {
+    const double length = std::max(std::abs(a.x), std::abs(a.y));
+    return length > 0 ? std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) * std::max(size.width, size.height) / length
+                      : 0.0;
+  };
+  return drift(first, to.first) <= 1 && drift(second, to.second) <= 1;
+}
+
+Size Lattice::largest_fitting(Size size, bool wraps_x, bool wraps_y) const {
+  // How far (x, y) is from the next place at which the exemplar comes back to itself.
+  const LatticePhase phase(*this, 0, size, false, false);
+  const auto largest = [&](int length, int dx, int dy) {
+    for (int n = length; 2 * n > length; n--) {
+      const Vector2 e = phase.excess(n * dx, n * dy, 0, 0);
+      if (std::max(std::abs(e.x), std::abs(e.y)) <= 0.5) return n;
+    }
+    return length;
+  };
+  if (!phase.active()) return size;
+  return {wraps_x ? largest(size.width, 1, 0) : size.width, wraps_y ? largest(size.height, 0, 1) : size.height};
+}
+
 LatticePhase::Matrix LatticePhase::to_cells(const Lattice& l, double scale) {
   const double ax = l.first.x * scale, ay = l.first.y * scale, bx = l.second.x * scale, by = l.second.y * scale;
   if (l.rank == 1) return ax != 0 ? Matrix{1 / ax, 0, 0, 0} : Matrix{0, 1 / ay, 0, 0};
@@ -33,7 +61,8 @@ LatticePhase::Matrix LatticePhase::to_cells(const Lattice& l, double scale) {
   return {by * d, -bx * d, -ay * d, ax * d};
 }
 
-LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y)
+LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y,
+                           const Vector2& origin)
     : rank_(lattice.rank) {
   if (rank_ == 0) return;
   const double scale = 1.0 / double(int64_t{1} << level);
@@ -44,6 +73,8 @@ LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool 
   if (cell < smallest_cell) rank_ = 0;
   to_exemplar_ = to_cells(lattice, scale);
   to_output_ = to_cells(lattice.fitted(output, tile_x, tile_y), scale);
+  const double x = origin.x * scale, y = origin.y * scale;
+  origin_ = {to_output_.xx * x + to_output_.xy * y, to_output_.yx * x + to_output_.yy * y};
 }
 
 }  // namespace terrazzo

@@ -28,6 +28,12 @@ struct Lattice {
   }
   /// The nearest lattice of which a surface of `size` holds a whole number of cells, along each axis in which it wraps.
   Lattice fitted(Size size, bool wraps_x, bool wraps_y) const;
+  /// Whether a surface of `size` holds, to a pixel, a whole number of cells along each axis in which it wraps.
+  bool fits(Size size, bool wraps_x, bool wraps_y) const;
+
+  /// The largest size within `size`, and over half of it, that holds a whole number of cells along each axis in which
+  /// it wraps, to half a pixel; along an axis on which there is none, that of `size`.
+  Size largest_fitting(Size size, bool wraps_x, bool wraps_y) const;
 
   void add_to(Hasher& h) const { h.add(rank).add(first.x).add(first.y).add(second.x).add(second.y).add(certainty); }
 };
@@ -39,15 +45,16 @@ class LatticePhase {
   LatticePhase() = default;
   /// `level`: 0 = the finest. `output`: the result's size at the finest level. A result that wraps around must hold a
   /// whole number of cells: its lattice is stretched until it does. Inactive where a cell has become too small to speak
-  /// of places within it.
-  LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y);
+  /// of places within it. `origin`: the output position, at the finest level, at which the exemplar's (0, 0) is in
+  /// phase.
+  LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y, const Vector2& origin = {});
 
   bool active() const { return rank_ > 0; }
 
   /// What the exemplar position (u, v) has too much to be in phase with the output position (x, y), in pixels.
   Vector2 excess(int u, int v, int x, int y) const {
-    const double i = to_exemplar_.xx * u + to_exemplar_.xy * v - to_output_.xx * x - to_output_.xy * y;
-    const double j = to_exemplar_.yx * u + to_exemplar_.yy * v - to_output_.yx * x - to_output_.yy * y;
+    const double i = to_exemplar_.xx * u + to_exemplar_.xy * v - to_output_.xx * x - to_output_.xy * y + origin_.x;
+    const double j = to_exemplar_.yx * u + to_exemplar_.yy * v - to_output_.yx * x - to_output_.yy * y + origin_.y;
     const double p = i - nearest(i), q = j - nearest(j);
     return {first_.x * p + second_.x * q, first_.y * p + second_.y * q};
   }
@@ -80,6 +87,7 @@ class LatticePhase {
   Vector2 first_, second_;
   Matrix to_exemplar_;  // pixels to cells; for rank 1 its second row is 0
   Matrix to_output_;
+  Vector2 origin_;  // in cells of the output
 };
 
 }  // namespace terrazzo

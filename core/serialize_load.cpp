@@ -127,7 +127,8 @@ class ValueReader {
       for (int c = 0; c < f.image->channels(); c++) f.weights.push_back(in_.get<double>());
       images.push_back(std::move(f));
     }
-    return checked([&] { return Features::make(s, std::move(images), wraps, repeats); });
+    const ImagePtr mask = in_.get_below<uint8_t>(2) != 0 ? image() : nullptr;
+    return checked([&] { return Features::make(s, std::move(images), wraps, repeats, mask); });
   }
 
   /// `count` items. Memory grows with what is really in the file, whatever it says.
@@ -157,6 +158,8 @@ class ValueReader {
     l.vectors = array<AppearanceVector>(uint64_t(l.size.area()));
     for (const AppearanceVector& v : l.vectors)
       for (const int c : v) require(c >= -appearance_limit && c <= appearance_limit, "a component is out of range");
+    l.usable = array<uint8_t>(array_length<uint8_t>());
+    require(l.usable.empty() || l.usable.size() == l.vectors.size(), "a mask has another size than its level");
     const uint64_t inputs = array_length<float>();
     l.mean = array<float>(inputs);
     l.basis = array<float>(inputs * uint64_t(l.dimensions));

@@ -23,6 +23,7 @@ struct CountSamples {
   uint64_t operator()(const FeaturesPtr& features) const {
     uint64_t sum = 0;
     for (const FeatureImage& f : features->images()) sum += sample_count(*f.image);
+    if (features->mask()) sum += sample_count(*features->mask());
     return sum;
   }
   uint64_t operator()(const ReportPtr& report) const {
@@ -75,6 +76,8 @@ class ValueWriter {
       (*this)(f.image);
       for (const double w : f.weights) out_.put(w);
     }
+    out_.put(uint8_t(features->mask() != nullptr));
+    if (features->mask()) (*this)(features->mask());
   }
 
   void operator()(const AppearancePtr& appearance) {
@@ -88,6 +91,7 @@ class ValueWriter {
       out_.put(l.scale);
       out_.put(l.retained);
       put_array(l.vectors);
+      put_array(l.usable);
       put_array(l.mean);
       put_array(l.basis);
     }

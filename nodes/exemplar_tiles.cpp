@@ -14,6 +14,15 @@ Param tiles_param() {
           .choices = {"auto", "yes", "no"}};
 }
 
+Port mask_port() {
+  return {.name = "mask",
+          .type = ValueType::image,
+          .help =
+              "where the exemplar may be sampled: above 0.5 (white) it may, elsewhere it does not count and is never "
+              "shown. Of the exemplar's shape, at any size; if it has several channels, the first counts",
+          .optional = true};
+}
+
 bool exemplar_tiles(NodeContext& node, const Material& material) {
   const std::string& tiles = node.text("tiles");
   if (tiles != "auto") return tiles == "yes";

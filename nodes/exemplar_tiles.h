@@ -10,4 +10,7 @@ Param tiles_param();
 /// Its answer for the material. "auto" looks at the borders, and a note says so if they fit.
 bool exemplar_tiles(NodeContext& node, const Material& material);
 
+/// Port "mask": which part of the exemplar counts.
+Port mask_port();
+
 }  // namespace terrazzo

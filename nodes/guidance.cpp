@@ -16,6 +16,7 @@ void compute(NodeContext& node) {
   if (node.number("threshold") > 0) options.threshold = node.number("threshold");
   options.smoothing = node.number("smoothing");
   options.wraps = exemplar_tiles(node, *material);
+  options.mask = node.optional_input<Image>("mask");
   const Size size = material->size();
   const Edges edges = find_edges(*material, options, node.task());
   node.task().check();
@@ -39,7 +40,7 @@ NodeType guidance_node() {
       "as "
       "guidance, it keeps bricks, cracks and joints whole (signed feature distance, Lefebvre & Hoppe 2006; edges from "
       "any map of a material, Rudolph 2018). Look at the edges output to judge the threshold.";
-  t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}};
+  t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}, mask_port()};
   t.outputs = {
       {.name = "distance", .type = ValueType::image, .help = "pixels to the nearest edge, negative inside edges"},
       {.name = "edges", .type = ValueType::image, .help = "the edges, 1 on an edge"}};

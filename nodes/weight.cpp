@@ -9,7 +9,8 @@ namespace {
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const bool wraps = exemplar_tiles(node, *material);
-  node.output("features", weighted_features(*material, node.number_map("weights"), wraps));
+  node.output("features",
+              weighted_features(*material, node.number_map("weights"), wraps, node.optional_input<Image>("mask")));
 }
 
 }  // namespace
@@ -25,7 +26,7 @@ NodeType weight_node() {
       "Oklab, normals as unit vectors; each map is first brought to the same variance, so that 1 means the same for "
       "all. Unless given, base colour counts 1, height and opacity 0.7, normal, metallic, emission and masks 0.5, "
       "roughness, occlusion and specular 0.3.";
-  t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}};
+  t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}, mask_port()};
   t.outputs = {{.name = "features", .type = ValueType::features, .help = "its weighted channels"}};
   t.params = {
       {.name = "weights",

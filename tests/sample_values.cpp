@@ -20,6 +20,7 @@ AppearancePtr sample_appearance() {
     l.size = {16 >> i, 12 >> i};
     for (int64_t p = 0; p < l.size.area(); p++)
       for (auto& v = l.vectors.emplace_back(); auto& c : v) c = int16_t(p * 7 - 100);
+    if (i == 0) l.usable.assign(l.vectors.size(), 1), l.usable.back() = 0;
     l.dimensions = 3;
     l.mean.assign(25 * 2, 0.25f);
     l.basis.assign(3 * 25 * 2, -0.5f);
@@ -62,7 +63,8 @@ struct SameContent {
     return same;
   }
   bool operator()(const FeaturesPtr& a, const FeaturesPtr& b) const {
-    bool same = a->size() == b->size() && a->wraps() == b->wraps() && a->images().size() == b->images().size();
+    bool same = a->size() == b->size() && a->wraps() == b->wraps() && a->images().size() == b->images().size() &&
+                (*this)(a->mask(), b->mask());
     for (size_t i = 0; same && i < a->images().size(); i++)
       same = a->images()[i].weights == b->images()[i].weights && (*this)(a->images()[i].image, b->images()[i].image);
     return same;
@@ -71,8 +73,8 @@ struct SameContent {
     bool same = a->wraps() == b->wraps() && a->channels() == b->channels() && a->levels().size() == b->levels().size();
     for (size_t i = 0; same && i < a->levels().size(); i++) {
       const AppearanceLevel &l = a->levels()[i], &m = b->levels()[i];
-      same = l.size == m.size && l.vectors == m.vectors && l.dimensions == m.dimensions && l.mean == m.mean &&
-             l.basis == m.basis && l.scale == m.scale && l.retained == m.retained;
+      same = l.size == m.size && l.vectors == m.vectors && l.usable == m.usable && l.dimensions == m.dimensions &&
+             l.mean == m.mean && l.basis == m.basis && l.scale == m.scale && l.retained == m.retained;
     }
     return same;
   }
@@ -116,7 +118,7 @@ std::vector<Value> sample_values() {
   std::vector<Report::Figure> figures = {{"distance", 0.25, "lower is better"}, {"kind", std::string("brick"), ""}};
   return {color,
           Material::make("wall", {{"base_color", color}, {"height", height}}),
-          Features::make({7, 5}, {{color, {1, 0.5, 0}}, {height, {2}}}, true),
+          Features::make({7, 5}, {{color, {1, 0.5, 0}}, {height, {2}}}, true, {}, height),
           sample_appearance(),
           sample_index(),
           sample_uv_map(),

@@ -8,6 +8,7 @@
 
 #include "core/analysis/planes.h"
 #include "core/analysis/principal_components.h"
+#include "core/analysis/usable.h"
 #include "core/error.h"
 
 namespace terrazzo {
@@ -50,14 +51,19 @@ void neighbourhood(const ExemplarPlanes& planes, int x, int y, float* out) {
     }
 }
 
-std::vector<float> samples_of(const ExemplarPlanes& planes, int n) {
-  const auto area = size_t(planes.size.area());
+/// `usable`: the pixels whose neighbourhoods may be looked at; empty: all.
+std::vector<float> samples_of(const ExemplarPlanes& planes, const std::vector<uint8_t>& usable, int n) {
+  std::vector<size_t> places;
+  for (size_t i = 0; i < usable.size(); i++)
+    if (usable[i]) places.push_back(i);
+  const size_t area = usable.empty() ? size_t(planes.size.area()) : places.size();
   const size_t count = std::min(area, most_samples);
   std::vector<float> samples(count * n);
   tbb::parallel_for(size_t{0}, count, [&](size_t s) {
     // One sample from each of `count` equal stretches of pixels, at a random place within it.
     const size_t begin = s * area / count, end = (s + 1) * area / count;
-    const size_t at = begin + below(uint32_t(random_bits(planes.channels, s)), uint32_t(end - begin));
+    const size_t drawn = begin + below(uint32_t(random_bits(planes.channels, s)), uint32_t(end - begin));
+    const size_t at = usable.empty() ? drawn : places[drawn];
     neighbourhood(planes, int(at % planes.size.width), int(at / planes.size.width), &samples[s * n]);
   });
   return samples;
@@ -72,12 +78,14 @@ double integer_scale(const std::vector<float>& projected, double deviation) {
   return deviation > 0 ? std::max(fitting, appearance_limit / (5.0 * deviation)) : fitting;
 }
 
-AppearanceLevel make_level(const ExemplarPlanes& planes, const AppearanceOptions& options, const Task& task) {
+AppearanceLevel make_level(const ExemplarPlanes& planes, std::vector<uint8_t> usable, const AppearanceOptions& options,
+                           const Task& task) {
   const int n = window * planes.channels;
-  PrincipalComponents pca = principal_components(samples_of(planes, n), n, appearance_dimensions);
+  PrincipalComponents pca = principal_components(samples_of(planes, usable, n), n, appearance_dimensions);
   task.check();
   AppearanceLevel level;
   level.size = planes.size;
+  level.usable = std::move(usable);
   double kept = 0;
   const double wanted = options.retained_variance * pca.total_variance;
   for (const double v : pca.variances) {
@@ -150,11 +158,13 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
                             size.height, smallest_side));
   const int count = level_count(size);
   ExemplarPlanes planes = weighted_planes(features, task);
-  ExemplarPlanes guides = guidance_planes(guidance, size, features.wraps(), task);
+  ExemplarPlanes guides = guidance_planes(features, guidance, task);
+  const std::vector<uint8_t> allowed = allowed_pixels(features);
   std::vector<AppearanceLevel> levels;
   for (int l = 0; l < count; l++) {
     const double fade = count > 1 ? double(l) / (count - 1) : 1.0;
-    levels.push_back(make_level(joined(planes, guides, options.guidance_weight * fade), options, task));
+    levels.push_back(make_level(joined(planes, guides, options.guidance_weight * fade),
+                                usable_pixels(allowed, size, l, features.wraps()), options, task));
     if (l + 1 < count) {
       planes = halved(planes);
       guides = halved(guides);

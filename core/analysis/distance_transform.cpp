@@ -29,10 +29,10 @@ std::vector<int> column_distances(const std::vector<uint8_t>& mask, Size size, b
   return g;
 }
 
-/// The lower envelope of the parabolas (x - i)^2 + g[i]^2 over one line.
-void envelope(const std::vector<int64_t>& g, std::vector<int64_t>& out) {
+/// The lower envelope of the parabolas (x - i)^2 + g[i]^2 over one line: which parabola is lowest at each x.
+std::vector<int> lowest_parabolas(const std::vector<int64_t>& g) {
   const int n = int(g.size());
-  std::vector<int> site(n), from(n);
+  std::vector<int> site(n), from(n), out(n);
   const auto value = [&](int64_t x, int i) { return (x - i) * (x - i) + g[i] * g[i]; };
   // The first x from which the parabola of u lies below that of i (i < u).
   const auto meets = [&](int i, int u) {
@@ -58,25 +58,47 @@ void envelope(const std::vector<int64_t>& g, std::vector<int64_t>& out) {
     }
   }
   for (int x = n - 1; x >= 0; x--) {
-    out[x] = value(x, site[top]);
+    out[x] = site[top];
     if (x == from[top] && top > 0) top--;
   }
+  return out;
+}
+
+/// Visits every pixel with the nearest set pixel's column, which may lie beyond a border, and its distances along x
+/// and y. `visit(x, y, column, dx, dy)`
+template <typename Visit>
+void for_each_nearest(const std::vector<uint8_t>& mask, Size size, bool wraps, const Visit& visit) {
+  const std::vector<int> g = column_distances(mask, size, wraps, size.width + size.height);
+  tbb::parallel_for(0, size.height, [&](int y) {
+    // Where distances wrap, half a line more on either side holds every site that can be nearest.
+    const int margin = wraps ? (size.width + 1) / 2 : 0;
+    std::vector<int64_t> line(size_t(size.width) + 2 * margin);
+    for (int i = 0; i < int(line.size()); i++) line[i] = g[size_t(y) * size.width + wrap(i - margin, size.width)];
+    const std::vector<int> best = lowest_parabolas(line);
+    for (int x = 0; x < size.width; x++) {
+      const int i = best[x + margin];
+      visit(x, y, i - margin, x + margin - i, line[i]);
+    }
+  });
 }
 
 }  // namespace
 
 std::vector<int64_t> squared_distances(const std::vector<uint8_t>& mask, Size size, bool wraps) {
-  const int far = size.width + size.height;
-  const std::vector<int> g = column_distances(mask, size, wraps, far);
+  const int64_t far = size.width + size.height;
   std::vector<int64_t> out(mask.size());
-  tbb::parallel_for(0, size.height, [&](int y) {
-    // Where distances wrap, half a line more on either side holds every site that can be nearest.
-    const int margin = wraps ? (size.width + 1) / 2 : 0;
-    std::vector<int64_t> line(size_t(size.width) + 2 * margin), best(line.size());
-    for (int i = 0; i < int(line.size()); i++) line[i] = g[size_t(y) * size.width + wrap(i - margin, size.width)];
-    envelope(line, best);
-    for (int x = 0; x < size.width; x++)
-      out[size_t(y) * size.width + x] = std::min<int64_t>(best[x + margin], int64_t{far} * far);
+  for_each_nearest(mask, size, wraps, [&](int x, int y, int, int64_t dx, int64_t dy) {
+    out[size_t(y) * size.width + x] = std::min(dx * dx + dy * dy, far * far);
+  });
+  return out;
+}
+
+std::vector<uint32_t> nearest_set(const std::vector<uint8_t>& mask, Size size, bool wraps) {
+  std::vector<uint32_t> out(mask.size());
+  const auto at = [&](int x, int y) { return size_t(wrap(y, size.height)) * size.width + wrap(x, size.width); };
+  for_each_nearest(mask, size, wraps, [&](int x, int y, int column, int64_t, int64_t dy) {
+    const bool above = (wraps || y - dy >= 0) && mask[at(column, int(y - dy))];
+    out[at(x, y)] = uint32_t(at(column, int(above ? y - dy : y + dy)));
   });
   return out;
 }

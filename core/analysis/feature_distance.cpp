@@ -6,6 +6,7 @@
 
 #include "core/analysis/distance_transform.h"
 #include "core/analysis/planes.h"
+#include "core/analysis/usable.h"
 #include "core/analysis/weighting.h"
 #include "core/distribution.h"
 
@@ -77,10 +78,14 @@ std::vector<float> gradient_magnitude(const ExemplarPlanes& p) {
 }  // namespace
 
 Edges find_edges(const Material& material, const EdgeOptions& options, const Task& task) {
-  const FeaturesPtr features = weighted_features(material, weights_of_chosen(material, options.maps), options.wraps);
+  const FeaturesPtr features =
+      weighted_features(material, weights_of_chosen(material, options.maps), options.wraps, options.mask);
   const ExemplarPlanes planes = smoothed(weighted_planes(*features, task), options.smoothing);
   Edges edges;
   edges.strength = gradient_magnitude(planes);
+  const std::vector<uint8_t> allowed = allowed_pixels(*features);
+  for (size_t i = 0; i < allowed.size(); i++)
+    if (!allowed[i]) edges.strength[i] = 0;
   // Relative to nearly the strongest: a single speck must not set the scale.
   std::vector<float> sorted = edges.strength;
   const size_t strong = sorted.size() - 1 - sorted.size() / 200;

@@ -13,6 +13,7 @@ struct EdgeOptions {
   std::optional<double> threshold{};
   double smoothing = 1;  ///< standard deviation of the Gaussian before differentiation, in pixels
   bool wraps = false;    ///< the exemplar tiles
+  ImagePtr mask{};       ///< where its first channel is 0.5 or less there are no edges; of the maps' shape; null: none
 };
 
 struct Edges {

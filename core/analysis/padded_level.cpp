@@ -1,5 +1,7 @@
 #include "core/analysis/padded_level.h"
 
+#include "core/analysis/distance_transform.h"
+
 namespace terrazzo {
 
 PaddedLevel::PaddedLevel(const AppearanceLevel& level, bool wraps)
@@ -11,6 +13,10 @@ PaddedLevel::PaddedLevel(const AppearanceLevel& level, bool wraps)
       const int v = wraps ? wrap(y, size_.height) : std::clamp(y, 0, size_.height - 1);
       vectors_.push_back(level.vectors[size_t(v) * size_.width + u]);
     }
+  if (level.usable.empty()) return;
+  nearest_usable_ = nearest_set(level.usable, size_, wraps);
+  for (size_t i = 0; i < level.usable.size(); i++)
+    if (level.usable[i]) usable_.push_back(uint32_t(i));
 }
 
 }  // namespace terrazzo

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/analysis/distance_transform.h"
+#include "core/analysis/usable.h"
 #include "core/error.h"
 
 namespace terrazzo {
@@ -19,18 +21,24 @@ struct Moments {
   double deviation = 0;  ///< root of the weighted channels' summed variance
 };
 
-Moments moments(const Image& image, const std::vector<double>& weights) {
+/// `allowed`: which pixels count; empty: all.
+Moments moments(const Image& image, const std::vector<double>& weights, const std::vector<uint8_t>& allowed) {
   const int channels = image.channels();
+  int64_t count = 0;
   std::vector<double> sum(channels, 0.0), squares(channels, 0.0);
   for_each_strip(image, [&](const Rect& r, const float* v) {
-    for (int64_t i = 0; i < r.area(); i++)
+    const int64_t first = int64_t{r.y} * r.width;
+    for (int64_t i = 0; i < r.area(); i++) {
+      if (!allowed.empty() && !allowed[first + i]) continue;
+      count++;
       for (int c = 0; c < channels; c++) {
         const double d = v[i * channels + c];
         sum[c] += d;
         squares[c] += d * d;
       }
+    }
   });
-  const auto n = double(image.size().area());
+  const auto n = double(count);
   Moments m;
   double variance = 0;
   for (int c = 0; c < channels; c++) {
@@ -42,8 +50,9 @@ Moments moments(const Image& image, const std::vector<double>& weights) {
 }
 
 /// Writes an image's weighted channels into the planes from channel `first` on.
-void add_image(const Image& image, const std::vector<double>& weights, ExemplarPlanes& planes, int first) {
-  const Moments m = moments(image, weights);
+void add_image(const Image& image, const std::vector<double>& weights, const std::vector<uint8_t>& allowed,
+               ExemplarPlanes& planes, int first) {
+  const Moments m = moments(image, weights, allowed);
   const double unit = 1.0 / std::max(m.deviation, least_deviation);
   const int channels = image.channels();
   for_each_strip(image, [&](const Rect& r, const float* v) {
@@ -56,6 +65,15 @@ void add_image(const Image& image, const std::vector<double>& weights, ExemplarP
   });
 }
 
+/// Pixels that are not allowed continue the nearest that is, so that they do not show through at coarse levels.
+void fill_forbidden(ExemplarPlanes& planes, const std::vector<uint8_t>& allowed) {
+  if (allowed.empty() || planes.channels == 0) return;
+  const std::vector<uint32_t> nearest = nearest_set(allowed, planes.size, planes.wraps);
+  const int n = planes.channels;
+  for (size_t i = 0; i < nearest.size(); i++)
+    if (!allowed[i]) std::copy_n(&planes.values[size_t(nearest[i]) * n], n, &planes.values[i * n]);
+}
+
 ExemplarPlanes empty(Size size, int channels, bool wraps) {
   return {size, channels, wraps, std::vector<float>(size_t(size.area()) * channels)};
 }
@@ -63,17 +81,21 @@ ExemplarPlanes empty(Size size, int channels, bool wraps) {
 }  // namespace
 
 ExemplarPlanes weighted_planes(const Features& features, const Task& task) {
+  const std::vector<uint8_t> allowed = allowed_pixels(features);
   ExemplarPlanes planes = empty(features.size(), features.channel_count(), features.wraps());
   int first = 0;
   for (const FeatureImage& f : features.images()) {
     task.check();
-    add_image(*f.image, f.weights, planes, first);
+    add_image(*f.image, f.weights, allowed, planes, first);
     for (const double w : f.weights) first += w > 0;
   }
+  fill_forbidden(planes, allowed);
   return planes;
 }
 
-ExemplarPlanes guidance_planes(const std::vector<ImagePtr>& guidance, Size size, bool wraps, const Task& task) {
+ExemplarPlanes guidance_planes(const Features& features, const std::vector<ImagePtr>& guidance, const Task& task) {
+  const Size size = features.size();
+  const std::vector<uint8_t> allowed = allowed_pixels(features);
   int channels = 0;
   for (const ImagePtr& g : guidance) {
     if (g->size() != size)
@@ -81,13 +103,14 @@ ExemplarPlanes guidance_planes(const std::vector<ImagePtr>& guidance, Size size,
                                           size.width, size.height, g->width(), g->height()));
     channels += g->channels();
   }
-  ExemplarPlanes planes = empty(size, channels, wraps);
+  ExemplarPlanes planes = empty(size, channels, features.wraps());
   int first = 0;
   for (const ImagePtr& g : guidance) {
     task.check();
-    add_image(*g, std::vector<double>(g->channels(), 1.0), planes, first);
+    add_image(*g, std::vector<double>(g->channels(), 1.0), allowed, planes, first);
     first += g->channels();
   }
+  fill_forbidden(planes, allowed);
   return planes;
 }
 

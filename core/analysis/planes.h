@@ -21,11 +21,13 @@ struct ExemplarPlanes {
 };
 
 /// Pulls the features' weighted channels. Every image is first brought to unit total variance, so that a weight of 1
-/// means the same for each; nearly constant images are not blown up beyond what their 8-bit noise is worth.
+/// means the same for each; nearly constant images are not blown up beyond what their 8-bit noise is worth. What the
+/// features' mask forbids does not count; such pixels continue the nearest one that is allowed.
 ExemplarPlanes weighted_planes(const Features& features, const Task& task);
 
-/// The same for guidance images (signed feature distances, control maps), which come with one weight.
-ExemplarPlanes guidance_planes(const std::vector<ImagePtr>& guidance, Size size, bool wraps, const Task& task);
+/// The same for guidance images (signed feature distances, control maps), which come with one weight. They must have
+/// the features' size.
+ExemplarPlanes guidance_planes(const Features& features, const std::vector<ImagePtr>& guidance, const Task& task);
 
 /// Half the size (rounded up), filtered with the binomial kernel 1 3 3 1 in each direction. Normals are averaged as
 /// vectors: their length then tells how much they agree.

@@ -32,6 +32,7 @@ class LevelSearch {
         away_(std::max(3, std::min(level.size.width, level.size.height) / 20)) {}
 
   Size size() const { return level_.size(); }
+  std::array<int, 2> place(uint64_t bits) const { return level_.place(bits); }
 
   /// Distance of the surroundings: nine vectors, two pixels apart, which together see 9x9 pixels.
   int distance(int x, int y, int u, int v, int limit) const {
@@ -106,7 +107,8 @@ Sets started(const LevelSearch& level, int per_pixel, const Sets& parent, Size p
     const int random_places = parent.empty() ? 8 * per_pixel : per_pixel;
     for (int k = 0; k < random_places; k++) {
       const uint64_t r = random_bits(1, x, y, k);
-      level.offer(set, x, y, int(below(uint32_t(r), size.width)), int(below(uint32_t(r >> 32), size.height)));
+      const auto [u, v] = level.place(r);
+      level.offer(set, x, y, u, v);
     }
   });
   return sets;

@@ -125,7 +125,8 @@ double default_weight(Semantic semantic) {
   return 0;
 }
 
-FeaturesPtr weighted_features(const Material& material, const NumberMap& weights, bool wraps) {
+FeaturesPtr weighted_features(const Material& material, const NumberMap& weights, bool wraps, const ImagePtr& mask) {
+  if (mask) require_shape("mask", *mask, "the exemplar", material.size());
   for (const auto& [name, unused] : weights)
     if (!material.find(name))
       throw Error("weights", fmt::format("there is no map \"{}\"; the material has {}", name, material.map_names()));
@@ -145,7 +146,8 @@ FeaturesPtr weighted_features(const Material& material, const NumberMap& weights
     if (std::any_of(channel_weights.begin(), channel_weights.end(), [](double w) { return w > 0; }))
       images.push_back({image, channel_weights});
   }
-  return Features::make(material.size(), std::move(images), wraps);
+  return Features::make(material.size(), std::move(images), wraps, {},
+                        mask ? nearest_at_size(mask, material.size()) : nullptr);
 }
 
 NumberMap weights_of_chosen(const Material& material, const std::vector<std::string>& maps) {

@@ -14,8 +14,10 @@ double default_weight(Semantic semantic);
 
 /// The weighted channels of a material. `weights`: per map name one number, or one per channel of the map in analysis
 /// space; maps not named get `default_weight`. Maps smaller than the largest are sampled at its size. `wraps`: the
-/// exemplar tiles. Throws Error naming the maps if a weight is for a map the material does not have.
-FeaturesPtr weighted_features(const Material& material, const NumberMap& weights, bool wraps);
+/// exemplar tiles. `mask`: where its first channel exceeds 0.5 the exemplar may be sampled, at any size of the same
+/// shape; null: everywhere. Throws Error naming the maps if a weight is for a map the material does not have.
+FeaturesPtr weighted_features(const Material& material, const NumberMap& weights, bool wraps,
+                              const ImagePtr& mask = nullptr);
 
 /// Weights for the maps an analysis was told to look at: 1 for each of `maps` and 0 for the others; the defaults if
 /// none is named, or 1 for all if those are all 0. Throws Error about "maps" if the material lacks one.

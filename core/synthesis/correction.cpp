@@ -15,6 +15,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Corrects single pixels: gathers what surrounds them and picks the best candidate. One per thread and row.
+/// `steered`: the level has a control.
+template <bool steered>
 class PixelCorrector {
  public:
   PixelCorrector(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
@@ -30,6 +32,7 @@ class PixelCorrector {
     gather(x, y);
     x_ = x;
     y_ = y;
+    if constexpr (steered) target_ = level_.control->target(int64_t{y} * field_.size.width + x);
     seen_ = 0;
     best_cost_ = ~uint64_t{0};
     best_ = field_.at(x, y);
@@ -45,8 +48,7 @@ class PixelCorrector {
     }
     for (int k = 0; k < pass_.random_candidates; k++) {
       const uint64_t r = random_bits(pass_.seed, level_.level, pass_.pass, x, y, k);
-      int u = int(below(uint32_t(r), level_.exemplar.size().width));
-      int v = int(below(uint32_t(r >> 32), level_.exemplar.size().height));
+      auto [u, v] = level_.exemplar.place(r);
       level_.phase.snap(x, y, u, v);
       consider(u, v, unit_factor);
     }
@@ -99,7 +101,7 @@ class PixelCorrector {
   }
 
   HWY_ATTR void consider(int x, int y, uint32_t factor) {
-    level_.exemplar.settle(x, y);
+    if (!level_.exemplar.settles(x, y)) return;
     const uint32_t id = uint32_t(y) << 16 | uint32_t(x);
     for (int i = 0; i < seen_; i++)
       if (seen_ids_[i] == id) return;
@@ -108,7 +110,12 @@ class PixelCorrector {
     factor += factor / 2 * repeats(x, y);
     if (level_.phase.active()) factor = uint32_t(factor * level_.phase.penalty(x, y, x_, y_));
     const uint64_t limit = best_cost_ / factor;
-    const uint64_t cost = uint64_t{distance(x, y, limit)} * factor;
+    uint64_t off_target = 0;
+    if constexpr (steered) {
+      off_target = level_.control->cost(x, y, target_) * uint64_t(count_);
+      if (off_target > limit) return;
+    }
+    const uint64_t cost = (distance(x, y, limit - off_target) + off_target) * factor;
     if (cost < best_cost_) {
       best_cost_ = cost;
       best_ = {uint16_t(x), uint16_t(y)};
@@ -162,6 +169,7 @@ class PixelCorrector {
   const Occupancy& occupancy_;
   int taps_;
   int x_ = 0, y_ = 0;
+  const uint8_t* target_ = nullptr;
   int ring_count_ = 0;
   std::array<ExemplarPixel, 8> ring_{};
   int count_ = 0;
@@ -175,11 +183,19 @@ class PixelCorrector {
   alignas(16) std::array<AppearanceVector, most_taps> wanted_{};
 };
 
+template <bool steered>
+HWY_ATTR void correct_pixels(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
+                             const Occupancy& occupancy, int first, int y, ExemplarPixel* out) {
+  PixelCorrector<steered> corrector(field, level, pass, occupancy);
+  for (int x = first; x < field.size.width; x += 2, out++)
+    *out = level.fixed.at(size_t(y) * field.size.width + x) ? field.at(x, y) : corrector.best(x, y);
+}
+
 /// Every second pixel of a row, from `first` on, into `out`.
 HWY_ATTR void correct_row(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
                           const Occupancy& occupancy, int first, int y, ExemplarPixel* out) {
-  PixelCorrector corrector(field, level, pass, occupancy);
-  for (int x = first; x < field.size.width; x += 2) *out++ = corrector.best(x, y);
+  const auto correct = level.control ? correct_pixels<true> : correct_pixels<false>;
+  correct(field, level, pass, occupancy, first, y, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -220,7 +236,7 @@ void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& p
   const Size size = field.size;
   std::vector<ExemplarPixel> next;
   for (int sub = 0; sub < 4; sub++) {
-    occupancy.recount(field);
+    occupancy.recount(field, level.fixed);
     const int first_x = (sub ^ pass.pass) & 1, first_y = sub >> 1;
     const int columns = (size.width - first_x + 1) / 2, rows = (size.height - first_y + 1) / 2;
     if (columns <= 0 || rows <= 0) continue;

@@ -6,7 +6,9 @@
 
 #include "core/analysis/padded_level.h"
 #include "core/lattice.h"
+#include "core/synthesis/control.h"
 #include "core/synthesis/field.h"
+#include "core/synthesis/kept.h"
 #include "core/task.h"
 
 namespace terrazzo {
@@ -26,9 +28,11 @@ const Window& sparse_window();
 /// more: above 1 where use exceeds an even share.
 class Occupancy {
  public:
-  /// `weight`: how much a doubled use adds to the cost; 0 turns the term off.
-  Occupancy(Size exemplar, double weight);
-  void recount(const Field& field);
+  /// `weight`: how much a doubled use adds to the cost; 0 turns the term off. `demand`: how often each exemplar pixel
+  /// is wanted, relative to the others; empty: all alike.
+  Occupancy(Size exemplar, double weight, const std::vector<double>& demand = {});
+  /// Fixed pixels do not count.
+  void recount(const Field& field, const FixedPixels& fixed);
   bool active() const { return weight_ > 0; }
   uint32_t factor(int x, int y) const { return factors_[size_t(y / cell_) * columns_ + x / cell_]; }
 
@@ -37,6 +41,7 @@ class Occupancy {
   int cell_;
   int columns_;
   int rows_;
+  std::vector<double> shares_;  // of all use, by cell; empty: all alike
   std::vector<uint32_t> factors_;
 };
 
@@ -48,6 +53,8 @@ struct CorrectionLevel {
   int level = 0;  ///< 0 = finest; part of every random choice
   bool tile_x = false, tile_y = false;
   LatticePhase phase;  ///< of a regular exemplar: every output pixel keeps its place in the lattice's cell
+  FixedPixels fixed;   ///< pixels that are not corrected
+  const LevelControl* control = nullptr;  ///< null: nothing steers
 };
 
 struct CorrectionPass {

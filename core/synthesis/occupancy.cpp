@@ -4,19 +4,35 @@
 
 namespace terrazzo {
 
-Occupancy::Occupancy(Size exemplar, double weight)
+// Pixels of a cell that hardly ever should be used: keeps the excess finite.
+constexpr double least_expected = 1e-6;
+
+Occupancy::Occupancy(Size exemplar, double weight, const std::vector<double>& demand)
     : weight_(weight),
       cell_(std::max(2, std::max(exemplar.width, exemplar.height) / 16)),
       columns_((exemplar.width + cell_ - 1) / cell_),
       rows_((exemplar.height + cell_ - 1) / cell_),
-      factors_(size_t(columns_) * rows_, unit_factor) {}
+      factors_(size_t(columns_) * rows_, unit_factor) {
+  if (demand.empty()) return;
+  shares_.assign(factors_.size(), 0.0);
+  double sum = 0;
+  for (const double d : demand) sum += d;
+  for (size_t i = 0; i < demand.size(); i++)
+    shares_[size_t(int(i) / exemplar.width / cell_) * columns_ + int(i) % exemplar.width / cell_] += demand[i] / sum;
+}
 
-void Occupancy::recount(const Field& field) {
+void Occupancy::recount(const Field& field, const FixedPixels& fixed) {
   if (!active()) return;
   std::vector<int64_t> use(factors_.size(), 0);
-  for (const ExemplarPixel p : field.pixels) use[size_t(p.y / cell_) * columns_ + p.x / cell_]++;
-  const double expected = double(field.size.area()) / double(factors_.size());
+  int64_t free = 0;
+  for (size_t i = 0; i < field.pixels.size(); i++) {
+    if (fixed.at(i)) continue;
+    use[size_t(field.pixels[i].y / cell_) * columns_ + field.pixels[i].x / cell_]++;
+    free++;
+  }
+  const double even = std::max(least_expected, double(free) / double(factors_.size()));
   for (size_t i = 0; i < use.size(); i++) {
+    const double expected = shares_.empty() ? even : std::max(least_expected, double(free) * shares_[i]);
     const double excess = std::clamp(double(use[i]) / expected - 1.0, 0.0, 4.0);
     factors_[i] = uint32_t(unit_factor * (1.0 + weight_ * excess));
   }

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/appearance.h"
+#include "core/synthesis/control.h"
+#include "core/synthesis/kept.h"
 #include "core/task.h"
 #include "core/uv_map.h"
 
@@ -19,11 +22,17 @@ struct SynthesisOptions {
   double evenness = 0.7;
   /// Per level, coarsest first, in that level's exemplar pixels; missing levels have none.
   std::vector<double> jitter{};
+  /// What steers the exemplar's parts to their places.
+  std::vector<Control> controls{};
+  /// Output pixels that are there already: they stay bit for bit, and the others continue them.
+  KeptPixels kept{};
+  /// The output position of the kept pixels' (0, 0): where a lattice starts.
+  std::array<int, 2> origin{};
 };
 
 /// Synthesizes a uv map coarse to fine (Lefebvre & Hoppe 2005 and 2006): random blocks of the exemplar at the coarsest
 /// level, then per level upsampling, jitter and correction passes, most of them where pixels are few. The result is a
-/// function of the index and the options alone. Throws Cancelled.
+/// function of the index and the options alone. Throws Cancelled, and Error if a control does not suit.
 UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const Task& task);
 
 }  // namespace terrazzo

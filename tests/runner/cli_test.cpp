@@ -417,6 +417,23 @@ TEST_CASE("new writes a commented graph that runs") {
   CHECK(w.run({"new", "nowhere", "-o", "x.json"}).code == 1);
 }
 
+TEST_CASE("the stock graphs that steer synthesis run") {
+  const Workplace w;
+  write_picture(w.path / "maps/stone_basecolor.png", 5);
+  const std::string graphs = TERRAZZO_SOURCE_DIR "/graphs/", picture = "maps/stone_basecolor.png";
+  const auto makes = [&](const std::string& graph, std::vector<std::string> settings) {
+    std::vector<std::string> args = {"run",         graphs + graph + ".json", "--set", "material=maps", "--set",
+                                     "out=" + graph};
+    for (const std::string& s : settings) args.insert(args.end(), {"--set", s});
+    const ProgramRun run = w.run(args);
+    CHECK_MESSAGE(run.code == 0, run.err);
+    CHECK(fs::exists(w.path / graph / "base_color.png"));
+  };
+  makes("make_tileable", {"border=4"});
+  makes("inpaint", {"mask=" + picture});
+  makes("transfer", {"target=" + picture, "size=40x40"});
+}
+
 TEST_CASE("watching runs the graph again when a file that it reads is touched") {
   const Workplace w;
   StartedProgram program(w.path, {"run", "soft.json", "--watch", "--progress", "none"});

@@ -1,5 +1,6 @@
 #include "core/analysis/distance_transform.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -30,7 +31,7 @@ std::vector<int64_t> by_hand(const std::vector<uint8_t>& mask, Size size, bool w
 
 }  // namespace
 
-TEST_CASE("squared distances are exact, with and without wrapping, for any shape and density") {
+TEST_CASE("squared distances and nearest set pixels are exact, with and without wrapping, for any shape and density") {
   for (const Size size : {Size{1, 1}, Size{7, 1}, Size{1, 6}, Size{13, 9}, Size{16, 24}})
     for (const int one_in : {2, 9, 60})
       for (const bool wraps : {false, true}) {
@@ -40,7 +41,16 @@ TEST_CASE("squared distances are exact, with and without wrapping, for any shape
         CAPTURE(size.height);
         CAPTURE(one_in);
         CAPTURE(wraps);
-        CHECK(squared_distances(mask, size, wraps) == by_hand(mask, size, wraps));
+        const std::vector<int64_t> expected = by_hand(mask, size, wraps);
+        CHECK(squared_distances(mask, size, wraps) == expected);
+        if (std::count(mask.begin(), mask.end(), 0) == size.area()) continue;
+        const std::vector<uint32_t> nearest = nearest_set(mask, size, wraps);
+        for (int i = 0; i < size.area(); i++) {
+          std::vector<uint8_t> alone(mask.size());
+          alone[nearest[i]] = 1;
+          REQUIRE(mask[nearest[i]]);
+          REQUIRE(by_hand(alone, size, wraps)[i] == expected[i]);
+        }
       }
 }
 

@@ -48,3 +48,15 @@ TEST_CASE("the guidance node gives a distance and its edges") {
   CHECK(run.get<Image>("distance")->size() == Size{40, 40});
   CHECK(run.get<Image>("edges")->info().semantic == Semantic::mask);
 }
+
+TEST_CASE("there are no edges where the mask forbids, nor around it") {
+  const ImagePtr open = make_image({40, 40}, 1, [](int x, int y, int) { return x < 20 || y < 20 ? 1.f : 0.f; });
+  const ImagePtr flat = make_image(
+      {40, 40}, 1, [](int x, int y, int) { return x < 20 || y < 20 ? float(x % 10 == 0) : 9.f; }, Semantic::height);
+  const NodeRun run = run_node("guidance", {{"threshold", 0.3}}, {{"material", {flat}}, {"mask", {open}}});
+  const std::vector<float> edges = run.get<Image>("edges")->pixels();
+  for (int y = 20; y < 40; y++)
+    for (int x = 20; x < 40; x++) CHECK(edges[y * 40 + x] == 0);
+  CHECK(edges[19 * 40 + 36] == 0);
+  CHECK(edges[25 * 40 + 10 + 1] == 1);
+}

@@ -1,0 +1,258 @@
+#include "core/synthesis/control.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/distribution.h"
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/image_ops.h"
+#include "core/resample.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr size_t most_labels = 32;
+// What the largest difference of values costs, relative to missing a label.
+constexpr double values_factor = 8;
+
+using Plane = std::vector<float>;
+
+/// The control's plain numbers at another size.
+ImagePtr values_at_size(const ImagePtr& image, Size size, const Task& task) {
+  ImageInfo info = image->info();
+  info.semantic = Semantic::data;
+  info.color_space = "raw";
+  const ImagePtr plain = Image::redescribed(image, info);
+  if (image->size() == size) return materialized(plain, task);
+  info.size = size;
+  const AxisFilter across = scaling_filter("triangle", image->width(), size.width);
+  const AxisFilter down = scaling_filter("triangle", image->height(), size.height);
+  return materialized(filtered(plain, info, Digest{}, across, down, Outside::clamp), task);
+}
+
+/// Puts bytes made from each pixel's values into channels [first, first + count) of the planes.
+template <typename Encode>
+void put(const Image& image, ControlPlanes& planes, int first, const Encode& encode) {
+  const float* values = image.in_memory();
+  tbb::parallel_for(0, planes.size.height, [&](int y) {
+    for (int x = 0; x < planes.size.width; x++) {
+      const int64_t i = int64_t{y} * planes.size.width + x;
+      encode(values + i * image.channels(), &planes.values[size_t(i) * planes.channels + first]);
+    }
+  });
+}
+
+/// How a channel's values become bytes.
+struct ByteScale {
+  double low, high;
+  uint8_t operator()(double v) const {
+    return uint8_t(std::floor(255 * std::clamp((v - low) / (high - low), 0.0, 1.0) + 0.5));
+  }
+};
+
+constexpr double least_range = 1.0 / 255;
+
+void put_values(const Control& control, ControlPlanes& exemplar, ControlPlanes& target, int first, const Task& task) {
+  const ImagePtr has = values_at_size(control.exemplar, exemplar.size, task);
+  const ImagePtr wants = values_at_size(control.target, target.size, task);
+  const std::vector<Distribution> own = Distribution::of(*has, task), wanted = Distribution::of(*wants, task);
+  std::vector<ByteScale> scales;
+  std::vector<Curve> curves;
+  for (size_t c = 0; c < own.size(); c++) {
+    double low = own[c].min(), high = own[c].max();
+    if (control.match == Control::Match::none) {
+      low = std::min<double>(low, wanted[c].min());
+      high = std::max<double>(high, wanted[c].max());
+    }
+    scales.push_back({low, std::max(high, low + least_range)});
+    if (control.match == Control::Match::histogram)
+      curves.push_back(matching_curve(wanted[c], own[c]));
+    else if (control.match == Control::Match::range)
+      curves.push_back(
+          Curve({wanted[c].min(), std::max<double>(wanted[c].max(), wanted[c].min() + least_range)}, {low, high}));
+  }
+  put(*has, exemplar, first, [&](const float* in, uint8_t* out) {
+    for (size_t c = 0; c < scales.size(); c++) out[c] = scales[c](in[c]);
+  });
+  put(*wants, target, first, [&](const float* in, uint8_t* out) {
+    for (size_t c = 0; c < scales.size(); c++) out[c] = scales[c](curves.empty() ? in[c] : curves[c](in[c]));
+  });
+}
+
+/// A label's value in 255ths.
+using Label = std::array<int, 4>;
+
+Label label_of(const float* values, int channels) {
+  Label label{};
+  for (int c = 0; c < channels; c++) label[c] = int(std::floor(std::clamp(double(values[c]), -1e6, 1e6) * 255 + 0.5));
+  return label;
+}
+
+std::vector<Label> labels_of(const Image& image) {
+  std::map<Label, int> found;
+  const float* values = image.in_memory();
+  for (int64_t i = 0; i < image.size().area(); i++) {
+    found.try_emplace(label_of(values + i * image.channels(), image.channels()));
+    if (found.size() > most_labels)
+      throw Error("exemplar_control",
+                  fmt::format("expected at most {} different labels, found more: this looks like values rather than "
+                              "labels; use mode \"values\", or flatten it with \"threshold\" or \"cluster\"",
+                              most_labels));
+  }
+  std::vector<Label> labels;
+  for (const auto& [label, unused] : found) labels.push_back(label);
+  return labels;
+}
+
+size_t nearest_label(const std::vector<Label>& labels, const Label& to) {
+  size_t best = 0;
+  int64_t least = std::numeric_limits<int64_t>::max();
+  for (size_t i = 0; i < labels.size(); i++) {
+    int64_t sum = 0;
+    for (size_t c = 0; c < to.size(); c++) sum += int64_t{labels[i][c] - to[c]} * (labels[i][c] - to[c]);
+    if (sum >= least) continue;
+    least = sum;
+    best = i;
+  }
+  return best;
+}
+
+void put_labels(const Image& image, const std::vector<Label>& labels, ControlPlanes& planes, int first) {
+  put(image, planes, first,
+      [&](const float* in, uint8_t* out) { out[nearest_label(labels, label_of(in, image.channels()))] = 255; });
+}
+
+ControlPlanes empty(Size size, int channels) {
+  return {size, channels, std::vector<uint8_t>(size_t(size.area()) * channels)};
+}
+
+/// The rounded mean of the up to four pixels below.
+ControlPlanes halved(const ControlPlanes& in) {
+  ControlPlanes out = empty({(in.size.width + 1) / 2, (in.size.height + 1) / 2}, in.channels);
+  tbb::parallel_for(0, out.size.height, [&](int y) {
+    const int below[2] = {2 * y, std::min(2 * y + 1, in.size.height - 1)};
+    for (int x = 0; x < out.size.width; x++) {
+      const int beside[2] = {2 * x, std::min(2 * x + 1, in.size.width - 1)};
+      for (int c = 0; c < in.channels; c++) {
+        int sum = 2;
+        for (const int v : below)
+          for (const int u : beside) sum += in.at(int64_t{v} * in.size.width + u)[c];
+        out.values[(size_t(y) * out.size.width + x) * out.channels + c] = uint8_t(sum / 4);
+      }
+    }
+  });
+  return out;
+}
+
+void check(const Control& control, Size exemplar) {
+  require_shape("exemplar_control", *control.exemplar, "the exemplar", exemplar);
+  if (control.exemplar->channels() != control.target->channels())
+    throw Error("target", fmt::format("expected as many channels as \"exemplar_control\", {}; found {}; put "
+                                      "\"grayscale\" before both, say",
+                                      describe(*control.exemplar), describe(*control.target)));
+}
+
+/// The mean distance of appearance vectors that have nothing to do with each other.
+double typical_distance(const PaddedLevel& level) {
+  constexpr int pairs = 1024;
+  int64_t sum = 0;
+  for (int i = 0; i < pairs; i++) {
+    const auto [x, y] = level.place(random_bits(31, i));
+    const auto [u, v] = level.place(random_bits(32, i));
+    sum += squared_distance(*level.at(x, y), *level.at(u, v));
+  }
+  return double(sum) / pairs;
+}
+
+}  // namespace
+
+ControlPyramid::ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size output, int levels,
+                               const Task& task) {
+  if (controls.empty()) return;
+  int channels = 0;
+  std::vector<ImagePtr> label_images;
+  std::vector<std::vector<Label>> labels;
+  for (const Control& control : controls) {
+    check(control, exemplar);
+    const bool is_labels = control.mode == Control::Mode::labels;
+    label_images.push_back(is_labels ? materialized(nearest_at_size(control.exemplar, exemplar), task) : nullptr);
+    labels.push_back(is_labels ? labels_of(*label_images.back()) : std::vector<Label>{});
+    const int count = is_labels ? int(labels.back().size()) : control.exemplar->channels();
+    parts_.push_back({channels, count, control.strength, is_labels});
+    channels += count;
+  }
+  exemplar_.push_back(terrazzo::empty(exemplar, channels));
+  target_.push_back(terrazzo::empty(output, channels));
+  for (size_t i = 0; i < controls.size(); i++) {
+    task.check();
+    if (label_images[i]) {
+      put_labels(*label_images[i], labels[i], exemplar_[0], parts_[i].first);
+      put_labels(*materialized(nearest_at_size(controls[i].target, output), task), labels[i], target_[0],
+                 parts_[i].first);
+    } else {
+      put_values(controls[i], exemplar_[0], target_[0], parts_[i].first, task);
+    }
+  }
+  for (int l = 1; l < levels; l++) {
+    exemplar_.push_back(halved(exemplar_.back()));
+    target_.push_back(halved(target_.back()));
+  }
+}
+
+LevelControl::LevelControl(const ControlPyramid& pyramid, int level, const PaddedLevel& exemplar)
+    : exemplar_(pyramid.exemplar(level)), target_(pyramid.target(level)) {
+  const double typical = typical_distance(exemplar);
+  for (const ControlPyramid::Part& part : pyramid.parts()) {
+    // Two labels differ in two channels.
+    const double whole = 255.0 * 255 * (part.labels ? 2 : part.count);
+    const double factor = part.strength * typical * (part.labels ? 1 : values_factor) / whole;
+    const double weight = std::min(factor * (1 << weight_bits), 1e9);
+    parts_.push_back({part.first, part.first + part.count, uint64_t(std::floor(weight + 0.5)),
+                      part.labels       ? 1
+                      : part.count == 1 ? 4
+                                        : 2});
+    influence_ = std::max(influence_, std::min(1.0, part.strength));
+  }
+}
+
+uint64_t LevelControl::key(const uint8_t* values) const {
+  uint64_t key = 0;
+  for (const Part& part : parts_)
+    for (int c = part.first; c < part.end; c++) key = random_bits(key, values[c] >> (8 - part.bin_bits));
+  return key;
+}
+
+std::vector<double> LevelControl::demand(const std::vector<uint8_t>& usable) const {
+  struct Counts {
+    int64_t has = 0, wants = 0;
+  };
+  // Pixels that nothing like is wanted may still be needed in between.
+  constexpr double least = 0.05;
+  std::map<uint64_t, Counts> bins;
+  std::vector<double> demand(size_t(exemplar_.size.area()));
+  const auto is_usable = [&](size_t i) { return usable.empty() || usable[i]; };
+  int64_t has = 0, wants = 0;
+  for (size_t i = 0; i < demand.size(); i++)
+    if (is_usable(i)) bins[key(exemplar_.at(int64_t(i)))].has++, has++;
+  for (int64_t i = 0; i < target_.size.area(); i++) {
+    const auto bin = bins.find(key(target_.at(i)));
+    if (bin != bins.end()) bin->second.wants++, wants++;
+  }
+  for (size_t i = 0; i < demand.size(); i++) {
+    if (!is_usable(i)) continue;
+    const Counts& bin = bins.at(key(exemplar_.at(int64_t(i))));
+    const double ratio = wants > 0 ? double(bin.wants) / double(wants) * double(has) / double(bin.has) : 1.0;
+    demand[i] = 1 + influence_ * (std::max(least, ratio) - 1);
+  }
+  return demand;
+}
+
+}  // namespace terrazzo

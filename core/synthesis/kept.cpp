@@ -1,0 +1,31 @@
+#include "core/synthesis/kept.h"
+
+#include <algorithm>
+
+namespace terrazzo {
+
+FixedPixels::FixedPixels(const KeptPixels& kept, Size output, int level, Size exemplar) {
+  if (kept.empty()) return;
+  const int block = 1 << level, middle = block / 2;
+  const Size size{(output.width + block - 1) / block, (output.height + block - 1) / block};
+  fixed_.assign(size_t(size.area()), 1);
+  pixels_.resize(fixed_.size());
+  for (int y = 0; y < output.height; y++)
+    for (int x = 0; x < output.width; x++)
+      if (!kept.keep[size_t(y) * output.width + x]) fixed_[size_t(y / block) * size.width + x / block] = 0;
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      // The middle of what lies below tells best where in the exemplar the pixel is.
+      const int u = std::min(x * block + middle, output.width - 1), v = std::min(y * block + middle, output.height - 1);
+      const ExemplarPixel p = kept.pixels[size_t(v) * output.width + u];
+      pixels_[size_t(y) * size.width + x] = {uint16_t(std::min(p.x / block, exemplar.width - 1)),
+                                             uint16_t(std::min(p.y / block, exemplar.height - 1))};
+    }
+}
+
+void FixedPixels::apply(Field& field) const {
+  for (size_t i = 0; i < fixed_.size(); i++)
+    if (fixed_[i]) field.pixels[i] = pixels_[i];
+}
+
+}  // namespace terrazzo

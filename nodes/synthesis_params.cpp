@@ -1,0 +1,146 @@
+#include "nodes/synthesis_params.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/image_ops.h"
+#include "core/synthesis/jitter.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// In the order of JitterSpec::Shape.
+const std::vector<std::string> shape_names = {"automatic", "list", "constant", "peak", "rising", "falling"};
+
+JitterSpec jitter_spec(const NodeContext& node) {
+  const auto shape = std::find(shape_names.begin(), shape_names.end(), node.text("jitter_shape"));
+  return {static_cast<JitterSpec::Shape>(shape - shape_names.begin()), node.numbers("jitter"),
+          node.number("jitter_peak"), node.number("jitter_spread")};
+}
+
+const std::vector<Param>& shared_params() {
+  static const std::vector<Param> params = {
+      {.name = "seed",
+       .type = ParamType::integer,
+       .fallback = 1,
+       .help = "Another seed gives another arrangement.",
+       .min = 0},
+      {.name = "coherence",
+       .type = ParamType::number,
+       .fallback = 0.55,
+       .help = "Factor on the cost of continuing a neighbouring piece of the exemplar. Smaller values copy larger "
+               "pieces: more faithful, less varied.",
+       .min = 0.05,
+       .max = 1},
+      {.name = "evenness",
+       .type = ParamType::number,
+       .fallback = 0.7,
+       .help = "How strongly over-used parts of the exemplar are avoided. 0 lets the best-fitting parts repeat.",
+       .min = 0,
+       .max = 10},
+      {.name = "jitter",
+       .type = ParamType::numbers,
+       .fallback = Numbers{},
+       .help = "Random displacement per level, coarsest level first; levels not listed have none, and a single number "
+               "counts for every level. More jitter, more variety, less structure.",
+       .min = 0,
+       .max = 1024,
+       .unit = "exemplar pixels of the level"},
+      {.name = "jitter_shape",
+       .type = ParamType::choice,
+       .fallback = "automatic",
+       .help =
+           "automatic takes \"jitter\" as it is and, if it is empty, what suits the exemplar; list takes it as it is. "
+           "The others spread one number over the levels: constant alike, peak as a Gaussian around "
+           "\"jitter_peak\", rising only up to the peak, falling only from it on.",
+       .choices = shape_names},
+      {.name = "jitter_peak",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "For peak, rising and falling: the level with the full jitter, counted from the coarsest, 0.",
+       .min = 0,
+       .max = 16,
+       .unit = "levels"},
+      {.name = "jitter_spread",
+       .type = ParamType::number,
+       .fallback = 1.0,
+       .help = "For peak, rising and falling: the Gaussian's standard deviation.",
+       .min = 0.1,
+       .max = 16,
+       .unit = "levels"},
+  };
+  return params;
+}
+
+}  // namespace
+
+Port index_port() {
+  return {.name = "index", .type = ValueType::index, .help = "the analysed exemplar"};
+}
+
+Port uv_output() {
+  return {.name = "uv", .type = ValueType::uv_map, .help = "the exemplar pixel of every output pixel"};
+}
+
+Param result_size_param() {
+  return {.name = "size",
+          .type = ParamType::size,
+          .fallback = Size{1024, 1024},
+          .help = "Size of the result.",
+          .min = 1,
+          .max = 32768,
+          .unit = "pixels"};
+}
+
+Param tileable_param() {
+  return {.name = "tileable",
+          .type = ParamType::choice,
+          .fallback = "none",
+          .help = "Directions in which the result wraps around without a seam.",
+          .choices = {"none", "x", "y", "xy"}};
+}
+
+std::vector<Param> with_synthesis_params(std::vector<Param> own) {
+  own.insert(own.end(), shared_params().begin(), shared_params().end());
+  return own;
+}
+
+std::vector<std::string> check_synthesis_params(const Params& params) {
+  const std::string& shape = std::get<std::string>(params.at("jitter_shape"));
+  const size_t given = std::get<Numbers>(params.at("jitter")).size();
+  if (shape == "automatic" || shape == "list" || given == 1) return {};
+  return {
+      fmt::format("\"jitter\": expected one number to spread over the levels, since jitter_shape is \"{}\"; found {}",
+                  shape, given)};
+}
+
+SynthesisOptions synthesis_options(const NodeContext& node, const Index& index) {
+  SynthesisOptions options;
+  options.size = node.type().find_param("size") ? node.size("size") : index.appearance()->size();
+  if (node.type().find_param("tileable")) {
+    const std::string& tileable = node.text("tileable");
+    options.tile_x = tileable == "x" || tileable == "xy";
+    options.tile_y = tileable == "y" || tileable == "xy";
+  }
+  options.seed = uint64_t(node.integer("seed"));
+  options.coherence = node.number("coherence");
+  options.evenness = node.number("evenness");
+  options.jitter = jitter_amplitudes(jitter_spec(node), *index.appearance());
+  return options;
+}
+
+void require_same_exemplar(const UvMap& uv, const Index& index) {
+  const Size analysed = index.appearance()->size();
+  if (uv.exemplar() == analysed) return;
+  throw Error("uv", fmt::format("expected a uv map of the exemplar in \"index\", {}, found one of an exemplar of {}",
+                                describe(analysed), describe(uv.exemplar())));
+}
+
+size_t synthesis_memory(Size size) {
+  return size_t(size.area()) * 3 * sizeof(ExemplarPixel);
+}
+
+}  // namespace terrazzo

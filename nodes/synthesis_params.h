@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "core/node.h"
+#include "core/synthesis/synthesize.h"
+
+/// What nodes that synthesize share.
+namespace terrazzo {
+
+Port index_port();
+Port uv_output();
+
+/// Parameter "size" of the result.
+Param result_size_param();
+/// Parameter "tileable": directions in which the result wraps around.
+Param tileable_param();
+/// `own` parameters, followed by those of every synthesis: seed, coherence, evenness, and jitter.
+std::vector<Param> with_synthesis_params(std::vector<Param> own);
+/// Checks them; for NodeType::check.
+std::vector<std::string> check_synthesis_params(const Params& params);
+
+/// What the parameters above say; "size" and "tileable" if the node has them.
+SynthesisOptions synthesis_options(const NodeContext& node, const Index& index);
+
+/// Throws Error about port "uv" unless the uv map was made for the exemplar of the index.
+void require_same_exemplar(const UvMap& uv, const Index& index);
+
+/// What synthesis of so many output pixels needs.
+size_t synthesis_memory(Size size);
+
+}  // namespace terrazzo

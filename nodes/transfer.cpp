@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "nodes/synthesis_params.h"
+
+namespace terrazzo {
+
+namespace {
+
+std::vector<Control> controls_of(const NodeContext& node) {
+  const auto exemplars = node.list<Image>("exemplar_control"), targets = node.list<Image>("target");
+  if (exemplars.size() != targets.size())
+    throw Error("target", fmt::format("expected as many images as \"exemplar_control\" has, {}; found {}",
+                                      exemplars.size(), targets.size()));
+  const Numbers& strength = node.numbers("strength");
+  if (strength.size() != 1 && strength.size() != targets.size())
+    throw Error("strength", fmt::format("expected one number, or one for each of {} controls; found {}", targets.size(),
+                                        strength.size()));
+  const std::string& match = node.text("match");
+  std::vector<Control> controls;
+  for (size_t i = 0; i < targets.size(); i++) {
+    Control control{.exemplar = exemplars[i], .target = targets[i], .strength = strength[i % strength.size()]};
+    control.mode = node.text("mode") == "labels" ? Control::Mode::labels : Control::Mode::values;
+    control.match = match == "none"    ? Control::Match::none
+                    : match == "range" ? Control::Match::range
+                                       : Control::Match::histogram;
+    controls.push_back(control);
+  }
+  return controls;
+}
+
+void compute(NodeContext& node) {
+  const auto index = node.input<Index>("index");
+  SynthesisOptions options = synthesis_options(node, *index);
+  options.controls = controls_of(node);
+  node.output("uv", synthesize(*index, options, node.task()));
+}
+
+}  // namespace
+
+NodeType transfer_node() {
+  NodeType t;
+  t.name = "transfer";
+  t.category = "synthesis";
+  t.summary = "Synthesis steered by a target image";
+  t.help =
+      "As synthesize, but a target says what goes where. \"exemplar_control\" is an image of the exemplar (a blurred "
+      "luminance, a wear or moisture map, painted labels), \"target\" the same thing for the result, of any size: it "
+      "is "
+      "stretched over it. A picture becomes visible in the texture (texture transfer, Efros & Freeman 2001), a mix map "
+      "or "
+      "progression is followed with mode values, a painted layout with mode labels. Several controls work together; "
+      "the "
+      "n-th target belongs to the n-th exemplar control.";
+  t.inputs = {index_port(),
+              {.name = "exemplar_control",
+               .type = ValueType::image,
+               .help = "what the exemplar has where; of its shape, at any size",
+               .list = true},
+              {.name = "target",
+               .type = ValueType::image,
+               .help = "what is wanted where; as many images, with as many channels each",
+               .list = true}};
+  t.outputs = {uv_output()};
+  t.params = with_synthesis_params({
+      result_size_param(),
+      tileable_param(),
+      {.name = "strength",
+       .type = ParamType::numbers,
+       .fallback = Numbers{1},
+       .help = "How much the target counts against the texture's own structure; 0 not at all. One number for all "
+               "controls, or one for each.",
+       .min = 0,
+       .max = 100,
+       .min_count = 1},
+      {.name = "mode",
+       .type = ParamType::choice,
+       .fallback = "values",
+       .help = "values: the nearer, the better. labels: every value is a thing of its own, such as moss or stone; "
+               "values of the target that the exemplar's control does not have count as the nearest it has.",
+       .choices = {"values", "labels"}},
+      {.name = "match",
+       .type = ParamType::choice,
+       .fallback = "histogram",
+       .help = "How values of the target are brought to those of the exemplar's control, channel by channel. "
+               "histogram: by rank, so that any grey image works and all of the exemplar is used. range: darkest and "
+               "lightest become the same. none: values mean the same already.",
+       .choices = {"histogram", "range", "none"}},
+  });
+  t.check = check_synthesis_params;
+  t.compute = compute;
+  t.memory_hint = [](const NodeContext& node) {
+    const auto channels = int64_t(4 * node.list<Image>("target").size());
+    return synthesis_memory(node.size("size")) + size_t(node.size("size").area() * channels * 5);
+  };
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,90 @@
+#include "core/synthesis/kept.h"
+
+#include <set>
+
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include "core/synthesis/correction.h"
+#include "core/synthesis/synthesize.h"
+#include "tests/exemplars.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+
+KeptPixels identity(Size size, bool (*keep)(int, int)) {
+  KeptPixels kept;
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      kept.pixels.push_back({uint16_t(x), uint16_t(y)});
+      kept.keep.push_back(keep(x, y));
+    }
+  return kept;
+}
+
+bool outside_hole(int x, int y) {
+  return x < 16 || x >= 36 || y < 12 || y >= 30;
+}
+
+}  // namespace
+
+TEST_CASE("a pixel of a level is fixed if all pixels below it are kept, at the place in the middle of theirs") {
+  const KeptPixels kept = identity({13, 10}, [](int x, int y) { return x != 5 || y != 3; });
+  const FixedPixels fixed(kept, {13, 10}, 2, {4, 3});
+  Field field{{4, 3}, std::vector<ExemplarPixel>(12, {99, 99})};
+  fixed.apply(field);
+  for (int y = 0; y < 3; y++)
+    for (int x = 0; x < 4; x++) {
+      const bool free = x == 1 && y == 0;
+      CHECK(fixed.at(size_t(y) * 4 + x) == !free);
+      CHECK(field.at(x, y) == (free ? ExemplarPixel{99, 99} : ExemplarPixel{uint16_t(x), uint16_t(y)}));
+    }
+}
+
+TEST_CASE("nothing kept, nothing fixed") {
+  const FixedPixels fixed({}, {8, 8}, 0, {8, 8});
+  CHECK(!fixed.any());
+  CHECK(!fixed.at(63));
+}
+
+TEST_CASE("kept pixels stay bit for bit and the others are made, the same on any number of threads") {
+  const IndexPtr index = wall_index();
+  SynthesisOptions options{.size = {48, 40}, .tile_x = true, .tile_y = true, .jitter = {2, 2, 2, 2}};
+  options.kept = identity(options.size, outside_hole);
+  std::set<Digest> digests;
+  for (const int threads : {1, 3})
+    tbb::task_arena(threads).execute([&] {
+      const UvMapPtr uv = synthesize(*index, options, Task());
+      digests.insert(uv->digest());
+      int moved = 0;
+      for (int y = 0; y < 40; y++)
+        for (int x = 0; x < 48; x++) {
+          const bool same = uv->at(x, y) == ExemplarPixel{uint16_t(x), uint16_t(y)};
+          if (outside_hole(x, y)) REQUIRE(same);
+          moved += !same;
+        }
+      CHECK(moved > 0);
+    });
+  CHECK(digests.size() == 1);
+}
+
+TEST_CASE("where all is kept nothing changes") {
+  const IndexPtr index = wall_index();
+  SynthesisOptions options{.size = {48, 40}};
+  options.kept = identity(options.size, [](int, int) { return true; });
+  CHECK(synthesize(*index, options, Task())->pixels() == options.kept.pixels);
+}
+
+TEST_CASE("evenness counts free pixels only") {
+  Field field{{32, 32}, std::vector<ExemplarPixel>(32 * 32, {0, 0})};
+  const KeptPixels kept = identity(field.size, [](int x, int) { return x < 16; });
+  Occupancy all({32, 32}, 1), free({32, 32}, 1);
+  for (int y = 0; y < 32; y++)
+    for (int x = 16; x < 32; x++) field.at(x, y) = {uint16_t(x * 2 - 32), uint16_t(y)};
+  all.recount(field, {});
+  free.recount(field, FixedPixels(kept, field.size, 0, {32, 32}));
+  CHECK(all.factor(0, 0) > unit_factor);
+  CHECK(free.factor(0, 0) == unit_factor);
+}

@@ -1,0 +1,158 @@
+#include <doctest/doctest.h>
+
+#include "core/error.h"
+#include "core/metrics/wrap_seam.h"
+#include "core/procedural/pattern.h"
+#include "core/resolve.h"
+#include "nodes/registry.h"
+#include "tests/exemplars.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+
+/// An exemplar that does not tile, with all its maps.
+const MaterialPtr& gravel() {
+  static const MaterialPtr made =
+      make_pattern({.type = "gravel", .size = {96, 80}, .scale = 9, .tileable = false}, Task());
+  return made;
+}
+
+IndexPtr index_of(const FeaturesPtr& features) {
+  const AppearancePtr appearance = run_node("pca", {}, {{"features", {features}}}).get<Appearance>("appearance");
+  return run_node("index", {}, {{"appearance", {appearance}}}).get<Index>("index");
+}
+
+IndexPtr gravel_index(const ImagePtr& mask = nullptr) {
+  std::map<std::string, std::vector<Value>> inputs = {{"material", {gravel()}}};
+  if (mask) inputs["mask"] = {mask};
+  return index_of(run_node("weight", {{"tiles", "no"}}, inputs).get<Features>("features"));
+}
+
+ImagePtr hole() {
+  return make_image({96, 80}, 1, [](int x, int y, int) { return x >= 30 && x < 60 && y >= 20 && y < 50 ? 1.f : 0.f; });
+}
+
+ExemplarPixel here(int x, int y) {
+  return {uint16_t(x), uint16_t(y)};
+}
+
+}  // namespace
+
+TEST_CASE("make_tileable keeps the interior, and every map wraps as smoothly as it goes on inside") {
+  const IndexPtr index = gravel_index();
+  const UvMapPtr uv = run_node("make_tileable", {{"border", 12.0}}, {{"index", {index}}}).get<UvMap>("uv");
+  CHECK(uv->size() == Size{96, 80});
+  for (int y = 12; y < 68; y++)
+    for (int x = 12; x < 84; x++) REQUIRE(uv->at(x, y) == here(x, y));
+  const MaterialPtr result = resolved(*gravel(), uv);
+  for (const Map& map : result->maps()) {
+    CAPTURE(map.name);
+    const WrapSeam seam = wrap_seam(*map.image), before = wrap_seam(*gravel()->find(map.name));
+    CHECK(seam.x < 1.4);
+    CHECK(seam.y < 1.4);
+    CHECK(seam.x < before.x);
+    CHECK(seam.y < before.y);
+  }
+}
+
+TEST_CASE("make_tileable in one direction leaves the other alone; the border may be a part of the side") {
+  const UvMapPtr uv = run_node("make_tileable", {{"border", 0.125}, {"directions", "x"}}, {{"index", {gravel_index()}}})
+                          .get<UvMap>("uv");
+  for (int y = 0; y < 80; y++)
+    for (int x = 12; x < 84; x++) REQUIRE(uv->at(x, y) == here(x, y));
+  CHECK(uv->at(0, 40) != here(0, 40));
+  CHECK_THROWS_WITH_AS(run_node("make_tileable", {{"border", 0.6}}, {{"index", {gravel_index()}}}),
+                       doctest::Contains("less than half"), Error);
+}
+
+TEST_CASE("make_tileable holds a whole number of repeats unless the size must stay") {
+  const FeaturesPtr plain = plain_features(wall({61, 53}));
+  const IndexPtr index = index_of(plain->with(Lattice{2, {16, 0}, {8, 8}, 1}));
+  const NodeRun run = run_node("make_tileable", {}, {{"index", {index}}});
+  CHECK(run.get<UvMap>("uv")->size() == Size{48, 48});
+  CHECK(run.notes.size() == 1);
+  CHECK(run_node("make_tileable", {{"fit", "size"}}, {{"index", {index}}}).get<UvMap>("uv")->size() == Size{61, 53});
+}
+
+TEST_CASE("inpaint keeps what is there and takes nothing out of a masked hole") {
+  const ImagePtr sound =
+      make_image({96, 80}, 1, [](int x, int y, int) { return x >= 30 && x < 60 && y >= 20 && y < 50 ? 0.f : 1.f; });
+  const IndexPtr index = gravel_index(sound);
+  const UvMapPtr uv = run_node("inpaint", {}, {{"index", {index}}, {"mask", {hole()}}}).get<UvMap>("uv");
+  const auto in_hole = [](int x, int y) { return x >= 30 && x < 60 && y >= 20 && y < 50; };
+  for (int y = 0; y < 80; y++)
+    for (int x = 0; x < 96; x++) {
+      const ExemplarPixel p = uv->at(x, y);
+      REQUIRE(!in_hole(p.x, p.y));
+      if (!in_hole(x, y)) REQUIRE(p == here(x, y));
+    }
+}
+
+TEST_CASE("inpaint makes a part of an earlier result anew") {
+  const IndexPtr index = gravel_index();
+  const UvMapPtr first = run_node("synthesize", {{"size", Size{96, 80}}}, {{"index", {index}}}).get<UvMap>("uv");
+  const UvMapPtr second =
+      run_node("inpaint", {{"seed", int64_t{5}}}, {{"index", {index}}, {"mask", {hole()}}, {"uv", {first}}})
+          .get<UvMap>("uv");
+  int changed = 0;
+  for (int y = 0; y < 80; y++)
+    for (int x = 0; x < 96; x++) {
+      const bool same = first->at(x, y) == second->at(x, y);
+      if (x < 30 || x >= 60 || y < 20 || y >= 50) REQUIRE(same);
+      changed += !same;
+    }
+  CHECK(changed > 450);
+}
+
+TEST_CASE("extend keeps every pixel it grows from, wherever it lies") {
+  const IndexPtr index = gravel_index();
+  const UvMapPtr first = run_node("synthesize", {{"size", Size{40, 30}}}, {{"index", {index}}}).get<UvMap>("uv");
+  const UvMapPtr grown =
+      run_node("extend", {{"size", Size{90, 70}}, {"at", Numbers{21, 33}}}, {{"index", {index}}, {"uv", {first}}})
+          .get<UvMap>("uv");
+  for (int y = 0; y < 30; y++)
+    for (int x = 0; x < 40; x++) REQUIRE(grown->at(x + 21, y + 33) == first->at(x, y));
+  CHECK_THROWS_WITH_AS(
+      run_node("extend", {{"size", Size{60, 60}}, {"at", Numbers{21, 0}}}, {{"index", {index}}, {"uv", {first}}}),
+      doctest::Contains("at most [20, 30]"), Error);
+  CHECK_THROWS_WITH_AS(run_node("extend", {{"size", Size{39, 60}}}, {{"index", {index}}, {"uv", {first}}}),
+                       doctest::Contains("at least the size of what is kept"), Error);
+}
+
+TEST_CASE("what is kept must be of the index's exemplar") {
+  const UvMapPtr other = UvMap::make({4, 4}, {50, 50}, std::vector<ExemplarPixel>(16));
+  CHECK_THROWS_WITH_AS(run_node("extend", {}, {{"index", {gravel_index()}}, {"uv", {other}}}),
+                       doctest::Contains("an exemplar of 50x50"), Error);
+}
+
+TEST_CASE("transfer steers by a target and wants controls in pairs") {
+  const IndexPtr index = gravel_index();
+  const ImagePtr has = make_image({96, 80}, 1, [](int x, int, int) { return float(x) / 96; });
+  const ImagePtr wants = make_image({20, 20}, 1, [](int x, int, int) { return x < 10 ? 0.f : 1.f; });
+  const UvMapPtr uv = run_node("transfer", {{"size", Size{64, 64}}},
+                               {{"index", {index}}, {"exemplar_control", {has}}, {"target", {wants}}})
+                          .get<UvMap>("uv");
+  int64_t left = 0, right = 0;
+  for (int y = 0; y < 64; y++)
+    for (int x = 0; x < 64; x++) (x < 32 ? left : right) += uv->at(x, y).x;
+  CHECK(right > 3 * left / 2);
+  CHECK_THROWS_WITH_AS(
+      run_node("transfer", {}, {{"index", {index}}, {"exemplar_control", {has}}, {"target", {wants, wants}}}),
+      doctest::Contains("as many images"), Error);
+  CHECK_THROWS_WITH_AS(run_node("transfer", {{"strength", Numbers{1, 2}}},
+                                {{"index", {index}}, {"exemplar_control", {has}}, {"target", {wants}}}),
+                       doctest::Contains("one number"), Error);
+}
+
+TEST_CASE("a jitter distribution wants one amplitude") {
+  const NodeType& type = *find_node_type("synthesize");
+  Params params;
+  for (const Param& p : type.params) params[p.name] = *p.fallback;
+  params["jitter_shape"] = "peak";
+  REQUIRE(type.check(params).size() == 1);
+  CHECK(type.check(params)[0].find("\"jitter\": expected one number") == 0);
+  params["jitter"] = Numbers{2};
+  CHECK(type.check(params).empty());
+}
