@@ -4,8 +4,17 @@
 
 namespace terrazzo {
 
+namespace {
+
+constexpr int coarse_side = 64;
+
+}  // namespace
+
 PaddedLevel::PaddedLevel(const AppearanceLevel& level, bool wraps)
-    : size_(level.size), wraps_(wraps), stride_(level.size.width + 2 * margin) {
+    : size_(level.size),
+      wraps_(wraps),
+      keep_off_(std::min(level.size.width, level.size.height) <= coarse_side ? 1 : 2),
+      stride_(level.size.width + 2 * margin) {
   vectors_.reserve(size_t(stride_) * (size_.height + 2 * margin));
   for (int y = -margin; y < size_.height + margin; y++)
     for (int x = -margin; x < size_.width + margin; x++) {

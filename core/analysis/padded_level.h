@@ -22,7 +22,7 @@ class PaddedLevel {
     return &vectors_[size_t(y + margin) * stride_ + size_t(x + margin)];
   }
   /// Brings a position that a shift may have moved out of the exemplar back to where a window fits: around the other
-  /// side, or `keep_off` pixels inside the border; and then to the nearest usable pixel.
+  /// side, or `keep_off()` pixels inside the border; and then to the nearest usable pixel.
   void settle(int& x, int& y) const {
     settle_inside(x, y);
     if (nearest_usable_.empty()) return;
@@ -45,8 +45,9 @@ class PaddedLevel {
     const uint32_t at = usable_[below(uint32_t(bits), uint32_t(usable_.size()))];
     return {int(at % size_.width), int(at / size_.width)};
   }
-  /// Windows centred nearer to the border of an exemplar that does not tile would look at continued pixels.
-  static constexpr int keep_off = 2;
+  /// How far positions keep off the border of an exemplar that does not tile. A window nearer to it sees continued
+  /// pixels: at coarse levels one row of those is better than to lose so much of the exemplar.
+  int keep_off() const { return keep_off_; }
 
  private:
   void settle_inside(int& x, int& y) const {
@@ -54,12 +55,13 @@ class PaddedLevel {
       x = x < 0 ? x + size_.width : x >= size_.width ? x - size_.width : x;
       y = y < 0 ? y + size_.height : y >= size_.height ? y - size_.height : y;
     } else {
-      x = std::clamp(x, keep_off, size_.width - 1 - keep_off);
-      y = std::clamp(y, keep_off, size_.height - 1 - keep_off);
+      x = std::clamp(x, keep_off_, size_.width - 1 - keep_off_);
+      y = std::clamp(y, keep_off_, size_.height - 1 - keep_off_);
     }
   }
   Size size_;
   bool wraps_;
+  int keep_off_;
   int stride_;
   std::vector<AppearanceVector> vectors_;
   std::vector<uint32_t> usable_;          // positions y * width + x; both are empty if all pixels are usable

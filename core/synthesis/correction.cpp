@@ -36,9 +36,9 @@ class PixelCorrector {
     seen_ = 0;
     best_cost_ = ~uint64_t{0};
     best_ = field_.at(x, y);
-    consider(best_.x, best_.y, pass_.coherence);
+    consider(best_.x, best_.y, coherence(around_[0]));
     for (int n = 1; n < 9; n++)
-      if (around_[n]) consider(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), pass_.coherence);
+      if (around_[n]) consider(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), coherence(around_[n]));
     for (int n = 0; n < 9; n++) {
       if (!around_[n]) continue;
       const size_t at = size_t(around_[n]->y) * level_.exemplar.size().width + around_[n]->x;
@@ -63,6 +63,11 @@ class PixelCorrector {
     for (int n = 0; n < ring_count_; n++)
       count += std::abs(ring_[n].x - x) < ring_radius / 2 && std::abs(ring_[n].y - y) < ring_radius / 2;
     return count;
+  }
+
+  uint32_t coherence(const ExemplarPixel* continued) const {
+    if (pass_.piece_coherence.empty()) return pass_.coherence;
+    return pass_.piece_coherence[size_t(continued - field_.pixels.data())];
   }
 
   static int step(int n, int axis) {
