@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Corrects single pixels: gathers what surrounds them and picks the best candidate. One per thread and row.
-/// `steered`: the level has a control.
+/// `steered`: the exemplar has a mask or the level a control.
 template <bool steered>
 class PixelCorrector {
  public:
@@ -32,7 +32,8 @@ class PixelCorrector {
     gather(x, y);
     x_ = x;
     y_ = y;
-    if constexpr (steered) target_ = level_.control->target(int64_t{y} * field_.size.width + x);
+    if constexpr (steered)
+      if (level_.control) target_ = level_.control->target(int64_t{y} * field_.size.width + x);
     seen_ = 0;
     best_cost_ = ~uint64_t{0};
     best_ = field_.at(x, y);
@@ -100,8 +101,12 @@ class PixelCorrector {
     }
   }
 
-  HWY_ATTR void consider(int x, int y, uint32_t factor) {
-    if (!level_.exemplar.settles(x, y)) return;
+  HWY_INLINE HWY_ATTR void consider(int x, int y, uint32_t factor) {
+    if constexpr (steered) {
+      if (!level_.exemplar.settles(x, y)) return;
+    } else {
+      level_.exemplar.settle_inside(x, y);
+    }
     const uint32_t id = uint32_t(y) << 16 | uint32_t(x);
     for (int i = 0; i < seen_; i++)
       if (seen_ids_[i] == id) return;
@@ -112,7 +117,7 @@ class PixelCorrector {
     const uint64_t limit = best_cost_ / factor;
     uint64_t off_target = 0;
     if constexpr (steered) {
-      off_target = level_.control->cost(x, y, target_) * uint64_t(count_);
+      if (level_.control) off_target = level_.control->cost(x, y, target_) * uint64_t(count_);
       if (off_target > limit) return;
     }
     const uint64_t cost = (distance(x, y, limit - off_target) + off_target) * factor;
@@ -194,7 +199,7 @@ HWY_ATTR void correct_pixels(const Field& field, const CorrectionLevel& level, c
 /// Every second pixel of a row, from `first` on, into `out`.
 HWY_ATTR void correct_row(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
                           const Occupancy& occupancy, int first, int y, ExemplarPixel* out) {
-  const auto correct = level.control ? correct_pixels<true> : correct_pixels<false>;
+  const auto correct = level.control || level.exemplar.masked() ? correct_pixels<true> : correct_pixels<false>;
   correct(field, level, pass, occupancy, first, y, out);
 }
 
