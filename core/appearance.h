@@ -59,9 +59,12 @@ class Appearance {
   Digest digest_;
 };
 
+/// The most similar pixels that a pixel can have.
+inline constexpr int most_similar = 8;
+
 /// Exemplar positions with similar surroundings, for every pixel of one level.
 struct SimilarSets {
-  int per_pixel = 0;
+  int per_pixel = 0;                ///< at most most_similar
   std::vector<uint32_t> positions;  ///< y * width + x; size.area() * per_pixel, best first, row by row
 };
 

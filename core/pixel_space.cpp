@@ -27,6 +27,10 @@ int value_channels(const ImageInfo& info) {
   return is_color(info.semantic) && info.channels % 2 == 0 ? info.channels - 1 : info.channels;
 }
 
+bool can_be_averaged(const ImageInfo& info) {
+  return info.semantic != Semantic::mask && info.semantic != Semantic::guidance;
+}
+
 void to_linear(const ImageInfo& info, float* pixels, int64_t count) {
   if (is_encoded(info)) map_colors(info, pixels, count, [](float v) { return decode_srgb(v); });
 }

@@ -11,6 +11,9 @@ namespace terrazzo {
 /// The channels that carry values; the last of a colour image's two or four is coverage and is not counted.
 int value_channels(const ImageInfo& info);
 
+/// Whether an average of two pixels means anything: masks and guidance tell pixels apart, and are sampled instead.
+bool can_be_averaged(const ImageInfo& info);
+
 /// Stored pixels to that space, in place. `count` pixels of info.channels values. Normals need no change: decoding them
 /// is affine, and commutes with averaging.
 void to_linear(const ImageInfo& info, float* pixels, int64_t count);

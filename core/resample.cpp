@@ -153,4 +153,14 @@ ImagePtr filtered(const ImagePtr& source, const ImageInfo& info, const Digest& r
   });
 }
 
+ImagePtr resampled(const ImagePtr& source, Size size, const std::string& filter, Outside outside,
+                   const Digest& recipe) {
+  if (size == source->size()) return source;
+  ImageInfo info = source->info();
+  info.size = size;
+  const std::string name = filter == "auto" && !can_be_averaged(info) ? "nearest" : filter;
+  return filtered(source, info, recipe, scaling_filter(name, source->width(), size.width),
+                  scaling_filter(name, source->height(), size.height), outside);
+}
+
 }  // namespace terrazzo

@@ -42,4 +42,8 @@ AxisFilter gaussian_filter(double sigma);
 ImagePtr filtered(const ImagePtr& source, const ImageInfo& info, const Digest& recipe, const AxisFilter& horizontal,
                   const AxisFilter& vertical, Outside outside, const Task* keep_rows = nullptr);
 
+/// The image at another size, computed when pulled, by a filter of scaling_filter_names(); "auto" takes nearest for
+/// masks and guidance. The image itself if it has that size.
+ImagePtr resampled(const ImagePtr& source, Size size, const std::string& filter, Outside outside, const Digest& recipe);
+
 }  // namespace terrazzo

@@ -5,10 +5,33 @@
 
 namespace terrazzo {
 
-/// The maps an output shows: each pixel is exactly the exemplar pixel that the uv map names. Lazy: a map is nothing but
-/// uv map and exemplar until pixels are pulled. Maps whose size differs from the analysed exemplar's are sampled at the
-/// same relative place. Throws Error if the uv map was made for an exemplar of another shape.
-ImagePtr resolved(const ImagePtr& exemplar, const UvMapPtr& uv);
-MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv);
+struct ResolveOptions {
+  /// Radius of seam blending in pixels of the uv map, 0..largest_blend; 0: every pixel is exactly one exemplar pixel.
+  double blend = 0;
+  /// How much larger the exemplar is than the one that was analysed, and the maps than the uv map: 1..largest_scale,
+  /// or 0 for whatever the exemplar's size says.
+  double scale = 1;
+};
+inline constexpr double largest_blend = 8;
+inline constexpr double largest_scale = 64;
+
+/// Whether seams of such a map are blended: not those of masks and data, whose values may be labels.
+bool can_blend(Semantic semantic);
+
+/// The maps an output shows, pulled lazily: a map is nothing but uv map and exemplar.
+///
+/// Without blending each pixel is exactly one exemplar pixel. With it, every pixel q of the uv map within the radius of
+/// an output pixel p proposes the exemplar pixel that continues q's piece to p, and p shows their mean, weighted by
+/// (1 - (distance / radius)^2)^2: the magnification of Lefebvre & Hoppe (Parallel controllable texture synthesis, 2005)
+/// with a wider and smoother kernel. The mean of what is unlike would be flat: so only the pieces' local means are
+/// averaged plainly, and the mean of their details gets back the variance that it lost (Heitz & Neyret,
+/// High-performance by-example noise using a histogram-preserving blending operator, 2018). Where all proposals are one
+/// exemplar pixel, that pixel is shown bit for bit. Proposals beyond an exemplar that does not wrap are left out.
+/// Averages are taken in the space of core/pixel_space.h: colours in linear light, normals as vectors that get
+/// back the length the exemplar's have.
+///
+/// `exemplar`'s size (that of its largest map) is the analysed exemplar's times `scale`; smaller maps of it are sampled
+/// at the same relative place. All maps get the size of the uv map times `scale`. Throws Error if sizes do not fit.
+MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const ResolveOptions& options = {});
 
 }  // namespace terrazzo

@@ -5,6 +5,7 @@
 
 #include "core/block_file.h"
 #include "core/serialize.h"
+#include "core/serialize_check.h"
 #include "core/stored_pixels.h"
 
 namespace terrazzo {
@@ -181,6 +182,7 @@ class ValueReader {
     require(count > 0, "an appearance has no levels");
     std::vector<AppearanceLevel> levels;
     for (uint32_t i = 0; i < count; i++) levels.push_back(level());
+    check_levels(levels, channels, repeats);
     return checked([&] { return Appearance::make(std::move(levels), channels, wraps, repeats); });
   }
 
@@ -191,7 +193,7 @@ class ValueReader {
       SimilarSets s;
       s.per_pixel = in_.get<int32_t>();
       const auto area = uint64_t(l.size.area());
-      require(s.per_pixel >= 0 && s.per_pixel <= 1024, "a number of similar pixels cannot be");
+      require(s.per_pixel >= 0 && s.per_pixel <= most_similar, "a number of similar pixels cannot be");
       s.positions = array<uint32_t>(area * uint64_t(s.per_pixel));
       for (const uint32_t p : s.positions) require(p < area, "a similar pixel lies outside the exemplar");
       levels.push_back(std::move(s));
@@ -201,8 +203,10 @@ class ValueReader {
 
   UvMapPtr uv_map() {
     const Size s = size(), exemplar = size();
+    UvWraps wraps;
+    for (bool* w : {&wraps.x, &wraps.y, &wraps.exemplar}) *w = in_.get_below<uint8_t>(2) != 0;
     auto pixels = array<ExemplarPixel>(uint64_t(s.area()));
-    return checked([&] { return UvMap::make(s, exemplar, std::move(pixels)); });
+    return checked([&] { return UvMap::make(s, exemplar, std::move(pixels), wraps); });
   }
 
   ReportPtr report() {

@@ -108,6 +108,7 @@ class ValueWriter {
   void operator()(const UvMapPtr& map) {
     put(map->size());
     put(map->exemplar());
+    for (const bool wraps : {map->wraps().x, map->wraps().y, map->wraps().exemplar}) out_.put(uint8_t(wraps));
     put_array(map->pixels());
   }
 

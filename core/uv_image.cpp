@@ -1,5 +1,11 @@
 #include "core/uv_image.h"
 
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
 namespace terrazzo {
 
 namespace {
@@ -31,6 +37,27 @@ ImagePtr uv_as_integers(const UvMapPtr& uv) {
     out[1] = float(p.y) / 65535.0f;
     out[2] = 0;
   });
+}
+
+UvMapPtr uv_from_image(const Image& image, Size exemplar, UvWraps wraps) {
+  const bool fractions = image.info().depth == Depth::f32;
+  if (image.channels() < 2 || (!fractions && image.info().depth != Depth::u16))
+    throw Error(fmt::format("a uv map is two float channels or 16-bit red and green; found {} channels of {}",
+                            image.channels(), name_of(image.info().depth)));
+  const double width = fractions ? exemplar.width : 65535, height = fractions ? exemplar.height : 65535;
+  std::vector<ExemplarPixel> pixels;
+  pixels.reserve(size_t(image.size().area()));
+  for_each_strip(image, [&](const Rect& strip, const float* values) {
+    for (int64_t i = 0; i < strip.area(); i++, values += image.channels()) {
+      const double x = std::floor(values[0] * width + (fractions ? 0 : 0.5));
+      const double y = std::floor(values[1] * height + (fractions ? 0 : 0.5));
+      if (!(x >= 0 && y >= 0 && x < exemplar.width && y < exemplar.height))
+        throw Error(fmt::format("the uv map names the place ({}, {}), outside the exemplar's {}x{} pixels", x, y,
+                                exemplar.width, exemplar.height));
+      pixels.push_back({uint16_t(x), uint16_t(y)});
+    }
+  });
+  return UvMap::make(image.size(), exemplar, std::move(pixels), wraps);
 }
 
 }  // namespace terrazzo

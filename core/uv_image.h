@@ -13,4 +13,8 @@ ImagePtr uv_as_fractions(const UvMapPtr& uv);
 /// file holds the exemplar pixel's integer coordinates; blue is 0.
 ImagePtr uv_as_integers(const UvMapPtr& uv);
 
+/// The way back, from a picture of either kind: 16-bit values are read as integers, floats as fractions. Throws Error
+/// if the picture has fewer than two channels, another depth, or names a place outside the exemplar.
+UvMapPtr uv_from_image(const Image& image, Size exemplar, UvWraps wraps = {});
+
 }  // namespace terrazzo

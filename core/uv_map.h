@@ -16,6 +16,14 @@ struct ExemplarPixel {
   bool operator==(const ExemplarPixel&) const = default;
 };
 
+/// What has no border: beyond one side lies the other.
+struct UvWraps {
+  bool x = false;         ///< the output, from right to left
+  bool y = false;         ///< the output, from bottom to top
+  bool exemplar = false;  ///< the exemplar, in both directions
+  bool operator==(const UvWraps&) const = default;
+};
+
 class UvMap;
 using UvMapPtr = std::shared_ptr<const UvMap>;
 
@@ -25,10 +33,11 @@ using UvMapPtr = std::shared_ptr<const UvMap>;
 class UvMap {
  public:
   /// `pixels` row by row; all lie within `exemplar`, the size of the exemplar that was analysed.
-  static UvMapPtr make(Size size, Size exemplar, std::vector<ExemplarPixel> pixels);
+  static UvMapPtr make(Size size, Size exemplar, std::vector<ExemplarPixel> pixels, UvWraps wraps = {});
 
   Size size() const { return size_; }
   Size exemplar() const { return exemplar_; }
+  UvWraps wraps() const { return wraps_; }
   /// Copies a region that lies inside the map, row by row. Thread-safe.
   void read(const Rect& region, ExemplarPixel* out) const;
   const std::vector<ExemplarPixel>& pixels() const { return pixels_; }
@@ -39,6 +48,7 @@ class UvMap {
   UvMap() = default;
   Size size_;
   Size exemplar_;
+  UvWraps wraps_;
   std::vector<ExemplarPixel> pixels_;
   Digest digest_;
 };

@@ -98,7 +98,7 @@ void compute(NodeContext& node) {
                             std::min(material->size().height, largest_measured)));
 
   std::optional<LayoutFigures> layout;
-  if (uv) layout = layout_figures(*uv, planes.exemplar, node.flag("wraps"));
+  if (uv) layout = layout_figures(*uv, planes.exemplar, node.flag("wraps") || uv->wraps().exemplar);
   const QualityParts parts{.verbatim = !layout};
   const Quality q = measure_quality(std::move(planes.exemplar), std::move(planes.output), parts, node.task());
 
@@ -137,6 +137,7 @@ size_t memory_hint(const NodeContext& node) {
 NodeType compare_node() {
   NodeType t;
   t.name = "compare";
+  t.version = 2;
   t.category = "sink";
   t.summary = "Scores a result against its exemplar";
   t.help =
@@ -165,7 +166,8 @@ NodeType compare_node() {
       {.name = "wraps",
        .type = ParamType::boolean,
        .fallback = false,
-       .help = "The exemplar tiles: where the uv map goes over its edge, there is no seam."},
+       .help = "The exemplar tiles: where the uv map goes over its edge, there is no seam. Most uv maps say so "
+               "themselves."},
       {.name = "sheet_size",
        .type = ParamType::integer,
        .fallback = int64_t{1536},

@@ -19,7 +19,7 @@ NodeType index_node() {
                .fallback = 3,
                .help = "Similar pixels kept per pixel.",
                .min = 1,
-               .max = 8}};
+               .max = most_similar}};
   t.compute = [](NodeContext& node) {
     node.output("index", make_index(node.input<Appearance>("appearance"), int(node.integer("similar")), node.task()));
   };

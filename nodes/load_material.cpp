@@ -220,29 +220,48 @@ std::string_view name_of_convention(NormalY y) {
   return y == NormalY::up ? "up (OpenGL)" : "down (DirectX)";
 }
 
-/// Finds out by looking; says what it found.
-NormalY detect_convention(const Image& normal, const ImagePtr& height, std::vector<std::string>& notes) {
+/// What the pixels say about the convention, and how that was found out.
+struct Judgement {
+  std::optional<NormalY> normal_y;
+  std::string grounds;
+};
+
+Judgement judged(const Image& normal, const ImagePtr& height) {
   if (height) {
     const ConventionEvidence e = convention_from_height(normal, *height);
-    if (e.normal_y) {
-      notes.push_back(
-          fmt::format("normal: green points {}, judged by the height map (correlation with its slopes x "
-                      "{:.2f}, y {:.2f}){}",
-                      name_of_convention(*e.normal_y), e.along_x, e.along_y,
-                      e.height_inverted ? "; the height map seems to be dark where the surface is high" : ""));
-      return *e.normal_y;
-    }
+    if (e.normal_y)
+      return {e.normal_y,
+              fmt::format("judged by the height map (correlation with its slopes x {:.2f}, y {:.2f}){}", e.along_x,
+                          e.along_y,
+                          e.height_inverted ? "; the height map seems to be dark where the surface is high" : "")};
   }
   const ConventionEvidence e = convention_from_curl(normal);
-  if (e.normal_y) {
-    notes.push_back(fmt::format("normal: green points {}, judged by the normals themselves (correlation {:.2f})",
-                                name_of_convention(*e.normal_y), e.along_y));
-    return *e.normal_y;
+  return {e.normal_y, fmt::format("judged by the normals themselves (correlation {:.2f})", e.along_y)};
+}
+
+/// Finds out by looking; says what it found.
+NormalY detect_convention(const Image& normal, const ImagePtr& height, std::vector<std::string>& notes) {
+  const Judgement found = judged(normal, height);
+  if (found.normal_y) {
+    notes.push_back(fmt::format("normal: green points {}, {}", name_of_convention(*found.normal_y), found.grounds));
+    return *found.normal_y;
   }
   notes.push_back(
       "normal: neither its name nor its pixels say whether green points up (OpenGL) or down (DirectX); up is assumed. "
       "Set `normal_y` if that is wrong");
   return NormalY::up;
+}
+
+/// A name is believed, but not silently if the pixels speak against it.
+void check_named_convention(const RecognisedMap& source, const Image& normal, const ImagePtr& height,
+                            std::vector<std::string>& notes) {
+  const Judgement found = judged(normal, height);
+  if (found.normal_y && *found.normal_y != *source.normal_y)
+    notes.push_back(
+        fmt::format("normal: the name {} says that green points {}, but it looks as if it pointed {}, {}. "
+                    "The name is believed; set `normal_y` to \"{}\" if it is wrong",
+                    source.file, name_of_convention(*source.normal_y), name_of_convention(*found.normal_y),
+                    found.grounds, *found.normal_y == NormalY::up ? "up" : "down"));
 }
 
 void settle_conventions(NodeContext& node, const std::vector<RecognisedMap>& sources, std::vector<Map>& maps) {
@@ -258,9 +277,10 @@ void settle_conventions(NodeContext& node, const std::vector<RecognisedMap>& sou
         std::find_if(sources.begin(), sources.end(), [&](const RecognisedMap& s) { return s.map == m.name; });
     if (wish != "auto")
       info.normal_y = wish == "up" ? NormalY::up : NormalY::down;
-    else if (source->normal_y)
+    else if (source->normal_y) {
       info.normal_y = *source->normal_y;
-    else
+      check_named_convention(*source, *m.image, height, notes);
+    } else
       info.normal_y = detect_convention(*m.image, height, notes);
     m.image = Image::redescribed(m.image, info);
   }
@@ -305,6 +325,7 @@ std::vector<fs::path> files_read(const Params& params) {
 NodeType load_material_node() {
   NodeType t;
   t.name = "load_material";
+  t.version = 2;
   t.category = "source";
   t.summary = "Reads a folder of maps as one material";
   t.help =

@@ -43,6 +43,7 @@ Param number(std::string name, double fallback, double min, double max, std::str
 NodeType preview_node() {
   NodeType t;
   t.name = "preview";
+  t.version = 2;
   t.category = "image";
   t.summary = "Renders a material under a movable light";
   t.help =
@@ -94,9 +95,9 @@ NodeType preview_node() {
   t.persist = Persist::payload;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.memory_hint = [](const NodeContext& node) {
-    // The sheet, and at most four texels per pixel of one picture, of 13 channels.
+    // The pictures and their sheet, and at most four texels per pixel of one picture, of 13 channels.
     const size_t area = size_t(node.size("size").area());
-    return area * std::max<size_t>(1, node.numbers("lights").size()) * 3 * sizeof(float) +
+    return area * std::max<size_t>(1, node.numbers("lights").size()) * 6 * sizeof(float) +
            area * 4 * 13 * sizeof(float);
   };
   t.compute = compute;

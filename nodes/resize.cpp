@@ -22,13 +22,8 @@ Size target_size(const NodeContext& node, Size map, Size material) {
 }
 
 ImagePtr resized(const NodeContext& node, const ImagePtr& map, Size material) {
-  ImageInfo info = map->info();
-  info.size = target_size(node, map->size(), material);
-  if (info.size == map->size()) return map;
-  std::string filter = node.text("filter");
-  if (filter == "auto" && (info.semantic == Semantic::mask || info.semantic == Semantic::guidance)) filter = "nearest";
-  return filtered(map, info, map_recipe(node, *map), scaling_filter(filter, map->width(), info.size.width),
-                  scaling_filter(filter, map->height(), info.size.height), edges_of(node));
+  return resampled(map, target_size(node, map->size(), material), node.text("filter"), edges_of(node),
+                   map_recipe(node, *map));
 }
 
 void compute(NodeContext& node) {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "core/node.h"
 #include "core/resolve.h"
 
@@ -10,14 +12,55 @@ NodeType resolve_uv_node() {
   t.summary = "Shows a material through a uv map";
   t.help =
       "Every output pixel of every map is exactly the exemplar pixel that the uv map names, so maps cannot drift "
-      "apart. "
-      "Pixels are looked up when a later node pulls them; nothing is held in memory.";
+      "apart. Pixels are looked up when a later node pulls them; only the exemplar is held in memory. "
+      "With `blend`, seams are softened: near a seam a pixel is the mean of what the pieces around it would continue "
+      "with (Lefebvre & Hoppe 2005). Colours are averaged in linear light, normals as vectors that get back the length "
+      "they had, heights "
+      "become continuous, and details keep their contrast (Heitz & Neyret 2018); away from seams every pixel stays "
+      "exactly the exemplar's. Maps that "
+      "mean mask or data stay exact everywhere, since their values may be labels. "
+      "With `scale`, an exemplar that is larger than the analysed one is shown: analyse and synthesize a copy made "
+      "smaller by `resize`, which is quicker and sees larger features, and give resolve_uv the original.";
   t.inputs = {{.name = "uv", .type = ValueType::uv_map, .help = "which exemplar pixel each output pixel shows"},
               {.name = "material", .type = ValueType::material, .help = "the exemplar, with all maps that are wanted"}};
-  t.outputs = {{.name = "material", .type = ValueType::material, .help = "the maps in the uv map's size"}};
+  t.outputs = {
+      {.name = "material", .type = ValueType::material, .help = "the maps in the uv map's size, times `scale`"}};
+  t.params = {
+      {.name = "blend",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "How far from a seam pixels are blended. 0: not at all; 2 to 3 hides most seams.",
+       .min = 0,
+       .max = largest_blend,
+       .unit = "pixels of the uv map"},
+      {.name = "scale",
+       .type = ParamType::number,
+       .fallback = 1.0,
+       .help = "How much larger the material is than the exemplar that was analysed, and the result than the uv "
+               "map. 0: as much as it is.",
+       .min = 0,
+       .max = largest_scale}};
   t.persist = Persist::derived;
+  t.check = [](const Params& params) {
+    const double scale = std::get<double>(params.at("scale"));
+    std::vector<std::string> problems;
+    if (scale > 0 && scale < 1)
+      problems.push_back(
+          fmt::format("\"scale\": expected 1 or more, or 0 for whatever the material's size says; found "
+                      "{}",
+                      scale));
+    return problems;
+  };
+  t.memory_hint = [](const NodeContext& node) {
+    size_t values = 0;
+    for (const Map& m : node.input<Material>("material")->maps())
+      values += size_t(m.image->size().area()) * m.image->channels();
+    // The exemplar, and for blending its linear pixels and their local means.
+    return values * sizeof(float) * (node.number("blend") > 0 ? 3 : 1);
+  };
   t.compute = [](NodeContext& node) {
-    node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv")));
+    const ResolveOptions options{.blend = node.number("blend"), .scale = node.number("scale")};
+    node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv"), options));
   };
   return t;
 }

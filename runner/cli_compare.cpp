@@ -1,8 +1,12 @@
+#include <filesystem>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/image_file.h"
 #include "runner/cli_commands.h"
+#include "runner/html_report.h"
 #include "runner/memory_graph.h"
 #include "runner/say.h"
 #include "runner/schedule.h"
@@ -12,18 +16,41 @@ namespace terrazzo {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 struct CompareFlags {
-  std::string exemplar, output;
+  std::string exemplar, output, uv, sheet;
   bool json = false;
 };
 
+bool is_page(const fs::path& path) {
+  return path.extension() == ".html" || path.extension() == ".htm";
+}
+
+/// Better to say it before the run than after it.
+void check_sheet(const std::string& path) {
+  if (!path.empty() && !is_page(path) && !format_from(path))
+    throw UsageError(fmt::format(
+        "--sheet {}: the extension decides the format; expected .html for a page, or .png, .jpg, .tif or .exr", path));
+}
+
 Graph compare_graph(const CompareFlags& flags) {
   Graph graph;
-  graph.nodes = {reading_node("exemplar", flags.exemplar), reading_node("output", flags.output),
-                 memory_node("figures", "compare", {})};
-  for (const char* side : {"exemplar", "output"}) {
-    const Port& first = graph.find(side)->type->outputs.front();
-    graph.nodes.back().inputs[side] = {{side, first.name}};
+  GraphNode figures = memory_node("figures", "compare", {});
+  for (const auto& [side, path] : {std::pair("exemplar", flags.exemplar), std::pair("output", flags.output)}) {
+    graph.nodes.push_back(reading_node(side, path));
+    figures.inputs[side] = {{side, graph.nodes.back().type->outputs.front().name}};
+  }
+  if (!flags.uv.empty()) {
+    GraphNode uv = memory_node("uv", "load_uv", {{"path", fs::absolute(flags.uv).string()}});
+    uv.inputs["exemplar"] = figures.inputs.at("exemplar");
+    graph.nodes.push_back(std::move(uv));
+    figures.inputs["uv"] = {{"uv", "uv"}};
+  }
+  graph.nodes.push_back(std::move(figures));
+  if (!flags.sheet.empty() && !is_page(flags.sheet)) {
+    graph.nodes.push_back(memory_node("sheet", "export", {{"path", fs::absolute(flags.sheet).string()}}));
+    graph.nodes.back().inputs["material"] = {{"figures", "sheet"}};
   }
   return graph;
 }
@@ -53,6 +80,7 @@ std::string as_table(const Report& report) {
 }
 
 int compare(const CompareFlags& flags) {
+  check_sheet(flags.sheet);
   const CancelOnSignal signals;
   const Graph graph = compare_graph(flags);
   RunOptions options;
@@ -63,6 +91,7 @@ int compare(const CompareFlags& flags) {
   if (result.cancelled) return exit_cancelled;
   if (!result.ok()) return exit_failed;
   const ReportPtr report = std::get<ReportPtr>(result.kept.at("figures").at("report"));
+  if (is_page(flags.sheet)) write_report_page(*report, flags.sheet);
   fmt::print("{}", flags.json ? as_json(*report) : as_table(*report));
   return exit_done;
 }
@@ -74,8 +103,19 @@ void add_compare_command(CLI::App& app, Chosen& chosen) {
   const auto flags = std::make_shared<CompareFlags>();
   command->add_option("EXEMPLAR", flags->exemplar, "A folder of maps, or one image")->required()->type_name("PATH");
   command->add_option("OUTPUT", flags->output, "What was made from it")->required()->type_name("PATH");
+  command
+      ->add_option("--uv", flags->uv,
+                   "The uv map that was exported with the output: adds figures about seams, copies and evenness of use")
+      ->type_name("FILE");
   command->add_flag("--json", flags->json, "For programs");
-  command->footer("Example:\n  terrazzo compare bricks/ out/");
+  command
+      ->add_option("--sheet", flags->sheet,
+                   "Also write both side by side: a picture, or a page with the figures if the name ends in .html")
+      ->type_name("FILE");
+  command->footer(
+      "Examples:\n"
+      "  terrazzo compare bricks/ out/\n"
+      "  terrazzo compare bricks/ out/ --sheet comparison.html");
   command->callback([&chosen, flags] { chosen = [flags] { return compare(*flags); }; });
 }
 

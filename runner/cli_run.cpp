@@ -24,6 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void warn(const RunFlags& flags, const std::string& message) {
+  write_warning(*progress_mode_from(flags.progress), std::cerr, message);
+}
+
 /// The cache to use. The usual folder may be out of reach, which costs time; one that was asked for may not.
 std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
   if (flags.no_cache) return nullptr;
@@ -31,7 +35,7 @@ std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
     return std::make_unique<Cache>(flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache));
   } catch (const Error& e) {
     if (!flags.cache.empty()) throw UsageError(fmt::format("--cache {}: {}", flags.cache, e.what()));
-    say("warning: running without a cache: {}\n", e.what());
+    warn(flags, fmt::format("running without a cache: {}", e.what()));
     return nullptr;
   }
 }
@@ -50,13 +54,11 @@ bool is_terminal() {
 }
 
 /// What people read at the end; programs that asked for json have had it all.
-void print_end(const RunResult& result, Cache* cache) {
+void print_end(const RunResult& result) {
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
   for (const StageOutcome& s : result.stages)
     if (s.kind == StageOutcome::Kind::run)
       for (const OutputFile& f : s.files) say("wrote {}\n", f.path.string());
-  if (cache)
-    for (const std::string& w : cache->take_warnings()) say("warning: {}\n", w);
   say("{}{}\n", result.cancelled ? "cancelled; " : "", result.summary());
 }
 
@@ -87,9 +89,12 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   const std::unique_ptr<Progress> progress = make_progress(mode, std::cerr, is_terminal());
   options.observer = progress.get();
   const RunResult result = run_plan(plan, options);
+  if (cache) {
+    cache->collect();
+    for (const std::string& w : cache->take_warnings()) progress->warned(w);
+  }
   progress->closed(result);
-  if (cache) cache->collect();
-  if (mode != ProgressMode::json) print_end(result, cache);
+  if (mode != ProgressMode::json) print_end(result);
   if (!flags.trace.empty()) write_trace(result, flags.trace);
   if (!flags.report.empty()) write_html_report(plan, result, flags.report);
   return result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
@@ -170,7 +175,7 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       return run_with_flags(
           [&] {
             LoadedGraph loaded = load_graph(flags->graph, flags->set);
-            for (const std::string& w : loaded.warnings) say("warning: {}\n", w);
+            for (const std::string& w : loaded.warnings) warn(*flags, w);
             return std::move(loaded.graph);
           },
           *flags);

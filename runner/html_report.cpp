@@ -12,6 +12,7 @@ namespace terrazzo {
 namespace {
 
 constexpr int thumbnail_side = 256;
+constexpr int sheet_side = 2048;
 
 constexpr std::string_view style = R"(
   body { font: 15px/1.45 system-ui, sans-serif; margin: 2em auto; max-width: 72em; padding: 0 1em; color: #222; background: #fafafa }
@@ -45,13 +46,13 @@ std::string_view shown(StageOutcome::Kind kind, bool sink) {
   return kind == StageOutcome::Kind::reused && sink ? "up to date" : names[static_cast<size_t>(kind)];
 }
 
-std::string picture(const std::string& caption, const ImagePtr& image) {
+std::string picture(const std::string& caption, const ImagePtr& image, int longest = thumbnail_side) {
   return fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}, {}&times;{}</figcaption></figure>\n",
-                     thumbnail_uri(image, thumbnail_side), escaped(caption), escaped(caption), image->width(),
+                     thumbnail_uri(image, longest), escaped(caption), escaped(caption), image->width(),
                      image->height());
 }
 
-std::string report_html(const Report& report) {
+std::string report_html(const Report& report, int longest = thumbnail_side) {
   std::string out = fmt::format("<h3>{}</h3>\n<table>\n", escaped(report.title()));
   for (const Report::Figure& f : report.figures()) {
     const std::string value = std::holds_alternative<double>(f.value) ? fmt::format("{:.4g}", std::get<double>(f.value))
@@ -60,8 +61,15 @@ std::string report_html(const Report& report) {
                        escaped(value), escaped(f.help));
   }
   out += "</table>\n";
-  for (const Report::Picture& p : report.pictures()) out += picture(p.name, p.image);
+  for (const Report::Picture& p : report.pictures()) out += picture(p.name, p.image, longest);
   return out;
+}
+
+std::string page_head(const std::string& title) {
+  return fmt::format(
+      "<!doctype html>\n<html lang=en><meta charset=utf-8><meta name=viewport content=\"width=device-width\">\n"
+      "<title>{0}</title>\n<style>{1}</style>\n<h1>{0}</h1>\n",
+      escaped(title), style);
 }
 
 struct ShowValue {
@@ -143,15 +151,18 @@ std::vector<std::string> nodes_for_report(const Graph& graph, const std::vector<
 
 void write_html_report(const Plan& plan, const RunResult& result, const std::filesystem::path& path) {
   const std::string title = plan.graph->summary.empty() ? plan.graph->file.filename().string() : plan.graph->summary;
-  std::string page = fmt::format(
-      "<!doctype html>\n<html lang=en><meta charset=utf-8><meta name=viewport content=\"width=device-width\">\n"
-      "<title>{0}</title>\n<style>{1}</style>\n<h1>{0}</h1>\n<p>{2}<br><span class=quiet>{3}</span></p>\n",
-      escaped(title), style, escaped(result.summary()), escaped(plan.graph->file.string()));
+  std::string page = page_head(title);
+  page += fmt::format("<p>{}<br><span class=quiet>{}</span></p>\n", escaped(result.summary()),
+                      escaped(plan.graph->file.string()));
   for (const Failure& f : result.failures) page += fmt::format("<p class=failed>{}</p>\n", escaped(f.message));
   page += values_html(result);
   page += "<h2>Stages</h2>\n" + stages_html(plan, result);
   page += lists_html(result);
   write_whole_file(path, page);
+}
+
+void write_report_page(const Report& report, const std::filesystem::path& path) {
+  write_whole_file(path, page_head("terrazzo: a comparison") + report_html(report, sheet_side));
 }
 
 }  // namespace terrazzo

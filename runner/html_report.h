@@ -16,4 +16,7 @@ std::vector<std::string> nodes_for_report(const Graph& graph, const std::vector<
 /// cannot be written.
 void write_html_report(const Plan& plan, const RunResult& result, const std::filesystem::path& path);
 
+/// Writes one report as such a page: its figures, and its pictures large. Throws Error if the file cannot be written.
+void write_report_page(const Report& report, const std::filesystem::path& path);
+
 }  // namespace terrazzo

@@ -40,8 +40,18 @@ int expected(const Plan& plan) {
   }));
 }
 
+void write_event(std::ostream& out, const Json& event) {
+  out << event.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+}
+
 class NoProgress : public Progress {
+ public:
+  explicit NoProgress(std::ostream& out) : out_(out) {}
+  void warned(const std::string& message) override { write_warning(ProgressMode::none, out_, message); }
   void closed(const RunResult&) override {}
+
+ private:
+  std::ostream& out_;
 };
 
 class JsonProgress : public Progress {
@@ -75,6 +85,10 @@ class JsonProgress : public Progress {
   void failed(const Stage& s, const std::string& message) override {
     write({{"event", "failed"}, {"node", s.node->name}, {"message", message}});
   }
+  void warned(const std::string& message) override {
+    const std::lock_guard lock(mutex_);
+    write_warning(ProgressMode::json, out_, message);
+  }
   void closed(const RunResult& r) override {
     using Kind = StageOutcome::Kind;
     Json files = Json::array();
@@ -94,7 +108,7 @@ class JsonProgress : public Progress {
  private:
   void write(const Json& event) {
     const std::lock_guard lock(mutex_);
-    out_ << event.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+    write_event(out_, event);
   }
   std::ostream& out_;
   std::mutex mutex_;
@@ -130,6 +144,10 @@ class PlainProgress : public Progress {
   void failed(const Stage& s, const std::string&) override {
     const std::lock_guard lock(mutex_);
     line(s, "failed");
+  }
+  void warned(const std::string& message) override {
+    const std::lock_guard lock(mutex_);
+    write_warning(ProgressMode::plain, out_, message);
   }
   void closed(const RunResult&) override {}
 
@@ -173,6 +191,11 @@ class BarProgress : public Progress {
   void failed(const Stage& s, const std::string&) override {
     const std::lock_guard lock(mutex_);
     running_.erase(&s);
+  }
+  void warned(const std::string& message) override {
+    const std::lock_guard lock(mutex_);
+    erase();
+    write_warning(ProgressMode::bar, out_, message);
   }
   void closed(const RunResult&) override {
     const std::lock_guard lock(mutex_);
@@ -225,6 +248,13 @@ std::optional<ProgressMode> progress_mode_from(std::string_view name) {
   return static_cast<ProgressMode>(at - progress_mode_names.begin());
 }
 
+void write_warning(ProgressMode mode, std::ostream& out, const std::string& message) {
+  if (mode == ProgressMode::json)
+    write_event(out, {{"event", "warning"}, {"message", message}});
+  else
+    out << "warning: " << message << std::endl;
+}
+
 std::unique_ptr<Progress> make_progress(ProgressMode mode, std::ostream& out, bool terminal) {
   if (mode == ProgressMode::automatic) mode = terminal ? ProgressMode::bar : ProgressMode::plain;
   switch (mode) {
@@ -233,7 +263,7 @@ std::unique_ptr<Progress> make_progress(ProgressMode mode, std::ostream& out, bo
     case ProgressMode::json:
       return std::make_unique<JsonProgress>(out);
     case ProgressMode::none:
-      return std::make_unique<NoProgress>();
+      return std::make_unique<NoProgress>(out);
     default:
       return std::make_unique<PlainProgress>(out);
   }

@@ -23,12 +23,15 @@ std::optional<ProgressMode> progress_mode_from(std::string_view name);
 /// An observer that also tells how the run ended. Thread-safe.
 class Progress : public RunObserver {
  public:
+  /// Something that is not about a node; before closed.
+  virtual void warned(const std::string& message) = 0;
   virtual void closed(const RunResult& result) = 0;
 };
 
 /// `terminal` decides what automatic means. `out` must outlive it.
 ///
 /// json writes these objects, one per line, each with "event":
+///   warning   "message": about the document or the cache, not a node
 ///   plan      "stages": [{"node", "type", "state", "key" (or null), "why"}]; states as in StageState
 ///   start     "node"
 ///   progress  "node", "fraction" in [0, 1]; at most ten a second for each node
@@ -38,5 +41,8 @@ class Progress : public RunObserver {
 ///   failed    "node", "message"
 ///   finished  "ok", "cancelled", "seconds", "cached", "run", "failed", "unfinished", "files": [path]; always the last
 std::unique_ptr<Progress> make_progress(ProgressMode mode, std::ostream& out, bool terminal);
+
+/// A warning from before a run has an observer, as the mode has it: an object or a line of text.
+void write_warning(ProgressMode mode, std::ostream& out, const std::string& message);
 
 }  // namespace terrazzo

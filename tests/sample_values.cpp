@@ -17,7 +17,7 @@ AppearancePtr sample_appearance() {
   std::vector<AppearanceLevel> levels(2);
   for (size_t i = 0; i < levels.size(); i++) {
     AppearanceLevel& l = levels[i];
-    l.size = {8 >> i, 6 >> i};
+    l.size = {16 >> i, 12 >> i};
     for (int64_t p = 0; p < l.size.area(); p++)
       for (auto& v = l.vectors.emplace_back(); auto& c : v) c = int16_t(p * 7 - 100);
     if (i == 0) l.usable.assign(l.vectors.size(), 1), l.usable.back() = 0;
@@ -45,7 +45,7 @@ IndexPtr sample_index() {
 UvMapPtr sample_uv_map() {
   std::vector<ExemplarPixel> pixels;
   for (int i = 0; i < 5 * 4; i++) pixels.push_back({uint16_t(i % 8), uint16_t(i % 6)});
-  return UvMap::make({5, 4}, {8, 6}, std::move(pixels));
+  return UvMap::make({5, 4}, {8, 6}, std::move(pixels), {.x = true, .exemplar = true});
 }
 
 struct SameContent {
@@ -86,7 +86,8 @@ struct SameContent {
     return same;
   }
   bool operator()(const UvMapPtr& a, const UvMapPtr& b) const {
-    return a->size() == b->size() && a->exemplar() == b->exemplar() && a->pixels() == b->pixels();
+    return a->size() == b->size() && a->exemplar() == b->exemplar() && a->wraps() == b->wraps() &&
+           a->pixels() == b->pixels();
   }
   bool operator()(const ReportPtr& a, const ReportPtr& b) const {
     bool same = a->title() == b->title() && a->figures().size() == b->figures().size() &&

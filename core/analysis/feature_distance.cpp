@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "core/analysis/distance_transform.h"
@@ -10,7 +9,6 @@
 #include "core/analysis/usable.h"
 #include "core/analysis/weighting.h"
 #include "core/distribution.h"
-#include "core/error.h"
 
 namespace terrazzo {
 
@@ -80,19 +78,8 @@ std::vector<float> gradient_magnitude(const ExemplarPlanes& p) {
 }  // namespace
 
 Edges find_edges(const Material& material, const EdgeOptions& options, const Task& task) {
-  NumberMap weights;
-  for (const std::string& name : options.maps)
-    if (!material.find(name))
-      throw Error("maps", fmt::format("there is no map \"{}\"; the material has {}", name, material.map_names()));
-  for (const Map& map : material.maps()) {
-    const bool chosen =
-        options.maps.empty() || std::find(options.maps.begin(), options.maps.end(), map.name) != options.maps.end();
-    if (!chosen)
-      weights[map.name] = {0};
-    else if (!options.maps.empty())
-      weights[map.name] = {1};
-  }
-  const FeaturesPtr features = weighted_features(material, weights, options.wraps, options.mask);
+  const FeaturesPtr features =
+      weighted_features(material, weights_of_chosen(material, options.maps), options.wraps, options.mask);
   const ExemplarPlanes planes = smoothed(weighted_planes(*features, task), options.smoothing);
   Edges edges;
   edges.strength = gradient_magnitude(planes);

@@ -11,7 +11,6 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int most_per_pixel = 8;
 constexpr int64_t exhaustive_area = 1600;
 constexpr int rounds = 5;
 constexpr int apart = 3;  // pixels between members of a set, in x or y
@@ -23,7 +22,7 @@ struct Found {
   int x = 0;
   int y = 0;
 };
-using Set = std::array<Found, most_per_pixel>;
+using Set = std::array<Found, most_similar>;
 
 class LevelSearch {
  public:

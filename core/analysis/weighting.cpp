@@ -150,6 +150,19 @@ FeaturesPtr weighted_features(const Material& material, const NumberMap& weights
                         mask ? nearest_at_size(mask, material.size()) : nullptr);
 }
 
+NumberMap weights_of_chosen(const Material& material, const std::vector<std::string>& maps) {
+  for (const std::string& name : maps)
+    if (!material.find(name))
+      throw Error("maps", fmt::format("there is no map \"{}\"; the material has {}", name, material.map_names()));
+  NumberMap weights;
+  const bool any_counts = std::any_of(material.maps().begin(), material.maps().end(),
+                                      [](const Map& map) { return default_weight(map.image->info().semantic) > 0; });
+  if (maps.empty() && any_counts) return weights;
+  for (const Map& map : material.maps())
+    weights[map.name] = {maps.empty() || std::find(maps.begin(), maps.end(), map.name) != maps.end() ? 1.0 : 0.0};
+  return weights;
+}
+
 bool seems_to_tile(const Material& material) {
   return std::all_of(material.maps().begin(), material.maps().end(), [](const Map& map) {
     if (std::min(map.image->width(), map.image->height()) < 2 * WindowSearch::side) return false;

@@ -19,6 +19,10 @@ double default_weight(Semantic semantic);
 FeaturesPtr weighted_features(const Material& material, const NumberMap& weights, bool wraps,
                               const ImagePtr& mask = nullptr);
 
+/// Weights for the maps an analysis was told to look at: 1 for each of `maps` and 0 for the others; the defaults if
+/// none is named, or 1 for all if those are all 0. Throws Error about "maps" if the material lacks one.
+NumberMap weights_of_chosen(const Material& material, const std::vector<std::string>& maps);
+
 /// Whether opposite borders of every map fit together: windows across them resemble the rest of the map about as much
 /// as windows inside it do.
 bool seems_to_tile(const Material& material);

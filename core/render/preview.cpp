@@ -1,10 +1,12 @@
 #include "core/render/preview.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include <tbb/parallel_for.h>
 
+#include "core/contact_sheet.h"
 #include "core/exact_math.h"
 #include "core/render/relief.h"
 #include "core/render/shading.h"
@@ -134,33 +136,45 @@ float stored(double linear) {
   return float(exact::floor_int(exact::saturate(encode_srgb(linear)) * 255 + 0.5)) / 255.0f;
 }
 
+ImagePtr rendered(const Renderer& renderer, Size size, size_t light, const Task& task) {
+  std::vector<float> out(size_t(size.area()) * 3);
+  tbb::parallel_for(0, size.height, [&](int y) {
+    task.check();
+    for (int x = 0; x < size.width; x++) {
+      const Vec c = renderer.pixel(x, y, light);
+      float* pixel = &out[(size_t(y) * size.width + x) * 3];
+      pixel[0] = stored(c.x);
+      pixel[1] = stored(c.y);
+      pixel[2] = stored(c.z);
+    }
+  });
+  ImageInfo info{.size = size, .channels = 3, .semantic = Semantic::base_color, .depth = Depth::u8};
+  info.color_space = "srgb_texture";
+  return Image::from_floats(info, std::move(out));
+}
+
+/// Row by row, as square as it gets.
+ImagePtr sheet_of(const std::vector<ImagePtr>& pictures) {
+  size_t columns = 1;
+  while (columns * columns < pictures.size()) columns++;
+  std::vector<std::vector<ImagePtr>> rows;
+  for (size_t i = 0; i < pictures.size(); i++) {
+    if (i % columns == 0) rows.emplace_back();
+    rows.back().push_back(pictures[i]);
+  }
+  return contact_sheet(rows, std::numeric_limits<int>::max());
+}
+
 }  // namespace
 
 ImagePtr render_preview(const Material& material, const PreviewSpec& spec, const Task& task) {
   const Textures textures =
       load_textures(material, int(std::max(1.0, spec.size.width / std::max(spec.tile, 1e-3))), spec.relief, task);
   const Renderer renderer(spec, textures);
-  const int count = int(spec.lights.size());
-  int columns = 1;
-  while (columns * columns < count) columns++;
-  const int rows = (count + columns - 1) / columns;
-  const Size sheet{spec.size.width * columns, spec.size.height * rows};
-  std::vector<float> out(size_t(sheet.area()) * 3, 0.f);
-  tbb::parallel_for(0, sheet.height, [&](int y) {
-    task.check();
-    for (int x = 0; x < sheet.width; x++) {
-      const int light = y / spec.size.height * columns + x / spec.size.width;
-      if (light >= count) break;
-      const Vec c = renderer.pixel(x % spec.size.width, y % spec.size.height, size_t(light));
-      float* pixel = &out[(size_t(y) * sheet.width + x) * 3];
-      pixel[0] = stored(c.x);
-      pixel[1] = stored(c.y);
-      pixel[2] = stored(c.z);
-    }
-  });
-  ImageInfo info{.size = sheet, .channels = 3, .semantic = Semantic::base_color, .depth = Depth::u8};
-  info.color_space = "srgb_texture";
-  return Image::from_floats(info, std::move(out));
+  std::vector<ImagePtr> pictures;
+  for (size_t light = 0; light < spec.lights.size(); light++)
+    pictures.push_back(rendered(renderer, spec.size, light, task));
+  return pictures.size() == 1 ? pictures.front() : sheet_of(pictures);
 }
 
 }  // namespace terrazzo

@@ -191,7 +191,8 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
       task.progress(std::pow(0.25, l) * (pass + 1) / effort.passes);
     }
   }
-  return UvMap::make(options.size, appearance.size(), std::move(field.pixels));
+  return UvMap::make(options.size, appearance.size(), std::move(field.pixels),
+                     {options.tile_x, options.tile_y, appearance.wraps()});
 }
 
 }  // namespace terrazzo

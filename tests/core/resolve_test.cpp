@@ -50,15 +50,24 @@ TEST_CASE("every output pixel of every map is the exemplar pixel that the uv map
   }
 }
 
-TEST_CASE("a window of the resolved map is that window of the whole") {
-  const ImagePtr map = resolved(exemplar()->find("base_color"), uv_map({31, 17}));
-  const std::vector<float> all = map->pixels(), window = map->read({5, 3, 9, 4});
-  for (int y = 0; y < 4; y++)
-    for (int i = 0; i < 27; i++) REQUIRE(window[y * 27 + i] == all[((y + 3) * 31 + 5) * 3 + i]);
+TEST_CASE("a window of the resolved map is that window of the whole, however it is resolved") {
+  for (const double blend : {0.0, 2.5}) {
+    const MaterialPtr out = resolved(*exemplar(), uv_map({31, 17}), {.blend = blend});
+    for (const Map& map : out->maps()) {
+      const int n = map.image->channels();
+      const std::vector<float> all = map.image->pixels(), window = map.image->read({5, 3, 9, 4});
+      for (int y = 0; y < 4; y++)
+        for (int i = 0; i < 9 * n; i++) REQUIRE(window[y * 9 * n + i] == all[((y + 3) * 31 + 5) * n + i]);
+    }
+  }
 }
 
 TEST_CASE("a uv map made for another exemplar is refused with both sizes") {
   const UvMapPtr other = UvMap::make({2, 2}, {64, 64}, std::vector<ExemplarPixel>(4));
   CHECK_THROWS_WITH_AS(resolved(*exemplar(), other),
                        "the uv map was made for an exemplar of 64x64 pixels, this one has 20x14", Error);
+  CHECK_THROWS_AS(resolved(*exemplar(), other, {.scale = 0}), Error);
+  const UvMapPtr half = UvMap::make({2, 2}, {10, 7}, std::vector<ExemplarPixel>(4));
+  CHECK_THROWS_WITH_AS(resolved(*exemplar(), half), doctest::Contains("set \"scale\" to 2"), Error);
+  CHECK_THROWS_WITH_AS(resolved(*exemplar(), half, {.scale = 3}), doctest::Contains("needs one of 30x21"), Error);
 }

@@ -140,7 +140,13 @@ TEST_CASE("the normal convention comes from the parameter, the name, or the pixe
   CHECK(convention("auto") == NormalY::down);
   fs::rename(folder.path() / "normal.png", folder.path() / "normal_gl.png");
   CHECK(convention("auto") == NormalY::up);
-  fs::remove(folder.path() / "normal_gl.png");
+  const NodeRun misnamed = run_node("load_material", {{"path", folder.path().string()}});
+  CHECK(says(misnamed, "normal_gl.png says that green points up (OpenGL), but it looks as if it pointed down"));
+  CHECK(says(misnamed, "set `normal_y` to \"down\" if it is wrong"));
+  fs::rename(folder.path() / "normal_gl.png", folder.path() / "normal_dx.png");
+  CHECK(convention("auto") == NormalY::down);
+  CHECK_FALSE(says(run_node("load_material", {{"path", folder.path().string()}}), "looks as if"));
+  fs::remove(folder.path() / "normal_dx.png");
   write(folder.path() / "normal.png", 3, [](int, int, int c) { return c == 2 ? 1.0f : 0.5f; });
   CHECK(says(run_node("load_material", {{"path", folder.path().string()}}), "up is assumed"));
 }

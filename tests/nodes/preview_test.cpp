@@ -139,9 +139,9 @@ TEST_CASE("a ball stands before the background, lit from the light's side") {
 TEST_CASE("several lights make a sheet whose pictures are those of the single lights") {
   const MaterialPtr m = Material::make("bump", {{"normal", bump_normals(1)}, {"height", bump_height()}});
   const ImagePtr sheet = preview(m, {{"size", Size{32, 20}}, {"lights", Numbers{0, 90, 200}}});
-  CHECK(sheet->size() == Size{64, 40});
-  CHECK(sheet->read({32, 0, 32, 20}) == preview(m, {{"size", Size{32, 20}}, {"azimuth", 90.0}})->pixels());
-  CHECK(sheet->read({0, 20, 32, 20}) == preview(m, {{"size", Size{32, 20}}, {"azimuth", 200.0}})->pixels());
+  CHECK(sheet->size() == Size{6 + 32 + 6 + 32 + 6, 6 + 20 + 6 + 20 + 6});
+  CHECK(sheet->read({44, 6, 32, 20}) == preview(m, {{"size", Size{32, 20}}, {"azimuth", 90.0}})->pixels());
+  CHECK(sheet->read({6, 32, 32, 20}) == preview(m, {{"size", Size{32, 20}}, {"azimuth", 200.0}})->pixels());
 }
 
 TEST_CASE("maps of other sizes, odd shapes and tilted planes render") {

@@ -178,6 +178,27 @@ TEST_CASE("progress as json is an object per line, from the plan to the end") {
   CHECK(events.back()["files"][0] == (w.path / "out/base_color.png").string());
 }
 
+TEST_CASE("with progress as json, warnings about the document are objects too") {
+  const Workplace w;
+  write_text(w.path / "idle.json", R"({
+  "terrazzo": 1,
+  "parameters": {"unused": {"type": "number", "default": 2}},
+  "nodes": {
+    "photo": {"type": "load_map", "path": "photo.png"},
+    "files": {"type": "export", "material": "@photo", "path": "out/{map}.png"}
+  }
+})");
+  const ProgramRun r = w.run({"run", "idle.json", "--progress", "json"});
+  CHECK(r.code == 0);
+  std::istringstream lines(r.err);
+  std::string first;
+  std::getline(lines, first);
+  const nlohmann::json warning = nlohmann::json::parse(first);
+  CHECK(warning["event"] == "warning");
+  CHECK(warning["message"].get<std::string>().find("unused") != std::string::npos);
+  CHECK(w.run({"run", "idle.json", "--progress", "plain"}).err.find("warning: ") == 0);
+}
+
 TEST_CASE("trace and report are written") {
   const Workplace w;
   const ProgramRun r = w.run({"run", "soft.json", "--trace", "t.json", "--report", "r.html"});
@@ -322,9 +343,35 @@ TEST_CASE("compare prints figures as a table or as json") {
   CHECK(table.out.find("  swd ") != std::string::npos);
   const ProgramRun json = w.run({"compare", "photo.png", "other.png", "--json"});
   CHECK(nlohmann::json::parse(json.out)["figures"][0]["name"] == "swd");
+  for (const std::string sheet : {"sheets/s.png", "s.html"}) {
+    const ProgramRun drawn = w.run({"compare", "photo.png", "other.png", "--sheet", sheet});
+    CHECK_MESSAGE(drawn.code == 0, drawn.err);
+    CHECK(drawn.out == table.out);
+  }
+  CHECK(read_image_info(w.path / "sheets/s.png").size == Size{6 + 32 + 6 + 32 + 6, 6 + 24 + 6});
+  const std::string page = read_text(w.path / "s.html");
+  CHECK(page.find("<td>swd</td>") != std::string::npos);
+  CHECK(page.find("data:image/png;base64,iVBOR") != std::string::npos);
+  CHECK(w.run({"compare", "photo.png", "other.png", "--sheet", "s.doc"}).code == 2);
   const ProgramRun missing = w.run({"compare", "photo.png", "gone.png"});
   CHECK(missing.code == 1);
   CHECK(missing.err.find("gone.png") != std::string::npos);
+}
+
+TEST_CASE("compare measures the layout too when it is given the uv map") {
+  const Workplace w;
+  std::vector<ExemplarPixel> pixels;
+  for (int i = 0; i < 32 * 24; i++) pixels.push_back({uint16_t(i % 32), uint16_t(i / 32)});
+  run_node("export", {{"uv_path", (w.path / "uv.png").string()}},
+           {{"uv", {UvMap::make({32, 24}, {32, 24}, std::move(pixels))}}});
+  const ProgramRun r = w.run({"compare", "photo.png", "photo.png", "--uv", "uv.png", "--json"});
+  CHECK_MESSAGE(r.code == 0, r.err);
+  std::map<std::string, double> figures;
+  const nlohmann::json report = nlohmann::json::parse(r.out);
+  for (const auto& f : report["figures"]) figures[f["name"]] = f["value"];
+  CHECK(figures.at("seam_energy") == 0);
+  CHECK(figures.at("usage_entropy") == doctest::Approx(1).epsilon(0.02));
+  CHECK(figures.at("largest_copy") == 1);
 }
 
 TEST_CASE("synth makes a larger material without a graph file") {

@@ -63,3 +63,13 @@ TEST_CASE("too small an exemplar and guidance of another size are refused with t
   CHECK_THROWS_WITH_AS(make_appearance(*plain_features(wall({32, 32})), {wall({16, 32})}, {}, Task()),
                        "guidance must have the features' size, 32x32; this image has 16x32", Error);
 }
+
+TEST_CASE("guidance counts the same in pixels as in parts of their greatest") {
+  const FeaturesPtr features = plain_features(wall({64, 64}));
+  const auto guided = [&](float strength) {
+    const ImagePtr guide = make_image(
+        {64, 64}, 1, [&](int x, int, int) { return strength * float(x); }, Semantic::guidance);
+    return make_appearance(*features, {guide}, {}, Task())->levels()[2].vectors;
+  };
+  CHECK(guided(1.0f) == guided(1.0f / 64));
+}

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "core/hash.h"
+#include "tests/core/metrics/textures.h"
 #include "tests/run_node.h"
 
 using namespace terrazzo;
@@ -18,4 +20,22 @@ TEST_CASE("an image that tiles has a wrap seam of about one, one that does not h
 TEST_CASE("flat images and single rows have no wrap seam") {
   CHECK(wrap_seam(*make_image({8, 8}, 3, [](int, int, int) { return 0.5f; })).x == doctest::Approx(1));
   CHECK(wrap_seam(*make_image({8, 1}, 1, [](int x, int, int) { return float(x); })).y == 1);
+}
+
+TEST_CASE("wrap seams show in a cut texture, sharp or blurred, and not in one that wraps or has no structure") {
+  const auto seam = [](const Planes& planes) {
+    return wrap_seam(*Image::from_floats({.size = planes.size, .channels = planes.channels}, planes.values));
+  };
+  const auto ramp = [](Size size) {
+    Planes out = Planes::zeros(size, 1);
+    for (int i = 0; i < size.area(); i++)
+      out.values[i] = float(i % size.width) / float(size.width) + 0.05f * float(unit_double(random_bits(3, i)));
+    return out;
+  };
+  const double cut = seam(ramp({64, 64})).x, blurred_cut = seam(blurred(ramp({64, 64}), 1)).x;
+  CHECK(cut > 10);
+  CHECK(blurred_cut > cut);
+  CHECK(seam(ramp({64, 64})).y == doctest::Approx(1).epsilon(0.1));
+  CHECK(seam(shuffled(ramp({64, 64}), 5)).x == doctest::Approx(1).epsilon(0.2));
+  CHECK(seam(random_blocks(ramp({64, 64}), {64, 64}, 16, 2)).x > 2);
 }

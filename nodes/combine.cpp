@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include "core/color.h"
+#include "core/error.h"
+#include "nodes/exemplar_atlas.h"
+#include "nodes/image_work.h"
+
+namespace terrazzo {
+
+namespace {
+
+void compute(NodeContext& node) {
+  const auto materials = node.list<Material>("materials");
+  const auto masks = node.list<Image>("masks");
+  if (!masks.empty() && masks.size() != materials.size())
+    throw Error("masks", fmt::format("expected a mask for each of the {} materials, or none; found {}",
+                                     materials.size(), masks.size()));
+  std::vector<Exemplar> exemplars;
+  for (size_t i = 0; i < materials.size(); i++)
+    exemplars.push_back(masked_exemplar(materials[i], "masks", masks.empty() ? nullptr : masks[i]));
+  output_atlas(node, exemplars);
+}
+
+}  // namespace
+
+NodeType combine_node() {
+  NodeType t;
+  t.name = "combine";
+  t.category = "image";
+  t.summary = "Lays several exemplars side by side as one";
+  t.help =
+      "One result can draw on several exemplars of a surface: photographs of neighbouring spots, say, or a clean and a "
+      "worn one. This lays them out in one material, which everything that takes an exemplar takes: weight, guidance, "
+      "resolve_uv. Give its mask to \"weight\", so that nothing is taken from across the gaps, and set \"tiles\" to no "
+      "there and in other analysis; leave \"regularity\" out, which would take the layout for a lattice, unless all "
+      "exemplars repeat alike and their places agree. Exemplars must have the same maps; sizes may differ. All pixels "
+      "stay as they are, "
+      "but that colours and normals are brought to the first exemplar's colour space and convention. \"labels\" tells "
+      "exemplars apart when a target steers which is used where.";
+  t.inputs = {{.name = "materials", .type = ValueType::material, .help = "the exemplars", .list = true},
+              {.name = "masks",
+               .type = ValueType::image,
+               .help = "for each exemplar where it may be sampled (above 0.5), 1 channel",
+               .optional = true,
+               .list = true}};
+  t.outputs = atlas_outputs();
+  t.params = atlas_params();
+  t.persist = Persist::derived;
+  t.files_read = [](const Params&) { return color_config_files(); };
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

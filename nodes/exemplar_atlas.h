@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/atlas.h"
+#include "core/node.h"
+
+/// What nodes that lay several exemplars side by side share.
+namespace terrazzo {
+
+/// Ports "material", "mask" and "labels".
+std::vector<Port> atlas_outputs();
+/// Parameters "gap" and "edges".
+std::vector<Param> atlas_params();
+/// Sets the outputs from the exemplars, as the parameters say.
+void output_atlas(NodeContext& node, const std::vector<Exemplar>& exemplars);
+/// The material with a mask that came in at `port`, if one did. Throws Error unless it has the material's shape and one
+/// channel.
+Exemplar masked_exemplar(const MaterialPtr& material, const std::string& port, const ImagePtr& mask);
+
+}  // namespace terrazzo
