@@ -17,7 +17,8 @@ constexpr int most_side = 256;  // periods are found to a fraction of a pixel; m
 constexpr double shortest = 4;  // pixels; anything finer is grain
 constexpr double grain = 0.8;   // pixels; a light blur keeps noise from drowning what repeats
 constexpr int most_peaks = 60;
-constexpr double about = 0.05;  // scores that differ by less are as good as equal
+constexpr double good_enough = 0.75;  // of the best score
+constexpr double about = 0.05;        // scores that differ by less are as good as equal
 // Of what correlation remains between bands, the part that must repeat along them before bricks count as of one length.
 constexpr double least_bond = 0.25;
 
@@ -88,6 +89,27 @@ Correlation correlate(const ExemplarPlanes& planes, const Task& task) {
     for (size_t i = 0; i < sum.size(); i++) sum[i] += all[c].values[i] * variance[c] / total;
   }
   return {std::move(sum), lags};
+}
+
+/// Edge strength, all channels together: joints show in it however much bricks differ in colour.
+ExemplarPlanes outlines(const ExemplarPlanes& in) {
+  Planes values = Planes::zeros(in.size, in.channels);
+  values.values = in.values;
+  values = blurred(values, grain);
+  ExemplarPlanes out{in.size, 1, in.wraps, std::vector<float>(size_t(in.size.area()))};
+  const auto at = [&](int x, int y) { return &values.values[(size_t(y) * in.size.width + x) * in.channels]; };
+  for (int y = 0; y < in.size.height; y++)
+    for (int x = 0; x < in.size.width; x++) {
+      const float *left = at(std::max(0, x - 1), y), *right = at(std::min(in.size.width - 1, x + 1), y);
+      const float *up = at(x, std::max(0, y - 1)), *down = at(x, std::min(in.size.height - 1, y + 1));
+      float sum = 0;
+      for (int c = 0; c < in.channels; c++) {
+        const float dx = right[c] - left[c], dy = down[c] - up[c];
+        sum += dx * dx + dy * dy;
+      }
+      out.values[size_t(y) * in.size.width + x] = std::sqrt(sum);
+    }
+  return out;
 }
 
 struct Peak {
@@ -181,11 +203,12 @@ Lattice two_directions(const Correlation& r) {
       candidates.push_back({a, b, area, lattice_score(r, a, b)});
       highest = std::max(highest, candidates.back().score);
     }
-  // Multiples of a cell score about as well as the cell itself: take the smallest of those that do well.
+  // Multiples of a cell score about as well as the cell itself, or better where they fall on whole pixels: take the
+  // smallest of those that do well.
   Lattice best;
   double least_area = std::numeric_limits<double>::max();
   for (const Candidate& c : candidates)
-    if (c.score >= 0.9 * highest && c.score > 0 && c.area < 0.98 * least_area) {
+    if (c.score >= good_enough * highest && c.score > 0 && c.area < 0.98 * least_area) {
       best = {2, c.a, c.b, c.score};
       least_area = c.area;
     }
@@ -305,7 +328,10 @@ Lattice find_lattice(const Features& features, double least_certainty, const Tas
     planes = halved(planes);
     scale *= 2;
   }
+  // What repeats may be the colours or, where those vary from brick to brick, only the joints.
   Lattice best = most_telling(correlate(planes, task), least_certainty);
+  const Lattice joints = most_telling(correlate(outlines(planes), task), least_certainty);
+  if (joints.certainty > best.certainty) best = joints;
   if (best.certainty < least_certainty || !best.is_valid()) return {0, {}, {}, best.certainty};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
   return best.fitted(features.size(), features.wraps(), features.wraps());
