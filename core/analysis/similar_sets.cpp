@@ -26,8 +26,9 @@ using Set = std::array<Found, most_similar>;
 
 class LevelSearch {
  public:
-  LevelSearch(const AppearanceLevel& level, bool wraps, int per_pixel)
+  LevelSearch(const AppearanceLevel& level, bool wraps, int per_pixel, const LatticePhase& phase)
       : level_(level, wraps),
+        phase_(phase),
         per_pixel_(per_pixel),
         away_(std::max(3, std::min(level.size.width, level.size.height) / 20)) {}
 
@@ -44,9 +45,16 @@ class LevelSearch {
     return sum;
   }
 
+  /// Offers (u, v), or of a regular exemplar the place in phase that is nearest to it.
+  void offer_near(Set& set, int x, int y, int u, int v) const {
+    phase_.snap(x, y, u, v);
+    offer(set, x, y, u, v);
+  }
+
   /// Puts (u, v) into the set of (x, y) if it belongs there.
   void offer(Set& set, int x, int y, int u, int v) const {
     level_.settle(u, v);
+    if (phase_.active() && phase_.penalty(u, v, x, y) > 1) return;
     if (between(x, u, size().width) < away_ && between(y, v, size().height) < away_) return;
     // A newcomer may take the place of one member that is too near to it, if it is better; between two it has no place.
     int limit = set[per_pixel_ - 1].distance, near = -1;
@@ -69,6 +77,7 @@ class LevelSearch {
     return level_.wraps() ? std::min(d, n - d) : d;
   }
   PaddedLevel level_;
+  LatticePhase phase_;
   int per_pixel_;
   int away_;
 };
@@ -102,13 +111,13 @@ Sets started(const LevelSearch& level, int per_pixel, const Sets& parent, Size p
     Set& set = sets[size_t(y) * size.width + x];
     if (!parent.empty()) {
       const Set& from = parent[size_t(y / 2) * parent_size.width + x / 2];
-      for (int k = 0; k < per_pixel; k++) level.offer(set, x, y, 2 * from[k].x + (x & 1), 2 * from[k].y + (y & 1));
+      for (int k = 0; k < per_pixel; k++) level.offer_near(set, x, y, 2 * from[k].x + (x & 1), 2 * from[k].y + (y & 1));
     }
     const int random_places = parent.empty() ? 8 * per_pixel : per_pixel;
     for (int k = 0; k < random_places; k++) {
       const uint64_t r = random_bits(1, x, y, k);
       const auto [u, v] = level.place(r);
-      level.offer(set, x, y, u, v);
+      level.offer_near(set, x, y, u, v);
     }
   });
   return sets;
@@ -131,8 +140,8 @@ Sets improved(const LevelSearch& level, int per_pixel, const Sets& before, int r
     for (int k = 0; k < per_pixel; k++) {
       const int reach = std::max(2, std::max(size.width, size.height) >> (2 * round + 2 + k % 2));
       const uint64_t r = random_bits(2, x, y, k, round);
-      level.offer(set, x, y, own[k].x + int(below(uint32_t(r), 2 * reach + 1)) - reach,
-                  own[k].y + int(below(uint32_t(r >> 32), 2 * reach + 1)) - reach);
+      level.offer_near(set, x, y, own[k].x + int(below(uint32_t(r), 2 * reach + 1)) - reach,
+                       own[k].y + int(below(uint32_t(r >> 32), 2 * reach + 1)) - reach);
     }
   });
   return sets;
@@ -158,7 +167,8 @@ IndexPtr make_index(const AppearancePtr& appearance, int per_pixel, const Task& 
   Sets sets;
   Size parent_size;
   for (int l = int(levels.size()) - 1; l >= 0; l--) {
-    const LevelSearch level(levels[l], appearance->wraps(), per_pixel);
+    const LevelSearch level(levels[l], appearance->wraps(), per_pixel,
+                            LatticePhase(appearance->lattice(), l, appearance->size(), false, false));
     if (level.size().area() <= exhaustive_area) {
       sets = search_all(level, task);
     } else {

@@ -72,14 +72,17 @@ void place_block(Field& field, const Rect& block, std::array<int, 2> start, cons
 }
 
 /// The coarsest level: square blocks of a quarter of the exemplar's side, from random places.
-Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* control, uint64_t seed) {
+Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* control, const LatticePhase& phase,
+                    uint64_t seed) {
   Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
   const Size from = exemplar.size();
   const int side = std::max(4, std::min(from.width, from.height) / 4);
   for (int top = 0; top < size.height; top += side)
     for (int left = 0; left < size.width; left += side) {
       const Rect block = intersect(whole(size), {left, top, side, side});
-      place_block(field, block, best_start(exemplar, control, size, block, side, seed), exemplar);
+      std::array<int, 2> start = best_start(exemplar, control, size, block, side, seed);
+      phase.snap(left, top, start[0], start[1]);
+      place_block(field, block, start, exemplar);
     }
   return field;
 }
@@ -196,7 +199,7 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
     const FixedPixels fixed(options.kept, options.size, l, exemplar_level.size);
     std::unique_ptr<const LevelControl> control;
     if (!controls.empty()) control = std::make_unique<LevelControl>(controls, l, exemplar);
-    field = l == levels - 1 ? random_blocks(size, exemplar, control.get(), options.seed)
+    field = l == levels - 1 ? random_blocks(size, exemplar, control.get(), phase, options.seed)
                             : upsampled(field, size, exemplar, phase, amplitude, options.seed, l);
     if (l == levels - 1) scatter(field, exemplar, amplitude, options.seed, l);
     fixed.apply(field);
