@@ -16,12 +16,20 @@ out=out/sweeps
 export TERRAZZO_CACHE=$out/cache
 failed=()
 
-# sweep CLASS FOLDER
-sweep() {
-  for graph in examples/sweeps/*.json; do
-    echo "$1: $(basename "$graph" .json)"
-    build/terrazzo run "$graph" --progress none --set "material=$2" --set "out=$out/$1" || failed+=("$out/$1: $graph")
-  done
+# sheet SWEEP FOLDER_OF_MAPS OUT [SETTING...]
+sheet() {
+  local sweep=$1 maps=$2 to=$3
+  shift 3
+  build/terrazzo run "examples/sweeps/$sweep.json" --progress none --set "material=$maps" --set "out=$to" "$@" ||
+    failed+=("$to/$sweep.png")
+}
+
+# all_sheets NAME FOLDER_OF_MAPS
+all_sheets() {
+  echo "$1:"
+  for sweep in jitter weights guidance dimensions lights; do sheet $sweep "$2" "$out/$1"; done
+  # A lattice hides most of what these do to bricks and tiles.
+  for sweep in jitter guidance dimensions; do sheet $sweep "$2" "$out/$1/without-lattice" --set lattice=off; done
 }
 
 if [ ${#folders[@]} -eq 0 ]; then
@@ -29,17 +37,17 @@ if [ ${#folders[@]} -eq 0 ]; then
     folder=$out/${class%:*}/exemplar
     build/terrazzo run graphs/generate-exemplar.json --progress none --set "type=${class#*:}" --set size=256x256 \
       --set "out=$folder"
-    sweep "${class%:*}" "$folder"
+    all_sheets "${class%:*}" "$folder"
   done
 else
-  for folder in "${folders[@]}"; do sweep "$(basename "$folder")" "$folder"; done
+  for folder in "${folders[@]}"; do all_sheets "$(basename "$folder")" "$folder"; done
 fi
 
 echo
 echo "The contact sheets:"
-ls "$out"/*/*.png
+find "$out" -name '*.png' -not -path '*/exemplar/*' | sort
 if [ ${#failed[@]} -gt 0 ]; then
-  echo "These failed, for the reasons given above:" >&2
+  echo "These were not made, for the reasons given above:" >&2
   printf '%s\n' "${failed[@]}" >&2
   exit 1
 fi
