@@ -10,13 +10,13 @@
 #include "core/error.h"
 #include "core/pixel_font.h"
 #include "core/resample.h"
+#include "core/sheet_canvas.h"
 
 namespace terrazzo {
 
 namespace {
 
-constexpr int channels = 3;
-constexpr float background = 0.15f, ink = 0.85f;
+constexpr float ink = 0.85f;
 constexpr int64_t longest_side = 32768;
 /// Rows pulled at once, so that a huge picture never exists as a whole.
 constexpr int rows_at_once = 16;
@@ -44,32 +44,6 @@ Size fitted(Size size, const GridSpec& spec) {
   return {scaled(size.width, spec.cell.width), scaled(size.height, spec.cell.height)};
 }
 
-class Sheet {
- public:
-  explicit Sheet(Size size) : size_(size), pixels_(size_t(size.area()) * channels, background) {}
-
-  void set(int x, int y, const float* color) { std::copy_n(color, channels, at(x, y)); }
-
-  void paint(const Rect& area, float value) {
-    for (int y = area.y; y < area.bottom(); y++) std::fill_n(at(area.x, y), size_t(area.width) * channels, value);
-  }
-
-  ImagePtr finished() && {
-    const ImageInfo info{.size = size_,
-                         .channels = channels,
-                         .semantic = Semantic::base_color,
-                         .color_space = "srgb_texture",
-                         .depth = Depth::u8};
-    return Image::from_floats(info, std::move(pixels_));
-  }
-
- private:
-  float* at(int x, int y) { return &pixels_[(size_t(y) * size_.width + x) * channels]; }
-
-  Size size_;
-  std::vector<float> pixels_;
-};
-
 /// The picture as it is shown: scaled, and colours in sRGB.
 ImagePtr displayed(const ImagePtr& image, Size size) {
   Hasher recipe;
@@ -78,28 +52,28 @@ ImagePtr displayed(const ImagePtr& image, Size size) {
   return scaled->info().color_space == "raw" ? scaled : convert_color(scaled, "srgb_texture");
 }
 
-void draw_picture(const Image& picture, int left, int top, const Task& task, Sheet& sheet) {
-  const int second = picture.channels() >= 3 ? 1 : 0;
+void draw_picture(const Image& picture, int left, int top, const Task& task, SheetCanvas& sheet) {
+  const bool colored = picture.channels() >= SheetCanvas::channels;
   for (int y = 0; y < picture.height(); y += rows_at_once) {
     task.check();
     const Rect rows{0, y, picture.width(), std::min(rows_at_once, picture.height() - y)};
     const std::vector<float> pixels = picture.read(rows);
-    for (int64_t i = 0; i < rows.area(); i++) {
-      float color[channels];
-      for (int c = 0; c < channels; c++) {
-        const float v = pixels[size_t(i) * picture.channels() + c * second];
-        color[c] = v > 0 ? std::min(v, 1.f) : 0.f;
-      }
-      sheet.set(left + int(i % rows.width), top + y + int(i / rows.width), color);
+    std::vector<float> colors(size_t(rows.area()) * SheetCanvas::channels);
+    for (size_t i = 0; i < colors.size(); i++) {
+      const size_t pixel = i / SheetCanvas::channels, channel = i % SheetCanvas::channels;
+      const float v = pixels[pixel * picture.channels() + (colored ? channel : 0)];
+      colors[i] = v > 0 ? std::min(v, 1.f) : 0.f;
     }
+    for (int row = 0; row < rows.height; row++)
+      sheet.put(left, top + y + row, &colors[size_t(row) * rows.width * SheetCanvas::channels], rows.width);
   }
 }
 
-void draw_caption(const std::string& caption, int left, int top, const GridSpec& spec, Sheet& sheet) {
+void draw_caption(const std::string& caption, int left, int top, const GridSpec& spec, SheetCanvas& sheet) {
   const int dot = dot_size(spec);
   const std::string text = shortened(caption, spec.cell.width / (glyph_advance * dot));
   const int indent = (spec.cell.width - character_count(text) * glyph_advance * dot) / 2;
-  for_each_dot(text, [&](int x, int y) { sheet.paint({left + indent + x * dot, top + y * dot, dot, dot}, ink); });
+  for_each_dot(text, [&](int x, int y) { sheet.fill({left + indent + x * dot, top + y * dot, dot, dot}, ink); });
 }
 
 }  // namespace
@@ -123,7 +97,7 @@ ImagePtr picture_grid(const std::vector<ImagePtr>& pictures, const GridSpec& spe
   if (spec.captions.size() > pictures.size())
     throw Error("captions", fmt::format("expected at most one for each of the {} pictures, found {}", pictures.size(),
                                         spec.captions.size()));
-  Sheet sheet(grid_size(pictures.size(), spec));
+  SheetCanvas sheet(grid_size(pictures.size(), spec));
   const Size place = place_size(spec);
   tbb::parallel_for(size_t{0}, pictures.size(), [&](size_t i) {
     const int column = int(i) % columns_of(pictures.size(), spec), row = int(i) / columns_of(pictures.size(), spec);

@@ -24,11 +24,9 @@ NodeType contact_sheet_node() {
   t.summary = "Lays pictures out in rows, with captions";
   t.help =
       "For comparing variants of one graph at a glance. Pictures may differ in size and kind: each is scaled down to "
-      "fit "
-      "its cell and centred; colours are shown as sRGB, one or two channels as grey by the first, and a fourth channel "
-      "is "
-      "left out. Values beyond 0 and 1 are cut off: put \"normalize\" before images of other ranges. Wire materials "
-      "through \"preview\", which lights them.";
+      "fit its cell and centred; colours are shown as sRGB, one or two channels as grey by the first, and a fourth "
+      "channel is left out. Values beyond 0 and 1 are cut off: put \"normalize\" before images of other ranges. "
+      "Materials go through \"preview\" first, which lights them.";
   t.inputs = {{.name = "images", .type = ValueType::image, .help = "the pictures, in reading order", .list = true}};
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "8-bit colour picture"}};
   t.params = {{.name = "columns",
