@@ -31,6 +31,8 @@ void compute(NodeContext& node) {
   if (uv) {
     require_same_exemplar(*uv, *index);
     options.size = uv->size();
+    options.tile_x |= uv->wraps().x;
+    options.tile_y |= uv->wraps().y;
   }
   require_shape("mask", *holes, uv ? "the uv map" : "the exemplar", options.size);
   options.kept = outside_holes(uv.get(), holes, options.size);
@@ -47,9 +49,9 @@ NodeType inpaint_node() {
   t.help =
       "Every map is filled at once, through one uv map: pixels outside the holes stay exactly as they are, those "
       "inside continue them with material from elsewhere in the exemplar. Without \"uv\" the exemplar itself is what "
-      "is "
-      "there; give weight the inverted mask then, so that nothing is taken out of the holes. With \"uv\" parts of an "
-      "earlier result are made anew.";
+      "is there; give weight the inverted mask then, so that nothing is taken out of the holes. With \"uv\" parts of "
+      "an "
+      "earlier result are made anew, and it wraps as before.";
   t.inputs = {index_port(),
               {.name = "mask",
                .type = ValueType::image,

@@ -71,7 +71,7 @@ NodeType regularity_node() {
        .choices = {"auto", "manual", "off"}},
       {.name = "least_certainty",
        .type = ParamType::number,
-       .fallback = 0.15,
+       .fallback = 0.08,
        .help = "A lattice found with less certainty is not used.",
        .min = 0,
        .max = 1},

@@ -30,7 +30,7 @@ const std::vector<Param>& shared_params() {
        .min = 0},
       {.name = "coherence",
        .type = ParamType::number,
-       .fallback = 0.55,
+       .fallback = 0.5,
        .help = "Factor on the cost of continuing a neighbouring piece of the exemplar. Smaller values copy larger "
                "pieces: more faithful, less varied.",
        .min = 0.05,
@@ -140,7 +140,7 @@ void require_same_exemplar(const UvMap& uv, const Index& index) {
 }
 
 size_t synthesis_memory(Size size) {
-  return size_t(size.area()) * 3 * sizeof(ExemplarPixel);
+  return size_t(size.area()) * (3 * sizeof(ExemplarPixel) + 4 * sizeof(int));
 }
 
 }  // namespace terrazzo

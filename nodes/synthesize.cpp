@@ -7,7 +7,7 @@ namespace terrazzo {
 NodeType synthesize_node() {
   NodeType t;
   t.name = "synthesize";
-  t.version = 2;
+  t.version = 3;
   t.category = "synthesis";
   t.summary = "Makes a uv map of any size from an index";
   t.help =

@@ -4,8 +4,18 @@
 
 namespace terrazzo {
 
+namespace {
+
+constexpr int coarse_side = 64;
+
+}  // namespace
+
 PaddedLevel::PaddedLevel(const AppearanceLevel& level, bool wraps)
-    : size_(level.size), wraps_(wraps), stride_(level.size.width + 2 * margin) {
+    : size_(level.size),
+      wraps_(wraps),
+      keep_off_(std::min(level.size.width, level.size.height) <= coarse_side ? 1 : 2),
+      masked_(!level.usable.empty()),
+      stride_(level.size.width + 2 * margin) {
   vectors_.reserve(size_t(stride_) * (size_.height + 2 * margin));
   for (int y = -margin; y < size_.height + margin; y++)
     for (int x = -margin; x < size_.width + margin; x++) {
@@ -13,10 +23,21 @@ PaddedLevel::PaddedLevel(const AppearanceLevel& level, bool wraps)
       const int v = wraps ? wrap(y, size_.height) : std::clamp(y, 0, size_.height - 1);
       vectors_.push_back(level.vectors[size_t(v) * size_.width + u]);
     }
-  if (level.usable.empty()) return;
+  if (!masked_) return;
   nearest_usable_ = nearest_set(level.usable, size_, wraps);
   for (size_t i = 0; i < level.usable.size(); i++)
     if (level.usable[i]) usable_.push_back(uint32_t(i));
+}
+
+void PaddedLevel::settle_usable(int& x, int& y) const {
+  const uint32_t at = nearest_usable_[size_t(y) * size_.width + x];
+  x = int(at % size_.width);
+  y = int(at / size_.width);
+}
+
+std::array<int, 2> PaddedLevel::usable_place(uint64_t bits) const {
+  const uint32_t at = usable_[below(uint32_t(bits), uint32_t(usable_.size()))];
+  return {int(at % size_.width), int(at / size_.width)};
 }
 
 }  // namespace terrazzo

@@ -21,45 +21,47 @@ class PaddedLevel {
   const AppearanceVector* at(int x, int y) const {
     return &vectors_[size_t(y + margin) * stride_ + size_t(x + margin)];
   }
-  /// Brings a position that a shift may have moved out of the exemplar back to where a window fits: around the other
-  /// side, or `keep_off` pixels inside the border; and then to the nearest usable pixel.
-  void settle(int& x, int& y) const {
-    settle_inside(x, y);
-    if (nearest_usable_.empty()) return;
-    const uint32_t at = nearest_usable_[size_t(y) * size_.width + x];
-    x = int(at % size_.width);
-    y = int(at / size_.width);
-  }
-  /// As settle, but false for a position that has to make way for a mask: it does not continue what it should.
-  bool settles(int& x, int& y) const {
-    settle_inside(x, y);
-    if (nearest_usable_.empty()) return true;
-    const size_t at = size_t(y) * size_.width + x;
-    return nearest_usable_[at] == at;
-  }
   /// Whether only some pixels are usable.
-  bool masked() const { return !nearest_usable_.empty(); }
-  /// A usable position for 64 random bits, all equally likely.
-  std::array<int, 2> place(uint64_t bits) const {
-    if (!masked()) return {int(below(uint32_t(bits), size_.width)), int(below(uint32_t(bits >> 32), size_.height))};
-    const uint32_t at = usable_[below(uint32_t(bits), uint32_t(usable_.size()))];
-    return {int(at % size_.width), int(at / size_.width)};
-  }
-  /// Windows centred nearer to the border of an exemplar that does not tile would look at continued pixels.
-  static constexpr int keep_off = 2;
-
- private:
-  void settle_inside(int& x, int& y) const {
+  bool masked() const { return masked_; }
+  /// Brings a position that a shift may have moved out of the exemplar back to where a window fits: around the other
+  /// side, or `keep_off()` pixels inside the border.
+  [[gnu::always_inline]] void settle_inside(int& x, int& y) const {
     if (wraps_) {
       x = x < 0 ? x + size_.width : x >= size_.width ? x - size_.width : x;
       y = y < 0 ? y + size_.height : y >= size_.height ? y - size_.height : y;
     } else {
-      x = std::clamp(x, keep_off, size_.width - 1 - keep_off);
-      y = std::clamp(y, keep_off, size_.height - 1 - keep_off);
+      x = std::clamp(x, keep_off_, size_.width - 1 - keep_off_);
+      y = std::clamp(y, keep_off_, size_.height - 1 - keep_off_);
     }
   }
+  /// The same, and then to the nearest usable pixel.
+  void settle(int& x, int& y) const {
+    settle_inside(x, y);
+    if (masked_) settle_usable(x, y);
+  }
+  /// As settle_inside; false if the position is not usable.
+  bool settles(int& x, int& y) const {
+    settle_inside(x, y);
+    const size_t at = size_t(y) * size_.width + x;
+    return !masked_ || nearest_usable_[at] == at;
+  }
+  /// A usable position for 64 random bits, all equally likely.
+  std::array<int, 2> place(uint64_t bits) const {
+    if (masked_) return usable_place(bits);
+    return {int(below(uint32_t(bits), size_.width)), int(below(uint32_t(bits >> 32), size_.height))};
+  }
+  /// How far positions keep off the border of an exemplar that does not tile. A window nearer to it sees continued
+  /// pixels: at coarse levels one row of those is better than to lose so much of the exemplar.
+  int keep_off() const { return keep_off_; }
+
+ private:
+  void settle_usable(int& x, int& y) const;
+  std::array<int, 2> usable_place(uint64_t bits) const;
+
   Size size_;
   bool wraps_;
+  int keep_off_;
+  bool masked_;
   int stride_;
   std::vector<AppearanceVector> vectors_;
   std::vector<uint32_t> usable_;          // positions y * width + x; both are empty if all pixels are usable

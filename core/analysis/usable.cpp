@@ -16,7 +16,7 @@ using Pixels = std::vector<uint8_t>;
 
 /// Keeps the pixels around which a window sees kept pixels only.
 Pixels eroded(const Pixels& in, Size size, bool wraps) {
-  constexpr int radius = PaddedLevel::keep_off;
+  constexpr int radius = 2;  // a comparison window's
   const auto pass = [&](const Pixels& from, int dx, int dy) {
     Pixels out(from.size());
     for (int y = 0; y < size.height; y++)

@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Corrects single pixels: gathers what surrounds them and picks the best candidate. One per thread and row.
-/// `steered`: the level has a control.
+/// `steered`: the exemplar has a mask or the level a control.
 template <bool steered>
 class PixelCorrector {
  public:
@@ -32,13 +32,14 @@ class PixelCorrector {
     gather(x, y);
     x_ = x;
     y_ = y;
-    if constexpr (steered) target_ = level_.control->target(int64_t{y} * field_.size.width + x);
+    if constexpr (steered)
+      if (level_.control) target_ = level_.control->target(int64_t{y} * field_.size.width + x);
     seen_ = 0;
     best_cost_ = ~uint64_t{0};
     best_ = field_.at(x, y);
-    consider(best_.x, best_.y, pass_.coherence);
+    consider(best_.x, best_.y, coherence(around_[0]));
     for (int n = 1; n < 9; n++)
-      if (around_[n]) consider(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), pass_.coherence);
+      if (around_[n]) consider(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), coherence(around_[n]));
     for (int n = 0; n < 9; n++) {
       if (!around_[n]) continue;
       const size_t at = size_t(around_[n]->y) * level_.exemplar.size().width + around_[n]->x;
@@ -63,6 +64,11 @@ class PixelCorrector {
     for (int n = 0; n < ring_count_; n++)
       count += std::abs(ring_[n].x - x) < ring_radius / 2 && std::abs(ring_[n].y - y) < ring_radius / 2;
     return count;
+  }
+
+  uint32_t coherence(const ExemplarPixel* continued) const {
+    if (pass_.piece_coherence.empty()) return pass_.coherence;
+    return pass_.piece_coherence[size_t(continued - field_.pixels.data())];
   }
 
   static int step(int n, int axis) {
@@ -100,19 +106,23 @@ class PixelCorrector {
     }
   }
 
-  HWY_ATTR void consider(int x, int y, uint32_t factor) {
-    if (!level_.exemplar.settles(x, y)) return;
+  HWY_INLINE HWY_ATTR void consider(int x, int y, uint32_t factor) {
+    if constexpr (steered) {
+      if (!level_.exemplar.settles(x, y)) return;
+    } else {
+      level_.exemplar.settle_inside(x, y);
+    }
     const uint32_t id = uint32_t(y) << 16 | uint32_t(x);
     for (int i = 0; i < seen_; i++)
       if (seen_ids_[i] == id) return;
     seen_ids_[seen_++] = id;
     if (occupancy_.active()) factor = uint32_t((uint64_t{factor} * occupancy_.factor(x, y)) / unit_factor);
     factor += factor / 2 * repeats(x, y);
-    if (level_.phase.active()) factor = uint32_t(factor * level_.phase.penalty(x, y, x_, y_));
+    if (level_.phase.active()) factor = uint32_t(std::min(most_factor, factor * level_.phase.penalty(x, y, x_, y_)));
     const uint64_t limit = best_cost_ / factor;
     uint64_t off_target = 0;
     if constexpr (steered) {
-      off_target = level_.control->cost(x, y, target_) * uint64_t(count_);
+      if (level_.control) off_target = level_.control->cost(x, y, target_) * uint64_t(count_);
       if (off_target > limit) return;
     }
     const uint64_t cost = (distance(x, y, limit - off_target) + off_target) * factor;
@@ -160,6 +170,7 @@ class PixelCorrector {
   }
 
   static constexpr int taps_at_once = 8;
+  static constexpr double most_factor = 1e9;
   static constexpr int ring_radius = 6;
   static constexpr int most_taps = 24;
   static constexpr int most_candidates = 128;
@@ -194,7 +205,7 @@ HWY_ATTR void correct_pixels(const Field& field, const CorrectionLevel& level, c
 /// Every second pixel of a row, from `first` on, into `out`.
 HWY_ATTR void correct_row(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
                           const Occupancy& occupancy, int first, int y, ExemplarPixel* out) {
-  const auto correct = level.control ? correct_pixels<true> : correct_pixels<false>;
+  const auto correct = level.control || level.exemplar.masked() ? correct_pixels<true> : correct_pixels<false>;
   correct(field, level, pass, occupancy, first, y, out);
 }
 

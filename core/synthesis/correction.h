@@ -60,6 +60,8 @@ struct CorrectionLevel {
 struct CorrectionPass {
   const Window* window = nullptr;
   uint32_t coherence = unit_factor;  ///< factor on candidates that continue a neighbour
+  /// If not empty, per output pixel instead: the factor on continuing the piece it is in.
+  std::vector<uint32_t> piece_coherence{};
   int random_candidates = 0;
   uint64_t seed = 0;
   int pass = 0;

@@ -24,9 +24,9 @@ struct JitterSpec {
   double spread = 1;                 ///< standard deviation in levels
 };
 
-/// The amplitude of each of the appearance's levels, coarsest first. The automatic choice is none: random starts,
-/// random candidates and evenness vary the result already, and on none of the kinds of exemplar measured did jitter
-/// bring it nearer to the exemplar.
+/// The amplitude of each of the appearance's levels, coarsest first. The automatic choice is none, for every
+/// exemplar: random starts, random candidates and evenness vary the result already, and on stochastic, irregular and
+/// regular exemplars alike even a pixel of jitter at the coarsest levels cost coherence and completeness.
 std::vector<double> jitter_amplitudes(const JitterSpec& spec, const Appearance& appearance);
 
 }  // namespace terrazzo

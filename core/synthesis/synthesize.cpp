@@ -5,7 +5,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/synthesis/alignment.h"
 #include "core/synthesis/correction.h"
+#include "core/synthesis/pieces.h"
 
 namespace terrazzo {
 
@@ -27,7 +29,7 @@ std::array<int, 2> random_start(const PaddedLevel& exemplar, int side, uint64_t 
     const auto [u, v] = exemplar.place(bits);
     return {u - side / 2, v - side / 2};
   }
-  const int keep_off = exemplar.wraps() ? 0 : PaddedLevel::keep_off;
+  const int keep_off = exemplar.wraps() ? 0 : exemplar.keep_off();
   const auto start = [&](uint32_t half, int n) {
     const int room = exemplar.wraps() ? n : std::max(1, n - side - 2 * keep_off);
     return keep_off + int(below(half, uint32_t(room)));
@@ -112,7 +114,8 @@ Field upsampled(const Field& parent, Size size, const PaddedLevel& exemplar, con
       const ExemplarPixel p = parent.at(x / 2, y / 2);
       int u = 2 * p.x + (x & 1), v = 2 * p.y + (y & 1);
       if (amplitude > 0) displace(u, v, exemplar, amplitude, random_bits(seed, Purpose::jitter, level, x / 2, y / 2));
-      phase.snap(x, y, u, v);
+      // At the finest level pieces fit one another already; to round each to the lattice would undo that.
+      if (level > 0 || amplitude > 0) phase.snap(x, y, u, v);
       exemplar.settle(u, v);
       field.at(x, y) = {uint16_t(u), uint16_t(v)};
     }
@@ -155,6 +158,25 @@ Effort effort_at(int level, bool between_kept) {
   return {10, level >= 3 ? 24 : 8, &full_window()};
 }
 
+constexpr int alignment_reach = 2;
+constexpr double large_piece = 0.2;  // of the exemplar
+constexpr double most_coherence = 1.5;
+constexpr int finest_limited = 2;
+
+/// The larger a piece has become beyond a fair size, the less it pays to continue it, so that none comes back as a
+/// landmark. Finer levels are left out: there pieces no longer grow.
+std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence) {
+  if (level.level < finest_limited || level.fixed.any()) return {};
+  const Pieces pieces(field, level.exemplar);
+  const double fair = large_piece * double(level.exemplar.size().area());
+  std::vector<uint32_t> factors(field.pixels.size());
+  for (size_t i = 0; i < factors.size(); i++) {
+    const double size = std::max(1.0, pieces.area(pieces.of(int(i))) / fair);
+    factors[i] = uint32_t(std::min(most_coherence, coherence * size) * unit_factor);
+  }
+  return factors;
+}
+
 }  // namespace
 
 UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const Task& task) {
@@ -183,11 +205,16 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
         exemplar, similar, index.levels()[l].per_pixel, l, options.tile_x, options.tile_y, phase, fixed, control.get()};
     Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0, demand_of(exemplar_level, control.get()));
     const Effort effort = effort_at(l, fixed.any());
+    const bool regular = lattice.rank > 0;
+    if (regular && l < levels - 1) align_pieces(field, level, alignment_reach, task);
     for (int pass = 0; pass < effort.passes; pass++) {
-      correct(field, level,
-              {effort.window, uint32_t(std::floor(options.coherence * unit_factor)), effort.random_candidates,
-               random_bits(options.seed, Purpose::correction), pass},
-              occupancy, task);
+      CorrectionPass how{.window = effort.window,
+                         .coherence = uint32_t(std::floor(options.coherence * unit_factor)),
+                         .random_candidates = effort.random_candidates,
+                         .seed = random_bits(options.seed, Purpose::correction),
+                         .pass = pass};
+      if (!regular) how.piece_coherence = piece_coherence(field, level, options.coherence);
+      correct(field, level, how, occupancy, task);
       task.progress(std::pow(0.25, l) * (pass + 1) / effort.passes);
     }
   }

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "core/synthesis/correction.h"
+
+namespace terrazzo {
+
+/// The pieces of a field: connected pixels that continue one another in the exemplar. Numbered in the order of their
+/// first pixels.
+class Pieces {
+ public:
+  Pieces(const Field& field, const PaddedLevel& exemplar);
+
+  int count() const { return int(begin_.size()) - 1; }
+  int area(int piece) const { return begin_[piece + 1] - begin_[piece]; }
+  int of(int pixel) const { return piece_[pixel]; }
+  /// The piece's pixels, as y * width + x, ascending.
+  std::span<const int> members(int piece) const { return {&members_[begin_[piece]], size_t(area(piece))}; }
+
+ private:
+  std::vector<int> piece_;    // of every pixel
+  std::vector<int> begin_;    // of every piece in members_
+  std::vector<int> members_;  // pixels, piece by piece
+};
+
+}  // namespace terrazzo
