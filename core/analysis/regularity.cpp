@@ -5,9 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/analysis/lag_correlation.h"
 #include "core/analysis/planes.h"
-#include "core/metrics/autocorrelation.h"
-#include "core/metrics/planes.h"
 
 namespace terrazzo {
 
@@ -15,80 +14,12 @@ namespace {
 
 constexpr int most_side = 256;  // periods are found to a fraction of a pixel; more resolution brings nothing
 constexpr double shortest = 4;  // pixels; anything finer is grain
-constexpr double grain = 0.8;   // pixels; a light blur keeps noise from drowning what repeats
 constexpr int most_peaks = 60;
+constexpr double good_enough = 0.75;  // of the best score
+constexpr double clearly_better = 0.3;
 constexpr double about = 0.05;  // scores that differ by less are as good as equal
 // Of what correlation remains between bands, the part that must repeat along them before bricks count as of one length.
 constexpr double least_bond = 0.25;
-
-/// Correlation over lags, all channels together; symmetric about the origin.
-class Correlation {
- public:
-  Correlation(std::vector<double> values, Size lags) : values_(std::move(values)), lags_(lags) {}
-
-  Size lags() const { return lags_; }
-  bool covers(double dx, double dy) const {
-    return std::abs(dx) <= lags_.width - 3 && std::abs(dy) <= lags_.height - 3;
-  }
-  double at(int dx, int dy) const {
-    if (dx < 0) {
-      dx = -dx;
-      dy = -dy;
-    }
-    return values_[size_t(dy + lags_.height - 1) * lags_.width + dx];
-  }
-  double at(Vector2 d) const { return at(int(std::floor(d.x + 0.5)), int(std::floor(d.y + 0.5))); }
-
-  /// The highest lag within one pixel, to a fraction of a pixel.
-  std::pair<Vector2, double> peak_near(Vector2 d) const {
-    const int cx = int(std::floor(d.x + 0.5)), cy = int(std::floor(d.y + 0.5));
-    int bx = cx, by = cy;
-    for (int y = cy - 1; y <= cy + 1; y++)
-      for (int x = cx - 1; x <= cx + 1; x++)
-        if (at(x, y) > at(bx, by)) {
-          bx = x;
-          by = y;
-        }
-    const auto vertex = [](double left, double middle, double right) {
-      const double bend = left - 2 * middle + right;
-      return bend < 0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0.0;
-    };
-    return {{bx + vertex(at(bx - 1, by), at(bx, by), at(bx + 1, by)),
-             by + vertex(at(bx, by - 1), at(bx, by), at(bx, by + 1))},
-            at(bx, by)};
-  }
-
- private:
-  std::vector<double> values_;
-  Size lags_;
-};
-
-/// Details only: what varies over more than a tenth of the exemplar would drown the repeats.
-Planes without_gradients(const ExemplarPlanes& in) {
-  Planes out = Planes::zeros(in.size, in.channels);
-  out.values = in.values;
-  out = blurred(out, grain);
-  const Planes coarse = blurred(out, std::max(2.0, std::min(in.size.width, in.size.height) / 10.0));
-  for (size_t i = 0; i < out.values.size(); i++) out.values[i] -= coarse.values[i];
-  return out;
-}
-
-Correlation correlate(const ExemplarPlanes& planes, const Task& task) {
-  const Planes details = without_gradients(planes);
-  const Size lags{planes.size.width * 6 / 10, planes.size.height * 6 / 10};
-  std::vector<double> variance(planes.channels, 0.0);
-  for (size_t i = 0; i < details.values.size(); i++)
-    variance[i % planes.channels] += double(details.values[i]) * details.values[i];
-  double total = 1e-12;
-  for (const double v : variance) total += v;
-  std::vector<double> sum;
-  const std::vector<Correlogram> all = correlograms(details, lags, task);
-  for (int c = 0; c < planes.channels; c++) {
-    sum.resize(all[c].values.size(), 0.0);
-    for (size_t i = 0; i < sum.size(); i++) sum[i] += all[c].values[i] * variance[c] / total;
-  }
-  return {std::move(sum), lags};
-}
 
 struct Peak {
   Vector2 at;
@@ -123,11 +54,23 @@ std::vector<double> values_on(const Correlation& r, Vector2 a, Vector2 b, double
   return values;
 }
 
+/// Whether enough points lie off each vector's own line: a line and a chance point make no lattice.
+bool leads_both_ways(const Correlation& r, Vector2 a, Vector2 b) {
+  int off_a = 0, off_b = 0;
+  for (int i = -24; i <= 24; i++)
+    for (int j = 0; j <= 24; j++) {
+      if (!r.covers(i * a.x + j * b.x, i * a.y + j * b.y)) continue;
+      off_a += j != 0;
+      off_b += i != 0;
+    }
+  return off_a >= 4 && off_b >= 4;
+}
+
 /// How far the lattice's points stand out. Nearly all must: chance alignments have some good points, a lattice has no
 /// bad ones.
 double lattice_score(const Correlation& r, Vector2 a, Vector2 b) {
   std::vector<double> on = values_on(r, a, b, 0, 0);
-  if (on.size() < 6) return -1;
+  if (on.size() < 6 || !leads_both_ways(r, a, b)) return -1;
   const auto low = on.begin() + ptrdiff_t(on.size() / 8);
   std::nth_element(on.begin(), low, on.end());
   double off = 0;
@@ -181,11 +124,12 @@ Lattice two_directions(const Correlation& r) {
       candidates.push_back({a, b, area, lattice_score(r, a, b)});
       highest = std::max(highest, candidates.back().score);
     }
-  // Multiples of a cell score about as well as the cell itself: take the smallest of those that do well.
+  // Multiples of a cell score about as well as the cell itself, or better where they fall on whole pixels: take the
+  // smallest of those that do well.
   Lattice best;
   double least_area = std::numeric_limits<double>::max();
   for (const Candidate& c : candidates)
-    if (c.score >= 0.9 * highest && c.score > 0 && c.area < 0.98 * least_area) {
+    if (c.score >= good_enough * highest && c.score > 0 && c.area < 0.98 * least_area) {
       best = {2, c.a, c.b, c.score};
       least_area = c.area;
     }
@@ -283,6 +227,39 @@ Lattice with_bond(const Correlation& r, const Lattice& bands) {
   return bond;
 }
 
+/// The lattice, or the one of up to six times as large a cell that the correlation follows much better: in a
+/// herringbone the joints lie on a grid, but only some of the grid's points repeat the bricks.
+Lattice without_false_repeats(const Correlation& r, const Lattice& l) {
+  if (l.rank != 2) return l;
+  Lattice best = l;
+  double largest = clearly_better;
+  for (int cells = 2; cells <= 6; cells++)
+    for (int p = 1; p <= cells; p++) {
+      if (cells % p != 0) continue;
+      const int rows = cells / p;
+      // Every sublattice of that many cells has a basis p * first, q * first + rows * second (Hermite normal form).
+      for (int q = 0; q < p; q++) {
+        double on = 0, off = 0;
+        int on_count = 0, off_count = 0;
+        for (int j = 0; j <= 24; j++)
+          for (int i = j == 0 ? 1 : -24; i <= 24; i++) {
+            const Vector2 d{i * l.first.x + j * l.second.x, i * l.first.y + j * l.second.y};
+            if (!r.covers(d.x, d.y)) continue;
+            const bool member = j % rows == 0 && (i - q * (j / rows)) % p == 0;
+            (member ? on : off) += r.peak_near(d).second;
+            (member ? on_count : off_count)++;
+          }
+        if (on_count < 4 || off_count < 4 || on <= 0) continue;
+        const double gap = 1 - (off / off_count) / (on / on_count);
+        if (gap <= largest) continue;
+        largest = gap;
+        best.first = {p * l.first.x, p * l.first.y};
+        best.second = {q * l.first.x + rows * l.second.x, q * l.first.y + rows * l.second.y};
+      }
+    }
+  return best;
+}
+
 /// Upright grids before skew lattices before bands, each where it explains about as much as the next.
 Lattice most_telling(const Correlation& r, double least_certainty) {
   const Lattice courses = one_direction(r, true), columns = one_direction(r, false);
@@ -296,6 +273,11 @@ Lattice most_telling(const Correlation& r, double least_certainty) {
   return bands.certainty >= least_certainty ? with_bond(r, bands) : bands;
 }
 
+Lattice searched(const ExemplarPlanes& planes, double least_certainty, const Task& task) {
+  const Correlation r = correlate(planes, task);
+  return without_false_repeats(r, most_telling(r, least_certainty));
+}
+
 }  // namespace
 
 Lattice find_lattice(const Features& features, double least_certainty, const Task& task) {
@@ -305,7 +287,10 @@ Lattice find_lattice(const Features& features, double least_certainty, const Tas
     planes = halved(planes);
     scale *= 2;
   }
-  Lattice best = most_telling(correlate(planes, task), least_certainty);
+  // What repeats may be the colours or, where those vary from brick to brick, only the joints.
+  Lattice best = searched(planes, least_certainty, task);
+  const Lattice joints = searched(outlines(planes), least_certainty, task);
+  if (joints.certainty > best.certainty) best = joints;
   if (best.certainty < least_certainty || !best.is_valid()) return {0, {}, {}, best.certainty};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
   return best.fitted(features.size(), features.wraps(), features.wraps());

@@ -206,7 +206,7 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
     Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0, demand_of(exemplar_level, control.get()));
     const Effort effort = effort_at(l, fixed.any());
     const bool regular = lattice.rank > 0;
-    if (regular && l < levels - 1) align_pieces(field, level, alignment_reach, task);
+    if (phase.active() && l < levels - 1) align_pieces(field, level, alignment_reach, task);
     for (int pass = 0; pass < effort.passes; pass++) {
       CorrectionPass how{.window = effort.window,
                          .coherence = uint32_t(std::floor(options.coherence * unit_factor)),

@@ -1,5 +1,7 @@
 #include "core/analysis/regularity.h"
 
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "core/error.h"
@@ -20,7 +22,50 @@ Lattice lattice_of(const FeaturesPtr& features, const Params& params = {}) {
   return run_node("regularity", params, {{"features", {features}}}).get<Features>("features")->lattice();
 }
 
+/// Whether a lattice repeats after (x, y), to a tenth of a cell.
+bool repeats_by(const Lattice& l, double x, double y) {
+  const double d = l.first.x * l.second.y - l.first.y * l.second.x;
+  const double i = (x * l.second.y - y * l.second.x) / d, j = (y * l.first.x - x * l.first.y) / d;
+  return std::abs(i - std::round(i)) < 0.1 && std::abs(j - std::round(j)) < 0.1;
+}
+
+/// Bricks of 16x8 pixels in herringbone, each of its own shade, with light joints.
+float herringbone(int x, int y) {
+  const int column = x / 8, row = y / 8;
+  const int kind = wrap(column - row, 4);  // the left and right half of a lying brick; the foot and head of one upright
+  const bool joint = kind == 0   ? x % 8 == 0 || y % 8 == 0
+                     : kind == 1 ? y % 8 == 0
+                     : kind == 2 ? x % 8 == 0
+                                 : x % 8 == 0 || y % 8 == 0;
+  const int first_column = kind == 1 ? column - 1 : column, first_row = kind == 2 ? row - 1 : row;
+  return joint ? 1.f : 0.6f * float(unit_double(random_bits(5, first_column, first_row)));
+}
+
 }  // namespace
+
+TEST_CASE("tiles are found by their joints where their shades differ") {
+  const Lattice l = lattice_of(features_of({128, 120}, [](int x, int y) {
+    return x % 16 == 0 || y % 12 == 0 ? 0.6f : float(unit_double(random_bits(6, x / 16, y / 12)));
+  }));
+  REQUIRE(l.rank == 2);
+  CHECK(std::abs(l.first.x * l.second.y - l.first.y * l.second.x) == doctest::Approx(192).epsilon(0.02));
+  CHECK(repeats_by(l, 16, 0));
+  CHECK(repeats_by(l, 0, 12));
+}
+
+TEST_CASE("the grid on which a herringbone's joints lie is not taken for its lattice") {
+  const Lattice l = lattice_of(features_of({128, 128}, herringbone));
+  REQUIRE(l.rank == 2);
+  CAPTURE(l.first.x);
+  CAPTURE(l.first.y);
+  CAPTURE(l.second.x);
+  CAPTURE(l.second.y);
+  CAPTURE(l.certainty);
+  CHECK(repeats_by(l, 8, 8));
+  CHECK(repeats_by(l, 32, 0));
+  CHECK(!repeats_by(l, 8, 0));
+  CHECK(!repeats_by(l, 16, 0));
+}
 
 TEST_CASE("a grid of tiles is found with its periods") {
   const Lattice l =

@@ -1,0 +1,61 @@
+#include "core/analysis/lag_correlation.h"
+
+#include "core/metrics/autocorrelation.h"
+#include "core/metrics/planes.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr double grain = 0.8;  // pixels; a light blur keeps noise from drowning what repeats
+
+/// Details only: what varies over more than a tenth of the exemplar would drown the repeats.
+Planes without_gradients(const ExemplarPlanes& in) {
+  Planes out = Planes::zeros(in.size, in.channels);
+  out.values = in.values;
+  out = blurred(out, grain);
+  const Planes coarse = blurred(out, std::max(2.0, std::min(in.size.width, in.size.height) / 10.0));
+  for (size_t i = 0; i < out.values.size(); i++) out.values[i] -= coarse.values[i];
+  return out;
+}
+
+}  // namespace
+
+Correlation correlate(const ExemplarPlanes& planes, const Task& task) {
+  const Planes details = without_gradients(planes);
+  const Size lags{planes.size.width * 6 / 10, planes.size.height * 6 / 10};
+  std::vector<double> variance(planes.channels, 0.0);
+  for (size_t i = 0; i < details.values.size(); i++)
+    variance[i % planes.channels] += double(details.values[i]) * details.values[i];
+  double total = 1e-12;
+  for (const double v : variance) total += v;
+  std::vector<double> sum;
+  const std::vector<Correlogram> all = correlograms(details, lags, task);
+  for (int c = 0; c < planes.channels; c++) {
+    sum.resize(all[c].values.size(), 0.0);
+    for (size_t i = 0; i < sum.size(); i++) sum[i] += all[c].values[i] * variance[c] / total;
+  }
+  return {std::move(sum), lags};
+}
+
+ExemplarPlanes outlines(const ExemplarPlanes& in) {
+  Planes values = Planes::zeros(in.size, in.channels);
+  values.values = in.values;
+  values = blurred(values, grain);
+  ExemplarPlanes out{in.size, 1, in.wraps, std::vector<float>(size_t(in.size.area()))};
+  const auto at = [&](int x, int y) { return &values.values[(size_t(y) * in.size.width + x) * in.channels]; };
+  for (int y = 0; y < in.size.height; y++)
+    for (int x = 0; x < in.size.width; x++) {
+      const float *left = at(std::max(0, x - 1), y), *right = at(std::min(in.size.width - 1, x + 1), y);
+      const float *up = at(x, std::max(0, y - 1)), *down = at(x, std::min(in.size.height - 1, y + 1));
+      float sum = 0;
+      for (int c = 0; c < in.channels; c++) {
+        const float dx = right[c] - left[c], dy = down[c] - up[c];
+        sum += dx * dx + dy * dy;
+      }
+      out.values[size_t(y) * in.size.width + x] = std::sqrt(sum);
+    }
+  return out;
+}
+
+}  // namespace terrazzo

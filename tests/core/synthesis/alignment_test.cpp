@@ -1,0 +1,86 @@
+#include "core/synthesis/alignment.h"
+
+#include <doctest/doctest.h>
+
+#include "core/hash.h"
+#include "core/synthesis/pieces.h"
+
+using namespace terrazzo;
+
+namespace {
+
+constexpr Size side{40, 32};
+
+PaddedLevel noise(bool wraps) {
+  AppearanceLevel level;
+  level.size = side;
+  for (int i = 0; i < int(side.area()); i++) {
+    AppearanceVector v{};
+    for (int d = 0; d < appearance_dimensions; d++) v[d] = int16_t(below(uint32_t(random_bits(7, i, d)), 2000)) - 1000;
+    level.vectors.push_back(v);
+  }
+  return {level, wraps};
+}
+
+/// The exemplar from (9, 7) on, 20x16 pixels; from column 12 on moved by (dx, dy).
+Field shifted(int dx, int dy) {
+  Field field{{20, 16}, {}};
+  for (int y = 0; y < 16; y++)
+    for (int x = 0; x < 20; x++)
+      field.pixels.push_back({uint16_t(9 + x + (x < 12 ? 0 : dx)), uint16_t(7 + y + (x < 12 ? 0 : dy))});
+  return field;
+}
+
+CorrectionLevel level_of(const PaddedLevel& exemplar, const std::vector<ExemplarPixel>& none, FixedPixels fixed = {}) {
+  return {.exemplar = exemplar, .similar = none, .phase = {}, .fixed = std::move(fixed)};
+}
+
+}  // namespace
+
+TEST_CASE("pieces that were moved apart find together again") {
+  const std::vector<ExemplarPixel> none;
+  for (const bool wraps : {false, true}) {
+    const PaddedLevel exemplar = noise(wraps);
+    Field field = shifted(-2, 1);
+    REQUIRE(Pieces(field, exemplar).count() == 2);
+    align_pieces(field, level_of(exemplar, none), 2, Task());
+    CHECK(Pieces(field, exemplar).count() == 1);
+  }
+}
+
+TEST_CASE("beyond their reach pieces stay apart, and what fits stays where it is") {
+  const std::vector<ExemplarPixel> none;
+  const PaddedLevel exemplar = noise(false);
+  Field apart = shifted(0, 5);
+  align_pieces(apart, level_of(exemplar, none), 2, Task());
+  CHECK(Pieces(apart, exemplar).count() == 2);
+  Field whole = shifted(0, 0);
+  const Field before = whole;
+  align_pieces(whole, level_of(exemplar, none), 2, Task());
+  CHECK(whole.pixels == before.pixels);
+}
+
+TEST_CASE("a piece with fixed pixels stays; its neighbour comes to it") {
+  const std::vector<ExemplarPixel> none;
+  const PaddedLevel exemplar = noise(false);
+  Field field = shifted(1, 2);
+  KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 0)};
+  kept.keep[0] = 1;
+  const Field wanted = shifted(0, 0);
+  align_pieces(field, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 2, Task());
+  CHECK(field.pixels == wanted.pixels);
+}
+
+TEST_CASE("no piece leaves an exemplar that does not tile") {
+  const std::vector<ExemplarPixel> none;
+  const PaddedLevel exemplar = noise(false);
+  // The right part would have to go one column further than windows may.
+  Field field{{16, 8}, {}};
+  for (int y = 0; y < 8; y++)
+    for (int x = 0; x < 16; x++) field.pixels.push_back({uint16_t(24 + x - (x < 8 ? 0 : 1)), uint16_t(9 + y)});
+  KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 0)};
+  kept.keep[0] = 1;
+  align_pieces(field, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 2, Task());
+  CHECK(Pieces(field, exemplar).count() == 2);
+  for (const ExemplarPixel p : field.pixels) CHECK(p.x < side.width - exemplar.keep_off());
+}
