@@ -7,14 +7,14 @@
 
 #include "core/error.h"
 #include "core/metrics/planes.h"
+#include "core/sheet_canvas.h"
 
 namespace terrazzo {
 
 namespace {
 
 constexpr int border = 6;
-constexpr float background = 0.15f;
-constexpr int channels = 3;
+constexpr int channels = SheetCanvas::channels;
 
 /// The picture as RGB, reduced by a whole factor while it is pulled.
 Planes reduced(const Image& image, int factor) {
@@ -70,24 +70,17 @@ ImagePtr contact_sheet(const std::vector<std::vector<ImagePtr>>& rows, int max_s
   for (int& h : heights) h = scaled(h, scale);
   const std::vector<int> left = starts(widths), top = starts(heights);
 
-  Planes sheet = Planes::zeros({std::min(left.back(), max_side), std::min(top.back(), max_side)}, channels);
-  std::fill(sheet.values.begin(), sheet.values.end(), background);
+  SheetCanvas sheet({std::min(left.back(), max_side), std::min(top.back(), max_side)});
   for (size_t y = 0; y < rows.size(); y++)
     for (size_t x = 0; x < rows[y].size(); x++) {
       const ImagePtr& image = rows[y][x];
       if (!image) continue;
       const Size size{scaled(image->width(), scale), scaled(image->height(), scale)};
       const Planes picture = resampled(reduced(*image, std::max(1, int(1 / scale))), size);
-      for (int v = 0; v < size.height && top[y] + v < sheet.size.height; v++)
-        std::copy_n(picture.pixel(0, v), size_t(std::min(size.width, sheet.size.width - left[x])) * channels,
-                    sheet.pixel(left[x], top[y] + v));
+      for (int v = 0; v < size.height && top[y] + v < sheet.size().height; v++)
+        sheet.put(left[x], top[y] + v, picture.pixel(0, v), std::min(size.width, sheet.size().width - left[x]));
     }
-  const ImageInfo info{.size = sheet.size,
-                       .channels = channels,
-                       .semantic = Semantic::base_color,
-                       .color_space = "srgb_texture",
-                       .depth = Depth::u8};
-  return Image::from_floats(info, std::move(sheet.values));
+  return std::move(sheet).finished();
 }
 
 ImagePtr comparison_sheet(const Material& exemplar, const Material& result, const std::vector<std::string>& maps,
