@@ -1,5 +1,7 @@
 #include "nodes/export_paths.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -88,8 +90,10 @@ Forecast foresee_export(const Params& params, const InputForecasts& inputs) {
   require_some_input(!inputs.empty());
   Forecast out;
   if (const auto material = inputs.find("material"); material != inputs.end()) {
-    std::vector<std::string> maps = std::get<Texts>(params.at("maps"));
-    if (maps.empty()) maps = material->second.front().maps;
+    std::vector<std::string> maps;
+    const Texts& chosen = std::get<Texts>(params.at("maps"));
+    for (const std::string& m : chosen.empty() ? material->second.front().maps : chosen)
+      if (std::find(maps.begin(), maps.end(), m) == maps.end()) maps.push_back(m);
     require_pattern_for(text("path"), maps);
     if (maps.empty()) maps = {""};
     for (const std::string& map : maps) out.files.push_back(future_file("path", text("path"), map));
