@@ -92,8 +92,10 @@ std::string why_not_writable(const fs::path& folder, const std::string& name) {
 
 fs::path temporary_beside(const fs::path& target) {
   static std::atomic<unsigned> count{0};
-  return target.parent_path() / fmt::format(".{}.{}-{}-{}-{}{}", target.stem().string(), mark, neighbourhood(),
-                                            ::getpid(), count++, target.extension().string());
+  // Names have at most 255 bytes; the beginning is for people only.
+  const std::string beginning = target.stem().string().substr(0, 100);
+  return target.parent_path() / fmt::format(".{}.{}-{}-{}-{}{}", beginning, mark, neighbourhood(), ::getpid(), count++,
+                                            target.extension().string());
 }
 
 void remove_abandoned(const fs::path& folder) {

@@ -67,6 +67,13 @@ TEST_CASE("a folder that may not be written is named") {
   CHECK(below == "cannot write into the folder " + locked.string() + ": Permission denied");
 }
 
+TEST_CASE("temporaries of long names have names that are not too long") {
+  const TemporaryFolder folder;
+  const fs::path temporary = temporary_beside(folder.path() / (std::string(251, 'x') + ".png"));
+  CHECK(temporary.filename().string().size() < 200);
+  CHECK(temporary.extension() == ".png");
+}
+
 TEST_CASE("temporaries of dead processes are removed, and nothing else") {
   const TemporaryFolder folder;
   const auto make = [&](const std::string& name, bool is_old) {
