@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/image.h"
 
@@ -23,6 +24,9 @@ struct FileInfo {
 
 /// Whether the name ends like an image file that can be read.
 bool looks_like_image(const std::filesystem::path& path);
+
+/// Throws unless there is a file that may be read; what is in it is not looked at.
+void require_image_file(const std::filesystem::path& path);
 
 FileInfo read_image_info(const std::filesystem::path& path);
 
@@ -54,5 +58,8 @@ std::optional<FileFormat> format_from(const std::filesystem::path& path);
 /// where the format does; the file is then incomplete and the caller's to remove.
 int64_t write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
                     const std::function<void(double)>& progress);
+
+/// The image as an 8-bit PNG file in memory; otherwise as write_image.
+std::vector<uint8_t> png_of(const Image& image);
 
 }  // namespace terrazzo

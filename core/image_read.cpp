@@ -26,24 +26,6 @@ namespace fs = std::filesystem;
   throw Error(fmt::format("cannot read {}: {}", path.string(), reason));
 }
 
-void require_file(const fs::path& path) {
-  std::error_code failure;
-  const fs::file_status status = fs::status(path, failure);
-  if (fs::is_directory(status)) fail(path, "it is a folder; expected an image file");
-  if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(path, failure)))
-    fail(path, fmt::format("it is a link to {}, which does not exist", fs::read_symlink(path, failure).string()));
-  if (status.type() == fs::file_type::none) throw_system_error("read", path, failure.value());
-  if (!fs::exists(status)) {
-    std::vector<std::string> others;
-    for (const fs::directory_entry& e : fs::directory_iterator(path.parent_path(), failure))
-      others.push_back(e.path().filename().string());
-    std::sort(others.begin(), others.end());
-    fail(path, "there is no such file" + did_you_mean(path.filename().string(), others));
-  }
-  if (::access(path.c_str(), R_OK) != 0) throw_system_error("read", path, errno);
-  if (fs::file_size(path, failure) == 0) fail(path, "the file is empty (0 bytes)");
-}
-
 Depth depth_of(const OIIO::ImageSpec& spec) {
   if (!spec.channelformats.empty()) return Depth::f32;  // channels of different depths
   if (spec.format == OIIO::TypeDesc::HALF) return Depth::f16;
@@ -84,7 +66,7 @@ void refuse_ink(const fs::path& path, const OpenFile& file) {
 }
 
 OpenFile open(const fs::path& path) {
-  require_file(path);
+  require_image_file(path);
   OIIO::ImageSpec wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);
   OpenFile file;
@@ -252,6 +234,24 @@ ImagePtr read_opened(const fs::path& path, OpenFile& file, const ImageInfo& give
 }
 
 }  // namespace
+
+void require_image_file(const fs::path& path) {
+  std::error_code failure;
+  const fs::file_status status = fs::status(path, failure);
+  if (fs::is_directory(status)) fail(path, "it is a folder; expected an image file");
+  if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(path, failure)))
+    fail(path, fmt::format("it is a link to {}, which does not exist", fs::read_symlink(path, failure).string()));
+  if (status.type() == fs::file_type::none) throw_system_error("read", path, failure.value());
+  if (!fs::exists(status)) {
+    std::vector<std::string> others;
+    for (const fs::directory_entry& e : fs::directory_iterator(path.parent_path(), failure))
+      others.push_back(e.path().filename().string());
+    std::sort(others.begin(), others.end());
+    fail(path, "there is no such file" + did_you_mean(path.filename().string(), others));
+  }
+  if (::access(path.c_str(), R_OK) != 0) throw_system_error("read", path, errno);
+  if (fs::file_size(path, failure) == 0) fail(path, "the file is empty (0 bytes)");
+}
 
 FileInfo read_image_info(const fs::path& path) {
   const OpenFile file = open(path);

@@ -162,28 +162,18 @@ class WrittenFile final : public OIIO::Filesystem::IOProxy {
   int failure_ = 0;
 };
 
-}  // namespace
+using Fail = std::function<void(const std::string& reason)>;
 
-int64_t write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
-                    const std::function<void(double)>& progress) {
-  const auto refuse = [&](const std::string& reason) {
-    throw Error(fmt::format("cannot write {}: {}", path.string(), reason));
-  };
-  if (!holds(options.format, options.depth))
-    refuse(fmt::format("{} cannot hold {} values", name_of(options.format), name_of(options.depth)));
+/// Writes to `proxy`, or to the file `name` if there is none; `fail` throws. Returns how many values were clipped.
+int64_t write_through(const Image& image, const std::string& name, OIIO::Filesystem::IOProxy* proxy,
+                      const WriteOptions& options, const std::function<void(double)>& progress, const Fail& fail) {
   constexpr std::array<const char*, 4> names = {"png", "tiff", "openexr", "jpeg"};
-  WrittenFile file(path);
   const auto out = OIIO::ImageOutput::create(names[static_cast<size_t>(options.format)]);
-  if (!out) refuse(OIIO::geterror());
-  const auto fail = [&](const std::string& reason) {
-    file.check();
-    refuse(reason);
-  };
+  if (!out) fail(OIIO::geterror());
   out->threads(1);
-  // TIFF's library finishes half-float files by ways of its own, so it gets none; what it wrote is checked below.
-  if (options.format != FileFormat::tiff) out->set_ioproxy(&file);
+  if (proxy) out->set_ioproxy(proxy);
   const OIIO::ImageSpec spec = make_spec(image, options);
-  if (!out->open(path.string(), spec)) fail(out->geterror());
+  if (!out->open(name, spec)) fail(out->geterror());
   Converter converter(image.channels(), spec.nchannels);
   for_each_strip(image, [&](const Rect& r, const float* pixels) {
     const void* values = converter.convert(pixels, r.area(), options.depth);
@@ -191,10 +181,43 @@ int64_t write_image(const Image& image, const std::filesystem::path& path, const
     progress(double(r.bottom()) / image.height());
   });
   if (!out->close()) fail(out->geterror());
-  file.close_and_check();
-  if (options.format == FileFormat::tiff && !tiff_is_complete(path))
-    refuse("not all of it could be written; is the disk full?");
   return converter.clipped();
+}
+
+void require_depth(const WriteOptions& options, const Fail& fail) {
+  if (!holds(options.format, options.depth))
+    fail(fmt::format("{} cannot hold {} values", name_of(options.format), name_of(options.depth)));
+}
+
+}  // namespace
+
+int64_t write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
+                    const std::function<void(double)>& progress) {
+  const Fail refuse = [&](const std::string& reason) {
+    throw Error(fmt::format("cannot write {}: {}", path.string(), reason));
+  };
+  require_depth(options, refuse);
+  WrittenFile file(path);
+  const Fail fail = [&](const std::string& reason) {
+    file.check();
+    refuse(reason);
+  };
+  // TIFF's library finishes half-float files by ways of its own, so it gets no proxy; what it wrote is checked below.
+  const bool is_tiff = options.format == FileFormat::tiff;
+  const int64_t clipped = write_through(image, path.string(), is_tiff ? nullptr : &file, options, progress, fail);
+  file.close_and_check();
+  if (is_tiff && !tiff_is_complete(path)) refuse("not all of it could be written; is the disk full?");
+  return clipped;
+}
+
+std::vector<uint8_t> png_of(const Image& image) {
+  std::vector<uint8_t> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const Fail fail = [](const std::string& reason) { throw Error("cannot make a PNG: " + reason); };
+  const WriteOptions options{.format = FileFormat::png, .depth = Depth::u8};
+  write_through(
+      image, "picture.png", &memory, options, [](double) {}, fail);
+  return bytes;
 }
 
 }  // namespace terrazzo

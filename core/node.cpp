@@ -1,13 +1,10 @@
 #include "core/node.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include "core/file_io.h"
+#include "core/staging.h"
 
 namespace terrazzo {
 
@@ -105,19 +102,17 @@ void NodeContext::output(std::string_view port, Value value) {
 }
 
 std::filesystem::path NodeContext::stage(const std::filesystem::path& target) {
-  static std::atomic<unsigned> count{0};
+  const std::filesystem::path folder = target.parent_path();
+  if (const std::string trouble = why_not_writable(folder, target.filename().string()); !trouble.empty())
+    throw Error(trouble);
   std::error_code failure;
-  std::filesystem::create_directories(target.parent_path(), failure);
-  if (failure)
-    throw Error(fmt::format("cannot make the folder {}: {}", target.parent_path().string(), failure.message()));
-  if (::access(target.parent_path().c_str(), W_OK) != 0)
-    throw_system_error("write into the folder", target.parent_path(), errno);
-  // The extension stays last: image libraries choose the format by it.
-  const std::filesystem::path temporary =
-      target.parent_path() /
-      fmt::format(".{}.{}-{}{}", target.stem().string(), ::getpid(), count++, target.extension().string());
-  staged_.push_back({temporary, target});
-  return temporary;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw Error(fmt::format("cannot make the folder {}: {}", folder.string(), failure.message()));
+  const bool known = std::any_of(staged_.begin(), staged_.end(),
+                                 [&](const StagedFile& f) { return f.target.parent_path() == folder; });
+  if (!known) remove_abandoned(folder);
+  staged_.push_back({temporary_beside(target), target});
+  return staged_.back().temporary;
 }
 
 }  // namespace terrazzo

@@ -74,6 +74,21 @@ enum class Persist : uint8_t {
   derived,  ///< lazy: outputs are recipes, named by the node's key; never stored
 };
 
+/// A file that a sink is going to write.
+struct FutureFile {
+  std::string param;  ///< the parameter that says where
+  std::filesystem::path folder;
+  std::string name;  ///< empty as long as it is not known; `folder` is then where it will lie, or deeper
+};
+
+/// What can be told of a node's results before anything runs.
+struct Forecast {
+  std::vector<std::string> maps{};  ///< maps that its material will have, and perhaps more; empty if none is known
+  std::vector<FutureFile> files{};  ///< of a sink
+};
+/// Of a node's inputs: by connected port, one for each wire.
+using InputForecasts = std::map<std::string, std::vector<Forecast>>;
+
 class NodeContext;
 
 struct NodeType {
@@ -95,6 +110,10 @@ struct NodeType {
   /// Checks that involve several parameters; returns one message per problem, each starting with the parameter's name
   /// in quotes. Called when a document is checked, before anything runs.
   std::function<std::vector<std::string>(const Params&)> check;
+  /// Looks ahead while a plan is made, so that mistakes are found before hours of work: throws Error for what compute
+  /// would refuse (a folder that is not there), and says what is known of the results. Quick; may look at files that
+  /// `files_read` names. What it says must be true whatever runs; nothing need be said.
+  std::function<Forecast(const Params&, const InputForecasts&)> foresee;
 
   const Port* find_input(std::string_view port) const;
   const Port* find_output(std::string_view port) const;
@@ -156,7 +175,8 @@ class NodeContext {
   /// Something the user should know (what was recognised, what was ignored); printed, and repeated from the cache.
   void note(std::string message) { notes_.push_back(std::move(message)); }
 
-  /// For sinks: a temporary name beside `target` (folders are made) to write to. The runner renames all staged files
+  /// For sinks: a temporary name beside `target` (folders are made, and what killed runs left in them is removed) to
+  /// write to. The runner renames all staged files
   /// once compute has returned, and removes them if it throws: a failed run leaves no partial file.
   std::filesystem::path stage(const std::filesystem::path& target);
 

@@ -28,14 +28,15 @@ NodeType blur_node() {
       "everything else as it is. Small blurs are computed when their pixels are read.";
   t.inputs = {image_port("image", "the image to blur")};
   t.outputs = {image_port("image", "the blurred image")};
-  t.params = {{.name = "radius",
-               .type = ParamType::number,
-               .fallback = 2.0,
-               .help = "Standard deviation of the Gaussian, which is cut off at three times that.",
-               .min = 0,
-               .max = 1000,
-               .unit = "pixels"},
-              edges_param()};
+  t.params = {
+      {.name = "radius",
+       .type = ParamType::number,
+       .fallback = 2.0,
+       .help = "How far it blurs: the standard deviation (sigma) of the Gaussian, which reaches three times as far.",
+       .min = 0,
+       .max = 1000,
+       .unit = "pixels"},
+      edges_param()};
   t.persist = Persist::digest;
   t.memory_hint = [](const NodeContext& node) -> size_t {
     const ImagePtr image = node.input<Image>("image");

@@ -48,6 +48,7 @@ NodeType combine_node() {
   t.persist = Persist::derived;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
+  t.foresee = same_maps_as("materials");
   return t;
 }
 

@@ -15,6 +15,7 @@
 #include "core/suggest.h"
 #include "core/uv_image.h"
 #include "nodes/color_space.h"
+#include "nodes/export_paths.h"
 #include "nodes/export_report.h"
 
 namespace terrazzo {
@@ -32,36 +33,6 @@ struct Job {
   WriteOptions options{};
   int64_t clipped = 0;
 };
-
-/// Fills {name} places; throws Error for unknown ones and for braces that do not match.
-std::string filled(const char* param, const std::string& pattern, const std::map<std::string, std::string>& values) {
-  std::string out;
-  for (size_t i = 0; i < pattern.size(); i++) {
-    if (pattern[i] != '{') {
-      out += pattern[i];
-      continue;
-    }
-    const size_t end = pattern.find('}', i);
-    if (end == std::string::npos) throw Error(param, fmt::format("a {{ without }} in \"{}\"", pattern));
-    const std::string name = pattern.substr(i + 1, end - i - 1);
-    const auto at = values.find(name);
-    if (at == values.end())
-      throw Error(param, fmt::format("unknown place {{{}}} in \"{}\"; known are {{map}}, {{material}}, {{width}} and "
-                                     "{{height}}",
-                                     name, pattern));
-    out += at->second;
-    i = end;
-  }
-  return out;
-}
-
-FileFormat required_format(const char* param, const fs::path& path) {
-  if (const auto format = format_from(path)) return *format;
-  throw Error(param, fmt::format("the extension decides the file format, and \"{}\" ends in {}; expected .png, .tif, "
-                                 ".tiff, .exr, .jpg or .jpeg",
-                                 path.filename().string(),
-                                 path.has_extension() ? "\"" + path.extension().string() + "\"" : "no extension"));
-}
 
 std::optional<Depth> depth_from(const std::string& name) {
   for (const Depth d : {Depth::u8, Depth::u16, Depth::f16, Depth::f32})
@@ -154,8 +125,6 @@ Job job_for(NodeContext& node, const std::string& name, ImagePtr image, const fs
 
 void add_material(NodeContext& node, const Material& material, std::vector<Job>& jobs) {
   const std::string& pattern = node.text("path");
-  if (pattern.empty())
-    throw Error("path", "expected a file name pattern such as out/{map}.png, since a material is connected");
   const std::vector<Map> maps = chosen_maps(node, material);
   const auto target_of = [&](const Map& m) {
     return filled("path", pattern,
@@ -164,20 +133,15 @@ void add_material(NodeContext& node, const Material& material, std::vector<Job>&
                    {"width", fmt::format("{}", m.image->width())},
                    {"height", fmt::format("{}", m.image->height())}});
   };
-  target_of(maps.front());  // says what is wrong with the pattern itself
-  if (maps.size() > 1 && pattern.find("{map}") == std::string::npos)
-    throw Error("path", fmt::format("\"{}\" names one file, but there are {} maps ({}); write {{map}} where the map's "
-                                    "name is to stand, or choose one with the parameter `maps`",
-                                    pattern, maps.size(), material.map_names()));
+  std::vector<std::string> names;
+  for (const Map& m : maps) names.push_back(m.name);
+  require_pattern_for(pattern, names);
   for (const Map& m : maps) jobs.push_back(job_for(node, m.name, m.image, target_of(m)));
 }
 
-/// Where the uv map goes: `uv_path`, else `path` with "uv" for the map's name.
 fs::path uv_target(const NodeContext& node, const UvMap& uv, const std::string& material) {
-  const std::string& own = node.text("uv_path");
-  const std::string& pattern = own.empty() ? node.text("path") : own;
-  if (pattern.empty()) throw Error("uv_path", "expected a file name such as out/uv.exr, since a uv map is connected");
-  const fs::path target = filled(own.empty() ? "path" : "uv_path", pattern,
+  const char* param = param_of_uv(node.params());
+  const fs::path target = filled(param, node.text(param),
                                  {{"map", "uv"},
                                   {"material", material},
                                   {"width", fmt::format("{}", uv.size().width)},
@@ -207,13 +171,6 @@ void add_pictures(const Report& report, const fs::path& path, std::vector<Job>& 
     job.target.replace_filename(fmt::format("{}_{}.png", path.stem().string(), p.name));
     jobs.push_back(std::move(job));
   }
-}
-
-bool is_csv(const fs::path& path) {
-  if (path.extension() == ".csv") return true;
-  if (path.extension() == ".json") return false;
-  throw Error("report_path",
-              fmt::format("expected a file name that ends in .json or .csv, found \"{}\"", path.filename().string()));
 }
 
 void write_text(const fs::path& path, const std::string& text) {
@@ -268,16 +225,13 @@ void compute(NodeContext& node) {
   const auto material = node.optional_input<Material>("material");
   const auto uv = node.optional_input<UvMap>("uv");
   const auto report = node.optional_input<Report>("report");
-  if (!material && !uv && !report)
-    throw Error("material", "expected a wire to `material`, `uv` or `report`; found none");
+  require_some_input(material || uv || report);
   std::vector<Job> jobs;
   if (material) add_material(node, *material, jobs);
   if (uv) add_uv(node, uv, material ? material->name() : "", jobs);
   const fs::path report_path = node.text("report_path");
   if (report) {
-    if (report_path.empty())
-      throw Error("report_path", "expected a file name such as out/report.json, since a report is connected");
-    is_csv(report_path);
+    require_report_path(report_path);
     add_pictures(*report, report_path, jobs);
   }
   require_distinct(jobs);
@@ -385,6 +339,7 @@ NodeType export_node() {
     return per_file * (1 + (material ? material->maps().size() : 0));
   };
   t.check = check;
+  t.foresee = foresee_export;
   return t;
 }
 

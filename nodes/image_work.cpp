@@ -45,12 +45,25 @@ Param height_scale_param() {
           .unit = "pixels"};
 }
 
+Param sample_param(const std::string& name, double fallback, const std::string& help) {
+  return {.name = name,
+          .type = ParamType::number,
+          .fallback = fallback,
+          .help = help,
+          .min = -largest_sample,
+          .max = largest_sample};
+}
+
 Port image_port(const std::string& name, const std::string& help) {
   return {.name = name, .type = ValueType::image, .help = help};
 }
 
 Port material_port(const std::string& name, const std::string& help) {
   return {.name = name, .type = ValueType::material, .help = help};
+}
+
+std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const std::string& port) {
+  return [port](const Params&, const InputForecasts& inputs) { return Forecast{.maps = inputs.at(port).front().maps}; };
 }
 
 Digest map_recipe(const NodeContext& node, const Image& map) {

@@ -18,8 +18,16 @@ NormalY normal_y_of(const NodeContext& node);
 /// Parameter "height_scale" of nodes that read a height map as a surface.
 Param height_scale_param();
 
+/// Bounds of parameters that are pixel values: room for heights in any unit, none for slips.
+inline constexpr double largest_sample = 1e6;
+/// A parameter that is a pixel value.
+Param sample_param(const std::string& name, double fallback, const std::string& help);
+
 Port image_port(const std::string& name, const std::string& help);
 Port material_port(const std::string& name, const std::string& help);
+
+/// For nodes whose material has the maps of the one at `port`, or of the first there: their look ahead, see NodeType.
+std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const std::string& port);
 
 /// The recipe of one of several lazily computed maps: the node's type and parameters, and the map it is made from.
 Digest map_recipe(const NodeContext& node, const Image& map);

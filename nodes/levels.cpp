@@ -77,8 +77,22 @@ Param level_param(const std::string& name, double fallback, const std::string& h
           .type = ParamType::numbers,
           .fallback = Numbers{fallback},
           .help = help + " One number, or one per channel.",
+          .min = -largest_sample,
+          .max = largest_sample,
           .min_count = 1,
           .max_count = 4};
+}
+
+std::vector<std::string> check(const Params& params) {
+  const auto numbers = [&](const char* name) { return std::get<Numbers>(params.at(name)); };
+  const Numbers black = numbers("in_black"), white = numbers("in_white");
+  if (std::get<std::string>(params.at("auto")) != "off") return {};
+  for (size_t c = 0; c < std::max(black.size(), white.size()); c++) {
+    // Whether the counts fit is known with the image.
+    const double b = black[std::min(c, black.size() - 1)], w = white[std::min(c, white.size() - 1)];
+    if (b == w) return {fmt::format("\"in_white\": expected a value other than in_black, found {} for both", w)};
+  }
+  return {};
 }
 
 }  // namespace
@@ -119,6 +133,7 @@ NodeType levels_node() {
                .fallback = true,
                .help = "Keeps values within [out_black, out_white]. 8- and 16-bit maps stay within [0, 1] anyway."}};
   t.persist = Persist::digest;
+  t.check = check;
   t.compute = compute;
   return t;
 }

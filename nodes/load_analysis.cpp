@@ -1,7 +1,10 @@
+#include <cerrno>
 #include <filesystem>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
+#include "core/file_io.h"
 #include "core/node.h"
 #include "core/serialize.h"
 
@@ -52,6 +55,11 @@ NodeType load_analysis_node() {
     std::error_code missing;
     const auto bytes = std::filesystem::file_size(node.text("path"), missing);
     return missing ? size_t{0} : size_t(bytes) * 3;
+  };
+  t.foresee = [](const Params& params, const InputForecasts&) {
+    const std::filesystem::path path = std::get<std::string>(params.at("path"));
+    if (!File::open(path, O_RDONLY | O_NONBLOCK).ok()) throw_system_error("read", path, errno);
+    return Forecast{};
   };
   t.compute = compute;
   return t;

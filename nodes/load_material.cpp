@@ -122,13 +122,15 @@ std::string all_words() {
 }
 
 /// Names the folder's files, the ignored ones taken out.
-std::vector<MapFile> files_to_recognise(NodeContext& node, const fs::path& folder, const std::set<std::string>& taken) {
+std::vector<MapFile> files_to_recognise(const Params& params, const std::set<std::string>& taken, Texts& notes) {
+  const fs::path folder = folder_of(params);
   std::vector<std::string> names = image_names(folder);
-  for (const std::string& pattern : node.texts("ignore")) {
+  for (const std::string& pattern : std::get<Texts>(params.at("ignore"))) {
     const size_t before = names.size();
     std::erase_if(names, [&](const std::string& n) { return matches_pattern(n, pattern); });
     if (names.size() == before)
-      node.note(fmt::format("the pattern \"{}\" of the parameter `ignore` matches no image in the folder", pattern));
+      notes.push_back(
+          fmt::format("the pattern \"{}\" of the parameter `ignore` matches no image in the folder", pattern));
   }
   std::vector<MapFile> files;
   for (const std::string& name : names) {
@@ -146,8 +148,11 @@ std::vector<MapFile> files_to_recognise(NodeContext& node, const fs::path& folde
   return files;
 }
 
-std::vector<RecognisedMap> find_maps(NodeContext& node, const fs::path& folder) {
-  const TextMap& given = node.text_map("maps");
+/// Which file of the folder is which map; throws if that can be said of none. Adds what the user should know.
+std::vector<RecognisedMap> find_maps(const Params& params, Texts& notes) {
+  const fs::path folder = folder_of(params);
+  require_folder(folder);
+  const TextMap& given = std::get<TextMap>(params.at("maps"));
   std::vector<RecognisedMap> maps;
   std::set<std::string> taken;
   for (const auto& [map, text] : given) {
@@ -155,7 +160,7 @@ std::vector<RecognisedMap> find_maps(NodeContext& node, const fs::path& folder) 
     maps.push_back(given_map(map, text));
     if (maps.back().channels.empty()) taken.insert(maps.back().file);
   }
-  const Recognition recognition = recognise_maps(files_to_recognise(node, folder, taken));
+  const Recognition recognition = recognise_maps(files_to_recognise(params, taken, notes));
   for (const RecognisedMap& m : recognition.maps)
     if (!given.count(m.map)) maps.push_back(m);
   if (maps.empty()) fail_nothing_recognised(folder, recognition);
@@ -164,12 +169,12 @@ std::vector<RecognisedMap> find_maps(NodeContext& node, const fs::path& folder) 
   for (const RecognisedMap& m : maps) {
     std::string from = m.file;
     if (!m.channels.empty()) from += fmt::format(" (channel {})", m.channels);
-    node.note(fmt::format("{}: {}", m.map, from));
+    notes.push_back(fmt::format("{}: {}", m.map, from));
   }
-  for (const std::string& note : recognition.notes) node.note(note);
+  notes.insert(notes.end(), recognition.notes.begin(), recognition.notes.end());
   if (!recognition.ignored.empty())
-    node.note(fmt::format("ignored, the name says nothing: {}. Known words are {}",
-                          fmt::join(recognition.ignored, ", "), all_words()));
+    notes.push_back(fmt::format("ignored, the name says nothing: {}. Known words are {}",
+                                fmt::join(recognition.ignored, ", "), all_words()));
   return maps;
 }
 
@@ -289,12 +294,13 @@ void settle_conventions(NodeContext& node, const std::vector<RecognisedMap>& sou
 
 void compute(NodeContext& node) {
   const fs::path folder = folder_of(node.params());
-  require_folder(folder);
   const std::string given_space = node.text("color_space") == "auto" ? "" : color_space_of(node, "color_space");
-  const std::vector<RecognisedMap> found = find_maps(node, folder);
+  std::vector<std::string> notes;
+  const std::vector<RecognisedMap> found = find_maps(node.params(), notes);
+  for (std::string& n : notes) node.note(std::move(n));
+  notes.clear();
   const std::map<std::string, Source> sources = read_sources(node, folder, found);
   std::vector<Map> maps;
-  std::vector<std::string> notes;
   for (const RecognisedMap& m : found) {
     const ImagePtr& file = sources.at(m.file).image;
     const bool space_given = m.semantic == Semantic::base_color && !given_space.empty();
@@ -318,6 +324,13 @@ std::vector<fs::path> files_read(const Params& params) {
   files.erase(std::unique(files.begin(), files.end()), files.end());
   for (fs::path& f : color_config_files()) files.push_back(std::move(f));
   return files;
+}
+
+Forecast foresee(const Params& params, const InputForecasts&) {
+  Texts ignored_notes;
+  Forecast out;
+  for (const RecognisedMap& m : find_maps(params, ignored_notes)) out.maps.push_back(m.map);
+  return out;
 }
 
 }  // namespace
@@ -377,6 +390,7 @@ NodeType load_material_node() {
       }
     return bytes;
   };
+  t.foresee = foresee;
   t.check = check;
   return t;
 }

@@ -48,6 +48,10 @@ NodeType load_uv_node() {
   t.files_read = [](const Params& params) {
     return std::vector<std::filesystem::path>{std::get<std::string>(params.at("path"))};
   };
+  t.foresee = [](const Params& p, const InputForecasts&) {
+    require_image_file(std::get<std::string>(p.at("path")));
+    return Forecast{};
+  };
   t.compute = compute;
   return t;
 }

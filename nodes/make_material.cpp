@@ -58,6 +58,16 @@ void compute(NodeContext& node) {
   node.output("material", Material::make(name.empty() && base ? base->name() : name, std::move(maps)));
 }
 
+Forecast foresee(const Params& params, const InputForecasts& inputs) {
+  const size_t images = inputs.at("images").size();
+  for (const char* param : {"names", "semantics"}) check_count(param, std::get<Texts>(params.at(param)), images);
+  Forecast out;
+  if (const auto base = inputs.find("material"); base != inputs.end()) out.maps = base->second.front().maps;
+  for (const std::string& name : std::get<Texts>(params.at("names")))
+    if (std::find(out.maps.begin(), out.maps.end(), name) == out.maps.end()) out.maps.push_back(name);
+  return out;
+}
+
 }  // namespace
 
 NodeType make_material_node() {
@@ -87,6 +97,7 @@ NodeType make_material_node() {
   };
   t.persist = Persist::digest;
   t.compute = compute;
+  t.foresee = foresee;
   return t;
 }
 

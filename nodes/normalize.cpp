@@ -82,24 +82,24 @@ NodeType normalize_node() {
       "unit length, and the parameters are not used.";
   t.inputs = {image_port("image", "the image")};
   t.outputs = {image_port("image", "the normalised image")};
-  t.params = {
-      {.name = "mode",
-       .type = ParamType::choice,
-       .fallback = "range",
-       .help = "range: the smallest value becomes low, the largest high. statistics: mean and deviation.",
-       .choices = {"range", "statistics"}},
-      {.name = "low", .type = ParamType::number, .fallback = 0.0, .help = "With mode range: the smallest value."},
-      {.name = "high", .type = ParamType::number, .fallback = 1.0, .help = "With mode range: the largest value."},
-      {.name = "mean", .type = ParamType::number, .fallback = 0.5, .help = "With mode statistics: the mean."},
-      {.name = "deviation",
-       .type = ParamType::number,
-       .fallback = 0.2,
-       .help = "With mode statistics: the standard deviation. 8- and 16-bit maps are clamped to [0, 1] after.",
-       .min = 0},
-      {.name = "together",
-       .type = ParamType::boolean,
-       .fallback = true,
-       .help = "One stretch for all channels, so that hues stay; else each channel by itself."}};
+  t.params = {{.name = "mode",
+               .type = ParamType::choice,
+               .fallback = "range",
+               .help = "range: the smallest value becomes low, the largest high. statistics: mean and deviation.",
+               .choices = {"range", "statistics"}},
+              sample_param("low", 0, "With mode range: the smallest value."),
+              sample_param("high", 1, "With mode range: the largest value."),
+              sample_param("mean", 0.5, "With mode statistics: the mean."),
+              {.name = "deviation",
+               .type = ParamType::number,
+               .fallback = 0.2,
+               .help = "With mode statistics: the standard deviation. 8- and 16-bit maps are clamped to [0, 1] after.",
+               .min = 0,
+               .max = largest_sample},
+              {.name = "together",
+               .type = ParamType::boolean,
+               .fallback = true,
+               .help = "One stretch for all channels, so that hues stay; else each channel by itself."}};
   t.persist = Persist::digest;
   t.compute = compute;
   return t;

@@ -106,6 +106,9 @@ NodeType pattern_node() {
   t.persist = Persist::payload;
   t.check = check;
   t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 9 * sizeof(float); };
+  t.foresee = [](const Params&, const InputForecasts&) {
+    return Forecast{.maps = {"base_color", "normal", "height", "roughness", "ambient_occlusion"}};
+  };
   t.compute = [](NodeContext& node) { node.output("material", make_pattern(spec_of(node.params()), node.task())); };
   return t;
 }

@@ -79,6 +79,7 @@ NodeType resize_node() {
   t.persist = Persist::derived;
   t.compute = compute;
   t.check = check;
+  t.foresee = same_maps_as("material");
   return t;
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/node.h"
 #include "core/resolve.h"
+#include "nodes/image_work.h"
 
 namespace terrazzo {
 
@@ -62,6 +63,7 @@ NodeType resolve_uv_node() {
     const ResolveOptions options{.blend = node.number("blend"), .scale = node.number("scale")};
     node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv"), options));
   };
+  t.foresee = same_maps_as("material");
   return t;
 }
 

@@ -50,7 +50,7 @@ NodeType threshold_node() {
       "variance between the two (Otsu 1979); it is printed.";
   t.inputs = {image_port("image", "the image, 1 channel")};
   t.outputs = {image_port("mask", "the mask, 1 channel")};
-  t.params = {{.name = "value", .type = ParamType::number, .fallback = 0.5, .help = "Where the mask begins."},
+  t.params = {sample_param("value", 0.5, "Where the mask begins."),
               {.name = "auto",
                .type = ParamType::boolean,
                .fallback = false,
@@ -59,7 +59,8 @@ NodeType threshold_node() {
                .type = ParamType::number,
                .fallback = 0.0,
                .help = "Width of the smooth transition around the value, in the image's values; 0 for a hard edge.",
-               .min = 0},
+               .min = 0,
+               .max = largest_sample},
               {.name = "inverted", .type = ParamType::boolean, .fallback = false, .help = "Exchanges 0 and 1."}};
   t.persist = Persist::digest;
   t.compute = compute;

@@ -1,7 +1,7 @@
 #include "runner/cli.h"
 
 #include <charconv>
-#include <sstream>
+#include <iostream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +10,7 @@
 #include "core/suggest.h"
 #include "graphs/document/problem.h"
 #include "runner/cli_commands.h"
+#include "runner/progress.h"
 #include "runner/say.h"
 
 namespace terrazzo {
@@ -24,8 +25,13 @@ constexpr const char* examples =
     "  terrazzo nodes synthesize                          what a node type does and takes\n"
     "Exit codes: 0 done, 1 a node failed, 2 bad usage or an invalid graph, 130 cancelled.";
 
-void print_error(const std::string& message) {
-  say("error: {}\n", message);
+/// Told from the words themselves, so that it is known even if they cannot be understood.
+ProgressMode mode_of(int argc, const char* const* argv) {
+  const std::vector<std::string_view> words(argv, argv + argc);
+  for (size_t i = 0; i < words.size(); i++)
+    if (words[i] == "--progress=json" || (words[i] == "--progress" && i + 1 < words.size() && words[i + 1] == "json"))
+      return ProgressMode::json;
+  return ProgressMode::plain;
 }
 
 /// The innermost command that has been named.
@@ -69,11 +75,11 @@ std::string unknown_arguments(const CLI::App* command) {
   return out;
 }
 
-int usage_error(const CLI::App& app, const std::string& what) {
+int usage_error(const CLI::App& app, ProgressMode mode, const std::string& what) {
   const CLI::App* command = named_command(&app);
   const std::string unknown = unknown_arguments(command);
-  print_error(unknown.empty() ? what : unknown);
-  say("`{} --help` says what it takes.\n", full_name(command));
+  write_error(mode, std::cerr, UsageError(unknown.empty() ? what : unknown));
+  if (mode != ProgressMode::json) say("`{} --help` says what it takes.\n", full_name(command));
   return exit_usage;
 }
 
@@ -112,6 +118,7 @@ int run_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", "terrazzo " TERRAZZO_VERSION);
   app.footer(examples);
   app.get_formatter()->column_width(32);
+  const ProgressMode mode = mode_of(argc, argv);
   Chosen chosen;
   add_run_command(app, chosen);
   add_synth_command(app, chosen);
@@ -126,19 +133,18 @@ int run_command_line(int argc, const char* const* argv) {
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    return usage_error(app, e.what());
+    return usage_error(app, mode, e.what());
   } catch (const GraphError& e) {
-    std::istringstream lines(e.what());
-    for (std::string line; std::getline(lines, line);) print_error(line);
+    write_error(mode, std::cerr, e);
     return exit_usage;
   } catch (const UsageError& e) {
-    print_error(e.what());
+    write_error(mode, std::cerr, e);
     return exit_usage;
-  } catch (const Cancelled&) {
-    say("cancelled\n");
+  } catch (const Cancelled& e) {
+    write_error(mode, std::cerr, e);
     return exit_cancelled;
   } catch (const std::exception& e) {
-    print_error(e.what());
+    write_error(mode, std::cerr, e);
     return exit_failed;
   }
 }

@@ -77,6 +77,8 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   const Plan plan = [&] {
     try {
       return make_plan(graph, cache, options.targets, options.history);
+    } catch (const GraphError&) {
+      throw;
     } catch (const Error& e) {
       throw UsageError(fmt::format("--only: {}", e.what()));
     }
@@ -102,20 +104,22 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
 
 int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
   Watch watched;
+  const ProgressMode mode = *progress_mode_from(flags.progress);
   for (;;) {
+    int code = exit_usage;
     Graph graph;
     graph.file = flags.graph;
     watched.look_at(graph);
     try {
       graph = load();
       watched.look_at(graph);
-      run_once(graph, flags, cache, cancelled);
+      code = run_once(graph, flags, cache, cancelled);
     } catch (const Error& e) {
-      say("error: {}\n", e.what());
+      write_error(mode, std::cerr, e);
     }
     if (cancelled) return exit_cancelled;
-    say("watching {} files; Ctrl-C ends it\n", watched.count());
-    if (!watched.wait_for_change(cancelled)) return exit_done;
+    write_watching(mode, std::cerr, watched.count());
+    if (!watched.wait_for_change(cancelled)) return code;
   }
 }
 
@@ -136,7 +140,9 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
       .add_option("--memory", flags.memory, "Memory for running nodes, such as 2G; half of the machine's if not given")
       ->type_name("SIZE");
   command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
-  command.add_flag("--watch", flags.watch, "Run again whenever the graph file or a file that it reads changes");
+  command.add_flag("--watch", flags.watch,
+                   "Run again whenever the graph file or a file that it reads changes. Ctrl-C ends it, with the exit "
+                   "code of the last run, or 130 if it interrupts one");
   command.add_option("--report", flags.report, "Write a report with pictures")->type_name("FILE.html");
   command.add_option("--trace", flags.trace, "Write who did what when, for chrome://tracing")->type_name("FILE.json");
   command.add_option("--progress", flags.progress, "auto, bar, plain, json or none")
@@ -183,6 +189,17 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   });
 }
 
+/// What is wrong, said of the arguments of `synth` instead of the graph that they stand for.
+GraphError about_arguments(const GraphError& error) {
+  std::vector<Problem> problems = error.problems();
+  for (Problem& p : problems) {
+    const bool is_source = p.node == "exemplar";
+    if (!is_source && p.node != "files") return error;
+    p = {{}, is_source ? "FOLDER" : "-o", p.message};
+  }
+  return GraphError("", std::move(problems));
+}
+
 bool same_folder(const std::string& a, const std::string& b) {
   std::error_code missing;
   return std::filesystem::equivalent(a, b, missing);
@@ -211,8 +228,12 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       if (same_folder(flags->folder, flags->out))
         throw UsageError(
             fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
-      return run_with_flags(
-          [&] { return load_graph_text(stock_graph("material"), "stock graph material.json", set).graph; }, *flags);
+      try {
+        return run_with_flags(
+            [&] { return load_graph_text(stock_graph("material"), "stock graph material.json", set).graph; }, *flags);
+      } catch (const GraphError& e) {
+        throw about_arguments(e);
+      }
     };
   });
 }

@@ -79,7 +79,7 @@ void Coordinator::named(int stage) {
   if (live_[stage].settled) return;
   live_[stage].settled = true;
   for (const int reader : plan_.stages[stage].readers)
-    if (--live_[reader].unnamed_sources == 0) look_up(reader);
+    if (--live_[reader].unnamed_sources == 0) put_off(Step::look_up, reader);
 }
 
 bool Coordinator::has_values(int stage) const {
@@ -115,7 +115,7 @@ void Coordinator::compute(int stage) {
     if (!has_values(source)) l.awaited_sources++;
   if (l.awaited_sources == 0) return enqueue_compute(stage);
   for (const int source : plan_.stages[stage].sources)
-    if (!has_values(source)) want_values(source);
+    if (!has_values(source)) put_off(Step::want_values, source);
 }
 
 void Coordinator::enqueue_compute(int stage) {
@@ -186,7 +186,7 @@ void Coordinator::close(int stage) {
   live_[stage].closed = true;
   for (const int source : plan_.stages[stage].sources) {
     live_[source].open_readers--;
-    release_if_unread(source);
+    put_off(Step::release_if_unread, source);
   }
 }
 
@@ -245,6 +245,29 @@ void Coordinator::settle(Job& job) {
     if (options_.observer) options_.observer->failed(plan_.stages[job.stage], *job.failure);
   }
   if (job.failure || job.cancelled) return;
+  react(job);
+  take_steps();
+}
+
+void Coordinator::take_steps() {
+  while (!steps_.empty()) {
+    const auto [step, stage] = steps_.front();
+    steps_.pop_front();
+    switch (step) {
+      case Step::look_up:
+        look_up(stage);
+        break;
+      case Step::want_values:
+        want_values(stage);
+        break;
+      case Step::release_if_unread:
+        release_if_unread(stage);
+        break;
+    }
+  }
+}
+
+void Coordinator::react(Job& job) {
   switch (job.kind) {
     case Job::Kind::begin:
       return begin();

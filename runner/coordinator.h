@@ -40,6 +40,12 @@ class Coordinator {
     std::map<std::string, Value> values;
   };
 
+  /// What one thing leads to. Put off instead of called: it may go on along thousands of stages.
+  enum class Step : uint8_t { look_up, want_values, release_if_unread };
+
+  void react(Job& job);
+  void put_off(Step step, int stage) { steps_.push_back({step, stage}); }
+  void take_steps();
   void begin();
   void look_up(int stage);
   void resolved(int stage);
@@ -69,6 +75,7 @@ class Coordinator {
   std::vector<Failure> failures_;
   std::vector<Span> spans_;
   std::deque<JobPtr> waiting_;
+  std::deque<std::pair<Step, int>> steps_;
   std::unordered_map<std::string_view, int> places_;
   int running_ = 0;
   int computing_ = 0;

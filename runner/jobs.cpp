@@ -136,17 +136,10 @@ void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
 
 }  // namespace
 
-std::string located(const Graph& graph, const GraphNode& node, const std::string& about, const std::string& message) {
-  std::string where = fmt::format("node \"{}\" ({})", node.name, node.type->name);
-  if (node.type->find_input(about)) where += fmt::format(", input \"{}\"", about);
-  if (node.type->find_param(about)) where += fmt::format(", parameter \"{}\"", about);
-  return describe(graph.file.string(), {node.place, where, message});
-}
-
 void perform(Job& job, const Plan& plan, const RunOptions& options) {
   const GraphNode& node = *plan.stages[job.stage].node;
   const auto fail = [&](const std::string& about, const std::string& message) {
-    job.failure = located(*plan.graph, node, about, message);
+    job.failure = describe(plan.graph->file.string(), problem_of(node, about, message));
   };
   try {
     perform_kind(job, plan, options);

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/suggest.h"
+#include "runner/foresight.h"
 #include "runner/history.h"
 
 namespace terrazzo {
@@ -234,6 +235,8 @@ Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options, con
     if (ready) s.known = resolve(plan, static_cast<int>(i), cache, history);
   }
   decide_states(plan);
+  if (std::vector<Problem> problems = foreseen_problems(plan); !problems.empty())
+    throw GraphError(graph.file.string(), std::move(problems));
   return plan;
 }
 

@@ -66,7 +66,8 @@ struct Plan {
 };
 
 /// Works out what has to run. `cache` may be null: then everything has to; `history`, if given, lets reasons name the
-/// first thing that differs from the last run. Throws Error if a name in `options` is not a node.
+/// first thing that differs from the last run. Throws Error if a name in `options` is not a node, and GraphError with
+/// all problems that can be told before anything runs (see runner/foresight.h).
 Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options = {}, const History* history = nullptr);
 
 /// What can be said of a stage now that all its inputs' names are known. Reads the cache; changes nothing.

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "graphs/document/problem.h"
+
 namespace terrazzo {
 
 namespace {
@@ -253,6 +255,41 @@ void write_warning(ProgressMode mode, std::ostream& out, const std::string& mess
     write_event(out, {{"event", "warning"}, {"message", message}});
   else
     out << "warning: " << message << std::endl;
+}
+
+namespace {
+
+Json error_event(const std::string& file, const Problem& problem) {
+  Json event = {{"event", "error"}};
+  if (!file.empty()) event["file"] = file;
+  if (problem.place.line > 0) {
+    event["line"] = problem.place.line;
+    event["column"] = problem.place.column;
+  }
+  if (!problem.node.empty()) event["node"] = problem.node;
+  event["message"] = describe("", {{}, problem.where, problem.message, ""});
+  return event;
+}
+
+}  // namespace
+
+void write_error(ProgressMode mode, std::ostream& out, const std::exception& error) {
+  const GraphError* graph = dynamic_cast<const GraphError*>(&error);
+  const std::string file = graph ? graph->file() : "";
+  const std::vector<Problem> problems = graph ? graph->problems() : std::vector<Problem>{{{}, "", error.what()}};
+  for (const Problem& p : problems) {
+    if (mode == ProgressMode::json)
+      write_event(out, error_event(file, p));
+    else
+      out << "error: " << describe(file, p) << std::endl;
+  }
+}
+
+void write_watching(ProgressMode mode, std::ostream& out, size_t files) {
+  if (mode == ProgressMode::json)
+    write_event(out, {{"event", "watching"}, {"files", files}});
+  else
+    out << fmt::format("watching {} files; Ctrl-C ends it", files) << std::endl;
 }
 
 std::unique_ptr<Progress> make_progress(ProgressMode mode, std::ostream& out, bool terminal) {

@@ -31,6 +31,9 @@ class Progress : public RunObserver {
 /// `terminal` decides what automatic means. `out` must outlive it.
 ///
 /// json writes these objects, one per line, each with "event":
+///   error     "message"; "file", "line", "column" and "node" where they are known: a wrong command line, a wrong
+///   graph,
+///             or a trace or report that cannot be written; several at once
 ///   warning   "message": about the document or the cache, not a node
 ///   plan      "stages": [{"node", "type", "state", "key" (or null), "why"}]; states as in StageState
 ///   start     "node"
@@ -39,10 +42,15 @@ class Progress : public RunObserver {
 ///   done      "node", "seconds"
 ///   cached    "node": its result was there
 ///   failed    "node", "message"
-///   finished  "ok", "cancelled", "seconds", "cached", "run", "failed", "unfinished", "files": [path]; always the last
+///   finished  "ok", "cancelled", "seconds", "cached", "run", "failed", "unfinished", "files": [path]; the run's last
+///   watching  "files": how many; the run is over and waits for one of them to change
 std::unique_ptr<Progress> make_progress(ProgressMode mode, std::ostream& out, bool terminal);
 
 /// A warning from before a run has an observer, as the mode has it: an object or a line of text.
 void write_warning(ProgressMode mode, std::ostream& out, const std::string& message);
+/// The same for what is not the failure of a running node; a GraphError is an object or a line for each problem.
+void write_error(ProgressMode mode, std::ostream& out, const std::exception& error);
+/// That the run waits for one of so many files to change.
+void write_watching(ProgressMode mode, std::ostream& out, size_t files);
 
 }  // namespace terrazzo

@@ -78,13 +78,10 @@ struct RunResult {
 
 /// Plans the graph and runs what has to be run. Independent nodes run side by side; a node's inputs are let go after
 /// its last reader. The first node that fails ends the run once the nodes that are running have finished. Failures and
-/// cancellation are in the result; only names in `targets` that are not nodes are thrown as Error.
+/// cancellation are in the result; only what keeps a plan from being made is thrown, see make_plan.
 RunResult run_graph(const Graph& graph, const RunOptions& options);
 
 /// Runs a plan that was made with the same targets, cache and history.
 RunResult run_plan(Plan plan, const RunOptions& options);
-
-/// "graph.json:12:5: node "space" (pca), input "features": what is wrong".
-std::string located(const Graph& graph, const GraphNode& node, const std::string& about, const std::string& message);
 
 }  // namespace terrazzo

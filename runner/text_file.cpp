@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "core/error.h"
+#include "core/staging.h"
 
 namespace terrazzo {
 
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 void write_whole_file(const fs::path& path, const std::string& text) {
   std::error_code missing;
   const bool is_device = fs::exists(path, missing) && !fs::is_regular_file(path, missing);
-  const fs::path temporary = is_device ? path : fs::path(path.string() + fmt::format(".{}", ::getpid()));
+  const fs::path temporary = is_device ? path : temporary_beside(path);
   std::ofstream out(temporary, std::ios::binary);
   out << text;
   out.close();

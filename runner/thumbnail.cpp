@@ -1,12 +1,6 @@
 #include "runner/thumbnail.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
-#include <fmt/format.h>
-#include <unistd.h>
 
 #include "core/color.h"
 #include "core/image_file.h"
@@ -14,8 +8,6 @@
 namespace terrazzo {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Each pixel of the result is the mean of the pixels it stands for.
 ImagePtr shrunk(const ImagePtr& image, Size size, int channels) {
@@ -40,13 +32,11 @@ ImagePtr shrunk(const ImagePtr& image, Size size, int channels) {
   return Image::from_floats(info, std::move(out));
 }
 
-std::string base64(const std::string& bytes) {
+std::string base64(const std::vector<uint8_t>& bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
   for (size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](size_t at) -> uint32_t {
-      return at < bytes.size() ? static_cast<unsigned char>(bytes[at]) : 0;
-    };
+    const auto byte = [&](size_t at) -> uint32_t { return at < bytes.size() ? bytes[at] : 0; };
     const uint32_t bits = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
     for (size_t d = 0; d < 4; d++) out += i + d > bytes.size() ? '=' : digits[bits >> (18 - 6 * d) & 63];
   }
@@ -62,12 +52,7 @@ std::string thumbnail_uri(const ImagePtr& image, int longest) {
                      std::max(1, static_cast<int>(full.height * scale))};
   ImagePtr small = shrunk(image, size, image->channels() == 1 ? 1 : 3);
   if (small->info().color_space != "raw") small = convert_color(small, "srgb_texture");
-  const fs::path file = fs::temp_directory_path() / fmt::format("terrazzo-thumbnail-{}.png", ::getpid());
-  write_image(*small, file, {.format = FileFormat::png, .depth = Depth::u8}, [](double) {});
-  std::ostringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  fs::remove(file);
-  return "data:image/png;base64," + base64(bytes.str());
+  return "data:image/png;base64," + base64(png_of(*small));
 }
 
 }  // namespace terrazzo

@@ -1,5 +1,11 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every test. Arguments go to ctest: tests/run.sh -R cache
+#
+# Under the sanitizers, after this script has installed what is missing:
+#   cmake --preset asan && cmake --build --preset asan && ctest --preset asan -j 2     addresses, leaks, undefined behaviour
+#   cmake --preset tsan && cmake --build --preset tsan && ctest --preset tsan -j 2     races; tests/tsan/ tells it of oneTBB
+# A single test is quicker without ctest; CMakePresets.json has the options:
+#   TSAN_OPTIONS=ignore_noninstrumented_modules=1 build-tsan/tests/terrazzo_tests -tc="*cache*"
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

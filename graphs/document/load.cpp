@@ -64,7 +64,7 @@ class Loader {
     reading.working_folder = working_folder();
     std::vector<NodeDraft> drafts = read_nodes(nodes, overrides, reading, substitution, problems_);
     std::vector<Problem> conversions;
-    connect(drafts, conversions);
+    connect(drafts, problems_, conversions);
     const std::vector<size_t> order = execution_order(drafts, problems_);
     finish();
 

@@ -220,8 +220,10 @@ std::vector<NodeDraft> read_nodes(const JsonValue& section, const std::vector<Ov
   std::vector<NodeDraft> drafts;
   for (const JsonMember& m : section.members) {
     const auto its = by_node.find(m.name);
+    const size_t before = problems.size();
     drafts.push_back(NodeReader(m, reading, substitution, problems)
                          .read(its == by_node.end() ? std::vector<const Override*>() : its->second));
+    for (size_t i = before; i < problems.size(); i++) problems[i].node = m.name;
   }
   return drafts;
 }

@@ -35,7 +35,14 @@ std::string describe(const std::string& file, const Problem& problem) {
   return text + problem.message;
 }
 
+Problem problem_of(const GraphNode& node, const std::string& about, const std::string& message) {
+  std::string where = fmt::format("node \"{}\" ({})", node.name, node.type->name);
+  if (node.type->find_input(about)) where += fmt::format(", input \"{}\"", about);
+  if (node.type->find_param(about)) where += fmt::format(", parameter \"{}\"", about);
+  return {node.place, where, message, node.name};
+}
+
 GraphError::GraphError(const std::string& file, std::vector<Problem> problems)
-    : Error(all_described(file, in_order(problems))), problems_(in_order(std::move(problems))) {}
+    : Error(all_described(file, in_order(problems))), file_(file), problems_(in_order(std::move(problems))) {}
 
 }  // namespace terrazzo

@@ -13,18 +13,24 @@ struct Problem {
   Place place;          ///< 0:0 for overrides and whole files
   std::string where;    ///< `node "x", parameter "y"`; may be empty
   std::string message;  ///< what was expected, what was found, the nearest valid choice
+  std::string node{};   ///< the node's name, if it is about one
 };
 
 /// `file:line:column: where: message`, without the parts that are not known.
 std::string describe(const std::string& file, const Problem& problem);
+
+/// A problem of a checked graph's node; `about` names the port or parameter that is to blame, or is empty.
+Problem problem_of(const GraphNode& node, const std::string& about, const std::string& message);
 
 /// All problems of one document, in the order of their places; what() has one line for each.
 class GraphError : public Error {
  public:
   GraphError(const std::string& file, std::vector<Problem> problems);
   const std::vector<Problem>& problems() const { return problems_; }
+  const std::string& file() const { return file_; }
 
  private:
+  std::string file_;
   std::vector<Problem> problems_;
 };
 

@@ -30,9 +30,9 @@ class Connector {
       if (!output || !types_fit(node, end, *output, into)) continue;
       wires.push_back({end.node, output->name});
       if (output->type != into.port->type)
-        conversions_.push_back({end.place,
-                                fmt::format("node {}, port {}", in_quotes(node.name), in_quotes(into.port->name)),
-                                fmt::format("the image of {} becomes a material of one map", in_quotes(end.spelled))});
+        conversions_.push_back(
+            {end.place, fmt::format("node {}, port {}", in_quotes(node.name), in_quotes(into.port->name)),
+             fmt::format("the image of {} becomes a material of one map", in_quotes(end.spelled)), node.name});
     }
     if (!wires.empty()) node.inputs[into.port->name] = std::move(wires);
   }
@@ -153,7 +153,7 @@ class Walk {
       if (path[i].node == closing) break;
     }
     const GraphNode& node = drafts_[first].node;
-    problems_.push_back({node.place, "node " + in_quotes(node.name), "the wires form a cycle: " + names});
+    problems_.push_back({node.place, "node " + in_quotes(node.name), "the wires form a cycle: " + names, node.name});
   }
 
   const std::vector<NodeDraft>& drafts_;
@@ -165,10 +165,13 @@ class Walk {
 
 }  // namespace
 
-void connect(std::vector<NodeDraft>& drafts, std::vector<Problem>& conversions) {
+void connect(std::vector<NodeDraft>& drafts, std::vector<Problem>& problems, std::vector<Problem>& conversions) {
   Connector connector(drafts, conversions);
-  for (NodeDraft& d : drafts)
+  for (NodeDraft& d : drafts) {
+    const size_t before = problems.size();
     for (PortWires& p : d.ports) connector.connect(d.node, p);
+    for (size_t i = before; i < problems.size(); i++) problems[i].node = d.node.name;
+  }
 }
 
 std::vector<size_t> execution_order(const std::vector<NodeDraft>& drafts, std::vector<Problem>& problems) {

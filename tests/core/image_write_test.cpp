@@ -1,4 +1,6 @@
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <thread>
 
 #include <doctest/doctest.h>
@@ -31,6 +33,15 @@ ImagePtr every_value(int bits) {
 }
 
 }  // namespace
+
+TEST_CASE("a PNG in memory has the bytes of one in a file") {
+  const TemporaryFolder folder;
+  write(every_value(8), folder.path() / "a.png", Depth::u8);
+  std::ifstream file(folder.path() / "a.png", std::ios::binary);
+  const std::vector<uint8_t> expected((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  CHECK(expected.size() > 100);
+  CHECK(png_of(*every_value(8)) == expected);
+}
 
 TEST_CASE("every 8- and 16-bit value is written back exactly") {
   const TemporaryFolder folder;

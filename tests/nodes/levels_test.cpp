@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "nodes/registry.h"
 #include "tests/nodes/image_checks.h"
 
 using namespace terrazzo;
@@ -78,4 +79,21 @@ TEST_CASE("levels refuse normals, equal black and white, and counts that do not 
         std::string::npos);
   CHECK(error_of("levels", {{"gamma", Numbers{1.0, 2.0}}}, {{"image", color}}, "gamma").find("3 channels") !=
         std::string::npos);
+}
+
+TEST_CASE("equal black and white, and values out of any reason, are found before anything runs") {
+  const NodeType* type = find_node_type("levels");
+  Params params;
+  for (const Param& p : type->params) params[p.name] = *p.fallback;
+  CHECK(type->check(params).empty());
+  params["in_black"] = Numbers{0.25, 1.0, 0.5};
+  REQUIRE(type->check(params).size() == 1);
+  CHECK(type->check(params)[0] == "\"in_white\": expected a value other than in_black, found 1 for both");
+  params["auto"] = "image";
+  CHECK(type->check(params).empty());
+  for (const auto& [node, param] : {std::pair("levels", "in_white"), std::pair("normalize", "high"),
+                                    std::pair("normalize", "deviation"), std::pair("threshold", "value")}) {
+    CHECK(find_node_type(node)->find_param(param)->max == 1e6);
+    CHECK(find_node_type(node)->find_param(param)->min.has_value());
+  }
 }

@@ -9,44 +9,12 @@
 #include "core/image_file.h"
 #include "tests/runner/fakes.h"
 #include "tests/runner/program.h"
+#include "tests/runner/workplace.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
 
-namespace {
-
 namespace fs = std::filesystem;
-
-void write_picture(const fs::path& path, int step, Semantic semantic = Semantic::base_color) {
-  fs::create_directories(path.parent_path());
-  const ImagePtr image = make_image(
-      {32, 24}, 3, [&](int x, int y, int c) { return static_cast<float>((x * step + y * 3 + c * 40) % 256) / 255; },
-      semantic, "srgb_texture");
-  write_image(*image, path, {.format = FileFormat::png, .depth = Depth::u8}, [](double) {});
-}
-
-/// A folder with a small graph that blurs one picture.
-struct Workplace {
-  TemporaryFolder folder;
-  const fs::path& path = folder.path();
-
-  Workplace() {
-    write_picture(path / "photo.png", 5);
-    write_text(path / "soft.json", R"({
-  "terrazzo": 1,
-  "summary": "A blurred picture",
-  "parameters": {"radius": {"type": "number", "default": 2}, "out": {"type": "path", "default": "out"}},
-  "nodes": {
-    "photo": {"type": "load_map", "path": "photo.png"},
-    "soft":  {"type": "blur", "image": "@photo", "radius": "$radius"},
-    "files": {"type": "export", "material": "@soft", "path": "$out/{map}.png"}
-  }
-})");
-  }
-  ProgramRun run(const std::vector<std::string>& args) const { return run_program(path, args); }
-};
-
-}  // namespace
 
 TEST_CASE("the program says its version and helps on standard output") {
   const Workplace w;
@@ -354,7 +322,7 @@ TEST_CASE("compare prints figures as a table or as json") {
   CHECK(page.find("data:image/png;base64,iVBOR") != std::string::npos);
   CHECK(w.run({"compare", "photo.png", "other.png", "--sheet", "s.doc"}).code == 2);
   const ProgramRun missing = w.run({"compare", "photo.png", "gone.png"});
-  CHECK(missing.code == 1);
+  CHECK(missing.code == 2);
   CHECK(missing.err.find("gone.png") != std::string::npos);
 }
 
@@ -414,7 +382,7 @@ TEST_CASE("new writes a commented graph that runs") {
   const ProgramRun run = w.run({"run", "graphs/stone.json", "--set", "size=40x40", "--set", "out=big"});
   CHECK_MESSAGE(run.code == 0, run.err);
   CHECK(fs::exists(w.path / "big/base_color.png"));
-  CHECK(w.run({"new", "nowhere", "-o", "x.json"}).code == 1);
+  CHECK(w.run({"new", "nowhere", "-o", "x.json"}).code == 2);
 }
 
 TEST_CASE("the stock graphs that steer synthesis run") {

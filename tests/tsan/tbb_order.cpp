@@ -43,15 +43,20 @@ class OrderedTask final : public task {
  public:
   explicit OrderedTask(task& inner) : inner_(&inner) { __tsan_release(this); }
 
-  task* execute(execution_data& data) override { return take()->execute(data); }
-  task* cancel(execution_data& data) override { return take()->cancel(data); }
+  // A task that throws is cancelled next, so this one may go only when the inner one has returned.
+  task* execute(execution_data& data) override {
+    __tsan_acquire(this);
+    return leave(inner_->execute(data));
+  }
+  task* cancel(execution_data& data) override {
+    __tsan_acquire(this);
+    return leave(inner_->cancel(data));
+  }
 
  private:
-  task* take() {
-    __tsan_acquire(this);
-    task* inner = inner_;
+  task* leave(task* next) {
     delete this;
-    return inner;
+    return next;
   }
 
   task* inner_;

@@ -1,0 +1,73 @@
+#include "runner/foresight.h"
+
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/staging.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Foresight {
+ public:
+  std::vector<Problem> look(const Plan& plan) {
+    for (const Stage& s : plan.stages)
+      if (s.needed) look_at(s);
+    return std::move(problems_);
+  }
+
+ private:
+  void look_at(const Stage& stage) {
+    const GraphNode& node = *stage.node;
+    if (!node.type->foresee) return;
+    try {
+      Forecast forecast = node.type->foresee(node.params, inputs_of(node));
+      if (stage.state != StageState::up_to_date) check_files(node, forecast.files);
+      forecasts_[node.name] = std::move(forecast);
+    } catch (const Error& e) {
+      problems_.push_back(problem_of(node, e.about(), e.what()));
+    }
+  }
+
+  InputForecasts inputs_of(const GraphNode& node) const {
+    InputForecasts inputs;
+    for (const auto& [port, wires] : node.inputs)
+      for (const Wire& w : wires) {
+        const auto known = forecasts_.find(w.node);
+        inputs[port].push_back(known == forecasts_.end() ? Forecast{} : known->second);
+      }
+    return inputs;
+  }
+
+  void check_files(const GraphNode& node, const std::vector<FutureFile>& files) {
+    std::set<std::string> said;
+    for (const FutureFile& f : files) {
+      std::string trouble = why_not_writable(f.folder, f.name);
+      const fs::path path = (f.folder / f.name).lexically_normal();
+      if (trouble.empty() && !f.name.empty()) {
+        const auto [writer, is_new] = writers_.emplace(path, node.name);
+        if (!is_new)
+          trouble =
+              fmt::format("{} would be written twice, here and by the node \"{}\"", path.string(), writer->second);
+      }
+      if (!trouble.empty() && said.insert(trouble).second) problems_.push_back(problem_of(node, f.param, trouble));
+    }
+  }
+
+  std::map<std::string, Forecast> forecasts_;
+  std::map<fs::path, std::string> writers_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> foreseen_problems(const Plan& plan) {
+  return Foresight().look(plan);
+}
+
+}  // namespace terrazzo
