@@ -23,6 +23,8 @@ void compute(NodeContext& node) {
   const double limit = node.number("reach") * std::min(size.width, size.height);
   node.output("distance", feature_distance(edges, size, options.wraps, float(limit)));
   const ImageInfo mask{.size = size, .channels = 1, .semantic = Semantic::mask, .depth = Depth::u8};
+  node.output("gradients",
+              Image::from_floats({.size = size, .channels = 2, .semantic = Semantic::guidance}, edges.gradients));
   node.output("edges", Image::from_floats(mask, {edges.mask.begin(), edges.mask.end()}));
   if (!options.threshold)
     node.note(fmt::format("edges are where strength exceeds {:.3f} (chosen automatically)", edges.threshold));
@@ -33,6 +35,7 @@ void compute(NodeContext& node) {
 NodeType guidance_node() {
   NodeType t;
   t.name = "guidance";
+  t.version = 2;
   t.category = "analysis";
   t.summary = "Extracts edges and the signed feature distance from a material's maps";
   t.help =
@@ -43,7 +46,10 @@ NodeType guidance_node() {
   t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}, mask_port()};
   t.outputs = {
       {.name = "distance", .type = ValueType::image, .help = "pixels to the nearest edge, negative inside edges"},
-      {.name = "edges", .type = ValueType::image, .help = "the edges, 1 on an edge"}};
+      {.name = "edges", .type = ValueType::image, .help = "the edges, 1 on an edge"},
+      {.name = "gradients",
+       .type = ValueType::image,
+       .help = "slopes along x and y of what the maps vary in most: a further guide, which tells a rim's sides apart"}};
   t.params = {
       {.name = "maps",
        .type = ParamType::texts,

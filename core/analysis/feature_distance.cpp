@@ -53,23 +53,44 @@ ExemplarPlanes smoothed(const ExemplarPlanes& in, double deviation) {
   return out;
 }
 
-/// Gradient magnitude (Scharr's operator) over all channels.
+struct Gradient {
+  float x, y;
+};
+
+/// Scharr's operator on one channel.
+Gradient gradient_at(const ExemplarPlanes& p, int x, int y, int channel) {
+  const int up = p.row(y - 1), down = p.row(y + 1), left = p.column(x - 1), right = p.column(x + 1);
+  const auto v = [&](int u, int w) { return p.at(u, w)[channel]; };
+  return {3 * (v(right, up) - v(left, up)) + 10 * (v(right, y) - v(left, y)) + 3 * (v(right, down) - v(left, down)),
+          3 * (v(left, down) - v(left, up)) + 10 * (v(x, down) - v(x, up)) + 3 * (v(right, down) - v(right, up))};
+}
+
+/// Gradient magnitude over all channels.
 std::vector<float> gradient_magnitude(const ExemplarPlanes& p) {
   std::vector<float> out(size_t(p.size.area()));
   tbb::parallel_for(0, p.size.height, [&](int y) {
-    const int up = p.row(y - 1), down = p.row(y + 1);
     for (int x = 0; x < p.size.width; x++) {
-      const int left = p.column(x - 1), right = p.column(x + 1);
       float sum = 0;
       for (int c = 0; c < p.channels; c++) {
-        const auto v = [&](int u, int w) { return p.at(u, w)[c]; };
-        const float gx =
-            3 * (v(right, up) - v(left, up)) + 10 * (v(right, y) - v(left, y)) + 3 * (v(right, down) - v(left, down));
-        const float gy =
-            3 * (v(left, down) - v(left, up)) + 10 * (v(x, down) - v(x, up)) + 3 * (v(right, down) - v(right, up));
-        sum += gx * gx + gy * gy;
+        const Gradient g = gradient_at(p, x, y, c);
+        sum += g.x * g.x + g.y * g.y;
       }
       out[size_t(y) * p.size.width + x] = std::sqrt(sum) / 32;
+    }
+  });
+  return out;
+}
+
+/// The gradient of what all channels together vary in most; x and y interleaved.
+std::vector<float> leading_gradients(const ExemplarPlanes& p, const Task& task) {
+  const ExemplarPlanes leading{p.size, 1, p.wraps, leading_component(p, task)};
+  std::vector<float> out(2 * size_t(p.size.area()));
+  tbb::parallel_for(0, p.size.height, [&](int y) {
+    for (int x = 0; x < p.size.width; x++) {
+      const Gradient g = gradient_at(leading, x, y, 0);
+      const size_t at = 2 * (size_t(y) * p.size.width + x);
+      out[at] = g.x / 32;
+      out[at + 1] = g.y / 32;
     }
   });
   return out;
@@ -83,6 +104,7 @@ Edges find_edges(const Material& material, const EdgeOptions& options, const Tas
   const ExemplarPlanes planes = smoothed(weighted_planes(*features, task), options.smoothing);
   Edges edges;
   edges.strength = gradient_magnitude(planes);
+  edges.gradients = leading_gradients(planes, task);
   const std::vector<uint8_t> allowed = allowed_pixels(*features);
   for (size_t i = 0; i < allowed.size(); i++)
     if (!allowed[i]) edges.strength[i] = 0;

@@ -17,8 +17,9 @@ struct EdgeOptions {
 };
 
 struct Edges {
-  std::vector<float> strength;  ///< 0..1, row by row
-  std::vector<uint8_t> mask;    ///< strength above the threshold
+  std::vector<float> strength;   ///< 0..1, row by row
+  std::vector<uint8_t> mask;     ///< strength above the threshold
+  std::vector<float> gradients;  ///< x and y, of the channels' leading principal component, per pixel
   double threshold = 0;
 };
 

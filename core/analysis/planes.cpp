@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/analysis/distance_transform.h"
+#include "core/analysis/principal_components.h"
 #include "core/analysis/usable.h"
 #include "core/error.h"
 
@@ -132,6 +133,21 @@ ExemplarPlanes halved(const ExemplarPlanes& in) {
         const float* v = row.data() + size_t(in.column(2 * x + i - 1)) * n;
         for (int c = 0; c < n; c++) o[c] += kernel[i] * v[c];
       }
+    }
+  });
+  return out;
+}
+
+std::vector<float> leading_component(const ExemplarPlanes& planes, const Task& task) {
+  const int n = planes.channels;
+  const std::vector<float> axis = principal_components(planes.values, n, 1, task).components;
+  const double sign = axis.front() < 0 ? -1 : 1;
+  std::vector<float> out(size_t(planes.size.area()));
+  tbb::parallel_for(0, planes.size.height, [&](int y) {
+    for (int x = 0; x < planes.size.width; x++) {
+      double sum = 0;
+      for (int c = 0; c < n; c++) sum += double(axis[c]) * double(planes.at(x, y)[c]);
+      out[size_t(y) * planes.size.width + x] = float(sign * sum);
     }
   });
   return out;

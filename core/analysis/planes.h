@@ -33,4 +33,7 @@ ExemplarPlanes guidance_planes(const Features& features, const std::vector<Image
 /// vectors: their length then tells how much they agree.
 ExemplarPlanes halved(const ExemplarPlanes& planes);
 
+/// The planes' values along their first principal component: what all channels together vary in most. Throws Cancelled.
+std::vector<float> leading_component(const ExemplarPlanes& planes, const Task& task);
+
 }  // namespace terrazzo

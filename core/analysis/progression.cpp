@@ -2,29 +2,12 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/analysis/principal_components.h"
 #include "core/analysis/smoothing.h"
 #include "core/distribution.h"
 
 namespace terrazzo {
 
 namespace {
-
-/// The planes' values along their leading principal component.
-std::vector<float> leading_component(const ExemplarPlanes& planes, const Task& task) {
-  const int n = planes.channels;
-  const std::vector<float> axis = principal_components(planes.values, n, 1, task).components;
-  const double sign = axis.front() < 0 ? -1 : 1;
-  std::vector<float> out(size_t(planes.size.area()));
-  tbb::parallel_for(0, planes.size.height, [&](int y) {
-    for (int x = 0; x < planes.size.width; x++) {
-      double sum = 0;
-      for (int c = 0; c < n; c++) sum += double(axis[c]) * double(planes.at(x, y)[c]);
-      out[size_t(y) * planes.size.width + x] = float(sign * sum);
-    }
-  });
-  return out;
-}
 
 /// From values to ranks, stretched so that the least is 0 and the greatest 1.
 Curve equalizing_curve(const Distribution& d, bool inverted) {

@@ -1,5 +1,7 @@
 #include "core/analysis/feature_distance.h"
 
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "tests/run_node.h"
@@ -47,6 +49,7 @@ TEST_CASE("the guidance node gives a distance and its edges") {
   const NodeRun run = run_node("guidance", {}, {{"material", {box()}}});
   CHECK(run.get<Image>("distance")->size() == Size{40, 40});
   CHECK(run.get<Image>("edges")->info().semantic == Semantic::mask);
+  CHECK(run.get<Image>("gradients")->channels() == 2);
 }
 
 TEST_CASE("there are no edges where the mask forbids, nor around it") {
@@ -59,4 +62,16 @@ TEST_CASE("there are no edges where the mask forbids, nor around it") {
     for (int x = 20; x < 40; x++) CHECK(edges[y * 40 + x] == 0);
   CHECK(edges[19 * 40 + 36] == 0);
   CHECK(edges[25 * 40 + 10 + 1] == 1);
+}
+
+TEST_CASE("gradients point uphill, with opposite signs on opposite sides") {
+  const Edges edges = find_edges(*Material::of(box()), {}, Task());
+  const auto along_x = [&](int x, int y) { return edges.gradients[2 * size_t(y * 40 + x)]; };
+  const auto along_y = [&](int x, int y) { return edges.gradients[2 * size_t(y * 40 + x) + 1]; };
+  CHECK(along_x(12, 20) > 0.1f);
+  CHECK(along_x(27, 20) == doctest::Approx(-along_x(12, 20)));
+  CHECK(along_y(20, 12) > 0.1f);
+  CHECK(along_y(20, 27) < -0.1f);
+  CHECK(std::abs(along_y(12, 20)) < 1e-4f);
+  CHECK(std::abs(along_x(20, 20)) < 1e-4f);
 }
