@@ -29,7 +29,7 @@ all_sheets() {
   echo "$1:"
   for sweep in jitter weights guidance dimensions lights; do sheet $sweep "$2" "$out/$1"; done
   # A lattice hides most of what these do to bricks and tiles.
-  for sweep in jitter guidance dimensions; do sheet $sweep "$2" "$out/$1/without-lattice" --set lattice=off; done
+  for sweep in jitter weights guidance dimensions; do sheet $sweep "$2" "$out/$1/without-lattice" --set lattice=off; done
 }
 
 if [ ${#folders[@]} -eq 0 ]; then
