@@ -58,11 +58,11 @@ class PixelCorrector {
 
  private:
   /// How many of the pixels a little way off show nearly what the candidate would show here. A piece that comes back
-  /// after a few pixels makes combed streaks.
+  /// after a few pixels makes combed streaks, a pixel that comes back at once makes waffles.
   uint32_t repeats(int x, int y) const {
     uint32_t count = 0;
     for (int n = 0; n < ring_count_; n++)
-      count += std::abs(ring_[n].x - x) < ring_radius / 2 && std::abs(ring_[n].y - y) < ring_radius / 2;
+      count += 2 * std::abs(ring_[n].x - x) < ring_[n].radius && 2 * std::abs(ring_[n].y - y) < ring_[n].radius;
     return count;
   }
 
@@ -93,9 +93,10 @@ class PixelCorrector {
   HWY_ATTR void gather(int x, int y) {
     for (int n = 0; n < 9; n++) around_[n] = neighbour(x + step(n, 0), y + step(n, 1));
     ring_count_ = 0;
-    for (int n = 1; n < 9; n++)
-      if (const ExemplarPixel* p = neighbour(x + ring_radius * step(n, 0), y + ring_radius * step(n, 1)))
-        ring_[ring_count_++] = *p;
+    for (const int radius : ring_radii)
+      for (int n = 1; n < 9; n++)
+        if (const ExemplarPixel* p = neighbour(x + radius * step(n, 0), y + radius * step(n, 1)))
+          ring_[ring_count_++] = {p->x, p->y, radius};
     count_ = 0;
     for (int t = 0; t < taps_; t++) {
       const auto [dx, dy] = (*pass_.window)[t];
@@ -171,7 +172,7 @@ class PixelCorrector {
 
   static constexpr int taps_at_once = 8;
   static constexpr double most_factor = 1e9;
-  static constexpr int ring_radius = 6;
+  static constexpr int ring_radii[3] = {1, 3, 6};
   static constexpr int most_taps = 24;
   static constexpr int most_candidates = 128;
   const Field& field_;
@@ -182,7 +183,10 @@ class PixelCorrector {
   int x_ = 0, y_ = 0;
   const uint8_t* target_ = nullptr;
   int ring_count_ = 0;
-  std::array<ExemplarPixel, 8> ring_{};
+  struct RingPixel {
+    int x, y, radius;
+  };
+  std::array<RingPixel, 24> ring_{};
   int count_ = 0;
   int seen_ = 0;
   uint64_t best_cost_ = 0;
