@@ -133,6 +133,7 @@ void add_material(NodeContext& node, const Material& material, std::vector<Job>&
                    {"width", fmt::format("{}", m.image->width())},
                    {"height", fmt::format("{}", m.image->height())}});
   };
+  target_of(maps.front());  // says what is wrong with the pattern itself
   std::vector<std::string> names;
   for (const Map& m : maps) names.push_back(m.name);
   require_pattern_for(pattern, names);
