@@ -29,8 +29,8 @@ struct PreviewSpec {
 
 /// Renders the material under a directional light and even surroundings: GGX, normal mapping in either convention,
 /// occlusion, metals, emission, parallax and shadows from the height map. Several lights give a sheet of pictures, row
-/// by row, as square as it gets, with thin borders. Uses what maps there are; a material with neither colour, normal nor height is a
-/// grey surface. The result is an 8-bit base_color in srgb_texture, the same on every machine.
+/// by row, as square as it gets, with thin borders. Uses what maps there are; a material with neither colour, normal
+/// nor height is a grey surface. The result is an 8-bit base_color in srgb_texture, the same on every machine.
 ImagePtr render_preview(const Material& material, const PreviewSpec& spec, const Task& task);
 
 }  // namespace terrazzo
