@@ -25,7 +25,7 @@ const Window& full_window();
 const Window& sparse_window();
 
 /// How often each cell of the exemplar (it is divided into 16x16) is in use, as a factor on the cost of using it once
-/// more: above 1 where use exceeds an even share.
+/// more: above 1 where use exceeds an even share, below 1 where it falls short of it.
 class Occupancy {
  public:
   /// `weight`: how much a doubled use adds to the cost; 0 turns the term off. `demand`: how often each exemplar pixel

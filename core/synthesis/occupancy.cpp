@@ -33,8 +33,10 @@ void Occupancy::recount(const Field& field, const FixedPixels& fixed) {
   const double even = std::max(least_expected, double(free) / double(factors_.size()));
   for (size_t i = 0; i < use.size(); i++) {
     const double expected = shares_.empty() ? even : std::max(least_expected, double(free) * shares_[i]);
-    const double excess = std::clamp(double(use[i]) / expected - 1.0, 0.0, 4.0);
-    factors_[i] = uint32_t(unit_factor * (1.0 + weight_ * excess));
+    const double excess = std::clamp(double(use[i]) / expected - 1.0, -0.6, 4.0);
+    // What is used too little is made cheaper as what is used too much is made dearer, but never next to free.
+    const double factor = std::max(0.5, 1.0 + weight_ * excess);
+    factors_[i] = uint32_t(unit_factor * factor);
   }
 }
 
