@@ -117,6 +117,7 @@ int run_command_line(int argc, const char* const* argv) {
                "terrazzo");
   app.set_version_flag("--version", "terrazzo " TERRAZZO_VERSION);
   app.footer(examples);
+  app.require_subcommand(0, 1);  // further words belong to the command, even if they are a command's name too
   app.get_formatter()->column_width(32);
   const ProgressMode mode = mode_of(argc, argv);
   Chosen chosen;

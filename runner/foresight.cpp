@@ -17,11 +17,29 @@ class Foresight {
  public:
   std::vector<Problem> look(const Plan& plan) {
     for (const Stage& s : plan.stages)
+      if (s.needed) note_sources(*s.node);
+    for (const Stage& s : plan.stages)
       if (s.needed) look_at(s);
     return std::move(problems_);
   }
 
  private:
+  void note_sources(const GraphNode& node) {
+    if (!node.type->files_read) return;
+    std::error_code missing;
+    for (const fs::path& file : node.type->files_read(node.params))
+      if (fs::is_regular_file(file, missing)) readers_.emplace(fs::weakly_canonical(file, missing), node.name);
+  }
+
+  /// A result must never take the place of what it is made from.
+  std::string read_by_others(const fs::path& path) const {
+    std::error_code missing;
+    const auto reader = readers_.find(fs::weakly_canonical(path, missing));
+    if (reader == readers_.end()) return {};
+    return fmt::format("{} would be overwritten, but the node \"{}\" reads it; write to another folder", path.string(),
+                       reader->second);
+  }
+
   void look_at(const Stage& stage) {
     const GraphNode& node = *stage.node;
     if (!node.type->foresee) return;
@@ -49,6 +67,7 @@ class Foresight {
     for (const FutureFile& f : files) {
       std::string trouble = why_not_writable(f.folder, f.name);
       const fs::path path = (f.folder / f.name).lexically_normal();
+      if (trouble.empty() && !f.name.empty()) trouble = read_by_others(path);
       if (trouble.empty() && !f.name.empty()) {
         const auto [writer, is_new] = writers_.emplace(path, node.name);
         if (!is_new)
@@ -60,6 +79,7 @@ class Foresight {
   }
 
   std::map<std::string, Forecast> forecasts_;
+  std::map<fs::path, std::string> readers_;
   std::map<fs::path, std::string> writers_;
   std::vector<Problem> problems_;
 };

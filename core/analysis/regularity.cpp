@@ -12,8 +12,9 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int most_side = 256;  // periods are found to a fraction of a pixel; more resolution brings nothing
-constexpr double shortest = 4;  // pixels; anything finer is grain
+constexpr int most_side = 256;     // periods are found to a fraction of a pixel; more resolution brings nothing
+constexpr int smallest_side = 16;  // less has no room for repeats
+constexpr double shortest = 4;     // pixels; anything finer is grain
 constexpr int most_peaks = 60;
 constexpr double good_enough = 0.75;  // of the best score
 constexpr double clearly_better = 0.3;
@@ -281,6 +282,7 @@ Lattice searched(const ExemplarPlanes& planes, double least_certainty, const Tas
 }  // namespace
 
 Lattice find_lattice(const Features& features, double least_certainty, const Task& task) {
+  if (std::min(features.size().width, features.size().height) < smallest_side) return {};
   ExemplarPlanes planes = weighted_planes(features, task);
   double scale = 1;
   while (std::max(planes.size.width, planes.size.height) > most_side) {

@@ -92,6 +92,11 @@ TEST_CASE("noise has no lattice") {
         })).rank == 0);
 }
 
+TEST_CASE("exemplars too small to hold repeats have no lattice") {
+  for (const Size size : {Size{1, 1}, Size{4, 3}, Size{40, 2}})
+    CHECK(lattice_of(features_of(size, [](int x, int) { return float(x % 2); })).rank == 0);
+}
+
 TEST_CASE("a manual lattice is taken as it is, off takes none") {
   const FeaturesPtr features = plain_features(wall({48, 48}));
   const Lattice manual = lattice_of(features, {{"mode", std::string("manual")}, {"first", Numbers{0, 8.5}}});

@@ -283,6 +283,7 @@ TEST_CASE("nodes and schema describe what there is, for people and for programs"
   CHECK(list.code == 0);
   CHECK(list.out.find("blur") != std::string::npos);
   CHECK(w.run({"nodes", "blur"}).out.find("radius") != std::string::npos);
+  CHECK(w.run({"nodes", "compare"}).out.find("exemplar") != std::string::npos);
   const nlohmann::json one = nlohmann::json::parse(w.run({"nodes", "blur", "--json"}).out);
   REQUIRE(one.size() == 1);
   CHECK(one[0]["name"] == "blur");
