@@ -69,7 +69,8 @@ NodeType transfer_node() {
        .type = ParamType::numbers,
        .fallback = Numbers{1},
        .help = "How much the target counts against the texture's own structure; 0 not at all. One number for all "
-               "controls, or one for each.",
+               "controls, or one for each. Where the exemplar differs little from place to place, 4 and more may be "
+               "needed, or a control that spreads its values, such as that of progression.",
        .min = 0,
        .max = 100,
        .min_count = 1},
