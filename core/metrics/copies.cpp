@@ -2,40 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/disjoint_sets.h"
 #include "core/metrics/nearest.h"
 #include "core/metrics/patches.h"
 
 namespace terrazzo {
 
-namespace {
-
-/// Disjoint sets with path halving; the smallest member stands for each set.
-class Sets {
- public:
-  explicit Sets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  uint32_t find(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(uint32_t a, uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
-
-}  // namespace
-
 CopiedRegions copied_regions(Size size, const std::vector<Shift>& shifts) {
-  Sets sets(shifts.size());
+  DisjointSets sets(shifts.size());
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) {
       const uint32_t i = uint32_t(y) * uint32_t(size.width) + uint32_t(x);

@@ -34,21 +34,6 @@ class PieceAligner {
   }
 
  private:
-  /// What pixel i's neighbour in direction s is; -1 beyond the border of an output that does not tile.
-  int neighbour(int i, const int* s) const {
-    const Size size = field_.size;
-    int x = i % size.width + s[0], y = i / size.width + s[1];
-    if (x < 0 || x >= size.width) {
-      if (!level_.tile_x) return -1;
-      x = wrap(x, size.width);
-    }
-    if (y < 0 || y >= size.height) {
-      if (!level_.tile_y) return -1;
-      y = wrap(y, size.height);
-    }
-    return y * size.width + x;
-  }
-
   struct Seam {
     ExemplarPixel inside;  ///< what the piece shows on its side
     ExemplarPixel beyond;  ///< what the neighbour shows
@@ -64,8 +49,9 @@ class PieceAligner {
       low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
       high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
       for (const auto& s : sides) {
-        const int n = neighbour(i, s);
-        if (n >= 0 && pieces_.of(n) != piece) seams_.push_back({p, field_.pixels[n], s[0], s[1]});
+        const int64_t n = pixel_index(field_.size, i % field_.size.width + s[0], i / field_.size.width + s[1],
+                                      level_.tile_x, level_.tile_y);
+        if (n >= 0 && pieces_.of(int(n)) != piece) seams_.push_back({p, field_.pixels[size_t(n)], s[0], s[1]});
       }
     }
   }

@@ -78,16 +78,8 @@ class PixelCorrector {
 
   /// The pixel at an offset; null beyond the border of an output that does not tile.
   const ExemplarPixel* neighbour(int x, int y) const {
-    const Size size = field_.size;
-    if (x < 0 || x >= size.width) {
-      if (!level_.tile_x) return nullptr;
-      x = wrap(x, size.width);
-    }
-    if (y < 0 || y >= size.height) {
-      if (!level_.tile_y) return nullptr;
-      y = wrap(y, size.height);
-    }
-    return &field_.at(x, y);
+    const int64_t i = pixel_index(field_.size, x, y, level_.tile_x, level_.tile_y);
+    return i < 0 ? nullptr : &field_.pixels[size_t(i)];
   }
 
   HWY_ATTR void gather(int x, int y) {
