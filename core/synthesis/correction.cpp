@@ -24,20 +24,37 @@ class PixelCorrector {
       : field_(field), level_(level), pass_(pass), occupancy_(occupancy), taps_(int(pass.window->size())) {
     for (int t = 0; t < taps_; t++) {
       const auto [dx, dy] = (*pass.window)[t];
-      all_offsets_[t] = dy * level.exemplar.stride() + dx;
+      exemplar_offsets_[t] = dy * level.exemplar.stride() + dx;
+      field_offsets_[t] = dy * field.size.width + dx;
+      continued_[t] = packed(dx, dy);
     }
   }
 
   HWY_ATTR ExemplarPixel best(int x, int y) {
-    gather(x, y);
+    const ExemplarPixel own = field_.at(x, y);
+    const bool inside = is_inside(x, y);
+    if (!steered && inside && continues_all_around(&field_.at(x, y))) return own;
+    if (inside)
+      gather([centre = &field_.at(x, y), width = field_.size.width](int dx, int dy) {
+        return centre + ptrdiff_t{dy} * width + dx;
+      });
+    else
+      gather([&](int dx, int dy) { return neighbour(x + dx, y + dy); });
     x_ = x;
     y_ = y;
     if constexpr (steered)
       if (level_.control) target_ = level_.control->target(int64_t{y} * field_.size.width + x);
-    seen_ = 0;
+    forget_seen();
     best_cost_ = ~uint64_t{0};
-    best_ = field_.at(x, y);
-    consider(best_.x, best_.y, coherence(around_[0]));
+    best_ = own;
+    consider(own.x, own.y, coherence(around_[0]));
+    // Nothing is cheaper than what costs nothing, as inside a piece of the exemplar.
+    if (best_cost_ != 0) consider_others();
+    return best_;
+  }
+
+ private:
+  HWY_ATTR void consider_others() {
     for (int n = 1; n < 9; n++)
       if (around_[n]) consider(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), coherence(around_[n]));
     for (int n = 0; n < 9; n++) {
@@ -48,22 +65,29 @@ class PixelCorrector {
         consider(similar[k].x - step(n, 0), similar[k].y - step(n, 1), unit_factor);
     }
     for (int k = 0; k < pass_.random_candidates; k++) {
-      const uint64_t r = random_bits(pass_.seed, level_.level, pass_.pass, x, y, k);
+      const uint64_t r = random_bits(pass_.seed, level_.level, pass_.pass, x_, y_, k);
       auto [u, v] = level_.exemplar.place(r);
-      level_.phase.snap(x, y, u, v);
+      level_.phase.snap(x_, y_, u, v);
       consider(u, v, unit_factor);
     }
-    return best_;
   }
 
- private:
-  /// How many of the pixels a little way off show nearly what the candidate would show here. A piece that comes back
-  /// after a few pixels makes combed streaks, a pixel that comes back at once makes waffles.
-  uint32_t repeats(int x, int y) const {
-    uint32_t count = 0;
-    for (int n = 0; n < ring_count_; n++)
-      count += 2 * std::abs(ring_[n].x - x) < ring_[n].radius && 2 * std::abs(ring_[n].y - y) < ring_[n].radius;
-    return count;
+  static uint32_t packed(int x, int y) { return uint32_t(y) << 16 | uint32_t(x); }
+
+  /// Far enough from the border that no neighbour needs looking for.
+  bool is_inside(int x, int y) const {
+    constexpr int reach = ring_radii[2];
+    return x >= reach && y >= reach && x < field_.size.width - reach && y < field_.size.height - reach;
+  }
+
+  /// Whether the pixel and its window show one connected place of the exemplar: they then fit without any difference.
+  bool continues_all_around(const ExemplarPixel* centre) const {
+    const uint32_t own = packed(centre->x, centre->y);
+    for (int t = 0; t < taps_; t++) {
+      const ExemplarPixel& p = centre[field_offsets_[t]];
+      if (packed(p.x, p.y) != own + continued_[t]) return false;
+    }
+    return true;
   }
 
   uint32_t coherence(const ExemplarPixel* continued) const {
@@ -76,27 +100,65 @@ class PixelCorrector {
     return steps[n][axis];
   }
 
-  /// The pixel at an offset; null beyond the border of an output that does not tile.
+  /// The pixel at a place; null beyond the border of an output that does not tile.
   const ExemplarPixel* neighbour(int x, int y) const {
     const int64_t i = pixel_index(field_.size, x, y, level_.tile_x, level_.tile_y);
     return i < 0 ? nullptr : &field_.pixels[size_t(i)];
   }
 
-  HWY_ATTR void gather(int x, int y) {
-    for (int n = 0; n < 9; n++) around_[n] = neighbour(x + step(n, 0), y + step(n, 1));
-    ring_count_ = 0;
-    for (const int radius : ring_radii)
-      for (int n = 1; n < 9; n++)
-        if (const ExemplarPixel* p = neighbour(x + radius * step(n, 0), y + radius * step(n, 1)))
-          ring_[ring_count_++] = {p->x, p->y, radius};
+  /// `look(dx, dy)`: the pixel at an offset, or null.
+  template <typename Look>
+  HWY_INLINE HWY_ATTR void gather(const Look& look) {
+    for (int n = 0; n < 9; n++) around_[n] = look(step(n, 0), step(n, 1));
+    for (int r = 0; r < rings; r++)
+      for (int n = 0; n < 8; n++) {
+        const ExemplarPixel* p = look(ring_radii[r] * step(n + 1, 0), ring_radii[r] * step(n + 1, 1));
+        ring_present_[r][n] = p ? uint16_t{1} : uint16_t{0};
+        ring_x_[r][n] = p ? p->x : uint16_t{0};
+        ring_y_[r][n] = p ? p->y : uint16_t{0};
+      }
     count_ = 0;
     for (int t = 0; t < taps_; t++) {
       const auto [dx, dy] = (*pass_.window)[t];
-      const ExemplarPixel* p = neighbour(x + dx, y + dy);
+      const ExemplarPixel* p = look(dx, dy);
       if (!p) continue;
       copy(*level_.exemplar.at(p->x, p->y), wanted_[count_]);
-      offsets_[count_++] = all_offsets_[t];
+      offsets_[count_++] = exemplar_offsets_[t];
     }
+  }
+
+  void forget_seen() {
+    seen_ = 0;
+    seen_ids_.fill(no_id);
+  }
+
+  /// Whether the candidate has been considered before; remembers it.
+  HWY_INLINE HWY_ATTR bool is_seen(uint32_t id) {
+    const hn::CappedTag<uint32_t, 16> d;
+    const auto wanted = hn::Set(d, id);
+    auto differs = hn::Xor(hn::Load(d, seen_ids_.data()), wanted);
+    for (size_t i = hn::Lanes(d); i < size_t(seen_); i += hn::Lanes(d))
+      differs = hn::Min(differs, hn::Xor(hn::Load(d, &seen_ids_[i]), wanted));
+    if (!hn::AllFalse(d, hn::Eq(differs, hn::Zero(d)))) return true;
+    seen_ids_[seen_++] = id;
+    return false;
+  }
+
+  /// How many of the pixels a little way off show nearly what the candidate would show here. A piece that comes back
+  /// after a few pixels makes combed streaks, a pixel that comes back at once makes waffles.
+  HWY_INLINE HWY_ATTR uint32_t repeats(int x, int y) const {
+    const hn::CappedTag<uint16_t, 8> d;
+    const auto u = hn::Set(d, uint16_t(x)), v = hn::Set(d, uint16_t(y));
+    const auto distance = [](auto a, auto b)
+                              HWY_ATTR { return hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)); };
+    auto count = hn::Zero(d);
+    for (int r = 0; r < rings; r++)
+      for (size_t n = 0; n < 8; n += hn::Lanes(d)) {
+        const auto apart = hn::Max(distance(hn::Load(d, &ring_x_[r][n]), u), distance(hn::Load(d, &ring_y_[r][n]), v));
+        const auto near = hn::Lt(apart, hn::Set(d, uint16_t((ring_radii[r] + 1) / 2)));
+        count = hn::Add(count, hn::IfThenElseZero(near, hn::Load(d, &ring_present_[r][n])));
+      }
+    return hn::GetLane(hn::SumOfLanes(d, count));
   }
 
   HWY_INLINE HWY_ATTR void consider(int x, int y, uint32_t factor) {
@@ -105,68 +167,67 @@ class PixelCorrector {
     } else {
       level_.exemplar.settle_inside(x, y);
     }
-    const uint32_t id = uint32_t(y) << 16 | uint32_t(x);
-    for (int i = 0; i < seen_; i++)
-      if (seen_ids_[i] == id) return;
-    seen_ids_[seen_++] = id;
+    if (is_seen(packed(x, y))) return;
     if (occupancy_.active()) factor = uint32_t((uint64_t{factor} * occupancy_.factor(x, y)) / unit_factor);
+    const AppearanceVector* centre = level_.exemplar.at(x, y);
+    uint64_t difference = 0;
+    if constexpr (steered)
+      if (level_.control) difference = level_.control->cost(x, y, target_) * uint64_t(count_);
+    // The nearest pixels tell most candidates off, before the dearer terms, which only raise the cost.
+    difference += tap_distance(centre, 0);
+    if (difference * factor >= best_cost_) return;
     factor += factor / 2 * repeats(x, y);
     if (level_.phase.active()) factor = uint32_t(std::min(most_factor, factor * level_.phase.penalty(x, y, x_, y_)));
-    const uint64_t limit = best_cost_ / factor;
-    uint64_t off_target = 0;
-    if constexpr (steered) {
-      if (level_.control) off_target = level_.control->cost(x, y, target_) * uint64_t(count_);
-      if (off_target > limit) return;
-    }
-    const uint64_t cost = (distance(x, y, limit - off_target) + off_target) * factor;
-    if (cost < best_cost_) {
-      best_cost_ = cost;
-      best_ = {uint16_t(x), uint16_t(y)};
-    }
+    for (int t = taps_at_once; t < count_ && difference * factor < best_cost_; t += taps_at_once)
+      difference += tap_distance(centre, t);
+    if (difference * factor >= best_cost_) return;
+    best_cost_ = difference * factor;
+    best_ = {uint16_t(x), uint16_t(y)};
   }
 
 #if HWY_TARGET == HWY_SCALAR
-  static int tap_distance(const AppearanceVector* wanted, const AppearanceVector* centre, const ptrdiff_t* offsets,
-                          int count) {
-    int sum = 0;
-    for (int t = 0; t < count; t++) sum += squared_distance(wanted[t], centre[offsets[t]]);
+  uint32_t tap_distance(const AppearanceVector* centre, int first) const {
+    uint32_t sum = 0;
+    for (int t = first; t < std::min(first + taps_at_once, count_); t++)
+      sum += uint32_t(squared_distance(wanted_[t], centre[offsets_[t]]));
     return sum;
   }
   static void copy(const AppearanceVector& from, AppearanceVector& to) {
     to = from;
   }
 #else
-  HWY_ATTR static int tap_distance(const AppearanceVector* wanted, const AppearanceVector* centre,
-                                   const ptrdiff_t* offsets, int count) {
+  /// The squared distance of `taps_at_once` pixels of the window, or as many as there are, from the `first` one on.
+  HWY_INLINE HWY_ATTR uint32_t tap_distance(const AppearanceVector* centre, int first) const {
     const hn::Full128<int16_t> d16;
     const hn::Full128<int32_t> d32;
     auto even = hn::Zero(d32), odd = hn::Zero(d32);
-    for (int t = 0; t < count; t++) {
-      const auto difference = hn::Sub(hn::Load(d16, wanted[t].data()), hn::LoadU(d16, centre[offsets[t]].data()));
+    const auto add = [&](int t) HWY_ATTR {
+      const auto difference = hn::Sub(hn::Load(d16, wanted_[t].data()), hn::LoadU(d16, centre[offsets_[t]].data()));
       even = hn::ReorderWidenMulAccumulate(d32, difference, difference, even, odd);
+    };
+    if (first + taps_at_once <= count_) {
+#pragma GCC unroll 8
+      for (int t = 0; t < taps_at_once; t++) add(first + t);
+    } else {
+      for (int t = first; t < count_; t++) add(t);
     }
-    return hn::GetLane(hn::SumOfLanes(d32, hn::Add(even, odd)));
+    return uint32_t(hn::GetLane(hn::SumOfLanes(d32, hn::Add(even, odd))));
   }
-  HWY_ATTR static void copy(const AppearanceVector& from, AppearanceVector& to) {
+  HWY_INLINE HWY_ATTR static void copy(const AppearanceVector& from, AppearanceVector& to) {
     const hn::Full128<int16_t> d16;
     hn::Store(hn::LoadU(d16, from.data()), d16, to.data());
   }
 #endif
 
-  /// Distance of the window around an exemplar pixel to what is wanted; gives up once it exceeds the limit.
-  HWY_ATTR uint32_t distance(int x, int y, uint64_t limit) const {
-    const AppearanceVector* centre = level_.exemplar.at(x, y);
-    uint32_t total = 0;
-    for (int t = 0; t < count_ && total <= limit; t += taps_at_once)
-      total += uint32_t(tap_distance(&wanted_[t], centre, &offsets_[t], HWY_MIN(taps_at_once, count_ - t)));
-    return total;
-  }
-
   static constexpr int taps_at_once = 8;
   static constexpr double most_factor = 1e9;
-  static constexpr int ring_radii[3] = {1, 3, 6};
+  static constexpr int rings = 3;
+  static constexpr int ring_radii[rings] = {1, 3, 6};
   static constexpr int most_taps = 24;
   static constexpr int most_candidates = 128;
+  static constexpr uint32_t no_id = ~uint32_t{0};  // a place that no exemplar that fits into memory has
+  using RingValues = std::array<std::array<uint16_t, 8>, rings>;
+
   const Field& field_;
   const CorrectionLevel& level_;
   const CorrectionPass& pass_;
@@ -174,19 +235,17 @@ class PixelCorrector {
   int taps_;
   int x_ = 0, y_ = 0;
   const uint8_t* target_ = nullptr;
-  int ring_count_ = 0;
-  struct RingPixel {
-    int x, y, radius;
-  };
-  std::array<RingPixel, 24> ring_{};
   int count_ = 0;
   int seen_ = 0;
   uint64_t best_cost_ = 0;
   ExemplarPixel best_;
   std::array<const ExemplarPixel*, 9> around_{};
-  std::array<ptrdiff_t, most_taps> all_offsets_{};
+  std::array<ptrdiff_t, most_taps> field_offsets_{}, exemplar_offsets_{};
+  std::array<uint32_t, most_taps>
+      continued_{};  // what a pixel of the window has more than its centre, if it continues it
   std::array<ptrdiff_t, most_taps> offsets_{};
-  std::array<uint32_t, most_candidates> seen_ids_{};
+  alignas(64) std::array<uint32_t, most_candidates> seen_ids_{};
+  alignas(16) RingValues ring_x_{}, ring_y_{}, ring_present_{};
   alignas(16) std::array<AppearanceVector, most_taps> wanted_{};
 };
 
