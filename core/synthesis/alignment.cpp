@@ -18,8 +18,8 @@ constexpr int64_t worthwhile = 61;
 
 class PieceAligner {
  public:
-  PieceAligner(Field& field, const CorrectionLevel& level, int reach)
-      : field_(field), level_(level), reach_(reach), pieces_(field, level.exemplar) {}
+  PieceAligner(Field& field, int block, const CorrectionLevel& level, int reach)
+      : field_(field), block_(block), level_(level), reach_(reach), pieces_(field, level.exemplar, block) {}
 
   void align(const Task& task) {
     std::vector<int> order(pieces_.count());
@@ -27,7 +27,7 @@ class PieceAligner {
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces_.area(a) > pieces_.area(b); });
     for (int sweep = 0; sweep < sweeps; sweep++)
       for (const int piece : order) {
-        if (pieces_.area(piece) < smallest_piece) break;
+        if (pieces_.area(piece) * block_ * block_ < smallest_piece) break;
         task.check();
         move(piece);
       }
@@ -40,6 +40,14 @@ class PieceAligner {
     int dx, dy;            ///< from inside to beyond
   };
 
+  /// The k-th pixel along one of the sides of the block that begins with p.
+  ExemplarPixel on_side(ExemplarPixel p, int dx, int dy, int k) const {
+    const int far = block_ - 1;
+    int u = p.x + (dx > 0 ? far : dx < 0 ? 0 : k), v = p.y + (dy > 0 ? far : dy < 0 ? 0 : k);
+    level_.exemplar.settle(u, v);
+    return {uint16_t(u), uint16_t(v)};
+  }
+
   void gather(int piece) {
     seams_.clear();
     low_ = {65535, 65535};
@@ -47,11 +55,14 @@ class PieceAligner {
     for (const int i : pieces_.members(piece)) {
       const ExemplarPixel p = field_.pixels[i];
       low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-      high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+      high_ = {std::max(high_.x, uint16_t(p.x + block_ - 1)), std::max(high_.y, uint16_t(p.y + block_ - 1))};
       for (const auto& s : sides) {
         const int64_t n = pixel_index(field_.size, i % field_.size.width + s[0], i / field_.size.width + s[1],
-                                      level_.tile_x, level_.tile_y);
-        if (n >= 0 && pieces_.of(int(n)) != piece) seams_.push_back({p, field_.pixels[size_t(n)], s[0], s[1]});
+                                      level_.window.closed_x, level_.window.closed_y);
+        if (n < 0 || pieces_.of(int(n)) == piece) continue;
+        const ExemplarPixel q = field_.pixels[size_t(n)];
+        for (int k = 0; k < block_; k++)
+          seams_.push_back({on_side(p, s[0], s[1], k), on_side(q, -s[0], -s[1], k), s[0], s[1]});
       }
     }
   }
@@ -66,7 +77,10 @@ class PieceAligner {
   bool has_room(int piece, int dx, int dy) const {
     if (!level_.exemplar.masked()) return level_.exemplar.wraps() || (stays(low_, dx, dy) && stays(high_, dx, dy));
     const std::span<const int> members = pieces_.members(piece);
-    return std::all_of(members.begin(), members.end(), [&](int i) { return stays(field_.pixels[i], dx, dy); });
+    return std::all_of(members.begin(), members.end(), [&](int i) {
+      const ExemplarPixel p = field_.pixels[i];
+      return stays(p, dx, dy) && stays(p, dx + block_ - 1, dy + block_ - 1);
+    });
   }
 
   bool is_fixed(int piece) const {
@@ -93,7 +107,8 @@ class PieceAligner {
     if (!level_.phase.active() || c >= limit) return c;
     const int i = pieces_.members(piece)[0];
     const ExemplarPixel p = field_.pixels[i];
-    return int64_t(double(c) * level_.phase.penalty(p.x + dx, p.y + dy, i % field_.size.width, i / field_.size.width));
+    return int64_t(double(c) * level_.phase.penalty(p.x + dx, p.y + dy, i % field_.size.width * block_,
+                                                    i / field_.size.width * block_));
   }
 
   void move(int piece) {
@@ -115,12 +130,13 @@ class PieceAligner {
     for (const int i : pieces_.members(piece)) {
       ExemplarPixel& p = field_.pixels[i];
       int u = p.x + best_x, v = p.y + best_y;
-      level_.exemplar.settle(u, v);
+      level_.exemplar.settle_inside(u, v);
       p = {uint16_t(u), uint16_t(v)};
     }
   }
 
   Field& field_;
+  int block_;
   const CorrectionLevel& level_;
   int reach_;
   Pieces pieces_;
@@ -130,8 +146,8 @@ class PieceAligner {
 
 }  // namespace
 
-void align_pieces(Field& field, const CorrectionLevel& level, int reach, const Task& task) {
-  PieceAligner(field, level, reach).align(task);
+void align_pieces(Field& field, int block, const CorrectionLevel& level, int reach, const Task& task) {
+  PieceAligner(field, block, level, reach).align(task);
 }
 
 }  // namespace terrazzo

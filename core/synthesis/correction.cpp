@@ -40,10 +40,10 @@ class PixelCorrector {
       });
     else
       gather([&](int dx, int dy) { return neighbour(x + dx, y + dy); });
-    x_ = x;
-    y_ = y;
+    x_ = level_.window.x(x);
+    y_ = level_.window.y(y);
     if constexpr (steered)
-      if (level_.control) target_ = level_.control->target(int64_t{y} * field_.size.width + x);
+      if (level_.control) target_ = level_.control->target(int64_t(level_.window.index(x, y)));
     forget_seen();
     best_cost_ = ~uint64_t{0};
     best_ = own;
@@ -102,7 +102,7 @@ class PixelCorrector {
 
   /// The pixel at a place; null beyond the border of an output that does not tile.
   const ExemplarPixel* neighbour(int x, int y) const {
-    const int64_t i = pixel_index(field_.size, x, y, level_.tile_x, level_.tile_y);
+    const int64_t i = pixel_index(field_.size, x, y, level_.window.closed_x, level_.window.closed_y);
     return i < 0 ? nullptr : &field_.pixels[size_t(i)];
   }
 
@@ -222,7 +222,7 @@ class PixelCorrector {
   static constexpr int taps_at_once = 8;
   static constexpr double most_factor = 1e9;
   static constexpr int rings = 3;
-  static constexpr int ring_radii[rings] = {1, 3, 6};
+  static constexpr int ring_radii[rings] = {1, 3, correction_reach};
   static constexpr int most_taps = 24;
   static constexpr int most_candidates = 128;
   static constexpr uint32_t no_id = ~uint32_t{0};  // a place that no exemplar that fits into memory has
@@ -233,7 +233,7 @@ class PixelCorrector {
   const CorrectionPass& pass_;
   const Occupancy& occupancy_;
   int taps_;
-  int x_ = 0, y_ = 0;
+  int x_ = 0, y_ = 0;  // in the plane
   const uint8_t* target_ = nullptr;
   int count_ = 0;
   int seen_ = 0;
@@ -251,17 +251,19 @@ class PixelCorrector {
 
 template <bool steered>
 HWY_ATTR void correct_pixels(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
-                             const Occupancy& occupancy, int first, int y, ExemplarPixel* out) {
+                             const Occupancy& occupancy, EverySecond columns, int y, ExemplarPixel* out) {
   PixelCorrector<steered> corrector(field, level, pass, occupancy);
-  for (int x = first; x < field.size.width; x += 2, out++)
-    *out = level.fixed.at(size_t(y) * field.size.width + x) ? field.at(x, y) : corrector.best(x, y);
+  for (int i = 0; i < columns.count; i++) {
+    const int x = columns.at(i);
+    out[i] = level.fixed.any() && level.fixed.at(level.window.index(x, y)) ? field.at(x, y) : corrector.best(x, y);
+  }
 }
 
-/// Every second pixel of a row, from `first` on, into `out`.
+/// Some pixels of a row, into `out`.
 HWY_ATTR void correct_row(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
-                          const Occupancy& occupancy, int first, int y, ExemplarPixel* out) {
+                          const Occupancy& occupancy, EverySecond columns, int y, ExemplarPixel* out) {
   const auto correct = level.control || level.exemplar.masked() ? correct_pixels<true> : correct_pixels<false>;
-  correct(field, level, pass, occupancy, first, y, out);
+  correct(field, level, pass, occupancy, columns, y, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -299,21 +301,23 @@ const Window& sparse_window() {
 
 void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, Occupancy& occupancy,
              const Task& task) {
-  const Size size = field.size;
   std::vector<ExemplarPixel> next;
-  for (int sub = 0; sub < 4; sub++) {
+  for (int sub = 0; sub < sub_passes; sub++) {
     occupancy.recount(field, level.fixed);
-    const int first_x = (sub ^ pass.pass) & 1, first_y = sub >> 1;
-    const int columns = (size.width - first_x + 1) / 2, rows = (size.height - first_y + 1) / 2;
-    if (columns <= 0 || rows <= 0) continue;
-    next.resize(size_t(columns) * rows);
-    tbb::parallel_for(0, rows, [&](int row) {
+    // What the sub-passes that follow look at has to be right as well.
+    const Rect r = intersect(whole(field.size), grown(pass.wanted, correction_reach * (sub_passes - 1 - sub)));
+    const EverySecond columns = level.window.columns(r, (sub ^ pass.pass) & 1);
+    const EverySecond rows = level.window.rows(r, sub >> 1);
+    if (columns.count <= 0 || rows.count <= 0) continue;
+    next.resize(size_t(columns.count) * rows.count);
+    tbb::parallel_for(0, rows.count, [&](int row) {
       task.check();
       HWY_DYNAMIC_DISPATCH(correct_row)
-      (field, level, pass, occupancy, first_x, first_y + 2 * row, &next[size_t(row) * columns]);
+      (field, level, pass, occupancy, columns, rows.at(row), &next[size_t(row) * columns.count]);
     });
-    tbb::parallel_for(0, rows, [&](int row) {
-      for (int i = 0; i < columns; i++) field.at(first_x + 2 * i, first_y + 2 * row) = next[size_t(row) * columns + i];
+    tbb::parallel_for(0, rows.count, [&](int row) {
+      for (int i = 0; i < columns.count; i++)
+        field.at(columns.at(i), rows.at(row)) = next[size_t(row) * columns.count + i];
     });
   }
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/analysis/padded_level.h"
@@ -9,6 +10,7 @@
 #include "core/synthesis/control.h"
 #include "core/synthesis/field.h"
 #include "core/synthesis/kept.h"
+#include "core/synthesis/plane_window.h"
 #include "core/task.h"
 
 namespace terrazzo {
@@ -33,11 +35,16 @@ class Occupancy {
   Occupancy(Size exemplar, double weight, const std::vector<double>& demand = {});
   /// Fixed pixels do not count.
   void recount(const Field& field, const FixedPixels& fixed);
+  /// The same once and for all: recount() does nothing from now on.
+  void count_for_good(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed);
   bool active() const { return weight_ > 0; }
   uint32_t factor(int x, int y) const { return factors_[size_t(y / cell_) * columns_ + x / cell_]; }
 
  private:
+  void count(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed);
+
   double weight_;
+  bool settled_ = false;
   int cell_;
   int columns_;
   int rows_;
@@ -50,10 +57,10 @@ struct CorrectionLevel {
   const PaddedLevel& exemplar;
   const std::vector<ExemplarPixel>& similar;  ///< per_pixel positions for every exemplar pixel
   int per_pixel = 0;
-  int level = 0;  ///< 0 = finest; part of every random choice
-  bool tile_x = false, tile_y = false;
+  int level = 0;       ///< 0 = finest; part of every random choice
+  PlaneWindow window;  ///< what the field holds of the plane
   LatticePhase phase;  ///< of a regular exemplar: every output pixel keeps its place in the lattice's cell
-  FixedPixels fixed;   ///< pixels that are not corrected
+  FixedPixels fixed;   ///< pixels of the plane that are not corrected
   const LevelControl* control = nullptr;  ///< null: nothing steers
 };
 
@@ -65,11 +72,17 @@ struct CorrectionPass {
   int random_candidates = 0;
   uint64_t seed = 0;
   int pass = 0;
+  Rect wanted;  ///< the columns and rows that have to be right after the pass; it spoils others
 };
+
+/// How far beyond a pixel its correction looks, in each of a pass's sub-passes.
+inline constexpr int correction_reach = 6;
+inline constexpr int sub_passes = 4;
 
 /// One correction pass (Lefebvre & Hoppe 2005, section 4.3): every pixel takes the best of its neighbours'
 /// continuations, their similar pixels and some random places. It runs as four sub-passes over interleaved pixels, each
-/// of which reads what the one before has left: the result does not depend on the order of work. Throws Cancelled.
+/// of which reads what the one before has left: the result does not depend on the order of work, nor on which part of
+/// the plane the field holds. Throws Cancelled.
 void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, Occupancy& occupancy,
              const Task& task);
 

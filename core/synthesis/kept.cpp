@@ -23,9 +23,13 @@ FixedPixels::FixedPixels(const KeptPixels& kept, Size output, int level, Size ex
     }
 }
 
-void FixedPixels::apply(Field& field) const {
-  for (size_t i = 0; i < fixed_.size(); i++)
-    if (fixed_[i]) field.pixels[i] = pixels_[i];
+void FixedPixels::apply(Field& field, const PlaneWindow& window) const {
+  if (!any()) return;
+  for (int row = 0; row < field.size.height; row++)
+    for (int column = 0; column < field.size.width; column++) {
+      const size_t pixel = window.index(column, row);
+      if (fixed_[pixel]) field.at(column, row) = pixels_[pixel];
+    }
 }
 
 }  // namespace terrazzo

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/synthesis/field.h"
+#include "core/synthesis/plane_window.h"
 
 namespace terrazzo {
 
@@ -23,8 +24,10 @@ class FixedPixels {
 
   bool any() const { return !fixed_.empty(); }
   bool at(size_t pixel) const { return !fixed_.empty() && fixed_[pixel]; }
+  /// What a fixed pixel shows.
+  ExemplarPixel shown(size_t pixel) const { return pixels_[pixel]; }
   /// Puts the fixed pixels into a field of the level.
-  void apply(Field& field) const;
+  void apply(Field& field, const PlaneWindow& window) const;
 
  private:
   std::vector<uint8_t> fixed_;

@@ -22,12 +22,21 @@ Occupancy::Occupancy(Size exemplar, double weight, const std::vector<double>& de
 }
 
 void Occupancy::recount(const Field& field, const FixedPixels& fixed) {
+  if (!settled_) count(field.pixels, fixed);
+}
+
+void Occupancy::count_for_good(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed) {
+  count(pixels, fixed);
+  settled_ = true;
+}
+
+void Occupancy::count(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed) {
   if (!active()) return;
   std::vector<int64_t> use(factors_.size(), 0);
   int64_t free = 0;
-  for (size_t i = 0; i < field.pixels.size(); i++) {
+  for (size_t i = 0; i < pixels.size(); i++) {
     if (fixed.at(i)) continue;
-    use[size_t(field.pixels[i].y / cell_) * columns_ + field.pixels[i].x / cell_]++;
+    use[size_t(pixels[i].y / cell_) * columns_ + pixels[i].x / cell_]++;
     free++;
   }
   const double even = std::max(least_expected, double(free) / double(factors_.size()));

@@ -6,7 +6,7 @@
 
 namespace terrazzo {
 
-Pieces::Pieces(const Field& field, const PaddedLevel& exemplar) {
+Pieces::Pieces(const Field& field, const PaddedLevel& exemplar, int block) {
   const Size size = field.size;
   const int count = int(size.area());
   const auto continues = [&](int from, int to, int dx, int dy) {
@@ -18,8 +18,8 @@ Pieces::Pieces(const Field& field, const PaddedLevel& exemplar) {
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) {
       const int i = y * size.width + x;
-      if (x > 0 && continues(i - 1, i, 1, 0)) joined.join(uint32_t(i - 1), uint32_t(i));
-      if (y > 0 && continues(i - size.width, i, 0, 1)) joined.join(uint32_t(i - size.width), uint32_t(i));
+      if (x > 0 && continues(i - 1, i, block, 0)) joined.join(uint32_t(i - 1), uint32_t(i));
+      if (y > 0 && continues(i - size.width, i, 0, block)) joined.join(uint32_t(i - size.width), uint32_t(i));
     }
   piece_.resize(count);
   std::vector<int> areas;

@@ -3,127 +3,22 @@
 #include <cmath>
 #include <memory>
 
-#include <tbb/parallel_for.h>
+#include <fmt/format.h>
 
+#include "core/error.h"
+#include "core/image_ops.h"
 #include "core/synthesis/alignment.h"
 #include "core/synthesis/correction.h"
 #include "core/synthesis/pieces.h"
+#include "core/synthesis/placing.h"
 
 namespace terrazzo {
 
 namespace {
 
-// What a random number is drawn for: keeps the draws of different purposes apart.
-enum Purpose : uint64_t { blocks = 1, jitter = 2, correction = 3 };
-
 Size level_size(Size size, int level) {
   const int round_up = (1 << level) - 1;
   return {(size.width + round_up) >> level, (size.height + round_up) >> level};
-}
-
-constexpr int draws = 16;  // of a block that must fit
-
-/// The exemplar position from which a block starts.
-std::array<int, 2> random_start(const PaddedLevel& exemplar, int side, uint64_t bits) {
-  if (exemplar.masked()) {
-    const auto [u, v] = exemplar.place(bits);
-    return {u - side / 2, v - side / 2};
-  }
-  const int keep_off = exemplar.wraps() ? 0 : exemplar.keep_off();
-  const auto start = [&](uint32_t half, int n) {
-    const int room = exemplar.wraps() ? n : std::max(1, n - side - 2 * keep_off);
-    return keep_off + int(below(half, uint32_t(room)));
-  };
-  return {start(uint32_t(bits), exemplar.size().width), start(uint32_t(bits >> 32), exemplar.size().height)};
-}
-
-/// Where a mask or controls make some places better than others, the best of several.
-std::array<int, 2> best_start(const PaddedLevel& exemplar, const LevelControl* control, Size output, const Rect& block,
-                              int side, uint64_t seed) {
-  const uint64_t bits = random_bits(seed, Purpose::blocks, block.x / side, block.y / side);
-  if (!exemplar.masked() && !control) return random_start(exemplar, side, bits);
-  std::array<int, 2> best{};
-  uint64_t least = ~uint64_t{0};
-  for (int draw = 0; draw < draws; draw++) {
-    const std::array<int, 2> start = random_start(exemplar, side, random_bits(bits, draw));
-    uint64_t misfit = 0;
-    for (int y = 0; y < block.height; y++)
-      for (int x = 0; x < block.width; x++) {
-        int u = start[0] + x, v = start[1] + y;
-        exemplar.settle(u, v);
-        const int64_t pixel = int64_t{block.y + y} * output.width + block.x + x;
-        if (control) misfit += control->cost(u, v, control->target(pixel));
-        misfit += u != start[0] + x || v != start[1] + y;
-      }
-    if (misfit >= least) continue;
-    least = misfit;
-    best = start;
-  }
-  return best;
-}
-
-void place_block(Field& field, const Rect& block, std::array<int, 2> start, const PaddedLevel& exemplar) {
-  for (int y = 0; y < block.height; y++)
-    for (int x = 0; x < block.width; x++) {
-      int u = start[0] + x, v = start[1] + y;
-      exemplar.settle(u, v);
-      field.at(block.x + x, block.y + y) = {uint16_t(u), uint16_t(v)};
-    }
-}
-
-/// The coarsest level: square blocks of a quarter of the exemplar's side, from random places.
-Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* control, const LatticePhase& phase,
-                    uint64_t seed) {
-  Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
-  const Size from = exemplar.size();
-  const int side = std::max(4, std::min(from.width, from.height) / 4);
-  for (int top = 0; top < size.height; top += side)
-    for (int left = 0; left < size.width; left += side) {
-      const Rect block = intersect(whole(size), {left, top, side, side});
-      std::array<int, 2> start = best_start(exemplar, control, size, block, side, seed);
-      phase.snap(left, top, start[0], start[1]);
-      place_block(field, block, start, exemplar);
-    }
-  return field;
-}
-
-/// Moves a position by up to `amplitude` pixels each way, any number of times around an exemplar that tiles.
-void displace(int& u, int& v, const PaddedLevel& exemplar, double amplitude, uint64_t bits) {
-  u += int(std::floor(amplitude * (2 * unit_double(bits << 32) - 1) + 0.5));
-  v += int(std::floor(amplitude * (2 * unit_double(bits) - 1) + 0.5));
-  if (!exemplar.wraps()) return;
-  u = wrap(u, exemplar.size().width);
-  v = wrap(v, exemplar.size().height);
-}
-
-/// Moves every pixel of the coarsest level by up to `amplitude` pixels.
-void scatter(Field& field, const PaddedLevel& exemplar, double amplitude, uint64_t seed, int level) {
-  if (amplitude <= 0) return;
-  for (int y = 0; y < field.size.height; y++)
-    for (int x = 0; x < field.size.width; x++) {
-      int u = field.at(x, y).x, v = field.at(x, y).y;
-      displace(u, v, exemplar, amplitude, random_bits(seed, Purpose::jitter, level, x, y));
-      exemplar.settle(u, v);
-      field.at(x, y) = {uint16_t(u), uint16_t(v)};
-    }
-}
-
-/// Each pixel becomes four, which show the four exemplar pixels below it, moved by up to `amplitude` pixels together.
-Field upsampled(const Field& parent, Size size, const PaddedLevel& exemplar, const LatticePhase& phase,
-                double amplitude, uint64_t seed, int level) {
-  Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
-  tbb::parallel_for(0, size.height, [&](int y) {
-    for (int x = 0; x < size.width; x++) {
-      const ExemplarPixel p = parent.at(x / 2, y / 2);
-      int u = 2 * p.x + (x & 1), v = 2 * p.y + (y & 1);
-      if (amplitude > 0) displace(u, v, exemplar, amplitude, random_bits(seed, Purpose::jitter, level, x / 2, y / 2));
-      // At the finest level pieces fit one another already; to round each to the lattice would undo that.
-      if (level > 0 || amplitude > 0) phase.snap(x, y, u, v);
-      exemplar.settle(u, v);
-      field.at(x, y) = {uint16_t(u), uint16_t(v)};
-    }
-  });
-  return field;
 }
 
 std::vector<ExemplarPixel> similar_pixels(const SimilarSets& sets, Size size) {
@@ -165,6 +60,8 @@ constexpr int alignment_reach = 2;
 constexpr double large_piece = 0.2;  // of the exemplar
 constexpr double most_coherence = 1.5;
 constexpr int finest_limited = 2;
+constexpr int finest_even = 1;       // evenness has no say below this level,
+constexpr int finest_recounted = 2;  // and below this one it goes by what the level began with
 
 /// The larger a piece has become beyond a fair size, the less it pays to continue it, so that none comes back as a
 /// landmark. Finer levels are left out: there pieces no longer grow.
@@ -180,49 +77,246 @@ std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel&
   return factors;
 }
 
+/// What all levels of a synthesis share.
+struct Shared {
+  Shared(const Index& index, const SynthesisOptions& options, const Task& task)
+      : index(index),
+        options(options),
+        task(task),
+        levels(int(index.levels().size())),
+        lattice(lattice_of(*index.appearance(), options)),
+        controls(options.controls, index.appearance()->size(), options.size, levels, task) {}
+
+  const AppearanceLevel& exemplar(int level) const { return index.appearance()->levels()[level]; }
+  Plane plane(int level) const { return {level_size(options.size, level), options.tile_x, options.tile_y}; }
+  /// Counted from the coarsest.
+  double jitter(int level) const {
+    const size_t order = size_t(levels - 1 - level);
+    return order < options.jitter.size() ? options.jitter[order] : 0;
+  }
+  FixedPixels fixed(int level) const { return {options.kept, options.size, level, exemplar(level).size}; }
+
+  const Index& index;
+  const SynthesisOptions& options;
+  const Task& task;
+  int levels;
+  Lattice lattice;
+  ControlPyramid controls;
+  int finest = 0;  ///< the level that ends the work
+};
+
+/// The work on one level.
+class LevelWork {
+ public:
+  LevelWork(const Shared& shared, int level)
+      : shared_(shared),
+        level_(level),
+        exemplar_(shared.exemplar(level), shared.index.appearance()->wraps()),
+        phase_(shared.lattice, level, shared.options.size, shared.options.tile_x, shared.options.tile_y,
+               {double(shared.options.origin[0]), double(shared.options.origin[1])}),
+        fixed_(shared.fixed(level)),
+        control_(shared.controls.empty() ? nullptr : std::make_unique<LevelControl>(shared.controls, level, exemplar_)),
+        occupancy_(shared.exemplar(level).size, level >= finest_even ? shared.options.evenness : 0,
+                   demand_of(shared.exemplar(level), control_.get())) {}
+
+  /// What the coarsest level begins with.
+  Field beginning() const {
+    const uint64_t seed = shared_.options.seed;
+    Field field = random_blocks(shared_.plane(level_).size, exemplar_, control_.get(), phase_, seed);
+    scatter(field, exemplar_, shared_.jitter(level_), seed, level_);
+    fixed_.apply(field, PlaneWindow::all_of(shared_.plane(level_)));
+    return field;
+  }
+
+  /// Where the pixels of the next coarser level lead on this one.
+  Field starts(const Field& parent, const PlaneWindow& window) const {
+    Field starts =
+        block_starts(parent, window, exemplar_, phase_, shared_.jitter(level_), shared_.options.seed, level_);
+    const FixedPixels fixed = shared_.fixed(level_ + 1);
+    if (fixed.any()) start_where_fixed(starts, fixed, window);
+    if (phase_.active()) align_pieces(starts, 2, correction_level(window, {}, fixed), alignment_reach, shared_.task);
+    return starts;
+  }
+
+  /// Lets evenness count what the pixels of all the plane's blocks begin with, and no more from then on.
+  void count_use(std::span<const ExemplarPixel> starts) {
+    if (level_ < finest_recounted) occupancy_.count_for_good(starts, shared_.fixed(level_ + 1));
+  }
+
+  /// A field of this level, begun with `starts` as far as `from` holds them.
+  Field begun(std::span<const ExemplarPixel> starts, const PlaneWindow& from, const PlaneWindow& window) const {
+    Field field = expanded(starts, from, window, exemplar_);
+    fixed_.apply(field, window);
+    return field;
+  }
+
+  /// Makes the wanted columns and rows right.
+  void correct(Field& field, const PlaneWindow& window, const Rect& wanted) {
+    const std::vector<ExemplarPixel> similar =
+        similar_pixels(shared_.index.levels()[level_], shared_.exemplar(level_).size);
+    const CorrectionLevel level = correction_level(window, similar, fixed_);
+    const Effort effort = effort_at(level_, fixed_.any());
+    for (int pass = 0; pass < effort.passes; pass++) {
+      CorrectionPass how{.window = effort.window,
+                         .coherence = uint32_t(std::floor(shared_.options.coherence * unit_factor)),
+                         .random_candidates = effort.random_candidates,
+                         .seed = random_bits(shared_.options.seed, Purpose::correction),
+                         .pass = pass,
+                         .wanted = grown(wanted, reach_of(effort.passes - 1 - pass))};
+      if (shared_.lattice.rank == 0) how.piece_coherence = piece_coherence(field, level, shared_.options.coherence);
+      terrazzo::correct(field, level, how, occupancy_, shared_.task);
+      shared_.task.progress(std::pow(0.25, level_ - shared_.finest) * (pass + 1) / effort.passes);
+    }
+  }
+
+  /// How far beyond what is wanted of this level a field must reach.
+  int reach() const { return reach_of(effort_at(level_, fixed_.any()).passes); }
+
+ private:
+  static int reach_of(int passes) { return passes * sub_passes * correction_reach; }
+
+  CorrectionLevel correction_level(const PlaneWindow& window, const std::vector<ExemplarPixel>& similar,
+                                   const FixedPixels& fixed) const {
+    return {exemplar_, similar,       shared_.index.levels()[level_].per_pixel, level_, window, phase_,
+            fixed,     control_.get()};
+  }
+
+  void start_where_fixed(Field& starts, const FixedPixels& fixed, const PlaneWindow& window) const {
+    const int width = shared_.plane(level_).size.width;
+    for (int row = 0; row < starts.size.height; row++)
+      for (int column = 0; column < starts.size.width; column++)
+        if (fixed.at(window.index(column, row)))
+          starts.at(column, row) = fixed_.shown(size_t(2 * window.y(row)) * width + 2 * window.x(column));
+  }
+
+  const Shared& shared_;
+  int level_;
+  PaddedLevel exemplar_;
+  LatticePhase phase_;
+  FixedPixels fixed_;
+  std::unique_ptr<const LevelControl> control_;
+  Occupancy occupancy_;
+};
+
+/// The finest level that is worked out for the plane as a whole. Pieces of a regular exemplar are aligned as a whole,
+/// so that every level but the finest needs all of the plane.
+int coarse_level(const Shared& s) {
+  return std::min(s.levels - 1, s.lattice.rank > 0 ? 1 : 2);
+}
+
+/// What coarse_uv() gives.
+Field coarse_field(const Shared& s) {
+  const int coarsest = s.levels - 1, last = coarse_level(s);
+  auto work = std::make_unique<LevelWork>(s, coarsest);
+  Field field = work->beginning();
+  for (int l = coarsest;; l--) {
+    const PlaneWindow all = PlaneWindow::all_of(s.plane(l));
+    work->correct(field, all, all.part);
+    if (l == 0) return field;
+    work = std::make_unique<LevelWork>(s, l - 1);
+    field = work->starts(field, all);
+    if (l == last) return field;
+    work->count_use(field.pixels);
+    field = work->begun(field.pixels, all, PlaneWindow::all_of(s.plane(l - 1)));
+  }
+}
+
+Rect parents(const Rect& r) {
+  const int x = r.x >> 1, y = r.y >> 1;
+  return {x, y, ((r.right() - 1) >> 1) + 1 - x, ((r.bottom() - 1) >> 1) + 1 - y};
+}
+
+Field cropped(Field field, const PlaneWindow& window, const Rect& region) {
+  if (window.part == region) return field;
+  Field out{{region.width, region.height}, std::vector<ExemplarPixel>(size_t(region.area()))};
+  for (int y = 0; y < region.height; y++)
+    for (int x = 0; x < region.width; x++)
+      out.at(x, y) = field.at(window.column(region.x + x), window.row(region.y + y));
+  return out;
+}
+
+/// Part of the finest level. `coarse`: the pixels of coarse_field().
+Field refined_field(const Shared& s, std::span<const ExemplarPixel> coarse, const Rect& region) {
+  const int levels = coarse_level(s);
+  std::vector<std::unique_ptr<LevelWork>> work;
+  std::vector<PlaneWindow> windows;
+  std::vector<Rect> wanted{region};
+  for (int l = 0; l < levels; l++) {
+    work.push_back(std::make_unique<LevelWork>(s, l));
+    windows.push_back(PlaneWindow::around(wanted[l], work[l]->reach(), s.plane(l)));
+    wanted.push_back(parents(windows[l].part));
+  }
+  windows.push_back(PlaneWindow::all_of(s.plane(levels)));
+  if (levels == 0) return cropped({windows[0].size(), {coarse.begin(), coarse.end()}}, windows[0], region);
+  work[levels - 1]->count_use(coarse);
+  Field field;
+  for (int l = levels - 1; l >= 0; l--) {
+    if (l < levels - 1) field = work[l]->starts(field, windows[l + 1]);
+    field = work[l]->begun(l < levels - 1 ? field.pixels : coarse, windows[l + 1], windows[l]);
+    work[l]->correct(field, windows[l], windows[l].held(wanted[l]));
+  }
+  return cropped(std::move(field), windows[0], region);
+}
+
+UvMapPtr finest_uv(const Shared& s, std::span<const ExemplarPixel> coarse, const Rect& region) {
+  const Appearance& appearance = *s.index.appearance();
+  Field field = refined_field(s, coarse, region);
+  return UvMap::make(field.size, appearance.size(), std::move(field.pixels),
+                     {s.options.tile_x && region.width == s.options.size.width,
+                      s.options.tile_y && region.height == s.options.size.height, appearance.wraps()});
+}
+
+void require_coarse(const Shared& s, const UvMap& coarse) {
+  const Size size = s.plane(coarse_level(s)).size;
+  const Size exemplar = s.exemplar(std::max(0, coarse_level(s) - 1)).size;
+  const UvWraps wraps{s.options.tile_x, s.options.tile_y, s.index.appearance()->wraps()};
+  const auto directions = [](const UvWraps& w) { return w.x ? w.y ? "x and y" : "x" : w.y ? "y" : "no direction"; };
+  if (coarse.exemplar() != exemplar)
+    throw Error("coarse", fmt::format("expected the coarse levels made from the same index (positions in an exemplar "
+                                      "of {}), found a uv map of an exemplar of {}",
+                                      describe(exemplar), describe(coarse.exemplar())));
+  if (coarse.size() != size)
+    throw Error("coarse", fmt::format("a surface of {} has coarse levels of {}, these have {}; give both nodes the "
+                                      "same surface",
+                                      describe(s.options.size), describe(size), describe(coarse.size())));
+  if (coarse.wraps() != wraps)
+    throw Error("coarse", fmt::format("these coarse levels wrap around in {}, the result in {}; give both nodes the "
+                                      "same \"tileable\"",
+                                      directions(coarse.wraps()), directions(wraps)));
+}
+
+void require_inside(const SynthesisOptions& options, const Rect& region) {
+  const auto fits = [](int first, int length, int all, bool tiles) {
+    return first >= 0 && length <= all && (tiles ? first < all : first <= all - length);
+  };
+  if (!fits(region.x, region.width, options.size.width, options.tile_x) ||
+      !fits(region.y, region.height, options.size.height, options.tile_y))
+    throw Error("origin",
+                fmt::format("expected a part of the surface, which has {}; found {} from ({}, {}) on",
+                            describe(options.size), describe(Size{region.width, region.height}), region.x, region.y));
+}
+
 }  // namespace
 
 UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const Task& task) {
-  const Appearance& appearance = *index.appearance();
-  const int levels = int(appearance.levels().size());
-  const Lattice lattice = lattice_of(appearance, options);
-  const ControlPyramid controls(options.controls, appearance.size(), options.size, levels, task);
-  Field field;
-  for (int l = levels - 1; l >= 0; l--) {
-    const AppearanceLevel& exemplar_level = appearance.levels()[l];
-    const PaddedLevel exemplar(exemplar_level, appearance.wraps());
-    const Size size = level_size(options.size, l);
-    const size_t order = size_t(levels - 1 - l);
-    const double amplitude = order < options.jitter.size() ? options.jitter[order] : 0;
-    const LatticePhase phase(lattice, l, options.size, options.tile_x, options.tile_y,
-                             {double(options.origin[0]), double(options.origin[1])});
-    const FixedPixels fixed(options.kept, options.size, l, exemplar_level.size);
-    std::unique_ptr<const LevelControl> control;
-    if (!controls.empty()) control = std::make_unique<LevelControl>(controls, l, exemplar);
-    field = l == levels - 1 ? random_blocks(size, exemplar, control.get(), phase, options.seed)
-                            : upsampled(field, size, exemplar, phase, amplitude, options.seed, l);
-    if (l == levels - 1) scatter(field, exemplar, amplitude, options.seed, l);
-    fixed.apply(field);
-    const std::vector<ExemplarPixel> similar = similar_pixels(index.levels()[l], exemplar_level.size);
-    const CorrectionLevel level{
-        exemplar, similar, index.levels()[l].per_pixel, l, options.tile_x, options.tile_y, phase, fixed, control.get()};
-    Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0, demand_of(exemplar_level, control.get()));
-    const Effort effort = effort_at(l, fixed.any());
-    const bool regular = lattice.rank > 0;
-    if (phase.active() && l < levels - 1) align_pieces(field, level, alignment_reach, task);
-    for (int pass = 0; pass < effort.passes; pass++) {
-      CorrectionPass how{.window = effort.window,
-                         .coherence = uint32_t(std::floor(options.coherence * unit_factor)),
-                         .random_candidates = effort.random_candidates,
-                         .seed = random_bits(options.seed, Purpose::correction),
-                         .pass = pass};
-      if (!regular) how.piece_coherence = piece_coherence(field, level, options.coherence);
-      correct(field, level, how, occupancy, task);
-      task.progress(std::pow(0.25, l) * (pass + 1) / effort.passes);
-    }
-  }
-  return UvMap::make(options.size, appearance.size(), std::move(field.pixels),
-                     {options.tile_x, options.tile_y, appearance.wraps()});
+  const Shared shared(index, options, task);
+  return finest_uv(shared, coarse_field(shared).pixels, whole(options.size));
+}
+
+UvMapPtr coarse_uv(const Index& index, const SynthesisOptions& options, const Task& task) {
+  Shared shared(index, options, task);
+  shared.finest = coarse_level(shared);
+  Field field = coarse_field(shared);
+  return UvMap::make(field.size, shared.exemplar(std::max(0, coarse_level(shared) - 1)).size, std::move(field.pixels),
+                     {options.tile_x, options.tile_y, index.appearance()->wraps()});
+}
+
+UvMapPtr refine(const Index& index, const UvMap& coarse, const SynthesisOptions& options, const Rect& region,
+                const Task& task) {
+  const Shared shared(index, options, task);
+  require_coarse(shared, coarse);
+  require_inside(options, region);
+  return finest_uv(shared, coarse.pixels(), region);
 }
 
 }  // namespace terrazzo

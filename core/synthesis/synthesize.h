@@ -12,7 +12,7 @@
 namespace terrazzo {
 
 struct SynthesisOptions {
-  Size size;  ///< output pixels, 1..65536 a side
+  Size size;  ///< of the whole surface in pixels, 1..65536 a side
   uint64_t seed = 1;
   bool tile_x = false;  ///< the output wraps around in x
   bool tile_y = false;
@@ -34,5 +34,20 @@ struct SynthesisOptions {
 /// level, then per level upsampling, jitter and correction passes, most of them where pixels are few. The result is a
 /// function of the index and the options alone. Throws Cancelled, and Error if a control does not suit.
 UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const Task& task);
+
+/// The same in two steps, so that parts of a surface can be made apart from one another, by any number of machines.
+///
+/// The coarse levels of the whole surface: all that depends on the surface as a whole. A uv map of the surface's size
+/// divided by 4 (by 2 if the exemplar has a lattice, since whole pieces move at every level), rounded up: each of its
+/// pixels stands for a block of 2x2 pixels of the next finer level, and tells the exemplar pixel of that level which
+/// the block's first pixel begins with. Throws as synthesize does.
+UvMapPtr coarse_uv(const Index& index, const SynthesisOptions& options, const Task& task);
+
+/// A part of what synthesize() gives, to the bit: `region` of the surface, which may hang over the right and the bottom
+/// border where it tiles. `coarse` must come from coarse_uv() with the same index and options. The finer levels are
+/// worked out for the region and an apron around it, as wide as corrections look: 48 pixels, and 144 more for an
+/// exemplar without a lattice. Throws Cancelled, and Error about "coarse" or "origin" if they do not suit.
+UvMapPtr refine(const Index& index, const UvMap& coarse, const SynthesisOptions& options, const Rect& region,
+                const Task& task);
 
 }  // namespace terrazzo

@@ -32,7 +32,7 @@ Field shifted(int dx, int dy) {
 }
 
 CorrectionLevel level_of(const PaddedLevel& exemplar, const std::vector<ExemplarPixel>& none, FixedPixels fixed = {}) {
-  return {.exemplar = exemplar, .similar = none, .phase = {}, .fixed = std::move(fixed)};
+  return {.exemplar = exemplar, .similar = none, .window = {}, .phase = {}, .fixed = std::move(fixed)};
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ TEST_CASE("pieces that were moved apart find together again") {
     const PaddedLevel exemplar = noise(wraps);
     Field field = shifted(-2, 1);
     REQUIRE(Pieces(field, exemplar).count() == 2);
-    align_pieces(field, level_of(exemplar, none), 2, Task());
+    align_pieces(field, 1, level_of(exemplar, none), 2, Task());
     CHECK(Pieces(field, exemplar).count() == 1);
   }
 }
@@ -52,11 +52,11 @@ TEST_CASE("beyond their reach pieces stay apart, and what fits stays where it is
   const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise(false);
   Field apart = shifted(0, 5);
-  align_pieces(apart, level_of(exemplar, none), 2, Task());
+  align_pieces(apart, 1, level_of(exemplar, none), 2, Task());
   CHECK(Pieces(apart, exemplar).count() == 2);
   Field whole = shifted(0, 0);
   const Field before = whole;
-  align_pieces(whole, level_of(exemplar, none), 2, Task());
+  align_pieces(whole, 1, level_of(exemplar, none), 2, Task());
   CHECK(whole.pixels == before.pixels);
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("a piece with fixed pixels stays; its neighbour comes to it") {
   KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 0)};
   kept.keep[0] = 1;
   const Field wanted = shifted(0, 0);
-  align_pieces(field, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 2, Task());
+  align_pieces(field, 1, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 2, Task());
   CHECK(field.pixels == wanted.pixels);
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("no piece leaves an exemplar that does not tile") {
     for (int x = 0; x < 16; x++) field.pixels.push_back({uint16_t(24 + x - (x < 8 ? 0 : 1)), uint16_t(9 + y)});
   KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 0)};
   kept.keep[0] = 1;
-  align_pieces(field, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 2, Task());
+  align_pieces(field, 1, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 2, Task());
   CHECK(Pieces(field, exemplar).count() == 2);
   for (const ExemplarPixel p : field.pixels) CHECK(p.x < side.width - exemplar.keep_off());
 }

@@ -34,7 +34,7 @@ TEST_CASE("a pixel of a level is fixed if all pixels below it are kept, at the p
   const KeptPixels kept = identity({13, 10}, [](int x, int y) { return x != 5 || y != 3; });
   const FixedPixels fixed(kept, {13, 10}, 2, {4, 3});
   Field field{{4, 3}, std::vector<ExemplarPixel>(12, {99, 99})};
-  fixed.apply(field);
+  fixed.apply(field, PlaneWindow::all_of({field.size}));
   for (int y = 0; y < 3; y++)
     for (int x = 0; x < 4; x++) {
       const bool free = x == 1 && y == 0;

@@ -1,0 +1,116 @@
+#include <doctest/doctest.h>
+
+#include "core/error.h"
+#include "core/synthesis/synthesize.h"
+#include "tests/exemplars.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+
+/// The index of a wall, told that it has a lattice or not.
+IndexPtr index_with(const Lattice& lattice, bool wraps, Size size = {72, 64}) {
+  const AppearancePtr found = make_appearance(*plain_features(wall(size), wraps), {}, {}, Task());
+  return make_index(Appearance::make(found->levels(), found->channels(), wraps, lattice), 3, Task());
+}
+
+Lattice bricks() {
+  return {2, {16, 0}, {8, 8}, 1};
+}
+
+void check_part(const Index& index, const SynthesisOptions& options, const UvMap& coarse, const UvMap& all,
+                const Rect& region) {
+  CAPTURE(region.x);
+  CAPTURE(region.y);
+  const UvMapPtr part = refine(index, coarse, options, region, Task());
+  REQUIRE(part->size() == Size{region.width, region.height});
+  int different = 0;
+  for (int y = 0; y < region.height; y++)
+    for (int x = 0; x < region.width; x++)
+      different +=
+          part->at(x, y) != all.at(wrap(region.x + x, all.size().width), wrap(region.y + y, all.size().height));
+  CHECK(different == 0);
+}
+
+}  // namespace
+
+TEST_CASE("parts made apart from one another are parts of the whole, bit for bit") {
+  for (const bool regular : {false, true})
+    for (const bool wraps : {false, true}) {
+      CAPTURE(regular);
+      CAPTURE(wraps);
+      const IndexPtr index = index_with(regular ? bricks() : Lattice{}, wraps);
+      const SynthesisOptions options{.size = {531, 470}, .seed = 3, .jitter = {1, 1, 1, 1}};
+      const UvMapPtr all = synthesize(*index, options, Task());
+      const UvMapPtr coarse = coarse_uv(*index, options, Task());
+      for (const Rect& r : {Rect{0, 0, 40, 30}, Rect{250, 230, 31, 17}, Rect{530, 469, 1, 1}, Rect{0, 301, 531, 9}})
+        check_part(*index, options, *coarse, *all, r);
+    }
+}
+
+TEST_CASE("parts of a surface that tiles go on around its border") {
+  for (const bool regular : {false, true})
+    for (const Size size : {Size{512, 448}, Size{514, 447}, Size{130, 95}}) {
+      CAPTURE(regular);
+      CAPTURE(size.width);
+      const IndexPtr index = index_with(regular ? bricks() : Lattice{}, false);
+      const SynthesisOptions options{.size = size, .seed = 5, .tile_x = true, .tile_y = true};
+      const UvMapPtr all = synthesize(*index, options, Task());
+      const UvMapPtr coarse = coarse_uv(*index, options, Task());
+      for (const Rect& r : {Rect{0, 0, 24, 20}, Rect{size.width - 10, size.height - 7, 21, 18}, Rect{50, 41, 33, 27}})
+        check_part(*index, options, *coarse, *all, r);
+    }
+}
+
+TEST_CASE("the coarse levels are a small part of the whole, and smaller without a lattice") {
+  const SynthesisOptions options{.size = {202, 99}};
+  const UvMapPtr plain = coarse_uv(*index_with({}, false), options, Task());
+  CHECK(plain->size() == Size{51, 25});
+  CHECK(plain->exemplar() == Size{36, 32});
+  const UvMapPtr regular = coarse_uv(*index_with(bricks(), false), options, Task());
+  CHECK(regular->size() == Size{101, 50});
+  CHECK(regular->exemplar() == Size{72, 64});
+}
+
+TEST_CASE("an exemplar of one level has nothing to refine, and parts of it are right") {
+  const IndexPtr index = index_with({}, false, {20, 18});
+  REQUIRE(index->levels().size() == 1);
+  const SynthesisOptions options{.size = {70, 50}};
+  const UvMapPtr all = synthesize(*index, options, Task());
+  const UvMapPtr coarse = coarse_uv(*index, options, Task());
+  check_part(*index, options, *coarse, *all, {13, 9, 40, 30});
+}
+
+TEST_CASE("evenness, control and kept pixels are the same in parts") {
+  const IndexPtr index = index_with({}, false);
+  SynthesisOptions options{.size = {260, 256}, .evenness = 2};
+  options.kept = {std::vector<ExemplarPixel>(size_t(options.size.area())),
+                  std::vector<uint8_t>(size_t(options.size.area()), 0)};
+  for (int y = 100; y < 140; y++)
+    for (int x = 110; x < 160; x++) {
+      options.kept.keep[size_t(y) * 260 + x] = 1;
+      options.kept.pixels[size_t(y) * 260 + x] = {uint16_t(x - 100), uint16_t(y - 90)};
+    }
+  const auto shade = [](Size size) { return make_image(size, 1, [](int x, int, int) { return float(x % 50) / 50; }); };
+  options.controls = {{.exemplar = shade({72, 64}), .target = shade(options.size)}};
+  const UvMapPtr all = synthesize(*index, options, Task());
+  const UvMapPtr coarse = coarse_uv(*index, options, Task());
+  check_part(*index, options, *coarse, *all, {90, 80, 40, 50});
+  CHECK(all->at(120, 110) == ExemplarPixel{20, 20});
+}
+
+TEST_CASE("coarse levels of another surface, exemplar or wrapping are refused") {
+  const IndexPtr index = index_with({}, false);
+  const SynthesisOptions options{.size = {200, 160}};
+  const UvMapPtr coarse = coarse_uv(*index, options, Task());
+  const Rect part{0, 0, 10, 10};
+  CHECK_THROWS_WITH_AS(refine(*index, *coarse, {.size = {400, 160}}, part, Task()), doctest::Contains("same surface"),
+                       Error);
+  CHECK_THROWS_WITH_AS(refine(*index, *coarse, {.size = {200, 160}, .tile_x = true}, part, Task()),
+                       doctest::Contains("same \"tileable\""), Error);
+  CHECK_THROWS_WITH_AS(refine(*index_with({}, false, {80, 64}), *coarse, options, part, Task()),
+                       doctest::Contains("same index"), Error);
+  CHECK_THROWS_WITH_AS(refine(*index, *coarse, options, {195, 0, 10, 10}, Task()),
+                       doctest::Contains("part of the surface"), Error);
+}
