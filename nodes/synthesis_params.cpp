@@ -95,6 +95,16 @@ Param result_size_param() {
           .unit = "pixels"};
 }
 
+Param surface_param(std::string name, std::string help, int least) {
+  return {.name = std::move(name),
+          .type = ParamType::size,
+          .fallback = least > 0 ? Size{8192, 8192} : Size{0, 0},
+          .help = std::move(help),
+          .min = least,
+          .max = largest_surface,
+          .unit = "pixels"};
+}
+
 Param tileable_param() {
   return {.name = "tileable",
           .type = ParamType::choice,
@@ -140,7 +150,13 @@ void require_same_exemplar(const UvMap& uv, const Index& index) {
 }
 
 size_t synthesis_memory(Size size) {
-  return size_t(size.area()) * (3 * sizeof(ExemplarPixel) + 4 * sizeof(int));
+  // The pixels, those that a sub-pass has corrected, and the blocks they began with.
+  return size_t(size.area()) * 6 + (size_t{16} << 20);
+}
+
+size_t coarse_memory(Size surface) {
+  // For each block of 2x2 pixels of a surface with a lattice what it shows, leads to, and which piece it is in.
+  return size_t(surface.area()) / 4 * (2 * sizeof(ExemplarPixel) + 4 * sizeof(int));
 }
 
 }  // namespace terrazzo

@@ -13,6 +13,9 @@ Port uv_output();
 
 /// Parameter "size" of the result.
 Param result_size_param();
+/// A parameter for the size of a whole surface.
+inline constexpr int largest_surface = 65536;
+Param surface_param(std::string name, std::string help, int least);
 /// Parameter "tileable": directions in which the result wraps around.
 Param tileable_param();
 /// `own` parameters, followed by those of every synthesis: seed, coherence, evenness, and jitter.
@@ -28,5 +31,7 @@ void require_same_exemplar(const UvMap& uv, const Index& index);
 
 /// What synthesis of so many output pixels needs.
 size_t synthesis_memory(Size size);
+/// What the coarse levels of a surface need.
+size_t coarse_memory(Size surface);
 
 }  // namespace terrazzo

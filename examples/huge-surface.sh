@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Makes a surface tile by tile and checks that the tiles are parts of one whole, to the byte. Needs a build
+# (examples/quickstart.sh). Every tile could as well be made by another machine: all that they share is the cache, or
+# nothing at all, and then each works out the coarse levels for itself.
+# Usage: examples/huge-surface.sh [FOLDER_OF_MAPS] [TILES_A_SIDE] [PIXELS_A_TILE]
+set -euo pipefail
+[ "${1:-}" != "--help" ] || { sed -n '2,5s/^# //p' "$0"; exit; }
+[ -z "${1:-}" ] || [ -d "$1" ] || { echo "$1: expected a folder with the maps of one material" >&2; exit 2; }
+material=${1:+$(realpath "$1")}
+cd "$(dirname "$0")/.."
+[ -x build/terrazzo ] || { echo "there is no build/terrazzo; run examples/quickstart.sh first" >&2; exit 2; }
+tiles=${2:-2}
+pixels=${3:-512}
+out=out/huge-surface
+export TERRAZZO_CACHE=$out/cache
+
+if [ -z "$material" ]; then
+  material=$out/exemplar
+  build/terrazzo run graphs/generate-exemplar.json --progress none --set type=bricks --set size=256x256 --set "out=$material"
+fi
+side=$((tiles * pixels))
+
+# make FOLDER SIZE X Y
+make() {
+  build/terrazzo run examples/huge-surface.json --progress none --set "material=$material" --set "out=$1" \
+    --set "surface=${side}x$side" --set "tile=$2x$2" --set "origin=[$3, $4]"
+}
+
+for ((y = 0; y < tiles; y++)); do
+  for ((x = 0; x < tiles; x++)); do make "$out/tile-$x-$y" "$pixels" $((x * pixels)) $((y * pixels)); done
+done
+
+# The same surface in one go, cut up; identical pixels make identical files.
+make "$out/whole" "$side" 0 0
+for ((y = 0; y < tiles; y++)); do
+  for ((x = 0; x < tiles; x++)); do
+    build/terrazzo run examples/cut-out.json --progress none --set "material=$out/whole" \
+      --set "out=$out/part-$x-$y" --set "x=$((x * pixels))" --set "y=$((y * pixels))" --set "size=${pixels}x$pixels"
+    for map in "$out/part-$x-$y"/*; do cmp "$map" "$out/tile-$x-$y/$(basename "$map")"; done
+  done
+done
+echo "$((tiles * tiles)) tiles of ${pixels}x$pixels pixels in $out: each is that part of the whole, byte for byte"

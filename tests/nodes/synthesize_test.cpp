@@ -1,0 +1,66 @@
+#include "core/synthesis/synthesize.h"
+
+#include <doctest/doctest.h>
+
+#include "core/error.h"
+#include "nodes/registry.h"
+#include "tests/exemplars.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+
+UvMapPtr uv_of(const NodeRun& run) {
+  return run.get<UvMap>("uv");
+}
+
+std::vector<std::string> problems(Params params) {
+  const NodeType& type = *find_node_type("synthesize");
+  for (const Param& p : type.params)
+    if (p.fallback) params.emplace(p.name, *p.fallback);
+  return type.check(params);
+}
+
+}  // namespace
+
+TEST_CASE("a part of a surface is that part of the whole, with coarse levels made once or anew") {
+  const IndexPtr index = wall_index({72, 64});
+  const Params shared = {{"seed", int64_t{4}}, {"tileable", std::string("x")}};
+  Params whole = shared, coarse = shared, part = shared;
+  whole["size"] = coarse["size"] = part["surface"] = Size{300, 260};
+  part["size"] = Size{50, 30};
+  part["origin"] = Numbers{270, 200};
+  const UvMapPtr all = uv_of(run_node("synthesize", whole, {{"index", {index}}}));
+  const UvMapPtr levels = uv_of(run_node("synthesize_coarse", coarse, {{"index", {index}}}));
+  const UvMapPtr anew = uv_of(run_node("synthesize", part, {{"index", {index}}}));
+  const UvMapPtr given = uv_of(run_node("synthesize", part, {{"index", {index}}, {"coarse", {levels}}}));
+  CHECK(anew->digest() == given->digest());
+  CHECK(!given->wraps().x);
+  for (int y = 0; y < 30; y++)
+    for (int x = 0; x < 50; x++) REQUIRE(given->at(x, y) == all->at((270 + x) % 300, 200 + y));
+}
+
+TEST_CASE("the whole surface from its coarse levels is what synthesize makes by itself") {
+  const IndexPtr index = wall_index({72, 64});
+  const Params size = {{"size", Size{120, 90}}};
+  const UvMapPtr levels = uv_of(run_node("synthesize_coarse", size, {{"index", {index}}}));
+  const UvMapPtr refined = uv_of(run_node("synthesize", size, {{"index", {index}}, {"coarse", {levels}}}));
+  CHECK(refined->digest() == uv_of(run_node("synthesize", size, {{"index", {index}}}))->digest());
+}
+
+TEST_CASE("coarse levels of another surface are refused, saying what they are of") {
+  const IndexPtr index = wall_index({72, 64});
+  const UvMapPtr levels = uv_of(run_node("synthesize_coarse", {{"size", Size{300, 260}}}, {{"index", {index}}}));
+  CHECK_THROWS_WITH_AS(run_node("synthesize", {{"size", Size{50, 50}}}, {{"index", {index}}, {"coarse", {levels}}}),
+                       doctest::Contains("these have 75x65"), Error);
+}
+
+TEST_CASE("a place off the surface is a problem of the document") {
+  CHECK(problems({{"size", Size{50, 50}}}).empty());
+  CHECK(problems({{"size", Size{50, 50}}, {"surface", Size{0, 100}}, {"origin", Numbers{0, 50}}}).empty());
+  const auto first = [](const Params& params) { return problems(params).at(0); };
+  CHECK(first({{"size", Size{50, 50}}, {"origin", Numbers{50, 0}}}).starts_with("\"origin\""));
+  CHECK(first({{"size", Size{50, 50}}, {"origin", Numbers{0.5, 0}}}).find("whole numbers") != std::string::npos);
+  CHECK(first({{"size", Size{50, 50}}, {"surface", Size{40, 90}}}).starts_with("\"surface\""));
+}
