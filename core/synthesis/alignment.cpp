@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include <tbb/parallel_for.h>
+
 #include "core/synthesis/pieces.h"
 
 namespace terrazzo {
@@ -18,19 +20,19 @@ constexpr int64_t worthwhile = 61;
 
 class PieceAligner {
  public:
-  PieceAligner(Field& field, int block, const CorrectionLevel& level, int reach)
-      : field_(field), block_(block), level_(level), reach_(reach), pieces_(field, level.exemplar, block) {}
+  PieceAligner(Field& field, int block, const CorrectionLevel& level, int reach, const Task& task)
+      : field_(field), block_(block), level_(level), reach_(reach), task_(task), pieces_(field, level.exemplar, block) {
+    find_borders();
+    find_rounds();
+  }
 
-  void align(const Task& task) {
-    std::vector<int> order(pieces_.count());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces_.area(a) > pieces_.area(b); });
+  void align() {
     for (int sweep = 0; sweep < sweeps; sweep++)
-      for (const int piece : order) {
-        if (pieces_.area(piece) * block_ * block_ < smallest_piece) break;
-        task.check();
-        move(piece);
-      }
+      for (size_t round = 0; round + 1 < round_begin_.size(); round++)
+        tbb::parallel_for(round_begin_[round], round_begin_[round + 1], [&](int i) {
+          task_.check();
+          move(movable_[i]);
+        });
   }
 
  private:
@@ -39,6 +41,77 @@ class PieceAligner {
     ExemplarPixel beyond;  ///< what the neighbour shows
     int dx, dy;            ///< from inside to beyond
   };
+  using Seams = std::vector<Seam>;
+
+  bool can_move(int piece) const { return pieces_.area(piece) * block_ * block_ >= smallest_piece && !is_fixed(piece); }
+
+  /// The pixel beyond a side; -1 if there is none.
+  int64_t beyond(int pixel, int side) const {
+    const int width = field_.size.width;
+    return pixel_index(field_.size, pixel % width + sides[side][0], pixel / width + sides[side][1],
+                       level_.window.closed_x, level_.window.closed_y);
+  }
+
+  /// Calls `visit(pixel, side)` for each side of a piece's pixels that is a border with another piece.
+  template <typename Visit>
+  void for_each_border(int piece, const Visit& visit) const {
+    for (const int i : pieces_.members(piece))
+      for (int side = 0; side < 4; side++) {
+        const int64_t n = beyond(i, side);
+        if (n >= 0 && pieces_.of(int(n)) != piece) visit(uint32_t(i), uint32_t(side));
+      }
+  }
+
+  /// Where the pieces that can move meet others. That stays, since a move changes what pixels show, not whose they are.
+  void find_borders() {
+    const int count = pieces_.count();
+    border_begin_.assign(size_t(count) + 1, 0);
+    const auto for_each_movable = [&](const auto& visit) {
+      tbb::parallel_for(0, count, [&](int piece) {
+        if (can_move(piece)) visit(piece);
+      });
+    };
+    for_each_movable([&](int piece) {
+      uint32_t sum = 0;
+      for_each_border(piece, [&](uint32_t, uint32_t) { sum++; });
+      border_begin_[size_t(piece) + 1] = sum;
+    });
+    task_.check();
+    std::partial_sum(border_begin_.begin(), border_begin_.end(), border_begin_.begin());
+    borders_.resize(border_begin_.back());
+    for_each_movable([&](int piece) {
+      uint32_t at = border_begin_[piece];
+      for_each_border(piece, [&](uint32_t pixel, uint32_t side) { borders_[at++] = pixel << 2 | side; });
+    });
+    task_.check();
+  }
+
+  std::span<const uint32_t> borders(int piece) const {
+    return {borders_.data() + border_begin_[piece], border_begin_[size_t(piece) + 1] - border_begin_[piece]};
+  }
+
+  /// Pieces move one after the other, the largest first. Those that do not meet can move at the same time: a piece has
+  /// its turn one round after the last of its larger neighbours.
+  void find_rounds() {
+    std::vector<int> order;
+    for (int piece = 0; piece < pieces_.count(); piece++)
+      if (!borders(piece).empty()) order.push_back(piece);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces_.area(a) > pieces_.area(b); });
+    std::vector<int> turn(size_t(pieces_.count()), 0);  // 0: not yet known
+    std::vector<int> sizes;
+    for (const int piece : order) {
+      int last = 0;
+      for (const uint32_t b : borders(piece)) last = std::max(last, turn[pieces_.of(int(beyond(int(b >> 2), b & 3)))]);
+      turn[piece] = last + 1;
+      if (last == int(sizes.size())) sizes.push_back(0);
+      sizes[last]++;
+    }
+    round_begin_.assign(sizes.size() + 1, 0);
+    std::partial_sum(sizes.begin(), sizes.end(), round_begin_.begin() + 1);
+    std::vector<int> next(round_begin_.begin(), round_begin_.end());
+    movable_.resize(order.size());
+    for (const int piece : order) movable_[next[turn[piece] - 1]++] = piece;
+  }
 
   /// The k-th pixel along one of the sides of the block that begins with p.
   ExemplarPixel on_side(ExemplarPixel p, int dx, int dy, int k) const {
@@ -48,23 +121,16 @@ class PieceAligner {
     return {uint16_t(u), uint16_t(v)};
   }
 
-  void gather(int piece) {
-    seams_.clear();
-    low_ = {65535, 65535};
-    high_ = {0, 0};
-    for (const int i : pieces_.members(piece)) {
-      const ExemplarPixel p = field_.pixels[i];
-      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-      high_ = {std::max(high_.x, uint16_t(p.x + block_ - 1)), std::max(high_.y, uint16_t(p.y + block_ - 1))};
-      for (const auto& s : sides) {
-        const int64_t n = pixel_index(field_.size, i % field_.size.width + s[0], i / field_.size.width + s[1],
-                                      level_.window.closed_x, level_.window.closed_y);
-        if (n < 0 || pieces_.of(int(n)) == piece) continue;
-        const ExemplarPixel q = field_.pixels[size_t(n)];
-        for (int k = 0; k < block_; k++)
-          seams_.push_back({on_side(p, s[0], s[1], k), on_side(q, -s[0], -s[1], k), s[0], s[1]});
-      }
+  Seams seams_of(int piece) const {
+    Seams seams;
+    seams.reserve(borders(piece).size() * block_);
+    for (const uint32_t b : borders(piece)) {
+      const int i = int(b >> 2), side = int(b & 3);
+      const auto [dx, dy] = sides[side];
+      const ExemplarPixel p = field_.pixels[i], q = field_.pixels[size_t(beyond(i, side))];
+      for (int k = 0; k < block_; k++) seams.push_back({on_side(p, dx, dy, k), on_side(q, -dx, -dy, k), dx, dy});
     }
+    return seams;
   }
 
   bool stays(ExemplarPixel p, int dx, int dy) const {
@@ -75,7 +141,7 @@ class PieceAligner {
 
   /// Whether the exemplar has usable pixels for the whole piece where a move would take it.
   bool has_room(int piece, int dx, int dy) const {
-    if (!level_.exemplar.masked()) return level_.exemplar.wraps() || (stays(low_, dx, dy) && stays(high_, dx, dy));
+    if (!level_.exemplar.masked() && level_.exemplar.wraps()) return true;
     const std::span<const int> members = pieces_.members(piece);
     return std::all_of(members.begin(), members.end(), [&](int i) {
       const ExemplarPixel p = field_.pixels[i];
@@ -89,10 +155,10 @@ class PieceAligner {
     return std::any_of(members.begin(), members.end(), [&](int i) { return level_.fixed.at(size_t(i)); });
   }
 
-  int64_t mismatch(int dx, int dy, int64_t limit) const {
+  int64_t mismatch(const Seams& seams, int dx, int dy, int64_t limit) const {
     const PaddedLevel& e = level_.exemplar;
     int64_t sum = 0;
-    for (const Seam& s : seams_) {
+    for (const Seam& s : seams) {
       int u = s.inside.x + dx, v = s.inside.y + dy;
       e.settle(u, v);
       sum += squared_distance(*e.at(u, v), *e.at(s.beyond.x - s.dx, s.beyond.y - s.dy));
@@ -102,8 +168,8 @@ class PieceAligner {
     return sum;
   }
 
-  int64_t cost(int piece, int dx, int dy, int64_t limit) const {
-    int64_t c = mismatch(dx, dy, limit);
+  int64_t cost(int piece, const Seams& seams, int dx, int dy, int64_t limit) const {
+    int64_t c = mismatch(seams, dx, dy, limit);
     if (!level_.phase.active() || c >= limit) return c;
     const int i = pieces_.members(piece)[0];
     const ExemplarPixel p = field_.pixels[i];
@@ -112,15 +178,13 @@ class PieceAligner {
   }
 
   void move(int piece) {
-    if (is_fixed(piece)) return;
-    gather(piece);
-    if (seams_.empty()) return;
-    int64_t least = cost(piece, 0, 0, std::numeric_limits<int64_t>::max()) * worthwhile / 64;
+    const Seams seams = seams_of(piece);
+    int64_t least = cost(piece, seams, 0, 0, std::numeric_limits<int64_t>::max()) * worthwhile / 64;
     int best_x = 0, best_y = 0;
     for (int dy = -reach_; dy <= reach_; dy++)
       for (int dx = -reach_; dx <= reach_; dx++) {
         if (dx == 0 && dy == 0) continue;
-        const int64_t c = cost(piece, dx, dy, least);
+        const int64_t c = cost(piece, seams, dx, dy, least);
         if (c >= least || !has_room(piece, dx, dy)) continue;
         least = c;
         best_x = dx;
@@ -139,15 +203,18 @@ class PieceAligner {
   int block_;
   const CorrectionLevel& level_;
   int reach_;
+  const Task& task_;
   Pieces pieces_;
-  std::vector<Seam> seams_;
-  ExemplarPixel low_, high_;  // what the piece spans in the exemplar
+  std::vector<uint32_t> border_begin_;  // of every piece in borders_
+  std::vector<uint32_t> borders_;       // pixel * 4 + side, piece by piece
+  std::vector<int> round_begin_;        // of every round in movable_
+  std::vector<int> movable_;            // pieces, round by round
 };
 
 }  // namespace
 
 void align_pieces(Field& field, int block, const CorrectionLevel& level, int reach, const Task& task) {
-  PieceAligner(field, block, level, reach).align(task);
+  PieceAligner(field, block, level, reach, task).align();
 }
 
 }  // namespace terrazzo
