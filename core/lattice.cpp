@@ -1,8 +1,20 @@
 #include "core/lattice.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace terrazzo {
+
+namespace {
+
+constexpr double smallest_resolved = 3;  // pixels of the level
+constexpr double smallest_cell = 0.3;
+// How far out of phase a position may be, in cells, and how much of that a certain lattice takes away: the surer the
+// lattice, the less its cells differ from one another.
+constexpr double looseness = 1.0 / 12;
+constexpr double certainty_counts = 2.0 / 3;
+
+}  // namespace
 
 Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
   const auto whole = [](double cells, bool wraps) { return wraps ? std::floor(cells + 0.5) : cells; };
@@ -70,11 +82,30 @@ LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool 
   second_ = {lattice.second.x * scale, lattice.second.y * scale};
   const double cell =
       rank_ == 1 ? std::abs(first_.x + first_.y) : std::sqrt(std::abs(first_.x * second_.y - first_.y * second_.x));
+  resolves_cells_ = cell >= smallest_resolved;
   if (cell < smallest_cell) rank_ = 0;
+  const double loose = cell * looseness * (1 - lattice.certainty * certainty_counts);
+  const double tolerance = std::clamp(loose, 0.5 * scale, 1.0);
+  stiffness_ = 1 / (tolerance * tolerance);
   to_exemplar_ = to_cells(lattice, scale);
   to_output_ = to_cells(lattice.fitted(output, tile_x, tile_y), scale);
   const double x = origin.x * scale, y = origin.y * scale;
   origin_ = {to_output_.xx * x + to_output_.xy * y, to_output_.yx * x + to_output_.yy * y};
+}
+
+void LatticePhase::search(int x, int y, int& u, int& v) const {
+  constexpr int reach = 3;
+  constexpr double far = 0.001;  // settles which of several in phase
+  double least = std::numeric_limits<double>::max();
+  const int from_u = u, from_v = v;
+  for (int dy = -reach; dy <= reach; dy++)
+    for (int dx = -reach; dx <= reach; dx++) {
+      const double cost = penalty(from_u + dx, from_v + dy, x, y) + far * (dx * dx + dy * dy);
+      if (cost >= least) continue;
+      least = cost;
+      u = from_u + dx;
+      v = from_v + dy;
+    }
 }
 
 }  // namespace terrazzo

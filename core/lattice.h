@@ -44,12 +44,15 @@ class LatticePhase {
  public:
   LatticePhase() = default;
   /// `level`: 0 = the finest. `output`: the result's size at the finest level. A result that wraps around must hold a
-  /// whole number of cells: its lattice is stretched until it does. Inactive where a cell has become too small to speak
-  /// of places within it. `origin`: the output position, at the finest level, at which the exemplar's (0, 0) is in
+  /// whole number of cells: its lattice is stretched until it does. Inactive where a pixel has become larger than
+  /// several cells. `origin`: the output position, at the finest level, at which the exemplar's (0, 0) is in
   /// phase.
   LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y, const Vector2& origin = {});
 
   bool active() const { return rank_ > 0; }
+  /// Whether a cell is large enough to tell places within it apart. Where it is not, positions can still be in phase:
+  /// two that are a whole number of cells apart at the finest level.
+  bool resolves_cells() const { return resolves_cells_; }
 
   /// What the exemplar position (u, v) has too much to be in phase with the output position (x, y), in pixels.
   Vector2 excess(int u, int v, int x, int y) const {
@@ -59,19 +62,23 @@ class LatticePhase {
     return {first_.x * p + second_.x * q, first_.y * p + second_.y * q};
   }
 
-  /// Moves (u, v) into phase with (x, y).
+  /// Moves (u, v) into phase with (x, y); where cells are not resolved, to the position in reach that is nearest to it.
   void snap(int x, int y, int& u, int& v) const {
     if (!active()) return;
+    if (!resolves_cells_) {
+      search(x, y, u, v);
+      return;
+    }
     const Vector2 e = excess(u, v, x, y);
     u -= int(nearest(e.x));
     v -= int(nearest(e.y));
   }
 
-  /// Factor on the cost of a candidate that is out of phase by more than the pixel that rounding takes.
+  /// Factor on the cost of a candidate that is further out of phase than the lattice's certainty leaves open.
   double penalty(int u, int v, int x, int y) const {
     const Vector2 e = excess(u, v, x, y);
-    const double squared = e.x * e.x + e.y * e.y;
-    return squared <= tolerance * tolerance ? 1.0 : 1.0 + squared;
+    const double misfit = (e.x * e.x + e.y * e.y) * stiffness_;
+    return misfit <= 1 ? 1.0 : 1.0 + misfit;
   }
 
  private:
@@ -81,8 +88,10 @@ class LatticePhase {
   static Matrix to_cells(const Lattice& lattice, double scale);
   static double nearest(double v) { return std::floor(v + 0.5); }
 
-  static constexpr double smallest_cell = 3;  // pixels of the level
-  static constexpr double tolerance = 1;
+  void search(int x, int y, int& u, int& v) const;
+
+  bool resolves_cells_ = false;
+  double stiffness_ = 1;  // 1 / the square of what a position may be out of phase, in pixels
   int rank_ = 0;
   Vector2 first_, second_;
   Matrix to_exemplar_;  // pixels to cells; for rank 1 its second row is 0

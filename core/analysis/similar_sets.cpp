@@ -54,7 +54,7 @@ class LevelSearch {
   /// Puts (u, v) into the set of (x, y) if it belongs there.
   void offer(Set& set, int x, int y, int u, int v) const {
     level_.settle(u, v);
-    if (phase_.active() && phase_.penalty(u, v, x, y) > 1) return;
+    if (phase_.resolves_cells() && phase_.penalty(u, v, x, y) > 1) return;
     if (between(x, u, size().width) < away_ && between(y, v, size().height) < away_) return;
     // A newcomer may take the place of one member that is too near to it, if it is better; between two it has no place.
     int limit = set[per_pixel_ - 1].distance, near = -1;

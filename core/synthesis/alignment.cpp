@@ -12,7 +12,6 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int sides[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
 constexpr int smallest_piece = 4;  // pixels; smaller ones are left to correction
 constexpr int sweeps = 2;
 // A move must lower the mismatch by this much, in 1/64.
@@ -47,9 +46,7 @@ class PieceAligner {
 
   /// The pixel beyond a side; -1 if there is none.
   int64_t beyond(int pixel, int side) const {
-    const int width = field_.size.width;
-    return pixel_index(field_.size, pixel % width + sides[side][0], pixel / width + sides[side][1],
-                       level_.window.closed_x, level_.window.closed_y);
+    return pixel_beside(field_.size, pixel, side, level_.window.closed_x, level_.window.closed_y);
   }
 
   /// Calls `visit(pixel, side)` for each side of a piece's pixels that is a border with another piece.

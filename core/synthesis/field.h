@@ -28,4 +28,12 @@ inline int64_t pixel_index(Size size, int x, int y, bool tile_x, bool tile_y) {
   return int64_t{y} * size.width + x;
 }
 
+/// The four sides of a pixel, so that side (s + 2) % 4 is opposite.
+inline constexpr int sides[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+
+/// The pixel on that side of one; -1 beyond a border.
+inline int64_t pixel_beside(Size size, int pixel, int side, bool tile_x, bool tile_y) {
+  return pixel_index(size, pixel % size.width + sides[side][0], pixel / size.width + sides[side][1], tile_x, tile_y);
+}
+
 }  // namespace terrazzo

@@ -11,6 +11,7 @@
 #include "core/synthesis/correction.h"
 #include "core/synthesis/pieces.h"
 #include "core/synthesis/placing.h"
+#include "core/synthesis/seams.h"
 
 namespace terrazzo {
 
@@ -57,7 +58,11 @@ Effort effort_at(int level, bool between_kept) {
 }
 
 constexpr int alignment_reach = 2;
-constexpr double large_piece = 0.2;  // of the exemplar
+constexpr int seam_level = 2;  // the finest on which pieces still change
+constexpr int seam_reach = 8;
+constexpr int passes_after_seams = 2;
+// Of the exemplar. With a lattice less is out of phase, so pieces grow more readily.
+constexpr double large_piece = 0.2, large_piece_on_lattice = 0.12;
 constexpr double most_coherence = 1.5;
 constexpr int finest_limited = 2;
 constexpr int finest_even = 1;       // evenness has no say below this level,
@@ -65,10 +70,11 @@ constexpr int finest_recounted = 2;  // and below this one it goes by what the l
 
 /// The larger a piece has become beyond a fair size, the less it pays to continue it, so that none comes back as a
 /// landmark. Finer levels are left out: there pieces no longer grow.
-std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence) {
+std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence,
+                                      bool regular) {
   if (level.level < finest_limited || level.fixed.any()) return {};
   const Pieces pieces(field, level.exemplar);
-  const double fair = large_piece * double(level.exemplar.size().area());
+  const double fair = (regular ? large_piece_on_lattice : large_piece) * double(level.exemplar.size().area());
   std::vector<uint32_t> factors(field.pixels.size());
   for (size_t i = 0; i < factors.size(); i++) {
     const double size = std::max(1.0, pieces.area(pieces.of(int(i))) / fair);
@@ -134,7 +140,8 @@ class LevelWork {
         block_starts(parent, window, exemplar_, phase_, shared_.jitter(level_), shared_.options.seed, level_);
     const FixedPixels fixed = shared_.fixed(level_ + 1);
     if (fixed.any()) start_where_fixed(starts, fixed, window);
-    if (phase_.active()) align_pieces(starts, 2, correction_level(window, {}, fixed), alignment_reach, shared_.task);
+    if (phase_.resolves_cells())
+      align_pieces(starts, 2, correction_level(window, {}, fixed), alignment_reach, shared_.task);
     return starts;
   }
 
@@ -163,7 +170,9 @@ class LevelWork {
                          .seed = random_bits(shared_.options.seed, Purpose::correction),
                          .pass = pass,
                          .wanted = grown(wanted, reach_of(effort.passes - 1 - pass))};
-      if (shared_.lattice.rank == 0) how.piece_coherence = piece_coherence(field, level, shared_.options.coherence);
+      if (moves_seams() && pass == effort.passes - passes_after_seams)
+        move_seams(field, level, seam_reach, shared_.task);
+      how.piece_coherence = piece_coherence(field, level, shared_.options.coherence, regular());
       terrazzo::correct(field, level, how, occupancy_, shared_.task);
       shared_.task.progress(std::pow(0.25, level_ - shared_.finest) * (pass + 1) / effort.passes);
     }
@@ -173,6 +182,10 @@ class LevelWork {
   int reach() const { return reach_of(effort_at(level_, fixed_.any()).passes); }
 
  private:
+  /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
+  bool moves_seams() const { return level_ == seam_level && regular() && !control_; }
+  bool regular() const { return shared_.lattice.rank > 0; }
+
   static int reach_of(int passes) { return passes * sub_passes * correction_reach; }
 
   CorrectionLevel correction_level(const PlaneWindow& window, const std::vector<ExemplarPixel>& similar,
