@@ -21,7 +21,12 @@ class PixelCorrector {
  public:
   PixelCorrector(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
                  const Occupancy& occupancy)
-      : field_(field), level_(level), pass_(pass), occupancy_(occupancy), taps_(int(pass.window->size())) {
+      : field_(field),
+        level_(level),
+        pass_(pass),
+        occupancy_(occupancy),
+        taps_(int(pass.window->size())),
+        dear_coherence_(!pass.piece_coherence.empty() || pass.coherence > unit_factor) {
     for (int t = 0; t < taps_; t++) {
       const auto [dx, dy] = (*pass.window)[t];
       exemplar_offsets_[t] = dy * level.exemplar.stride() + dx;
@@ -44,31 +49,35 @@ class PixelCorrector {
     y_ = level_.window.y(y);
     if constexpr (steered)
       if (level_.control) target_ = level_.control->target(int64_t(level_.window.index(x, y)));
-    forget_seen();
+    candidates_ = 0;
     best_cost_ = ~uint64_t{0};
     best_ = own;
-    consider(own.x, own.y, coherence(around_[0]));
+    propose_continued(own.x, own.y, coherence(around_[0]));
+    consider_from(0);
     // Nothing is cheaper than what costs nothing, as inside a piece of the exemplar.
-    if (best_cost_ != 0) consider_others();
+    if (best_cost_ == 0) return best_;
+    propose_others();
+    consider_from(1);
     return best_;
   }
 
  private:
-  HWY_ATTR void consider_others() {
+  HWY_ATTR void propose_others() {
     for (int n = 1; n < 9; n++)
-      if (around_[n]) consider(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), coherence(around_[n]));
+      if (around_[n]) propose_continued(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), coherence(around_[n]));
+    continued_candidates_ = candidates_;
+    recent_.fill(no_id);
     for (int n = 0; n < 9; n++) {
       if (!around_[n]) continue;
       const size_t at = size_t(around_[n]->y) * level_.exemplar.size().width + around_[n]->x;
       const ExemplarPixel* similar = &level_.similar[at * level_.per_pixel];
-      for (int k = 0; k < level_.per_pixel; k++)
-        consider(similar[k].x - step(n, 0), similar[k].y - step(n, 1), unit_factor);
+      for (int k = 0; k < level_.per_pixel; k++) propose(similar[k].x - step(n, 0), similar[k].y - step(n, 1));
     }
     for (int k = 0; k < pass_.random_candidates; k++) {
       const uint64_t r = random_bits(pass_.seed, level_.level, pass_.pass, x_, y_, k);
       auto [u, v] = level_.exemplar.place(r);
       level_.phase.snap(x_, y_, u, v);
-      consider(u, v, unit_factor);
+      propose(u, v);
     }
   }
 
@@ -127,21 +136,35 @@ class PixelCorrector {
     }
   }
 
-  void forget_seen() {
-    seen_ = 0;
-    seen_ids_.fill(no_id);
+  /// False if the place is not usable.
+  HWY_INLINE bool settles(int& x, int& y) const {
+    if constexpr (steered) return level_.exemplar.settles(x, y);
+    level_.exemplar.settle_inside(x, y);
+    return true;
   }
 
-  /// Whether the candidate has been considered before; remembers it.
-  HWY_INLINE HWY_ATTR bool is_seen(uint32_t id) {
-    const hn::CappedTag<uint32_t, 16> d;
-    const auto wanted = hn::Set(d, id);
-    auto differs = hn::Xor(hn::Load(d, seen_ids_.data()), wanted);
-    for (size_t i = hn::Lanes(d); i < size_t(seen_); i += hn::Lanes(d))
-      differs = hn::Min(differs, hn::Xor(hn::Load(d, &seen_ids_[i]), wanted));
-    if (!hn::AllFalse(d, hn::Eq(differs, hn::Zero(d)))) return true;
-    seen_ids_[seen_++] = id;
-    return false;
+  void propose_continued(int x, int y, uint32_t factor) {
+    if (!settles(x, y)) return;
+    const uint32_t id = packed(x, y);
+    for (size_t i = 0; i < candidates_; i++)
+      if (ids_[i] == id) return;
+    ids_[candidates_] = id;
+    factors_[candidates_++] = factor;
+  }
+
+  /// Adds a candidate that continues nothing. To meet one twice would cost time only, and so most are told by the
+  /// places they hash to; but one that continues a neighbour must not come back without its factor.
+  HWY_INLINE void propose(int x, int y) {
+    if (!settles(x, y)) return;
+    const uint32_t id = packed(x, y);
+    uint32_t& recent = recent_[(id * 0x9e3779b1u) >> (32 - recent_bits)];
+    bool is_new = recent != id;
+    recent = id;
+    if (dear_coherence_)
+      for (size_t i = 0; i < continued_candidates_; i++) is_new &= ids_[i] != id;
+    ids_[candidates_] = id;
+    factors_[candidates_] = unit_factor;
+    candidates_ += is_new;
   }
 
   /// How many of the pixels a little way off show nearly what the candidate would show here. A piece that comes back
@@ -161,13 +184,11 @@ class PixelCorrector {
     return hn::GetLane(hn::SumOfLanes(d, count));
   }
 
+  HWY_ATTR void consider_from(size_t first) {
+    for (size_t i = first; i < candidates_; i++) consider(int(ids_[i] & 0xffff), int(ids_[i] >> 16), factors_[i]);
+  }
+
   HWY_INLINE HWY_ATTR void consider(int x, int y, uint32_t factor) {
-    if constexpr (steered) {
-      if (!level_.exemplar.settles(x, y)) return;
-    } else {
-      level_.exemplar.settle_inside(x, y);
-    }
-    if (is_seen(packed(x, y))) return;
     if (occupancy_.active()) factor = uint32_t((uint64_t{factor} * occupancy_.factor(x, y)) / unit_factor);
     const AppearanceVector* centre = level_.exemplar.at(x, y);
     uint64_t difference = 0;
@@ -225,6 +246,7 @@ class PixelCorrector {
   static constexpr int ring_radii[rings] = {1, 3, correction_reach};
   static constexpr int most_taps = 24;
   static constexpr int most_candidates = 128;
+  static constexpr int recent_bits = 7;
   static constexpr uint32_t no_id = ~uint32_t{0};  // a place that no exemplar that fits into memory has
   using RingValues = std::array<std::array<uint16_t, 8>, rings>;
 
@@ -236,7 +258,8 @@ class PixelCorrector {
   int x_ = 0, y_ = 0;  // in the plane
   const uint8_t* target_ = nullptr;
   int count_ = 0;
-  int seen_ = 0;
+  bool dear_coherence_;  // it may cost more to continue a neighbour than not to
+  size_t candidates_ = 0, continued_candidates_ = 0;
   uint64_t best_cost_ = 0;
   ExemplarPixel best_;
   std::array<const ExemplarPixel*, 9> around_{};
@@ -244,7 +267,8 @@ class PixelCorrector {
   std::array<uint32_t, most_taps>
       continued_{};  // what a pixel of the window has more than its centre, if it continues it
   std::array<ptrdiff_t, most_taps> offsets_{};
-  alignas(64) std::array<uint32_t, most_candidates> seen_ids_{};
+  std::array<uint32_t, most_candidates> ids_{}, factors_{};
+  std::array<uint32_t, 1 << recent_bits> recent_{};
   alignas(16) RingValues ring_x_{}, ring_y_{}, ring_present_{};
   alignas(16) std::array<AppearanceVector, most_taps> wanted_{};
 };
