@@ -30,6 +30,18 @@ TEST_CASE("the program says its version and helps on standard output") {
   CHECK(run_help.out.find("--dry-run") != std::string::npos);
 }
 
+TEST_CASE("a run that finds everything cached loads no image library") {
+  const Workplace w;
+  REQUIRE(w.run({"run", "soft.json"}).code == 0);
+  ::setenv("LD_DEBUG", "files", 1);
+  const ProgramRun again = w.run({"run", "soft.json"});
+  ::unsetenv("LD_DEBUG");
+  CHECK(again.code == 0);
+  CHECK(again.err.find("libtbb") != std::string::npos);
+  CHECK(again.err.find("OpenImageIO") == std::string::npos);
+  CHECK(again.err.find("OpenColorIO") == std::string::npos);
+}
+
 TEST_CASE("wrong command lines are refused with code 2, a message that helps, and nothing written") {
   struct Wrong {
     std::vector<std::string> args;
