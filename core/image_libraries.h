@@ -82,7 +82,7 @@ class ColorConfiguration {
 
 struct ImageLibraries {
   std::unique_ptr<ImageDecoder> (*open_image)(const std::string& path);
-  /// Writes to `sink`, or to the file `name` if that is null.
+  /// For TIFF, EXR and JPEG. Writes to `sink`, or to the file `name` if that is null.
   std::unique_ptr<ImageEncoder> (*create_image)(const std::string& name, const EncodedImage& image, ByteSink* sink);
   /// A filter of OpenImageIO's Filter1D, as a function of the distance from its centre.
   std::function<float(float)> (*filter_kernel)(const std::string& name, float width);

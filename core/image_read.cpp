@@ -12,7 +12,7 @@
 #include "core/file_io.h"
 #include "core/image_file.h"
 #include "core/image_libraries.h"
-#include "core/png_decoder.h"
+#include "core/png_codec.h"
 #include "core/suggest.h"
 
 namespace terrazzo {

@@ -11,6 +11,7 @@
 #include "core/file_io.h"
 #include "core/image_file.h"
 #include "core/image_libraries.h"
+#include "core/png_codec.h"
 
 namespace terrazzo {
 
@@ -127,7 +128,10 @@ int64_t write_through(const Image& image, const std::string& name, ByteSink* sin
       fail(e.what());
     }
   };
-  encode([&] { out = image_libraries().create_image(name, target, sink); });
+  encode([&] {
+    const bool is_png = options.format == FileFormat::png && sink;
+    out = is_png ? create_png(target, *sink) : image_libraries().create_image(name, target, sink);
+  });
   Converter converter(image.channels(), target.channels);
   for_each_strip(image, [&](const Rect& r, const float* pixels) {
     const void* values = converter.convert(pixels, r.area(), options.depth);

@@ -1,4 +1,4 @@
-#include "core/png_decoder.h"
+#include "core/png_codec.h"
 
 #include <doctest/doctest.h>
 

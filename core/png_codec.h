@@ -13,4 +13,7 @@ namespace terrazzo {
 /// it. Throws Error with libpng's reason for a damaged header.
 std::unique_ptr<ImageDecoder> open_png(const std::filesystem::path& path);
 
+/// An encoder for PNG files, which needs nothing but libpng either. The same pixels give the same bytes.
+std::unique_ptr<ImageEncoder> create_png(const EncodedImage& image, ByteSink& sink);
+
 }  // namespace terrazzo
