@@ -154,8 +154,16 @@ struct Effort {
 
 /// The budget belongs to the coarse levels, where pixels are few and decisions are large. Filling in between kept
 /// pixels is harder than going on freely, and there are fewer pixels to do it for.
-Effort effort_at(int level, bool between_kept) {
+Effort effort_at(int level, Quality quality, bool between_kept) {
+  if (quality == Quality::draft) {
+    if (level <= 1) return {between_kept ? 3 : level + 1, 0, &sparse_window()};
+    return {5, level >= 3 ? 16 : 4, &full_window()};
+  }
   if (between_kept && level <= 1) return {6, 4, &full_window()};
+  if (quality == Quality::best) {
+    if (level <= 1) return {level == 0 ? 4 : 6, level == 0 ? 0 : 4, &full_window()};
+    return {16, level >= 3 ? 24 : 8, &full_window()};
+  }
   if (level == 0) return {2, 0, &sparse_window()};
   if (level == 1) return {3, 0, &full_window()};
   return {10, level >= 3 ? 24 : 8, &full_window()};
@@ -207,7 +215,7 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
     const CorrectionLevel level{
         exemplar, similar, index.levels()[l].per_pixel, l, options.tile_x, options.tile_y, phase, fixed, control.get()};
     Occupancy occupancy(exemplar_level.size, l >= 1 ? options.evenness : 0, demand_of(exemplar_level, control.get()));
-    const Effort effort = effort_at(l, fixed.any());
+    const Effort effort = effort_at(l, options.quality, fixed.any());
     const bool regular = lattice.rank > 0;
     if (phase.active() && l < levels - 1) align_pieces(field, level, alignment_reach, task);
     for (int pass = 0; pass < effort.passes; pass++) {
