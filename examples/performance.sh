@@ -23,7 +23,7 @@ mkdir -p "$out"
 material() {
   local all=$out/exemplars/$1-all folder=$out/exemplars/$1-$2
   [ -d "$all" ] || build/terrazzo run graphs/generate-exemplar.json --set type=gravel --set "size=$1" \
-    --set "out=$all" --no-cache --progress none
+    --set "out=$all" --no-cache --progress none 2>"$out/said" || { cat "$out/said" >&2; exit 1; }
   mkdir -p "$folder"
   for name in "${names[@]:0:$2}"; do cp "$all/$name.png" "$folder"; done
   echo "$folder"
@@ -32,15 +32,17 @@ material() {
 # measured ARGUMENT...: CPU seconds (the least of the repeats) and peak MiB of such a run.
 measured() {
   for ((i = 0; i < repeats; i++)); do
-    build/terrazzo run graphs/material.json --progress json --set "out=$out/files" "$@" --set "seed=$((i + 1))" 2>&1 |
+    build/terrazzo run graphs/material.json --progress json --set "out=$out/files" "$@" --set "seed=$((first_seed + i))" 2>&1 |
       grep '"event":"finished"'
   done | sed -E 's/.*"cpu_seconds":([^,]*),"peak_memory":([^,]*),.*/\1 \2/' |
     awk 'NR == 1 || $1 < cpu { cpu = $1 } $2 > peak { peak = $2 } END { printf "%.3f,%.1f", cpu, peak / 1048576 }'
 }
 
-# row PLOT X ARGUMENT...
+# row PLOT X ARGUMENT...   Every row has seeds of its own, so that no layout is found in the cache.
+first_seed=1
 row() {
   local line
+  first_seed=$((first_seed + repeats))
   line="$2,$(measured "${@:3}")"
   echo "$line" >>"$out/$1.csv"
   echo "$1: $line"
@@ -72,7 +74,7 @@ plot analysis-maps "Analysis of ${usual_exemplar}x${usual_exemplar} pixels" "map
 plot synthesis-exemplar "Synthesis of ${usual_output}x${usual_output} pixels" "exemplar, pixels a side" log
 plot synthesis-maps "Synthesis of ${usual_output}x${usual_output} pixels" "maps" linear
 plot synthesis-output "Synthesis from ${usual_exemplar}x${usual_exemplar} pixels" "output, pixels a side" log
-rm -rf "$out/cache" "$out/files" "$out/exemplars"
+rm -rf "$out/cache" "$out/files" "$out/exemplars" "$out/said"
 echo
 echo "The plots:"
 ls "$out"/*.svg
