@@ -12,7 +12,11 @@ Occupancy::Occupancy(Size exemplar, double weight, const std::vector<double>& de
       cell_(std::max(2, std::max(exemplar.width, exemplar.height) / 16)),
       columns_((exemplar.width + cell_ - 1) / cell_),
       rows_((exemplar.height + cell_ - 1) / cell_),
+      columns_of_(size_t(exemplar.width)),
+      row_starts_(size_t(exemplar.height)),
       factors_(size_t(columns_) * rows_, unit_factor) {
+  for (int x = 0; x < exemplar.width; x++) columns_of_[x] = uint32_t(x / cell_);
+  for (int y = 0; y < exemplar.height; y++) row_starts_[y] = uint32_t(y / cell_ * columns_);
   if (demand.empty()) return;
   shares_.assign(factors_.size(), 0.0);
   double sum = 0;
@@ -27,7 +31,7 @@ void Occupancy::recount(const Field& field, const FixedPixels& fixed) {
   int64_t free = 0;
   for (size_t i = 0; i < field.pixels.size(); i++) {
     if (fixed.at(i)) continue;
-    use[size_t(field.pixels[i].y / cell_) * columns_ + field.pixels[i].x / cell_]++;
+    use[row_starts_[field.pixels[i].y] + columns_of_[field.pixels[i].x]]++;
     free++;
   }
   const double even = std::max(least_expected, double(free) / double(factors_.size()));
