@@ -34,8 +34,8 @@ class PaddedLevel {
       x = x < 0 ? x + size_.width : x >= size_.width ? x - size_.width : x;
       y = y < 0 ? y + size_.height : y >= size_.height ? y - size_.height : y;
     } else {
-      x = std::clamp(x, keep_off_, size_.width - 1 - keep_off_);
-      y = std::clamp(y, keep_off_, size_.height - 1 - keep_off_);
+      x = within(x, keep_off_, size_.width - 1 - keep_off_);
+      y = within(y, keep_off_, size_.height - 1 - keep_off_);
     }
   }
   /// The same, and then to the nearest usable pixel.
@@ -43,11 +43,15 @@ class PaddedLevel {
     settle_inside(x, y);
     if (masked_) settle_usable(x, y);
   }
+  /// Whether synthesis may take a position inside the level.
+  bool is_usable(int x, int y) const {
+    const size_t at = size_t(y) * size_.width + x;
+    return !masked_ || nearest_usable_[at] == at;
+  }
   /// As settle_inside; false if the position is not usable.
   bool settles(int& x, int& y) const {
     settle_inside(x, y);
-    const size_t at = size_t(y) * size_.width + x;
-    return !masked_ || nearest_usable_[at] == at;
+    return is_usable(x, y);
   }
   /// A usable position for 64 random bits, all equally likely.
   std::array<int, 2> place(uint64_t bits) const {
@@ -59,6 +63,11 @@ class PaddedLevel {
   int keep_off() const { return keep_off_; }
 
  private:
+  // As std::clamp, but by value: its references may be taken through memory.
+  [[gnu::always_inline]] static int within(int v, int least, int most) {
+    const int raised = v < least ? least : v;
+    return raised > most ? most : raised;
+  }
   void settle_usable(int& x, int& y) const;
   std::array<int, 2> usable_place(uint64_t bits) const;
 

@@ -81,7 +81,7 @@ struct CorrectionCase {
       }
   }
   CorrectionLevel correction_level() const {
-    return {exemplar, similar, similar_per_pixel, level, false, false, {}, {}, nullptr};
+    return {exemplar, similar, similar_per_pixel, level, PlaneWindow::all_of({field.size}), {}, {}, nullptr};
   }
 };
 
@@ -93,7 +93,8 @@ void correction_pass(benchmark::State& state) {
                             .random_candidates = level >= 3   ? 24
                                                  : level == 2 ? 8
                                                               : 0,
-                            .seed = 1};
+                            .seed = 1,
+                            .wanted = whole(c.field.size)};
   for (auto _ : state) {
     state.PauseTiming();
     Field field = c.field;

@@ -29,16 +29,3 @@ TEST_CASE("a window that meets itself, or crosses the border of an odd length, i
     CHECK(w.column(-1) == w.plane.size.width - 1);
   }
 }
-
-TEST_CASE("even and odd are those of the plane, wherever the window begins") {
-  for (const int first : {6, 7}) {
-    const PlaneWindow w = PlaneWindow::around({first, 0, 9, 2}, 0, {{50, 2}});
-    for (const int odd : {0, 1}) {
-      const EverySecond columns = w.columns({2, 0, 7, 2}, odd);
-      int count = 0;
-      for (int column = 2; column < 9; column++)
-        if ((w.x(column) & 1) == odd) CHECK(columns.at(count++) == column);
-      CHECK(columns.count == count);
-    }
-  }
-}
