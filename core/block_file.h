@@ -67,7 +67,8 @@ class BlockFileWriter {
   /// Adds to the stream begun last; every call but a stream's last must bring a multiple of block_elements().
   void add_bytes(const uint8_t* bytes, uint64_t count);
   void add_samples(const float* samples, uint64_t count);
-  void finish(const BlockFileHeader& header, const std::vector<uint8_t>& description);
+  /// With `sync` the file is on the disk when it returns.
+  void finish(const BlockFileHeader& header, const std::vector<uint8_t>& description, bool sync);
 
  private:
   void add_blocks(uint64_t count, const std::function<RawBlock(uint64_t at, uint64_t count)>& block);

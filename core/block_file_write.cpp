@@ -92,7 +92,7 @@ void BlockFileWriter::add_samples(const float* samples, uint64_t count) {
   });
 }
 
-void BlockFileWriter::finish(const BlockFileHeader& header, const std::vector<uint8_t>& description) {
+void BlockFileWriter::finish(const BlockFileHeader& header, const std::vector<uint8_t>& description, bool sync) {
   ByteWriter contents;
   contents.put(uint64_t{description.size()});
   contents.append(description.data(), description.size());
@@ -121,7 +121,10 @@ void BlockFileWriter::finish(const BlockFileHeader& header, const std::vector<ui
   head.put(checksum(bytes.data(), bytes.size()));
   head.put(checksum(head.bytes().data(), head.bytes().size()));
   file_.write_at(0, head.bytes().data(), head.bytes().size(), path_);
-  file_.sync_and_close(path_);
+  if (sync)
+    file_.sync_and_close(path_);
+  else
+    file_.close(path_);
   finished_ = true;
 }
 

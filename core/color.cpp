@@ -6,15 +6,13 @@
 #include <map>
 #include <mutex>
 
-#include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/image_libraries.h"
 #include "core/suggest.h"
 #include "core/text.h"
-
-namespace OCIO = OCIO_NAMESPACE;
 
 namespace terrazzo {
 
@@ -48,60 +46,24 @@ const CommonSpace* find_common(const std::string& name) {
   return nullptr;
 }
 
-OCIO::ColorSpaceRcPtr make_space(const char* name, const char* description) {
-  OCIO::ColorSpaceRcPtr space = OCIO::ColorSpace::Create();
-  space->setName(name);
-  space->setDescription(description);
-  space->setBitDepth(OCIO::BIT_DEPTH_F32);
-  return space;
-}
-
-/// Reference: linear light, Rec.709 primaries.
-OCIO::ConstConfigRcPtr built_in_config() {
-  OCIO::ConfigRcPtr config = OCIO::Config::Create();
-  config->setVersion(2, 0);
-  config->addColorSpace(make_space("lin_rec709", "Linear light, Rec.709 primaries, D65"));
-
-  OCIO::ColorSpaceRcPtr srgb = make_space("srgb_texture", "The sRGB transfer function, Rec.709 primaries, D65");
-  OCIO::ExponentWithLinearTransformRcPtr curve = OCIO::ExponentWithLinearTransform::Create();
-  curve->setGamma({2.4, 2.4, 2.4, 1.0});
-  curve->setOffset({0.055, 0.055, 0.055, 0.0});
-  curve->setNegativeStyle(OCIO::NEGATIVE_LINEAR);
-  srgb->setTransform(curve, OCIO::COLORSPACE_DIR_TO_REFERENCE);
-  config->addColorSpace(srgb);
-
-  // AP1 (white point of ACES) to Rec.709 (D65) with the Bradford adaptation: SMPTE RP 177 applied to the primaries.
-  OCIO::ColorSpaceRcPtr acescg = make_space("acescg", "Linear light, AP1 primaries, the white point of ACES");
-  OCIO::MatrixTransformRcPtr matrix = OCIO::MatrixTransform::Create();
-  const double to_rec709[16] = {1.70505099265815,
-                                -0.621792120657,
-                                -0.0832588720011,
-                                0,  //
-                                -0.130256417507,
-                                1.14080473657,
-                                -0.0105483190684,
-                                0,  //
-                                -0.0240033568046,
-                                -0.128968976065,
-                                1.15297233287,
-                                0,  //
-                                0,
-                                0,
-                                0,
-                                1};
-  matrix->setMatrix(to_rec709);
-  acescg->setTransform(matrix, OCIO::COLORSPACE_DIR_TO_REFERENCE);
-  config->addColorSpace(acescg);
-
-  OCIO::ColorSpaceRcPtr raw = make_space("raw", "Values that are no colours; never converted");
-  raw->setIsData(true);
-  config->addColorSpace(raw);
-  config->setRole(OCIO::ROLE_REFERENCE, "lin_rec709");
-  config->setRole(OCIO::ROLE_SCENE_LINEAR, "lin_rec709");
-  config->setRole(OCIO::ROLE_DATA, "raw");
-  config->setRole(OCIO::ROLE_DEFAULT, "raw");
-  return config;
-}
+/// The four spaces that need no file. Their names are known here, so that only conversions load OpenColorIO.
+class BuiltInColors final : public ColorConfiguration {
+ public:
+  std::vector<std::string> names() const override { return {"lin_rec709", "srgb_texture", "acescg", "raw"}; }
+  std::string find(const std::string& name) const override {
+    static const std::map<std::string, std::string> roles = {
+        {"reference", "lin_rec709"}, {"scene_linear", "lin_rec709"}, {"data", "raw"}, {"default", "raw"}};
+    const std::string wanted = lowercase(name);
+    if (const auto role = roles.find(wanted); role != roles.end()) return role->second;
+    const std::vector<std::string> known = names();
+    return std::find(known.begin(), known.end(), wanted) == known.end() ? "" : wanted;
+  }
+  Conversion conversion(const std::string& from, const std::string& to) const override {
+    static const std::shared_ptr<const ColorConfiguration> colors = image_libraries().load_colors("");
+    return colors->conversion(from, to);
+  }
+  std::vector<std::string> search_paths() const override { return {}; }
+};
 
 /// Empty for the built-in configuration.
 std::string config_path(const std::string& given) {
@@ -111,7 +73,7 @@ std::string config_path(const std::string& given) {
 }
 
 struct Configuration {
-  OCIO::ConstConfigRcPtr config;
+  std::shared_ptr<const ColorConfiguration> config;
   std::string where;  ///< for messages
   Digest identity;
 };
@@ -128,11 +90,11 @@ Digest identity_of(const std::string& path) {
 }
 
 Configuration load(const std::string& path) {
-  if (path.empty()) return {built_in_config(), "the built-in configuration", Hasher().add("built-in 1").digest()};
+  if (path.empty())
+    return {std::make_shared<BuiltInColors>(), "the built-in configuration", Hasher().add("built-in 1").digest()};
   try {
-    OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromFile(path.c_str());
-    return {config, path, identity_of(path)};
-  } catch (const OCIO::Exception& e) {
+    return {image_libraries().load_colors(path), path, identity_of(path)};
+  } catch (const Error& e) {
     throw Error(fmt::format("cannot read the OpenColorIO configuration {}: {}", path, e.what()));
   }
 }
@@ -150,29 +112,19 @@ Configuration configuration(const std::string& given) {
   return loaded.insert_or_assign(path, std::pair(time, load(path))).first->second.second;
 }
 
-std::vector<std::string> names_in(const OCIO::ConstConfigRcPtr& config) {
-  std::vector<std::string> names;
-  for (int i = 0; i < config->getNumColorSpaces(); i++) names.emplace_back(config->getColorSpaceNameByIndex(i));
-  return names;
-}
-
 /// What the configuration itself calls a space; empty if it has none of that name.
 std::string name_in_config(const Configuration& c, const std::string& name) {
-  const auto has = [&](const std::string& n) -> std::string {
-    const OCIO::ConstColorSpaceRcPtr space = c.config->getColorSpace(n.c_str());
-    return space ? space->getName() : "";
-  };
-  if (std::string found = has(name); !found.empty()) return found;
+  if (std::string found = c.config->find(name); !found.empty()) return found;
   const CommonSpace* common = find_common(name);
   if (!common) return "";
-  if (std::string found = has(common->name); !found.empty()) return found;
+  if (std::string found = c.config->find(common->name); !found.empty()) return found;
   for (const std::string& alias : common->aliases)
-    if (std::string found = has(alias); !found.empty()) return found;
+    if (std::string found = c.config->find(alias); !found.empty()) return found;
   return "";
 }
 
 [[noreturn]] void fail_unknown(const Configuration& c, const std::string& name) {
-  std::vector<std::string> known = names_in(c.config);
+  std::vector<std::string> known = c.config->names();
   const std::string list = fmt::format("{}", fmt::join(known, ", "));
   for (const CommonSpace& s : common_spaces()) known.insert(known.end(), s.aliases.begin(), s.aliases.end());
   throw Error(fmt::format("there is no colour space \"{}\" in {}, which knows {}{}", name, c.where, list,
@@ -185,23 +137,18 @@ std::string required_name(const Configuration& c, const std::string& name) {
   return found;
 }
 
-void apply(const OCIO::ConstCPUProcessorRcPtr& processor, float* pixels, int channels, int64_t count) {
-  if (channels >= 3) {
-    OCIO::PackedImageDesc image(pixels, count, 1, 3, OCIO::BIT_DEPTH_F32, sizeof(float), channels * sizeof(float),
-                                count * channels * sizeof(float));
-    processor->apply(image);
-    return;
-  }
+void apply(const ColorConfiguration::Conversion& convert, float* pixels, int channels, int64_t count) {
+  if (channels >= 3) return convert(pixels, channels, count);
   std::vector<float> grey(size_t(count) * 3);
   for (int64_t i = 0; i < count; i++) std::fill_n(&grey[i * 3], 3, pixels[i * channels]);
-  apply(processor, grey.data(), 3, count);
+  convert(grey.data(), 3, count);
   for (int64_t i = 0; i < count; i++) pixels[i * channels] = grey[i * 3];
 }
 
 }  // namespace
 
 std::vector<std::string> color_space_names(const std::string& config) {
-  return names_in(configuration(config).config);
+  return configuration(config).config->names();
 }
 
 std::string canonical_color_space(const std::string& name, const std::string& config) {
@@ -229,19 +176,17 @@ ImagePtr convert_color(const ImagePtr& image, const std::string& to, const std::
   if (from == "raw" || from == info.color_space) return image;
   const std::string source_name = required_name(c, from);
   if (info.color_space == "raw") return Image::redescribed(image, info);
-  OCIO::ConstCPUProcessorRcPtr processor;
+  ColorConfiguration::Conversion convert;
   try {
-    // Lossless: without the approximations of pow that would shift 16-bit values.
-    processor = c.config->getProcessor(source_name.c_str(), required_name(c, to).c_str())
-                    ->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
-  } catch (const OCIO::Exception& e) {
+    convert = c.config->conversion(source_name, required_name(c, to));
+  } catch (const Error& e) {
     throw Error(fmt::format("{} cannot convert from {} to {}: {}", c.where, from, to, e.what()));
   }
   const Digest recipe =
       Hasher().add("convert_color 1").add(c.identity).add(from).add(info.color_space).add(image->digest()).digest();
-  return Image::computed(info, recipe, [image, processor](const Rect& region, float* out) {
+  return Image::computed(info, recipe, [image, convert](const Rect& region, float* out) {
     image->read(region, out);
-    apply(processor, out, image->channels(), region.area());
+    apply(convert, out, image->channels(), region.area());
   });
 }
 
@@ -250,14 +195,13 @@ std::vector<fs::path> color_config_files(const std::string& given) {
   if (path.empty()) return {};
   std::vector<fs::path> files = {path};
   try {
-    const OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromFile(path.c_str());
-    for (int i = 0; i < config->getNumSearchPaths(); i++) {
-      const fs::path folder = fs::path(path).parent_path() / config->getSearchPath(i);
+    for (const std::string& searched : image_libraries().load_colors(path)->search_paths()) {
+      const fs::path folder = fs::path(path).parent_path() / searched;
       std::error_code failure;
       for (const fs::directory_entry& e : fs::directory_iterator(folder, failure))
         if (e.is_regular_file()) files.push_back(e.path());
     }
-  } catch (const OCIO::Exception&) {
+  } catch (const Error&) {
     return files;  // whoever uses the configuration reports what is wrong with it
   }
   std::sort(files.begin(), files.end());

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/metrics/planes.h"
+#include "core/pixel_font.h"
 #include "core/sheet_canvas.h"
 
 namespace terrazzo {
@@ -34,10 +35,11 @@ Planes reduced(const Image& image, int factor) {
   return sums;
 }
 
-/// Where rows or columns begin, given their lengths and a border around each; the last number is the total.
-std::vector<int> starts(const std::vector<int>& lengths) {
+/// Where rows or columns begin, given their lengths, what comes after each and a border around; the last number is the
+/// total.
+std::vector<int> starts(const std::vector<int>& lengths, int after) {
   std::vector<int> out = {border};
-  for (const int length : lengths) out.push_back(out.back() + length + border);
+  for (const int length : lengths) out.push_back(out.back() + length + after + border);
   return out;
 }
 
@@ -45,9 +47,20 @@ int scaled(int length, double scale) {
   return std::max(1, int(length * scale));
 }
 
+constexpr int caption_gap = 2;
+constexpr int caption_height = caption_gap + glyph_height;
+
+void write_caption(SheetCanvas& sheet, const std::string& text, int left, int top, int width) {
+  constexpr float grey = 0.85f;
+  for_each_dot(shortened(text, width / glyph_advance), [&](int x, int y) {
+    if (left + x < sheet.size().width && top + y < sheet.size().height) sheet.fill({left + x, top + y, 1, 1}, grey);
+  });
+}
+
 }  // namespace
 
-ImagePtr contact_sheet(const std::vector<std::vector<ImagePtr>>& rows, int max_side) {
+ImagePtr contact_sheet(const std::vector<std::vector<ImagePtr>>& rows, int max_side,
+                       const std::vector<std::vector<std::string>>& captions) {
   size_t columns = 0;
   for (const auto& row : rows) columns = std::max(columns, row.size());
   std::vector<int> widths(columns), heights(rows.size());
@@ -60,7 +73,8 @@ ImagePtr contact_sheet(const std::vector<std::vector<ImagePtr>>& rows, int max_s
   const int64_t width = std::accumulate(widths.begin(), widths.end(), int64_t{0});
   const int64_t height = std::accumulate(heights.begin(), heights.end(), int64_t{0});
   if (width == 0) throw Error("a contact sheet needs at least one picture");
-  const int borders_x = border * int(columns + 1), borders_y = border * int(rows.size() + 1);
+  const int borders_x = border * int(columns + 1), below = captions.empty() ? 0 : caption_height;
+  const int borders_y = border * int(rows.size() + 1) + below * int(rows.size());
   const int room_x = max_side - borders_x, room_y = max_side - borders_y;
   if (room_x < int(columns) || room_y < int(rows.size()))
     throw Error(fmt::format("a contact sheet of {} by {} pictures needs at least {} pixels a side, not {}", columns,
@@ -68,7 +82,7 @@ ImagePtr contact_sheet(const std::vector<std::vector<ImagePtr>>& rows, int max_s
   const double scale = std::min({1.0, double(room_x) / double(width), double(room_y) / double(height)});
   for (int& w : widths) w = scaled(w, scale);
   for (int& h : heights) h = scaled(h, scale);
-  const std::vector<int> left = starts(widths), top = starts(heights);
+  const std::vector<int> left = starts(widths, 0), top = starts(heights, below);
 
   SheetCanvas sheet({std::min(left.back(), max_side), std::min(top.back(), max_side)});
   for (size_t y = 0; y < rows.size(); y++)
@@ -80,18 +94,25 @@ ImagePtr contact_sheet(const std::vector<std::vector<ImagePtr>>& rows, int max_s
       for (int v = 0; v < size.height && top[y] + v < sheet.size().height; v++)
         sheet.put(left[x], top[y] + v, picture.pixel(0, v), std::min(size.width, sheet.size().width - left[x]));
     }
+  for (size_t y = 0; y < captions.size(); y++)
+    for (size_t x = 0; x < captions[y].size(); x++)
+      write_caption(sheet, captions[y][x], left[x], top[y] + heights[y] + caption_gap, widths[x]);
   return std::move(sheet).finished();
 }
 
 ImagePtr comparison_sheet(const Material& exemplar, const Material& result, const std::vector<std::string>& maps,
                           int max_side) {
   std::vector<ImagePtr> above, below;
+  std::vector<std::string> of_exemplar, of_result;
   for (const std::string& name : maps) {
     above.push_back(exemplar.find(std::string_view(name)));
     below.push_back(result.find(std::string_view(name)));
+    of_exemplar.push_back("exemplar: " + name);
+    of_result.push_back("result: " + name);
   }
-  if (maps.size() == 1) return contact_sheet({{above.front(), below.front()}}, max_side);
-  return contact_sheet({above, below}, max_side);
+  if (maps.size() == 1)
+    return contact_sheet({{above.front(), below.front()}}, max_side, {{of_exemplar.front(), of_result.front()}});
+  return contact_sheet({above, below}, max_side, {of_exemplar, of_result});
 }
 
 }  // namespace terrazzo

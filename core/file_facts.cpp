@@ -10,6 +10,8 @@ namespace terrazzo {
 
 namespace {
 
+constexpr uint8_t start_of_image = 0xd8, end_of_image = 0xd9, app1 = 0xe1;
+
 bool is_frame_header(uint8_t marker) {
   return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
 }
@@ -66,9 +68,11 @@ std::vector<uint64_t> entry_numbers(TiffNumbers& file, uint64_t entry, bool is_b
 
 JpegFacts read_jpeg_facts(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
+  JpegFacts facts;
+  if (in.get() != 0xff || in.get() != start_of_image) return facts;
   const std::vector<char> file((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   const auto byte = [&](size_t i) { return static_cast<uint8_t>(file[i]); };
-  JpegFacts facts;
+  const auto word = [&](size_t i) { return byte(i) << 8 | byte(i + 1); };
   size_t i = 0;
   while (i + 1 < file.size()) {
     // Outside segments lies entropy-coded data, in which 0xff is followed by 0.
@@ -78,14 +82,19 @@ JpegFacts read_jpeg_facts(const std::filesystem::path& path) {
     }
     const uint8_t marker = byte(i + 1);
     i += 2;
-    if (marker == 0xd9) {
+    if (marker == end_of_image) {
       facts.complete = true;
       break;
     }
     if (stands_alone(marker)) continue;
     if (i + 1 >= file.size()) break;
-    if (is_frame_header(marker) && i + 7 < file.size()) facts.components = byte(i + 7);
-    i += size_t{byte(i)} << 8 | byte(i + 1);
+    if (is_frame_header(marker) && i + 7 < file.size()) {
+      facts.bits = byte(i + 2);
+      facts.size = {word(i + 5), word(i + 3)};
+      facts.components = byte(i + 7);
+    }
+    facts.has_exif |= marker == app1;
+    i += size_t(word(i));
   }
   return facts;
 }

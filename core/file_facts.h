@@ -2,12 +2,17 @@
 
 #include <filesystem>
 
+#include "core/geometry.h"
+
 /// Facts about image files that the image library does not report or notice, read from the files' own structure.
 namespace terrazzo {
 
 /// What the markers of a JPEG file (ITU T.81, annex B) say; decoders fill in for missing data without a word.
 struct JpegFacts {
   int components = 0;     ///< 1 grey, 3 colour, 4 CMYK; 0 if no frame header was found
+  int bits = 0;           ///< of each component
+  Size size{};            ///< as stored, before it is turned
+  bool has_exif = false;  ///< it may have to be turned
   bool complete = false;  ///< the end-of-image marker is there
 };
 JpegFacts read_jpeg_facts(const std::filesystem::path& path);

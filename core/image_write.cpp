@@ -3,8 +3,6 @@
 #include <cmath>
 
 #include <Imath/half.h>
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 
@@ -12,66 +10,20 @@
 #include "core/file_facts.h"
 #include "core/file_io.h"
 #include "core/image_file.h"
+#include "core/image_libraries.h"
+#include "core/png_codec.h"
 
 namespace terrazzo {
 
 namespace {
 
-OIIO::TypeDesc type_of_depth(Depth depth) {
-  switch (depth) {
-    case Depth::u8:
-      return OIIO::TypeDesc::UINT8;
-    case Depth::u16:
-      return OIIO::TypeDesc::UINT16;
-    case Depth::f16:
-      return OIIO::TypeDesc::HALF;
-    case Depth::f32:
-      return OIIO::TypeDesc::FLOAT;
-  }
-  return OIIO::TypeDesc::FLOAT;
-}
-
-int written_channels(const Image& image, FileFormat format) {
-  const bool has_alpha = image.channels() % 2 == 0;
-  return format == FileFormat::jpeg && has_alpha ? image.channels() - 1 : image.channels();
-}
-
-OIIO::ImageSpec make_spec(const Image& image, const WriteOptions& options) {
-  const ImageInfo& info = image.info();
-  OIIO::ImageSpec spec(image.width(), image.height(), written_channels(image, options.format),
-                       type_of_depth(options.depth));
-  const bool has_alpha = spec.nchannels % 2 == 0 && info.semantic != Semantic::data;
-  spec.alpha_channel = has_alpha ? spec.nchannels - 1 : -1;
-  if (spec.nchannels == 2)
-    spec.channelnames = has_alpha ? std::vector<std::string>{"Y", "A"} : std::vector<std::string>{"R", "G"};
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("DateTime", "1970:01:01 00:00:00");  // else the library writes the time of day
-  if (info.color_space == "srgb_texture") spec.attribute("oiio:ColorSpace", "sRGB");
-  if (info.color_space == "lin_rec709") spec.attribute("oiio:ColorSpace", "Linear");
-  if (info.color_space == "acescg" && options.format == FileFormat::exr) {
-    const float ap1[8] = {0.713f, 0.293f, 0.165f, 0.830f, 0.128f, 0.044f, 0.32168f, 0.33767f};
-    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), ap1);
-  }
-  if (!options.description.empty()) spec.attribute("ImageDescription", options.description);
-  switch (options.format) {
-    case FileFormat::png:
-      // For photographs level 1 takes half the time of level 6 and gives files of the same size.
-      spec.attribute("png:compressionLevel", 1);
-      break;
-    case FileFormat::tiff:
-      spec.attribute("compression", "zip");
-      spec.attribute("tiff:half", 1);
-      break;
-    case FileFormat::exr:
-      // Both are lossless; on halfs PIZ takes a quarter of zip's time and two thirds of its bytes.
-      spec.attribute("compression", options.depth == Depth::f16 ? "piz" : "zip");
-      break;
-    case FileFormat::jpeg:
-      spec.attribute("Compression", fmt::format("jpeg:{}", options.jpeg_quality));
-      spec.attribute("jpeg:subsampling", "4:4:4");
-      break;
-  }
-  return spec;
+EncodedImage encoded(const Image& image, const WriteOptions& options) {
+  const bool even = image.channels() % 2 == 0, is_jpeg = options.format == FileFormat::jpeg;
+  EncodedImage out{.size = image.size(), .channels = image.channels(), .options = options};
+  if (is_jpeg && even) out.channels--;
+  out.has_alpha = even && !is_jpeg && image.info().semantic != Semantic::data;
+  out.color_space = image.info().color_space;
+  return out;
 }
 
 /// Floats as the file's values; counts those that were clipped.
@@ -121,31 +73,21 @@ class Converter {
 
 /// The file that an image library writes to. The libraries lose what the operating system says (a PNG on a full disk
 /// counts as written), so it is kept here.
-class WrittenFile final : public OIIO::Filesystem::IOProxy {
+class WrittenFile final : public ByteSink {
  public:
   explicit WrittenFile(const std::filesystem::path& path)
-      : IOProxy(path.string(), Write), path_(path), file_(File::open(path, O_WRONLY | O_CREAT | O_TRUNC)) {
+      : path_(path), file_(File::open(path, O_WRONLY | O_CREAT | O_TRUNC)) {
     if (!file_.ok()) throw_system_error("write", path, errno);
   }
-  /// Not "file", which the library takes for its own class.
-  const char* proxytype() const override { return "written file"; }
-  size_t write(const void* data, size_t size) override {
-    const size_t written = pwrite(data, size, m_pos);
-    m_pos += int64_t(written);
-    return written;
-  }
-  size_t pwrite(const void* data, size_t size, int64_t offset) override {
+  bool write(uint64_t offset, const void* data, size_t size) override {
     try {
-      file_.write_at(uint64_t(offset), data, size, path_);
+      file_.write_at(offset, data, size, path_);
+      return true;
     } catch (const FileError& e) {
       failure_ = e.code();
-      return 0;
+      return false;
     }
-    size_ = std::max(size_, size_t(offset) + size);
-    return size;
   }
-  size_t size() const override { return size_; }
-
   /// Throws what the operating system said, if it refused anything.
   void check() const {
     if (failure_ != 0) throw_system_error("write", path_, failure_);
@@ -158,35 +100,46 @@ class WrittenFile final : public OIIO::Filesystem::IOProxy {
  private:
   std::filesystem::path path_;
   File file_;
-  size_t size_ = 0;
   int failure_ = 0;
+};
+
+class WrittenBytes final : public ByteSink {
+ public:
+  bool write(uint64_t offset, const void* data, size_t size) override {
+    bytes.resize(std::max(bytes.size(), size_t(offset) + size));
+    std::copy_n(static_cast<const uint8_t*>(data), size, bytes.begin() + ptrdiff_t(offset));
+    return true;
+  }
+  std::vector<uint8_t> bytes;
 };
 
 using Fail = std::function<void(const std::string& reason)>;
 
-/// Writes to `proxy`, or to the file `name` if there is none; `fail` throws. Returns how many values were clipped.
-int64_t write_through(const Image& image, const std::string& name, OIIO::Filesystem::IOProxy* proxy,
-                      const WriteOptions& options, const std::function<void(double)>& progress, const Fail& fail) {
-  constexpr std::array<const char*, 4> names = {"png", "tiff", "openexr", "jpeg"};
-  const auto out = OIIO::ImageOutput::create(names[static_cast<size_t>(options.format)]);
-  if (!out) fail(OIIO::geterror());
-  out->threads(1);
-  if (proxy) out->set_ioproxy(proxy);
-  const OIIO::ImageSpec spec = make_spec(image, options);
-  if (!out->open(name, spec)) fail(out->geterror());
-  Converter converter(image.channels(), spec.nchannels);
+/// Writes to `sink`, or to the file `name` if there is none; `fail` is told why the encoder cannot go on, and throws.
+/// Returns how many values were clipped.
+int64_t write_through(const Image& image, const std::string& name, ByteSink* sink, const WriteOptions& options,
+                      const std::function<void(double)>& progress, const Fail& fail) {
+  const EncodedImage target = encoded(image, options);
+  std::unique_ptr<ImageEncoder> out;
+  const auto encode = [&](const auto& step) {
+    try {
+      step();
+    } catch (const Error& e) {
+      fail(e.what());
+    }
+  };
+  encode([&] {
+    const bool is_png = options.format == FileFormat::png && sink;
+    out = is_png ? create_png(target, *sink) : image_libraries().create_image(name, target, sink);
+  });
+  Converter converter(image.channels(), target.channels);
   for_each_strip(image, [&](const Rect& r, const float* pixels) {
     const void* values = converter.convert(pixels, r.area(), options.depth);
-    if (!out->write_scanlines(r.y, r.bottom(), 0, type_of_depth(options.depth), values)) fail(out->geterror());
+    encode([&] { out->write_rows(r.y, r.bottom(), values); });
     progress(double(r.bottom()) / image.height());
   });
-  if (!out->close()) fail(out->geterror());
+  encode([&] { out->finish(); });
   return converter.clipped();
-}
-
-void require_depth(const WriteOptions& options, const Fail& fail) {
-  if (!holds(options.format, options.depth))
-    fail(fmt::format("{} cannot hold {} values", name_of(options.format), name_of(options.depth)));
 }
 
 }  // namespace
@@ -196,7 +149,8 @@ int64_t write_image(const Image& image, const std::filesystem::path& path, const
   const Fail refuse = [&](const std::string& reason) {
     throw Error(fmt::format("cannot write {}: {}", path.string(), reason));
   };
-  require_depth(options, refuse);
+  if (!holds(options.format, options.depth))
+    refuse(fmt::format("{} cannot hold {} values", name_of(options.format), name_of(options.depth)));
   WrittenFile file(path);
   const Fail fail = [&](const std::string& reason) {
     file.check();
@@ -211,13 +165,12 @@ int64_t write_image(const Image& image, const std::filesystem::path& path, const
 }
 
 std::vector<uint8_t> png_of(const Image& image) {
-  std::vector<uint8_t> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
+  WrittenBytes memory;
   const Fail fail = [](const std::string& reason) { throw Error("cannot make a PNG: " + reason); };
   const WriteOptions options{.format = FileFormat::png, .depth = Depth::u8};
   write_through(
       image, "picture.png", &memory, options, [](double) {}, fail);
-  return bytes;
+  return std::move(memory.bytes);
 }
 
 }  // namespace terrazzo

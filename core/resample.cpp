@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numeric>
 
-#include <OpenImageIO/filter.h>
-
+#include "core/image_libraries.h"
 #include "core/pixel_space.h"
 
 namespace terrazzo {
@@ -107,18 +105,14 @@ AxisFilter scaling_filter(const std::string& name, int from, int to) {
   if (name == "nearest")
     return copying([from, to](int i) { return int((int64_t{2} * i + 1) * from / (int64_t{2} * to)); });
   const std::string kernel_name = name != "auto" ? name : to < from ? "lanczos3" : "mitchell";
-  const float standard_width = kernel_name == "box"        ? 1
-                               : kernel_name == "triangle" ? 2
-                               : kernel_name == "mitchell" ? 4
-                                                           : 6;
-  const std::shared_ptr<OIIO::Filter1D> kernel(OIIO::Filter1D::create(kernel_name, standard_width),
-                                               OIIO::Filter1D::destroy);
-  const auto taps_at = [from, to, kernel](int i) {
+  const float width = kernel_name == "box" ? 1 : kernel_name == "triangle" ? 2 : kernel_name == "mitchell" ? 4 : 6;
+  const std::function<float(float)> kernel = image_libraries().filter_kernel(kernel_name, width);
+  const auto taps_at = [from, to, width, kernel](int i) {
     const double ratio = double(from) / to, spread = std::max(1.0, ratio);
-    const double centre = (i + 0.5) * ratio - 0.5, reach = kernel->width() * 0.5 * spread;
+    const double centre = (i + 0.5) * ratio - 0.5, reach = width * 0.5 * spread;
     Taps taps{int(std::ceil(centre - reach)), {}};
     std::vector<double> weights;
-    for (int p = taps.first; p <= centre + reach; p++) weights.push_back((*kernel)(float((p - centre) / spread)));
+    for (int p = taps.first; p <= centre + reach; p++) weights.push_back(kernel(float((p - centre) / spread)));
     make_sum_one(weights, taps);
     return taps;
   };

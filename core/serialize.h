@@ -10,10 +10,12 @@
 /// compressed in blocks, every block with a checksum (core/block_file.h).
 namespace terrazzo {
 
-/// Writes the value to `path` and syncs it to disk. Images are pulled strip by strip; what is computed on demand
-/// becomes stored pixels under the same digest. `seconds`: what the value cost to compute, kept for whoever manages
-/// many such files. Throws Error if the disk is full or the folder cannot be written, and leaves no file then.
-void save_value(const Value& value, const std::filesystem::path& path, const Task& task, double seconds = 0);
+/// Writes the value to `path` and, if `sync`, waits until it is on the disk. Images are pulled strip by strip; what is
+/// computed on demand becomes stored pixels under the same digest. `seconds`: what the value cost to compute, kept for
+/// whoever manages many such files. Throws Error if the disk is full or the folder cannot be written, and leaves no
+/// file then.
+void save_value(const Value& value, const std::filesystem::path& path, const Task& task, double seconds = 0,
+                bool sync = true);
 
 /// Reads what save_value wrote, with the same digest. Verifies every checksum; pixels are then read from the file when
 /// they are pulled, and verified again, so that a pull can throw too. The file may be removed meanwhile, but not

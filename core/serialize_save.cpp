@@ -199,11 +199,11 @@ class ValueWriter {
 
 }  // namespace
 
-void save_value(const Value& value, const std::filesystem::path& path, const Task& task, double seconds) {
+void save_value(const Value& value, const std::filesystem::path& path, const Task& task, double seconds, bool sync) {
   BlockFileWriter file(path, task);
   ValueWriter writer(file, task, std::visit(CountSamples(), value));
   std::visit(writer, value);
-  file.finish({uint32_t(type_of(value)), digest_of(value), seconds}, writer.description());
+  file.finish({uint32_t(type_of(value)), digest_of(value), seconds}, writer.description(), sync);
 }
 
 }  // namespace terrazzo

@@ -51,7 +51,15 @@ void add_layout_figures(const LayoutFigures& f, std::vector<Report::Figure>& out
                  "seam_share times seam_difference: what the seams cost in all; lower is better"});
 }
 
-void add_wrap_figures(const Material& output, const std::vector<std::string>& maps, std::vector<Report::Figure>& out) {
+/// The directions in which the output should wrap around.
+UvWraps expected_wraps(const std::string& tileable, const UvMap* uv) {
+  if (tileable == "auto") return uv ? uv->wraps() : UvWraps{};
+  return {tileable == "x" || tileable == "xy", tileable == "y" || tileable == "xy", false};
+}
+
+void add_wrap_figures(const Material& output, const std::vector<std::string>& maps, const UvWraps& wraps,
+                      std::vector<Report::Figure>& out) {
+  if (!wraps.x && !wraps.y) return;
   struct Worst {
     double ratio = 0;
     std::string map;
@@ -62,13 +70,11 @@ void add_wrap_figures(const Material& output, const std::vector<std::string>& ma
     if (seam.y > y.ratio) y = {seam.y, name};
   }
   const auto help = [](const char* borders, const Worst& worst) {
-    return fmt::format(
-        "only for output that should tile: gradient from {} border over the interior's, worst map ({}); "
-        "about 1 is good, higher is a seam",
-        borders, worst.map);
+    return fmt::format("gradient from {} border over the interior's, worst map ({}); about 1 is good, higher is a seam",
+                       borders, worst.map);
   };
-  out.push_back({"wrap_seam_x", rounded(x.ratio), help("right to left", x)});
-  out.push_back({"wrap_seam_y", rounded(y.ratio), help("bottom to top", y)});
+  if (wraps.x) out.push_back({"wrap_seam_x", rounded(x.ratio), help("right to left", x)});
+  if (wraps.y) out.push_back({"wrap_seam_y", rounded(y.ratio), help("bottom to top", y)});
 }
 
 void check_layout(const UvMap& uv, const Material& exemplar, const Material& output) {
@@ -112,7 +118,7 @@ void compute(NodeContext& node) {
   figures.push_back(
       {"repeat", rounded(q.repeat), "how much stronger the output repeats itself than the exemplar; lower is better"});
   if (layout) add_layout_figures(*layout, figures);
-  add_wrap_figures(*output, maps, figures);
+  add_wrap_figures(*output, maps, expected_wraps(node.text("tileable"), uv.get()), figures);
 
   const ImagePtr sheet = comparison_sheet(*exemplar, *output, maps, int(node.integer("sheet_size")));
   node.output("sheet", sheet);
@@ -137,7 +143,7 @@ size_t memory_hint(const NodeContext& node) {
 NodeType compare_node() {
   NodeType t;
   t.name = "compare";
-  t.version = 2;
+  t.version = 3;
   t.category = "sink";
   t.summary = "Scores a result against its exemplar";
   t.help =
@@ -168,6 +174,12 @@ NodeType compare_node() {
        .fallback = false,
        .help = "The exemplar tiles: where the uv map goes over its edge, there is no seam. Most uv maps say so "
                "themselves."},
+      {.name = "tileable",
+       .type = ParamType::choice,
+       .fallback = "auto",
+       .help = "Directions in which the output should wrap around, for the figures wrap_seam_x and wrap_seam_y. "
+               "\"auto\": as the uv map does; none without one.",
+       .choices = {"auto", "none", "x", "y", "xy"}},
       {.name = "sheet_size",
        .type = ParamType::integer,
        .fallback = int64_t{1536},

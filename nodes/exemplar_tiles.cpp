@@ -1,5 +1,8 @@
 #include "nodes/exemplar_tiles.h"
 
+#include <map>
+#include <mutex>
+
 #include "core/analysis/weighting.h"
 
 namespace terrazzo {
@@ -23,10 +26,27 @@ Port mask_port() {
           .optional = true};
 }
 
+namespace {
+
+/// Several nodes ask it of the same exemplar, often at once; the first finds out.
+bool found_to_tile(const Material& material) {
+  constexpr size_t most_known = 64;
+  static std::mutex mutex;
+  static std::map<Digest, bool> known;
+  const std::lock_guard lock(mutex);
+  const auto at = known.find(material.digest());
+  if (at != known.end()) return at->second;
+  const bool tiles = seems_to_tile(material);
+  if (known.size() == most_known) known.clear();
+  return known[material.digest()] = tiles;
+}
+
+}  // namespace
+
 bool exemplar_tiles(NodeContext& node, const Material& material) {
   const std::string& tiles = node.text("tiles");
   if (tiles != "auto") return tiles == "yes";
-  const bool fits = seems_to_tile(material);
+  const bool fits = found_to_tile(material);
   if (fits) node.note("the exemplar tiles: its opposite borders are treated as neighbours");
   return fits;
 }

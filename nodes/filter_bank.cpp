@@ -21,6 +21,7 @@ ImagePtr grey_map(const NodeContext& node, const Material& material) {
 
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
+  require_one_shape("material", *material);
   const bool wraps = exemplar_tiles(node, *material);
   const ImagePtr grey = nearest_at_size(grey_map(node, *material), material->size());
   std::vector<double> first_only(size_t(grey->channels()), 0.0);

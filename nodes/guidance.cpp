@@ -3,6 +3,7 @@
 #include "core/analysis/feature_distance.h"
 #include "core/analysis/weighting.h"
 #include "core/color.h"
+#include "core/image_ops.h"
 #include "nodes/exemplar_tiles.h"
 
 namespace terrazzo {
@@ -11,6 +12,7 @@ namespace {
 
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
+  require_one_shape("material", *material);
   EdgeOptions options;
   options.maps = node.texts("maps");
   if (node.number("threshold") > 0) options.threshold = node.number("threshold");

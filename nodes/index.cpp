@@ -6,7 +6,7 @@ namespace terrazzo {
 NodeType index_node() {
   NodeType t;
   t.name = "index";
-  t.version = 2;
+  t.version = 3;
   t.category = "analysis";
   t.summary = "Finds each exemplar pixel's similar pixels";
   t.help =

@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include "core/error.h"
 #include "core/image_ops.h"
 #include "core/synthesis/kept.h"
 #include "nodes/synthesis_params.h"
@@ -36,6 +39,11 @@ void compute(NodeContext& node) {
   }
   require_shape("mask", *holes, uv ? "the uv map" : "the exemplar", options.size);
   options.kept = outside_holes(uv.get(), holes, options.size);
+  const std::vector<uint8_t>& keep = options.kept.keep;
+  if (std::find(keep.begin(), keep.end(), 1) == keep.end())
+    throw Error("mask",
+                "the holes cover everything, so that nothing is kept; white (above 0.5) is filled and black stays. "
+                "Invert the mask (levels) if it is the other way round; for wholly new material use \"synthesize\"");
   node.output("uv", synthesize(*index, options, node.task()));
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/analysis/weighting.h"
 #include "core/color.h"
+#include "core/image_ops.h"
 #include "nodes/exemplar_tiles.h"
 #include "nodes/image_work.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
+  require_one_shape("material", *material);
   const NumberMap weights = weights_of_chosen(*material, node.texts("maps"));
   const FeaturesPtr features = weighted_features(*material, weights, exemplar_tiles(node, *material));
   const Size size = material->size();

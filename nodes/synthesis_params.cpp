@@ -28,6 +28,12 @@ const std::vector<Param>& shared_params() {
        .fallback = 1,
        .help = "Another seed gives another arrangement.",
        .min = 0},
+      {.name = "quality",
+       .type = ParamType::choice,
+       .fallback = "normal",
+       .help = "How many passes and candidates every level gets. draft is several times quicker, for editing; best is "
+               "slower and a little better.",
+       .choices = {quality_names.begin(), quality_names.end()}},
       {.name = "coherence",
        .type = ParamType::number,
        .fallback = 0.5,
@@ -136,6 +142,8 @@ SynthesisOptions synthesis_options(const NodeContext& node, const Index& index) 
     options.tile_y = tileable == "y" || tileable == "xy";
   }
   options.seed = uint64_t(node.integer("seed"));
+  const auto quality = std::find(quality_names.begin(), quality_names.end(), node.text("quality"));
+  options.quality = static_cast<Quality>(quality - quality_names.begin());
   options.coherence = node.number("coherence");
   options.evenness = node.number("evenness");
   options.jitter = jitter_amplitudes(jitter_spec(node), *index.appearance());

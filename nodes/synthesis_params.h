@@ -18,7 +18,7 @@ inline constexpr int largest_surface = 65536;
 Param surface_param(std::string name, std::string help, int least);
 /// Parameter "tileable": directions in which the result wraps around.
 Param tileable_param();
-/// `own` parameters, followed by those of every synthesis: seed, coherence, evenness, and jitter.
+/// `own` parameters, followed by those of every synthesis: seed, quality, coherence, evenness, and jitter.
 std::vector<Param> with_synthesis_params(std::vector<Param> own);
 /// Checks them; for NodeType::check.
 std::vector<std::string> check_synthesis_params(const Params& params);

@@ -1,5 +1,6 @@
 #include "core/analysis/weighting.h"
 #include "core/color.h"
+#include "core/image_ops.h"
 #include "nodes/exemplar_tiles.h"
 
 namespace terrazzo {
@@ -8,6 +9,7 @@ namespace {
 
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
+  require_one_shape("material", *material);
   const bool wraps = exemplar_tiles(node, *material);
   node.output("features",
               weighted_features(*material, node.number_map("weights"), wraps, node.optional_input<Image>("mask")));

@@ -18,6 +18,10 @@ namespace {
 
 constexpr uint64_t default_limit = uint64_t{10} << 30;
 
+/// What is computed quicker than that need not survive a power failure: writing thousands of small entries to the disk
+/// one by one would take longer than making them again. An entry of which only a part got there fails its checksum.
+constexpr double seconds_worth_syncing = 0.05;
+
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
   return value ? value : "";
@@ -93,7 +97,7 @@ std::optional<StageRecord> Cache::find_stage(const Digest& key) {
 void Cache::store_stage(const Digest& key, const StageRecord& record) {
   try {
     state_->folder.write(state_->folder.path_of(EntryKind::stage, key), stage_to_bytes(key, record),
-                         state_->pins.owner(), true);
+                         state_->pins.owner(), record.seconds >= seconds_worth_syncing);
   } catch (const Error& e) {
     state_->warn_unwritten(e);
   }
@@ -126,8 +130,9 @@ void Cache::store_value(const Value& value, double seconds, const Task& task) {
   const std::filesystem::path target = state_->folder.path_of(EntryKind::value, digest_of(value));
   try {
     const std::filesystem::path temporary = state_->folder.temporary(target, state_->pins.owner());
-    save_value(value, temporary, task, seconds);
-    state_->folder.publish(temporary, target, true);
+    const bool sync = seconds >= seconds_worth_syncing;
+    save_value(value, temporary, task, seconds, sync);
+    state_->folder.publish(temporary, target, sync);
   } catch (const Error& e) {
     state_->warn_unwritten(e);
   }

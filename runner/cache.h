@@ -37,9 +37,10 @@ struct CacheStatus {
 
 /// Results by content, in a folder that any number of threads, processes and machines may share. A stage record says,
 /// by a stage's key, which values came out; values lie under their own digest. Everything is written to a temporary
-/// name in the same folder, synced and renamed, the record after its values; everything is checksummed, and whatever
-/// is damaged, half-written or missing is a miss. All functions are thread-safe, and none but the constructor throws
-/// for trouble with the cache itself: a cache that cannot be written costs time, not the run.
+/// name in the same folder, synced if it took a while to compute, and renamed, the record after its values; everything
+/// is checksummed, and whatever is damaged, half-written or missing is a miss. All functions are thread-safe, and none
+/// but the constructor throws for trouble with the cache itself: a cache that cannot be written costs time, not the
+/// run.
 class Cache {
  public:
   /// $TERRAZZO_CACHE, or terrazzo under $XDG_CACHE_HOME, or ~/.cache/terrazzo.

@@ -1,6 +1,8 @@
 #include "runner/cli.h"
 
 #include <charconv>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -84,6 +86,14 @@ int usage_error(const CLI::App& app, ProgressMode mode, const std::string& what)
 }
 
 }  // namespace
+
+void check_writable(const char* option, const std::string& path) {
+  if (path.empty()) return;
+  std::error_code missing;
+  const bool was_there = std::filesystem::exists(path, missing);
+  if (!std::ofstream(path, std::ios::app)) throw UsageError(fmt::format("{} {}: cannot write there", option, path));
+  if (!was_there) std::filesystem::remove(path, missing);
+}
 
 uint64_t parse_bytes(const std::string& text, const std::string& option) {
   const auto wrong = [&]() -> UsageError {

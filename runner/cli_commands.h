@@ -35,6 +35,9 @@ void add_node_commands(CLI::App& app, Chosen& chosen);
 void add_cache_command(CLI::App& app, Chosen& chosen);
 void add_compare_command(CLI::App& app, Chosen& chosen);
 
+/// Better to say it before the run than after it: throws UsageError unless the option's file can be written. No file if
+/// `path` is empty.
+void check_writable(const char* option, const std::string& path);
 /// "512M", "2G", "1.5 GiB" in bytes. Throws UsageError.
 uint64_t parse_bytes(const std::string& text, const std::string& option);
 /// 1536 MiB as "1.5 GiB".

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CompareFlags {
-  std::string exemplar, output, uv, sheet;
+  std::string exemplar, output, uv, sheet, tileable = "auto";
   bool json = false;
 };
 
@@ -27,16 +27,16 @@ bool is_page(const fs::path& path) {
   return path.extension() == ".html" || path.extension() == ".htm";
 }
 
-/// Better to say it before the run than after it.
 void check_sheet(const std::string& path) {
   if (!path.empty() && !is_page(path) && !format_from(path))
     throw UsageError(fmt::format(
         "--sheet {}: the extension decides the format; expected .html for a page, or .png, .jpg, .tif or .exr", path));
+  if (is_page(path)) check_writable("--sheet", path);  // the plan looks at pictures
 }
 
 Graph compare_graph(const CompareFlags& flags) {
   Graph graph;
-  GraphNode figures = memory_node("figures", "compare", {});
+  GraphNode figures = memory_node("figures", "compare", {{"tileable", flags.tileable}});
   for (const auto& [side, path] : {std::pair("exemplar", flags.exemplar), std::pair("output", flags.output)}) {
     graph.nodes.push_back(reading_node(side, path));
     figures.inputs[side] = {{side, graph.nodes.back().type->outputs.front().name}};
@@ -107,6 +107,12 @@ void add_compare_command(CLI::App& app, Chosen& chosen) {
       ->add_option("--uv", flags->uv,
                    "The uv map that was exported with the output: adds figures about seams, copies and evenness of use")
       ->type_name("FILE");
+  command
+      ->add_option("--tileable", flags->tileable,
+                   "Directions in which the output should wrap around: adds figures about its seams. auto: as the uv "
+                   "map does")
+      ->type_name("auto|none|x|y|xy")
+      ->check(CLI::IsMember({"auto", "none", "x", "y", "xy"}));
   command->add_flag("--json", flags->json, "For programs");
   command
       ->add_option("--sheet", flags->sheet,

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -28,6 +30,12 @@ int check(const DocumentFlags& flags) {
   const LoadedGraph loaded = load_graph(flags.graph, flags.set, {.allow_unset = true});
   for (const std::string& c : loaded.conversions) fmt::print("{}\n", c);
   for (const std::string& w : loaded.warnings) say("warning: {}\n", w);
+  const auto unset = std::find_if(loaded.parameters.begin(), loaded.parameters.end(),
+                                  [](const GraphParameter& p) { return !p.value.has_value(); });
+  if (unset == loaded.parameters.end())
+    make_plan(loaded.graph, nullptr);
+  else
+    say("files and maps are not looked at as long as a parameter is not set: --set {}=VALUE\n", unset->param.name);
   const auto counted = [](size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
   fmt::print("{} is valid: {}, {}\n", flags.graph, counted(loaded.graph.nodes.size(), "node"),
              counted(loaded.parameters.size(), "parameter"));

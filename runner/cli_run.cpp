@@ -1,13 +1,13 @@
 #include "runner/cli_run.h"
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/synthesis/synthesize.h"
 #include "graphs/document/load.h"
 #include "runner/cli_commands.h"
 #include "runner/history.h"
@@ -38,14 +38,6 @@ std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
     warn(flags, fmt::format("running without a cache: {}", e.what()));
     return nullptr;
   }
-}
-
-/// Better to say it before the run than after it.
-void check_writable(const std::string& path, const char* option) {
-  if (path.empty()) return;
-  const bool was_there = fs::exists(path);
-  if (!std::ofstream(path, std::ios::app)) throw UsageError(fmt::format("{} {}: cannot write there", option, path));
-  if (!was_there) fs::remove(path);
 }
 
 bool is_terminal() {
@@ -152,8 +144,8 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
 
 int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
   if (!flags.memory.empty()) parse_bytes(flags.memory, "--memory");
-  check_writable(flags.report, "--report");
-  check_writable(flags.trace, "--trace");
+  check_writable("--report", flags.report);
+  check_writable("--trace", flags.trace);
   const CancelOnSignal signals;
   const std::unique_ptr<Cache> cache = open_cache(flags);
   if (flags.watch) return watch(load, flags, cache.get(), signals.flag());
@@ -208,7 +200,7 @@ bool same_folder(const std::string& a, const std::string& b) {
 void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
   struct Flags : RunFlags {
-    std::string folder, out, size, seed;
+    std::string folder, out, size, seed, quality;
     bool tileable = false;
   };
   const auto flags = std::make_shared<Flags>();
@@ -216,6 +208,9 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
   synth->add_option("-o,--out", flags->out, "The folder to write to")->required()->type_name("DIR");
   synth->add_option("--size", flags->size, "The size of the result")->type_name("WxH");
   synth->add_option("--seed", flags->seed, "Another number gives another variation")->type_name("N");
+  synth->add_option("--quality", flags->quality, "draft is quick, best takes its time")
+      ->type_name("LEVEL")
+      ->check(CLI::IsMember(std::vector<std::string>(quality_names.begin(), quality_names.end())));
   synth->add_flag("--tileable", flags->tileable, "The result wraps around in both directions");
   add_run_flags(*synth, *flags);
   synth->footer("Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7");
@@ -224,6 +219,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       std::vector<std::string> set = {"material=" + flags->folder, "out=" + flags->out};
       if (!flags->size.empty()) set.push_back("size=" + flags->size);
       if (!flags->seed.empty()) set.push_back("seed=" + flags->seed);
+      if (!flags->quality.empty()) set.push_back("quality=" + flags->quality);
       if (flags->tileable) set.push_back("tileable=xy");
       if (same_folder(flags->folder, flags->out))
         throw UsageError(

@@ -28,7 +28,7 @@ Coordinator::Coordinator(Plan& plan, const RunOptions& options, int threads, uin
     live_[i].open_readers = static_cast<int>(s.readers.size());
     StageOutcome outcome;
     outcome.node = s.node->name;
-    outcome.kind = s.needed ? StageOutcome::Kind::unfinished : StageOutcome::Kind::idle;
+    outcome.kind = s.expected() ? StageOutcome::Kind::unfinished : StageOutcome::Kind::idle;
     outcomes_.push_back(outcome);
   }
 }

@@ -45,6 +45,8 @@ struct Stage {
   std::string reason;
 
   const NodeType& type() const { return *node->type; }
+  /// Whether a run is going to reuse or compute it; a lazy stage that has never run may not be asked for.
+  bool expected() const { return needed && (state != StageState::derived || known->record); }
 };
 
 struct PlanOptions {

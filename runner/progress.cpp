@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 #include "graphs/document/problem.h"
 
@@ -35,15 +36,41 @@ class Throttle {
   std::map<const Stage*, Clock::time_point> last_;
 };
 
-/// How many stages will be reused or run; lazy ones that have never run may not be asked for.
-int expected(const Plan& plan) {
-  return static_cast<int>(std::count_if(plan.stages.begin(), plan.stages.end(), [](const Stage& s) {
-    return s.needed && (s.state != StageState::derived || s.known->record);
-  }));
-}
+/// How many stages there are to be settled, and how many have been. Stages that had looked cached, and lazy ones, may
+/// run after all; one may be reused, and then run for a reader.
+class StageCount {
+ public:
+  void plan(const Plan& plan) {
+    for (const Stage& s : plan.stages)
+      if (s.expected()) expected_.insert(&s);
+  }
+  void begin(const Stage& s) { expected_.insert(&s); }
+  void settle(const Stage& s) {
+    expected_.insert(&s);
+    settled_.insert(&s);
+  }
+  int settled() const { return static_cast<int>(settled_.size()); }
+  int all() const { return static_cast<int>(expected_.size()); }
+
+ private:
+  std::set<const Stage*> expected_, settled_;
+};
 
 void write_event(std::ostream& out, const Json& event) {
   out << event.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+}
+
+/// What the process has used since it began.
+struct ProcessUsage {
+  double cpu_seconds = 0;
+  int64_t peak_memory = 0;  ///< bytes
+};
+
+ProcessUsage process_usage() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + double(t.tv_usec) * 1e-6; };
+  return {seconds(used.ru_utime) + seconds(used.ru_stime), int64_t{used.ru_maxrss} * 1024};
 }
 
 class NoProgress : public Progress {
@@ -93,6 +120,7 @@ class JsonProgress : public Progress {
   }
   void closed(const RunResult& r) override {
     using Kind = StageOutcome::Kind;
+    const ProcessUsage usage = process_usage();
     Json files = Json::array();
     for (const StageOutcome& s : r.stages)
       for (const OutputFile& f : s.files) files.push_back(f.path.string());
@@ -100,6 +128,8 @@ class JsonProgress : public Progress {
            {"ok", r.ok()},
            {"cancelled", r.cancelled},
            {"seconds", r.seconds},
+           {"cpu_seconds", usage.cpu_seconds},
+           {"peak_memory", usage.peak_memory},
            {"cached", r.count(Kind::reused)},
            {"run", r.count(Kind::run)},
            {"failed", r.count(Kind::failed)},
@@ -120,10 +150,11 @@ class JsonProgress : public Progress {
 class PlainProgress : public Progress {
  public:
   explicit PlainProgress(std::ostream& out) : out_(out) {}
-  void planned(const Plan& plan) override { all_ = expected(plan); }
+  void planned(const Plan& plan) override { count_.plan(plan); }
   void started(const Stage& s) override {
     const std::lock_guard lock(mutex_);
     throttle_.start(&s);
+    count_.begin(s);
   }
   void progressed(const Stage& s, double fraction) override {
     const std::lock_guard lock(mutex_);
@@ -135,12 +166,12 @@ class PlainProgress : public Progress {
   }
   void finished(const Stage& s, double seconds) override {
     const std::lock_guard lock(mutex_);
-    settled_.insert(&s);
+    count_.settle(s);
     line(s, fmt::format("{:.2f} s", seconds));
   }
   void reused(const Stage& s) override {
     const std::lock_guard lock(mutex_);
-    settled_.insert(&s);
+    count_.settle(s);
     line(s, s.type().is_sink() ? "up to date" : "cached");
   }
   void failed(const Stage& s, const std::string&) override {
@@ -155,15 +186,12 @@ class PlainProgress : public Progress {
 
  private:
   void line(const Stage& s, const std::string& what) {
-    // Stages that had looked cached, and lazy ones, may run after all.
-    all_ = std::max(all_, settled());
-    out_ << fmt::format("[{}/{}] {} ({}) {}", settled(), all_, s.node->name, s.type().name, what) << std::endl;
+    out_ << fmt::format("[{}/{}] {} ({}) {}", count_.settled(), count_.all(), s.node->name, s.type().name, what)
+         << std::endl;
   }
   std::ostream& out_;
   std::mutex mutex_;
-  int settled() const { return static_cast<int>(settled_.size()); }
-  std::set<const Stage*> settled_;  // a stage may be reused, and then run for a reader
-  int all_ = 0;
+  StageCount count_;
   Throttle throttle_{std::chrono::milliseconds(5000)};
 };
 
@@ -171,10 +199,11 @@ class BarProgress : public Progress {
  public:
   explicit BarProgress(std::ostream& out) : out_(out) {}
   ~BarProgress() override { erase(); }
-  void planned(const Plan& plan) override { all_ = expected(plan); }
+  void planned(const Plan& plan) override { count_.plan(plan); }
   void started(const Stage& s) override {
     const std::lock_guard lock(mutex_);
     running_[&s] = 0;
+    count_.begin(s);
     draw(false);
   }
   void progressed(const Stage& s, double fraction) override {
@@ -208,8 +237,7 @@ class BarProgress : public Progress {
   void settle(const Stage& s) {
     const std::lock_guard lock(mutex_);
     running_.erase(&s);
-    settled_.insert(&s);
-    all_ = std::max(all_, settled());
+    count_.settle(s);
     draw(false);
   }
   void erase() {
@@ -218,25 +246,24 @@ class BarProgress : public Progress {
   }
   void draw(bool at_once) {
     if (!throttle_.open(nullptr) && !at_once) return;
-    double done = settled();
+    double done = count_.settled();
     std::string names;
     for (const auto& [stage, fraction] : running_) {
       done += fraction;
       names += fmt::format("{}{} {:.0f} %", names.empty() ? "" : ", ", stage->node->name, 100 * fraction);
     }
     constexpr int width = 24;
-    const int filled = all_ > 0 ? std::clamp(static_cast<int>(done / all_ * width), 0, width) : 0;
+    const int filled = count_.all() > 0 ? std::clamp(static_cast<int>(done / count_.all() * width), 0, width) : 0;
     constexpr size_t room = 40;  // keeps the line shorter than a terminal of 80 columns
     if (names.size() > room) names = names.substr(0, room - 3) + "...";
-    out_ << fmt::format("\r\x1b[K[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", width - filled, settled(), all_, names)
+    out_ << fmt::format("\r\x1b[K[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", width - filled, count_.settled(),
+                        count_.all(), names)
          << std::flush;
     drawn_ = true;
   }
   std::ostream& out_;
   std::mutex mutex_;
-  int settled() const { return static_cast<int>(settled_.size()); }
-  std::set<const Stage*> settled_;  // a stage may be reused, and then run for a reader
-  int all_ = 0;
+  StageCount count_;
   bool drawn_ = false;
   std::map<const Stage*, double> running_;
   Throttle throttle_{std::chrono::milliseconds(80)};

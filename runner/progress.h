@@ -42,7 +42,8 @@ class Progress : public RunObserver {
 ///   done      "node", "seconds"
 ///   cached    "node": its result was there
 ///   failed    "node", "message"
-///   finished  "ok", "cancelled", "seconds", "cached", "run", "failed", "unfinished", "files": [path]; the run's last
+///   finished  "ok", "cancelled", "seconds", "cpu_seconds" and "peak_memory" (bytes) of the whole process,
+///             "cached", "run", "failed", "unfinished", "files": [path]; the run's last
 ///   watching  "files": how many; the run is over and waits for one of them to change
 std::unique_ptr<Progress> make_progress(ProgressMode mode, std::ostream& out, bool terminal);
 

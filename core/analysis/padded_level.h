@@ -3,6 +3,10 @@
 #include <array>
 #include <vector>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include "core/appearance.h"
 
 namespace terrazzo {
@@ -30,8 +34,8 @@ class PaddedLevel {
       x = x < 0 ? x + size_.width : x >= size_.width ? x - size_.width : x;
       y = y < 0 ? y + size_.height : y >= size_.height ? y - size_.height : y;
     } else {
-      x = std::clamp(x, keep_off_, size_.width - 1 - keep_off_);
-      y = std::clamp(y, keep_off_, size_.height - 1 - keep_off_);
+      x = within(x, keep_off_, size_.width - 1 - keep_off_);
+      y = within(y, keep_off_, size_.height - 1 - keep_off_);
     }
   }
   /// The same, and then to the nearest usable pixel.
@@ -39,11 +43,15 @@ class PaddedLevel {
     settle_inside(x, y);
     if (masked_) settle_usable(x, y);
   }
+  /// Whether synthesis may take a position inside the level.
+  bool is_usable(int x, int y) const {
+    const size_t at = size_t(y) * size_.width + x;
+    return !masked_ || nearest_usable_[at] == at;
+  }
   /// As settle_inside; false if the position is not usable.
   bool settles(int& x, int& y) const {
     settle_inside(x, y);
-    const size_t at = size_t(y) * size_.width + x;
-    return !masked_ || nearest_usable_[at] == at;
+    return is_usable(x, y);
   }
   /// A usable position for 64 random bits, all equally likely.
   std::array<int, 2> place(uint64_t bits) const {
@@ -55,6 +63,11 @@ class PaddedLevel {
   int keep_off() const { return keep_off_; }
 
  private:
+  // As std::clamp, but by value: its references may be taken through memory.
+  [[gnu::always_inline]] static int within(int v, int least, int most) {
+    const int raised = v < least ? least : v;
+    return raised > most ? most : raised;
+  }
   void settle_usable(int& x, int& y) const;
   std::array<int, 2> usable_place(uint64_t bits) const;
 
@@ -68,14 +81,42 @@ class PaddedLevel {
   std::vector<uint32_t> nearest_usable_;  // for every pixel
 };
 
+/// Adds up squared distances of appearance vectors, of at most 25 pairs.
+class DistanceSum {
+ public:
+#if defined(__SSE2__)
+  void add(const AppearanceVector& a, const AppearanceVector& b) {
+    const __m128i difference = _mm_sub_epi16(load(a), load(b));
+    sum_ = _mm_add_epi32(sum_, _mm_madd_epi16(difference, difference));
+  }
+  uint32_t total() const {
+    const __m128i pairs = _mm_add_epi32(sum_, _mm_shuffle_epi32(sum_, _MM_SHUFFLE(1, 0, 3, 2)));
+    return uint32_t(_mm_cvtsi128_si32(_mm_add_epi32(pairs, _mm_shuffle_epi32(pairs, _MM_SHUFFLE(2, 3, 0, 1)))));
+  }
+
+ private:
+  static __m128i load(const AppearanceVector& v) {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(v.data()));
+  }
+  __m128i sum_ = _mm_setzero_si128();
+#else
+  void add(const AppearanceVector& a, const AppearanceVector& b) {
+    for (int d = 0; d < appearance_dimensions; d++) sum_ += uint32_t((a[d] - b[d]) * (a[d] - b[d]));
+  }
+  uint32_t total() const {
+    return sum_;
+  }
+
+ private:
+  uint32_t sum_ = 0;
+#endif
+};
+
 /// Squared distance of two appearance vectors.
 inline int squared_distance(const AppearanceVector& a, const AppearanceVector& b) {
-  int sum = 0;
-  for (int d = 0; d < appearance_dimensions; d++) {
-    const auto t = int16_t(a[d] - b[d]);
-    sum += int(t) * int(t);
-  }
-  return sum;
+  DistanceSum sum;
+  sum.add(a, b);
+  return int(sum.total());
 }
 
 }  // namespace terrazzo

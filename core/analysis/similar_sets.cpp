@@ -1,7 +1,7 @@
 #include "core/analysis/similar_sets.h"
 
-#include <array>
 #include <limits>
+#include <span>
 
 #include <tbb/parallel_for.h>
 
@@ -12,150 +12,199 @@ namespace terrazzo {
 namespace {
 
 constexpr int64_t exhaustive_area = 1600;
-constexpr int rounds = 5;
-constexpr int apart = 3;  // pixels between members of a set, in x or y
+constexpr int rounds = 4;
+// A level with a coarser one looks no farther for new places than one with this side: its parent has done that.
+constexpr int searched_side = 128;
+constexpr int apart = 3;       // pixels between members of a set, in x or y
+constexpr int tile_side = 32;  // pixels that one thread goes through in order
 
-constexpr int none = std::numeric_limits<int>::max();
+constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
 
 struct Found {
-  int distance = none;
-  int x = 0;
-  int y = 0;
+  uint32_t distance = none;
+  uint16_t x = 0;
+  uint16_t y = 0;
 };
-using Set = std::array<Found, most_similar>;
+using Set = std::span<Found>;  // best first
+
+bool is_full(Set set) {
+  return set.back().distance != none;
+}
+
+/// The sets of all pixels of a level.
+struct Sets {
+  Size size;
+  int per_pixel = 0;
+  std::vector<Found> found;
+
+  Sets() = default;
+  Sets(Size s, int count) : size(s), per_pixel(count), found(size_t(s.area()) * count) {}
+  Set at(int x, int y) { return {&found[(size_t(y) * size.width + x) * per_pixel], size_t(per_pixel)}; }
+};
+
+constexpr int no_period = 1 << 30;
 
 class LevelSearch {
  public:
-  LevelSearch(const AppearanceLevel& level, bool wraps, int per_pixel, const LatticePhase& phase)
+  LevelSearch(const AppearanceLevel& level, bool wraps, const LatticePhase& phase)
       : level_(level, wraps),
         phase_(phase),
-        per_pixel_(per_pixel),
+        period_x_(wraps ? level.size.width : no_period),
+        period_y_(wraps ? level.size.height : no_period),
         away_(std::max(3, std::min(level.size.width, level.size.height) / 20)) {}
 
   Size size() const { return level_.size(); }
   std::array<int, 2> place(uint64_t bits) const { return level_.place(bits); }
 
-  /// Distance of the surroundings: nine vectors, two pixels apart, which together see 9x9 pixels.
-  int distance(int x, int y, int u, int v, int limit) const {
-    int sum = 0;
-    for (int j = -2; j <= 2; j += 2) {
-      for (int i = -2; i <= 2; i += 2) sum += squared_distance(*level_.at(x + i, y + j), *level_.at(u + i, v + j));
-      if (sum >= limit) break;
-    }
-    return sum;
+  /// (u, v) where it is usable, of a regular exemplar the place in phase with (x, y) that is nearest to it.
+  std::array<int, 2> settled(int x, int y, int u, int v) const {
+    phase_.snap(x, y, u, v);
+    level_.settle(u, v);
+    return {u, v};
+  }
+  void prefetch(const std::array<int, 2>& place) const {
+    for (int j = -2; j <= 2; j += 2)
+      for (int i = -2; i <= 2; i += 4) __builtin_prefetch(level_.at(place[0] + i, place[1] + j));
   }
 
-  /// Offers (u, v), or of a regular exemplar the place in phase that is nearest to it.
-  void offer_near(Set& set, int x, int y, int u, int v) const {
-    phase_.snap(x, y, u, v);
+  /// Offers a place that may lie outside the level.
+  void offer_shifted(Set set, int x, int y, int u, int v) const {
+    level_.settle(u, v);
     offer(set, x, y, u, v);
   }
 
   /// Puts (u, v) into the set of (x, y) if it belongs there.
-  void offer(Set& set, int x, int y, int u, int v) const {
-    level_.settle(u, v);
-    if (phase_.resolves_cells() && phase_.penalty(u, v, x, y) > 1) return;
-    if (between(x, u, size().width) < away_ && between(y, v, size().height) < away_) return;
+  void offer(Set set, int x, int y, int u, int v) const {
     // A newcomer may take the place of one member that is too near to it, if it is better; between two it has no place.
-    int limit = set[per_pixel_ - 1].distance, near = -1;
-    for (int k = 0; k < per_pixel_ && set[k].distance != none; k++) {
-      if (between(set[k].x, u, size().width) >= apart || between(set[k].y, v, size().height) >= apart) continue;
-      if (near >= 0) return;
-      near = k;
-      limit = set[k].distance;
+    size_t place = set.size() - 1;
+    uint32_t limit = set[place].distance;
+    int near = 0;
+    bool is_member = false;
+    for (size_t k = 0; k < set.size(); k++) {
+      const Found f = set[k];
+      const int apart_x = between(f.x, u, period_x_), apart_y = between(f.y, v, period_y_);
+      const bool is_near = (apart_x < apart) & (apart_y < apart) & (f.distance != none);
+      is_member |= is_near & (apart_x + apart_y == 0);
+      near += is_near;
+      place = is_near ? k : place;
+      limit = is_near ? f.distance : limit;
     }
-    const int d = distance(x, y, u, v, limit);
+    if (is_member | (near > 1)) return;
+    if (between(x, u, period_x_) < away_ && between(y, v, period_y_) < away_) return;
+    if (phase_.resolves_cells() && phase_.penalty(u, v, x, y) > 1) return;
+    const uint32_t d = distance(x, y, u, v, limit);
     if (d >= limit) return;
-    int k = near >= 0 ? near : per_pixel_ - 1;
-    for (; k > 0 && set[k - 1].distance > d; k--) set[k] = set[k - 1];
-    set[k] = {d, u, v};
+    for (; place > 0 && set[place - 1].distance > d; place--) set[place] = set[place - 1];
+    set[place] = {d, uint16_t(u), uint16_t(v)};
+  }
+
+  /// Distance of the surroundings: nine vectors, two pixels apart, which together see 9x9 pixels. Gives up, with a
+  /// part of it, once that reaches the limit.
+  uint32_t distance(int x, int y, int u, int v, uint32_t limit) const {
+    const AppearanceVector *a = level_.at(x, y), *b = level_.at(u, v);
+    DistanceSum sum;
+    for (const int row : {0, -2 * level_.stride(), 2 * level_.stride()}) {
+      for (const int column : {0, -2, 2}) sum.add(a[row + column], b[row + column]);
+      if (sum.total() >= limit) break;
+    }
+    return sum.total();
   }
 
  private:
-  int between(int a, int b, int n) const {
+  static int between(int a, int b, int period) {
     const int d = std::abs(a - b);
-    return level_.wraps() ? std::min(d, n - d) : d;
+    return std::min(d, period - d);
   }
   PaddedLevel level_;
   LatticePhase phase_;
-  int per_pixel_;
+  int period_x_, period_y_;
   int away_;
 };
 
-using Sets = std::vector<Set>;
-
-template <typename Fill>
-void for_each_pixel(Size size, const Task& task, const Fill& fill) {
+void search_all(const LevelSearch& level, Sets& sets, const Task& task) {
+  const Size size = level.size();
   tbb::parallel_for(0, size.height, [&](int y) {
     task.check();
-    for (int x = 0; x < size.width; x++) fill(x, y);
+    for (int x = 0; x < size.width; x++) {
+      const Set set = sets.at(x, y);
+      for (int v = 0; v < size.height; v++)
+        for (int u = 0; u < size.width; u++)
+          if (level.distance(x, y, u, v, set.back().distance) < set.back().distance)
+            level.offer_shifted(set, x, y, u, v);
+    }
   });
 }
 
-Sets search_all(const LevelSearch& level, const Task& task) {
-  const Size size = level.size();
-  Sets sets(size_t(size.area()));
-  for_each_pixel(size, task, [&](int x, int y) {
-    Set& set = sets[size_t(y) * size.width + x];
-    for (int v = 0; v < size.height; v++)
-      for (int u = 0; u < size.width; u++) level.offer(set, x, y, u, v);
-  });
-  return sets;
-}
-
-/// Starts from the parents' sets, if there is a coarser level, and from random places.
-Sets started(const LevelSearch& level, int per_pixel, const Sets& parent, Size parent_size, const Task& task) {
-  const Size size = level.size();
-  Sets sets(size_t(size.area()));
-  for_each_pixel(size, task, [&](int x, int y) {
-    Set& set = sets[size_t(y) * size.width + x];
-    if (!parent.empty()) {
-      const Set& from = parent[size_t(y / 2) * parent_size.width + x / 2];
-      for (int k = 0; k < per_pixel; k++) level.offer_near(set, x, y, 2 * from[k].x + (x & 1), 2 * from[k].y + (y & 1));
-    }
-    const int random_places = parent.empty() ? 8 * per_pixel : per_pixel;
-    for (int k = 0; k < random_places; k++) {
-      const uint64_t r = random_bits(1, x, y, k);
-      const auto [u, v] = level.place(r);
-      level.offer_near(set, x, y, u, v);
+/// Starts from the parents' sets, or where there is no coarser level, or they do not fill a set, from random places.
+void start(const LevelSearch& level, Sets& sets, Sets& parent, const Task& task) {
+  const bool has_parent = !parent.found.empty();
+  tbb::parallel_for(0, sets.size.height, [&](int y) {
+    task.check();
+    for (int x = 0; x < sets.size.width; x++) {
+      const Set set = sets.at(x, y);
+      const auto offer = [&](const std::array<int, 2>& place) { level.offer(set, x, y, place[0], place[1]); };
+      if (has_parent)
+        for (const Found& f : parent.at(x / 2, y / 2)) offer(level.settled(x, y, 2 * f.x + (x & 1), 2 * f.y + (y & 1)));
+      for (int k = 0; k < 8 * sets.per_pixel && !(has_parent && is_full(set)); k++) {
+        const auto [u, v] = level.place(random_bits(1, x, y, k));
+        offer(level.settled(x, y, u, v));
+      }
     }
   });
-  return sets;
 }
 
-/// One round: every pixel looks at what its neighbours found in the round before, and at random around its own finds.
-Sets improved(const LevelSearch& level, int per_pixel, const Sets& before, int round, const Task& task) {
-  const Size size = level.size();
-  Sets sets = before;
-  constexpr int dx[4] = {-1, 1, 0, 0}, dy[4] = {0, 0, -1, 1};
-  for_each_pixel(size, task, [&](int x, int y) {
-    Set& set = sets[size_t(y) * size.width + x];
-    const Set own = set;
-    for (int n = 0; n < 4; n++) {
-      const int nx = x + dx[n], ny = y + dy[n];
-      if (nx < 0 || ny < 0 || nx >= size.width || ny >= size.height) continue;
-      const Set& other = before[size_t(ny) * size.width + nx];
-      for (int k = 0; k < per_pixel; k++) level.offer(set, x, y, other[k].x - dx[n], other[k].y - dy[n]);
+/// Every pixel of a tile looks at what two of its neighbours have found, and at random around its own finds.
+void improve_tile(const LevelSearch& level, Sets& sets, const Rect& tile, int round, int widest) {
+  const Size size = sets.size;
+  const int step = round % 2 == 0 ? 1 : -1;
+  std::array<std::array<int, 2>, most_similar> at_random;
+  for (int j = 0; j < tile.height; j++)
+    for (int i = 0; i < tile.width; i++) {
+      const int x = step > 0 ? tile.x + i : tile.right() - 1 - i, y = step > 0 ? tile.y + j : tile.bottom() - 1 - j;
+      const Set set = sets.at(x, y);
+      for (int k = 0; k < sets.per_pixel; k++) {
+        const int reach = std::max(2, widest >> (2 * round + 2 + k % 2));
+        const uint64_t r = random_bits(2, x, y, k, round);
+        at_random[k] = level.settled(x, y, set[k].x + int(below(uint32_t(r), 2 * reach + 1)) - reach,
+                                     set[k].y + int(below(uint32_t(r >> 32), 2 * reach + 1)) - reach);
+        level.prefetch(at_random[k]);
+      }
+      const auto look_at = [&](int dx, int dy) {
+        const int nx = x - dx, ny = y - dy;
+        if (nx < 0 || ny < 0 || nx >= size.width || ny >= size.height) return;
+        for (const Found& f : sets.at(nx, ny)) level.offer_shifted(set, x, y, f.x + dx, f.y + dy);
+      };
+      look_at(step, 0);
+      look_at(0, step);
+      for (int k = 0; k < sets.per_pixel; k++) level.offer(set, x, y, at_random[k][0], at_random[k][1]);
     }
-    for (int k = 0; k < per_pixel; k++) {
-      const int reach = std::max(2, std::max(size.width, size.height) >> (2 * round + 2 + k % 2));
-      const uint64_t r = random_bits(2, x, y, k, round);
-      level.offer_near(set, x, y, own[k].x + int(below(uint32_t(r), 2 * reach + 1)) - reach,
-                       own[k].y + int(below(uint32_t(r >> 32), 2 * reach + 1)) - reach);
-    }
-  });
-  return sets;
 }
 
-SimilarSets packed(const Sets& sets, Size size, int per_pixel) {
-  SimilarSets out{per_pixel, {}};
-  out.positions.reserve(sets.size() * per_pixel);
-  for (size_t i = 0; i < sets.size(); i++)
-    for (int k = 0; k < per_pixel; k++) {
-      const Found& f = sets[i][k];
-      // Too small an exemplar may not have enough places apart: the pixel itself then fills the set.
-      out.positions.push_back(f.distance == none ? uint32_t(i) : uint32_t(f.y * size.width + f.x));
-    }
+/// One round over all tiles, those of one colour of a chequerboard after those of the other: a tile's neighbours stand
+/// still while it is gone through.
+void improve(const LevelSearch& level, Sets& sets, int round, int widest, const Task& task) {
+  const int columns = (sets.size.width + tile_side - 1) / tile_side,
+            rows = (sets.size.height + tile_side - 1) / tile_side;
+  for (int colour = 0; colour < 2; colour++)
+    tbb::parallel_for(0, rows * columns, [&](int i) {
+      const int column = i % columns, row = i / columns;
+      if ((column + row) % 2 != colour) return;
+      task.check();
+      improve_tile(level, sets,
+                   intersect(whole(sets.size), {column * tile_side, row * tile_side, tile_side, tile_side}), round,
+                   widest);
+    });
+}
+
+SimilarSets packed(const Sets& sets) {
+  SimilarSets out{sets.per_pixel, {}};
+  out.positions.reserve(sets.found.size());
+  for (size_t i = 0; i < sets.found.size(); i++) {
+    const Found& f = sets.found[i];
+    // Too small an exemplar may not have enough places apart: the pixel itself then fills the set.
+    out.positions.push_back(f.distance == none ? uint32_t(i / sets.per_pixel)
+                                               : uint32_t(f.y) * uint32_t(sets.size.width) + f.x);
+  }
   return out;
 }
 
@@ -164,19 +213,21 @@ SimilarSets packed(const Sets& sets, Size size, int per_pixel) {
 IndexPtr make_index(const AppearancePtr& appearance, int per_pixel, const Task& task) {
   const std::vector<AppearanceLevel>& levels = appearance->levels();
   std::vector<SimilarSets> out(levels.size());
-  Sets sets;
-  Size parent_size;
+  Sets parent;
   for (int l = int(levels.size()) - 1; l >= 0; l--) {
-    const LevelSearch level(levels[l], appearance->wraps(), per_pixel,
+    const LevelSearch level(levels[l], appearance->wraps(),
                             LatticePhase(appearance->lattice(), l, appearance->size(), false, false));
+    Sets sets(level.size(), per_pixel);
     if (level.size().area() <= exhaustive_area) {
-      sets = search_all(level, task);
+      search_all(level, sets, task);
     } else {
-      sets = started(level, per_pixel, sets, parent_size, task);
-      for (int round = 0; round < rounds; round++) sets = improved(level, per_pixel, sets, round, task);
+      start(level, sets, parent, task);
+      const int longest = std::max(sets.size.width, sets.size.height);
+      const int widest = parent.found.empty() ? longest : std::min(longest, searched_side);
+      for (int round = 0; round < rounds; round++) improve(level, sets, round, widest, task);
     }
-    parent_size = level.size();
-    out[l] = packed(sets, parent_size, per_pixel);
+    out[l] = packed(sets);
+    parent = std::move(sets);
     task.progress(1.0 / double(int64_t{1} << (2 * l)));
   }
   return Index::make(appearance, std::move(out));

@@ -46,8 +46,9 @@ std::vector<uint8_t> allowed_pixels(const Features& features) {
   });
   if (std::find(out.begin(), out.end(), 1) == out.end())
     throw Error("mask",
-                "the mask allows no pixel of the exemplar; it must be above 0.5 (white) where the exemplar may be "
-                "sampled. If it marks what to leave out, invert it (levels)");
+                "the mask leaves nothing of the exemplar to sample: it is nowhere above 0.5 (white). If white was to mark "
+                "what to leave out, invert it (levels); if it comes from holes that are to be filled, they cover "
+                "everything, and nothing is left to fill them with");
   return out;
 }
 

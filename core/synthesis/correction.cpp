@@ -6,7 +6,32 @@
 #include <hwy/highway.h>
 #include <tbb/parallel_for.h>
 
+#include "core/geometry.h"
 #include "core/hash.h"
+
+// This file is read once per instruction set, and this only once.
+#ifndef TERRAZZO_SUB_PASS
+#define TERRAZZO_SUB_PASS
+namespace terrazzo {
+namespace {
+
+/// Every second pixel of every second row.
+struct SubPass {
+  /// `wanted`: columns and rows of the field; `odd_x`, `odd_y`: which of their positions in the plane.
+  SubPass(const PlaneWindow& window, const Rect& wanted, int odd_x, int odd_y)
+      : first_x(wanted.x + ((window.part.x + wanted.x + odd_x) & 1)),
+        first_y(wanted.y + ((window.part.y + wanted.y + odd_y) & 1)),
+        columns((wanted.right() - first_x + 1) / 2),
+        rows((wanted.bottom() - first_y + 1) / 2) {}
+  int x(int column) const { return first_x + 2 * column; }
+  int y(int row) const { return first_y + 2 * row; }
+  int first_x, first_y;
+  int columns, rows;
+};
+
+}  // namespace
+}  // namespace terrazzo
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace terrazzo {
@@ -14,79 +39,75 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Corrects single pixels: gathers what surrounds them and picks the best candidate. One per thread and row.
-/// `steered`: the exemplar has a mask or the level a control.
+/// Corrects single pixels: gathers what surrounds them, collects candidates and picks the best. One per thread and
+/// tile. `steered`: the exemplar has a mask or the level a control.
 template <bool steered>
 class PixelCorrector {
  public:
   PixelCorrector(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
                  const Occupancy& occupancy)
-      : field_(field), level_(level), pass_(pass), occupancy_(occupancy), taps_(int(pass.window->size())) {
+      : field_(field),
+        level_(level),
+        pass_(pass),
+        occupancy_(occupancy),
+        exemplar_(level.exemplar.at(0, 0)),
+        stride_(level.exemplar.stride()),
+        dear_coherence_(!pass.piece_coherence.empty() || pass.coherence > unit_factor),
+        taps_(int(pass.window->size())) {
     for (int t = 0; t < taps_; t++) {
       const auto [dx, dy] = (*pass.window)[t];
-      exemplar_offsets_[t] = dy * level.exemplar.stride() + dx;
-      field_offsets_[t] = dy * field.size.width + dx;
+      exemplar_offsets_[t] = dy * stride_ + dx;
+      field_offsets_[t] = ptrdiff_t{dy} * field.size.width + dx;
       continued_[t] = packed(dx, dy);
     }
+    for (int n = 0; n < 9; n++) around_offsets_[n] = ptrdiff_t{step(n, 1)} * field.size.width + step(n, 0);
   }
 
   HWY_ATTR ExemplarPixel best(int x, int y) {
-    const ExemplarPixel own = field_.at(x, y);
+    const ExemplarPixel* own = &field_.at(x, y);
     const bool inside = is_inside(x, y);
-    if (!steered && inside && continues_all_around(&field_.at(x, y))) return own;
-    if (inside)
-      gather([centre = &field_.at(x, y), width = field_.size.width](int dx, int dy) {
-        return centre + ptrdiff_t{dy} * width + dx;
-      });
-    else
-      gather([&](int dx, int dy) { return neighbour(x + dx, y + dy); });
+    if (!steered && inside && continues_all_around(own)) return *own;
     x_ = level_.window.x(x);
     y_ = level_.window.y(y);
     if constexpr (steered)
       if (level_.control) target_ = level_.control->target(int64_t(level_.window.index(x, y)));
-    forget_seen();
+    if (inside)
+      gather_inside(own);
+    else
+      gather_at_border(x, y);
+    candidates_ = 0;
     best_cost_ = ~uint64_t{0};
-    best_ = own;
-    consider(own.x, own.y, coherence(around_[0]));
+    best_ = *own;
+    propose_continued(own->x, own->y, coherence(own));
+    consider(ids_[0], factors_[0]);
     // Nothing is cheaper than what costs nothing, as inside a piece of the exemplar.
-    if (best_cost_ != 0) consider_others();
+    if (best_cost_ == 0) return best_;
+    propose_others();
+    for (size_t i = 1; i < continued_candidates_; i++) consider(ids_[i], factors_[i]);
+    for (size_t i = continued_candidates_; i < candidates_; i++) consider(ids_[i], unit_factor);
     return best_;
   }
 
  private:
-  HWY_ATTR void consider_others() {
-    for (int n = 1; n < 9; n++)
-      if (around_[n]) consider(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), coherence(around_[n]));
-    for (int n = 0; n < 9; n++) {
-      if (!around_[n]) continue;
-      const size_t at = size_t(around_[n]->y) * level_.exemplar.size().width + around_[n]->x;
-      const ExemplarPixel* similar = &level_.similar[at * level_.per_pixel];
-      for (int k = 0; k < level_.per_pixel; k++)
-        consider(similar[k].x - step(n, 0), similar[k].y - step(n, 1), unit_factor);
-    }
-    for (int k = 0; k < pass_.random_candidates; k++) {
-      const uint64_t r = random_bits(pass_.seed, level_.level, pass_.pass, x_, y_, k);
-      auto [u, v] = level_.exemplar.place(r);
-      level_.phase.snap(x_, y_, u, v);
-      consider(u, v, unit_factor);
-    }
-  }
-
   static uint32_t packed(int x, int y) { return uint32_t(y) << 16 | uint32_t(x); }
+  static uint32_t packed(const ExemplarPixel& p) { return packed(p.x, p.y); }
+
+  static constexpr int step(int n, int axis) {
+    constexpr int steps[9][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+    return steps[n][axis];
+  }
 
   /// Far enough from the border that no neighbour needs looking for.
   bool is_inside(int x, int y) const {
-    constexpr int reach = ring_radii[2];
+    constexpr int reach = ring_radii[rings - 1];
     return x >= reach && y >= reach && x < field_.size.width - reach && y < field_.size.height - reach;
   }
 
   /// Whether the pixel and its window show one connected place of the exemplar: they then fit without any difference.
   bool continues_all_around(const ExemplarPixel* centre) const {
-    const uint32_t own = packed(centre->x, centre->y);
-    for (int t = 0; t < taps_; t++) {
-      const ExemplarPixel& p = centre[field_offsets_[t]];
-      if (packed(p.x, p.y) != own + continued_[t]) return false;
-    }
+    const uint32_t own = packed(*centre);
+    for (int t = 0; t < taps_; t++)
+      if (packed(centre[field_offsets_[t]]) != own + continued_[t]) return false;
     return true;
   }
 
@@ -95,88 +116,104 @@ class PixelCorrector {
     return pass_.piece_coherence[size_t(continued - field_.pixels.data())];
   }
 
-  static int step(int n, int axis) {
-    constexpr int steps[9][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
-    return steps[n][axis];
-  }
-
   /// The pixel at a place; null beyond the border of an output that does not tile.
   const ExemplarPixel* neighbour(int x, int y) const {
     const int64_t i = pixel_index(field_.size, x, y, level_.window.closed_x, level_.window.closed_y);
     return i < 0 ? nullptr : &field_.pixels[size_t(i)];
   }
 
-  /// `look(dx, dy)`: the pixel at an offset, or null.
-  template <typename Look>
-  HWY_INLINE HWY_ATTR void gather(const Look& look) {
-    for (int n = 0; n < 9; n++) around_[n] = look(step(n, 0), step(n, 1));
+  HWY_ATTR void gather_inside(const ExemplarPixel* centre) {
+    for (int n = 0; n < 9; n++) around_[n] = centre + around_offsets_[n];
+    for (int r = 0; r < rings; r++)
+      for (int n = 0; n < 8; n++) ring_ids_[r][n] = packed(centre[ring_radii[r] * around_offsets_[n + 1]]);
+    for (int t = 0; t < taps_; t++) want(t, centre[field_offsets_[t]], exemplar_offsets_[t]);
+    count_ = taps_;
+  }
+
+  HWY_ATTR void gather_at_border(int x, int y) {
+    for (int n = 0; n < 9; n++) around_[n] = neighbour(x + step(n, 0), y + step(n, 1));
     for (int r = 0; r < rings; r++)
       for (int n = 0; n < 8; n++) {
-        const ExemplarPixel* p = look(ring_radii[r] * step(n + 1, 0), ring_radii[r] * step(n + 1, 1));
-        ring_present_[r][n] = p ? uint16_t{1} : uint16_t{0};
-        ring_x_[r][n] = p ? p->x : uint16_t{0};
-        ring_y_[r][n] = p ? p->y : uint16_t{0};
+        const ExemplarPixel* p = neighbour(x + ring_radii[r] * step(n + 1, 0), y + ring_radii[r] * step(n + 1, 1));
+        ring_ids_[r][n] = p ? packed(*p) : no_id;
       }
     count_ = 0;
     for (int t = 0; t < taps_; t++) {
       const auto [dx, dy] = (*pass_.window)[t];
-      const ExemplarPixel* p = look(dx, dy);
-      if (!p) continue;
-      copy(*level_.exemplar.at(p->x, p->y), wanted_[count_]);
-      offsets_[count_++] = exemplar_offsets_[t];
+      if (const ExemplarPixel* p = neighbour(x + dx, y + dy)) want(count_++, *p, exemplar_offsets_[t]);
     }
   }
 
-  void forget_seen() {
-    seen_ = 0;
-    seen_ids_.fill(no_id);
+  /// What the window's pixel shows, and where a candidate's own is, counted from it.
+  HWY_INLINE HWY_ATTR void want(int tap, const ExemplarPixel& shown, ptrdiff_t offset) {
+    copy(exemplar_[shown.y * stride_ + shown.x], wanted_[tap]);
+    offsets_[tap] = offset;
   }
 
-  /// Whether the candidate has been considered before; remembers it.
-  HWY_INLINE HWY_ATTR bool is_seen(uint32_t id) {
-    const hn::CappedTag<uint32_t, 16> d;
-    const auto wanted = hn::Set(d, id);
-    auto differs = hn::Xor(hn::Load(d, seen_ids_.data()), wanted);
-    for (size_t i = hn::Lanes(d); i < size_t(seen_); i += hn::Lanes(d))
-      differs = hn::Min(differs, hn::Xor(hn::Load(d, &seen_ids_[i]), wanted));
-    if (!hn::AllFalse(d, hn::Eq(differs, hn::Zero(d)))) return true;
-    seen_ids_[seen_++] = id;
-    return false;
+  HWY_INLINE void propose_continued(int x, int y, uint32_t factor) {
+    level_.exemplar.settle_inside(x, y);
+    const uint32_t id = packed(x, y);
+    for (size_t i = 0; i < candidates_; i++)
+      if (ids_[i] == id) return;
+    ids_[candidates_] = id;
+    factors_[candidates_++] = factor;
   }
 
-  /// How many of the pixels a little way off show nearly what the candidate would show here. A piece that comes back
-  /// after a few pixels makes combed streaks, a pixel that comes back at once makes waffles.
-  HWY_INLINE HWY_ATTR uint32_t repeats(int x, int y) const {
-    const hn::CappedTag<uint16_t, 8> d;
-    const auto u = hn::Set(d, uint16_t(x)), v = hn::Set(d, uint16_t(y));
-    const auto distance = [](auto a, auto b)
-                              HWY_ATTR { return hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)); };
-    auto count = hn::Zero(d);
-    for (int r = 0; r < rings; r++)
-      for (size_t n = 0; n < 8; n += hn::Lanes(d)) {
-        const auto apart = hn::Max(distance(hn::Load(d, &ring_x_[r][n]), u), distance(hn::Load(d, &ring_y_[r][n]), v));
-        const auto near = hn::Lt(apart, hn::Set(d, uint16_t((ring_radii[r] + 1) / 2)));
-        count = hn::Add(count, hn::IfThenElseZero(near, hn::Load(d, &ring_present_[r][n])));
+  HWY_ATTR void propose_others() {
+    for (int n = 1; n < 9; n++)
+      if (around_[n]) propose_continued(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), coherence(around_[n]));
+    continued_candidates_ = candidates_;
+    size_t count = 0;
+    const size_t per_pixel = size_t(level_.per_pixel), width = size_t(level_.exemplar.size().width);
+    for (int n = 0; n < 9; n++) {
+      if (!around_[n]) continue;
+      const ExemplarPixel* similar = &level_.similar[(around_[n]->y * width + around_[n]->x) * per_pixel];
+      for (size_t k = 0; k < per_pixel; k++, count++) {
+        proposed_x_[count] = similar[k].x - step(n, 0);
+        proposed_y_[count] = similar[k].y - step(n, 1);
       }
-    return hn::GetLane(hn::SumOfLanes(d, count));
+    }
+    for (int k = 0; k < pass_.random_candidates; k++, count++) {
+      auto [u, v] = level_.exemplar.place(random_bits(pass_.seed, level_.level, pass_.pass, x_, y_, k));
+      level_.phase.snap(x_, y_, u, v);
+      proposed_x_[count] = u;
+      proposed_y_[count] = v;
+    }
+    settle_proposed(count);
+    add_new(count);
   }
 
-  HWY_INLINE HWY_ATTR void consider(int x, int y, uint32_t factor) {
-    if constexpr (steered) {
-      if (!level_.exemplar.settles(x, y)) return;
-    } else {
-      level_.exemplar.settle_inside(x, y);
+  /// Adds those of the proposed candidates that continue nothing. To meet one twice would cost time only, and so most
+  /// are told by the places they hash to; but one that continues a neighbour must not come back without its factor.
+  HWY_ATTR void add_new(size_t count) {
+    recent_.fill(no_id);
+    size_t candidates = candidates_;
+    for (size_t i = 0; i < count; i++) {
+      const uint32_t id = settled_ids_[i];
+      uint32_t& recent = recent_[(id * 0x9e3779b1u) >> (32 - recent_bits)];
+      bool is_new = recent != id;
+      recent = id;
+      if (dear_coherence_)
+        for (size_t c = 0; c < continued_candidates_; c++) is_new &= ids_[c] != id;
+      ids_[candidates] = id;
+      candidates += is_new;
     }
-    if (is_seen(packed(x, y))) return;
-    if (occupancy_.active()) factor = uint32_t((uint64_t{factor} * occupancy_.factor(x, y)) / unit_factor);
-    const AppearanceVector* centre = level_.exemplar.at(x, y);
+    candidates_ = candidates;
+  }
+
+  HWY_INLINE HWY_ATTR void consider(uint32_t id, uint32_t factor) {
+    const int x = int(id & 0xffff), y = int(id >> 16);
     uint64_t difference = 0;
-    if constexpr (steered)
+    if constexpr (steered) {
+      if (!level_.exemplar.is_usable(x, y)) return;
       if (level_.control) difference = level_.control->cost(x, y, target_) * uint64_t(count_);
+    }
+    if (occupancy_.active()) factor = uint32_t((uint64_t{factor} * occupancy_.factor(x, y)) / unit_factor);
+    const AppearanceVector* centre = exemplar_ + (y * stride_ + x);
     // The nearest pixels tell most candidates off, before the dearer terms, which only raise the cost.
     difference += tap_distance(centre, 0);
     if (difference * factor >= best_cost_) return;
-    factor += factor / 2 * repeats(x, y);
+    factor += factor / 2 * repeats(id);
     if (level_.phase.active()) factor = uint32_t(std::min(most_factor, factor * level_.phase.penalty(x, y, x_, y_)));
     for (int t = taps_at_once; t < count_ && difference * factor < best_cost_; t += taps_at_once)
       difference += tap_distance(centre, t);
@@ -186,6 +223,21 @@ class PixelCorrector {
   }
 
 #if HWY_TARGET == HWY_SCALAR
+  void settle_proposed(size_t count) {
+    for (size_t i = 0; i < count; i++) {
+      int x = proposed_x_[i], y = proposed_y_[i];
+      level_.exemplar.settle_inside(x, y);
+      settled_ids_[i] = packed(x, y);
+    }
+  }
+  uint32_t repeats(uint32_t id) const {
+    const auto is_near = [](uint32_t a, uint32_t b, int radius) { return 2 * std::abs(int(a) - int(b)) < radius; };
+    uint32_t count = 0;
+    for (int r = 0; r < rings; r++)
+      for (const uint32_t other : ring_ids_[r])
+        count += is_near(id & 0xffff, other & 0xffff, ring_radii[r]) && is_near(id >> 16, other >> 16, ring_radii[r]);
+    return count;
+  }
   uint32_t tap_distance(const AppearanceVector* centre, int first) const {
     uint32_t sum = 0;
     for (int t = first; t < std::min(first + taps_at_once, count_); t++)
@@ -196,6 +248,44 @@ class PixelCorrector {
     to = from;
   }
 #else
+  /// PaddedLevel::settle_inside for all proposed candidates.
+  HWY_ATTR void settle_proposed(size_t count) {
+    const hn::CappedTag<int32_t, 16> d;
+    const PaddedLevel& exemplar = level_.exemplar;
+    const int keep_off = exemplar.wraps() ? 0 : exemplar.keep_off();
+    const auto settle = [&](auto v, int length) HWY_ATTR {
+      const auto n = hn::Set(d, length);
+      if (!exemplar.wraps()) return hn::Min(hn::Max(v, hn::Set(d, keep_off)), hn::Sub(n, hn::Set(d, 1 + keep_off)));
+      v = hn::Add(v, hn::IfThenElseZero(hn::Lt(v, hn::Zero(d)), n));
+      return hn::Sub(v, hn::IfThenZeroElse(hn::Lt(v, n), n));
+    };
+    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+      const auto x = settle(hn::Load(d, &proposed_x_[i]), exemplar.size().width);
+      const auto y = settle(hn::Load(d, &proposed_y_[i]), exemplar.size().height);
+      hn::Store(hn::BitCast(hn::RebindToUnsigned<decltype(d)>(), hn::Or(x, hn::ShiftLeft<16>(y))),
+                hn::RebindToUnsigned<decltype(d)>(), &settled_ids_[i]);
+    }
+  }
+
+  /// How many of the pixels a little way off show nearly what the candidate would show here. A piece that comes back
+  /// after a few pixels makes combed streaks, a pixel that comes back at once makes waffles.
+  HWY_INLINE HWY_ATTR uint32_t repeats(uint32_t id) const {
+    const hn::CappedTag<uint32_t, 8> d32;
+    const hn::Repartition<uint16_t, decltype(d32)> d16;
+    const auto own = hn::BitCast(d16, hn::Set(d32, id));
+    auto count = hn::Zero(d32);
+    for (int r = 0; r < rings; r++)
+      for (size_t n = 0; n < 8; n += hn::Lanes(d32)) {
+        const auto other = hn::BitCast(d16, hn::Load(d32, &ring_ids_[r][n]));
+        const auto apart = hn::Or(hn::SaturatedSub(own, other), hn::SaturatedSub(other, own));
+        // Left over in x or y beyond the largest distance whose double is below the radius.
+        const auto beyond = hn::SaturatedSub(apart, hn::Set(d16, uint16_t((ring_radii[r] - 1) / 2)));
+        const auto is_near = hn::Eq(hn::BitCast(d32, beyond), hn::Zero(d32));
+        count = hn::Add(count, hn::IfThenElseZero(is_near, hn::Set(d32, 1)));
+      }
+    return hn::GetLane(hn::SumOfLanes(d32, count));
+  }
+
   /// The squared distance of `taps_at_once` pixels of the window, or as many as there are, from the `first` one on.
   HWY_INLINE HWY_ATTR uint32_t tap_distance(const AppearanceVector* centre, int first) const {
     const hn::Full128<int16_t> d16;
@@ -225,45 +315,57 @@ class PixelCorrector {
   static constexpr int ring_radii[rings] = {1, 3, correction_reach};
   static constexpr int most_taps = 24;
   static constexpr int most_candidates = 128;
+  static constexpr int recent_bits = 7;
   static constexpr uint32_t no_id = ~uint32_t{0};  // a place that no exemplar that fits into memory has
-  using RingValues = std::array<std::array<uint16_t, 8>, rings>;
+  template <typename T>
+  using ForCandidates = std::array<T, most_candidates>;
 
   const Field& field_;
   const CorrectionLevel& level_;
   const CorrectionPass& pass_;
   const Occupancy& occupancy_;
+  const AppearanceVector* exemplar_;  // its first pixel
+  ptrdiff_t stride_;
+  bool dear_coherence_;  // it may cost more to continue a neighbour than not to
   int taps_;
+  std::array<ptrdiff_t, 9> around_offsets_{};
+  std::array<ptrdiff_t, most_taps> field_offsets_{}, exemplar_offsets_{};
+  std::array<uint32_t, most_taps> continued_{};  // what a window's pixel has more than its centre, if it continues it
+
+  // Of the pixel under way:
   int x_ = 0, y_ = 0;  // in the plane
   const uint8_t* target_ = nullptr;
-  int count_ = 0;
-  int seen_ = 0;
+  std::array<const ExemplarPixel*, 9> around_;
+  alignas(32) std::array<std::array<uint32_t, 8>, rings> ring_ids_;
+  int count_ = 0;  // pixels of the window
+  std::array<ptrdiff_t, most_taps> offsets_;
+  alignas(16) std::array<AppearanceVector, most_taps> wanted_;
+  alignas(64) ForCandidates<int32_t> proposed_x_{}, proposed_y_{};
+  alignas(64) ForCandidates<uint32_t> settled_ids_;
+  ForCandidates<uint32_t> ids_, factors_;
+  size_t candidates_ = 0, continued_candidates_ = 0;
+  std::array<uint32_t, 1 << recent_bits> recent_;
   uint64_t best_cost_ = 0;
   ExemplarPixel best_;
-  std::array<const ExemplarPixel*, 9> around_{};
-  std::array<ptrdiff_t, most_taps> field_offsets_{}, exemplar_offsets_{};
-  std::array<uint32_t, most_taps>
-      continued_{};  // what a pixel of the window has more than its centre, if it continues it
-  std::array<ptrdiff_t, most_taps> offsets_{};
-  alignas(64) std::array<uint32_t, most_candidates> seen_ids_{};
-  alignas(16) RingValues ring_x_{}, ring_y_{}, ring_present_{};
-  alignas(16) std::array<AppearanceVector, most_taps> wanted_{};
 };
 
 template <bool steered>
 HWY_ATTR void correct_pixels(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
-                             const Occupancy& occupancy, EverySecond columns, int y, ExemplarPixel* out) {
+                             const Occupancy& occupancy, const SubPass& part, const Rect& tile, ExemplarPixel* out) {
   PixelCorrector<steered> corrector(field, level, pass, occupancy);
-  for (int i = 0; i < columns.count; i++) {
-    const int x = columns.at(i);
-    out[i] = level.fixed.any() && level.fixed.at(level.window.index(x, y)) ? field.at(x, y) : corrector.best(x, y);
-  }
+  for (int row = tile.y; row < tile.bottom(); row++)
+    for (int column = tile.x; column < tile.right(); column++) {
+      const int x = part.x(column), y = part.y(row);
+      out[size_t(row) * part.columns + column] =
+          level.fixed.any() && level.fixed.at(level.window.index(x, y)) ? field.at(x, y) : corrector.best(x, y);
+    }
 }
 
-/// Some pixels of a row, into `out`.
-HWY_ATTR void correct_row(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
-                          const Occupancy& occupancy, EverySecond columns, int y, ExemplarPixel* out) {
+/// A tile of a sub-pass' pixels, into `out`, which holds all of them.
+HWY_ATTR void correct_tile(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
+                           const Occupancy& occupancy, const SubPass& part, const Rect& tile, ExemplarPixel* out) {
   const auto correct = level.control || level.exemplar.masked() ? correct_pixels<true> : correct_pixels<false>;
-  correct(field, level, pass, occupancy, columns, y, out);
+  correct(field, level, pass, occupancy, part, tile, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -273,9 +375,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace terrazzo {
 
-HWY_EXPORT(correct_row);
+HWY_EXPORT(correct_tile);
 
 namespace {
+
+// Tiles are gone through downwards: what one row of pixels is compared with is still at hand for the next.
+constexpr int tile_columns = 32;
+constexpr int tile_rows = 4;
 
 Window sorted_window(int radius) {
   Window w;
@@ -305,19 +411,20 @@ void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& p
   for (int sub = 0; sub < sub_passes; sub++) {
     occupancy.recount(field, level.fixed);
     // What the sub-passes that follow look at has to be right as well.
-    const Rect r = intersect(whole(field.size), grown(pass.wanted, correction_reach * (sub_passes - 1 - sub)));
-    const EverySecond columns = level.window.columns(r, (sub ^ pass.pass) & 1);
-    const EverySecond rows = level.window.rows(r, sub >> 1);
-    if (columns.count <= 0 || rows.count <= 0) continue;
-    next.resize(size_t(columns.count) * rows.count);
-    tbb::parallel_for(0, rows.count, [&](int row) {
+    const Rect wanted = intersect(whole(field.size), grown(pass.wanted, correction_reach * (sub_passes - 1 - sub)));
+    const SubPass part(level.window, wanted, (sub ^ pass.pass) & 1, sub >> 1);
+    if (part.columns <= 0 || part.rows <= 0) continue;
+    next.resize(size_t(part.columns) * part.rows);
+    const int tiles_down = (part.rows + tile_rows - 1) / tile_rows;
+    const int tiles_across = (part.columns + tile_columns - 1) / tile_columns;
+    tbb::parallel_for(0, tiles_across * tiles_down, [&](int i) {
       task.check();
-      HWY_DYNAMIC_DISPATCH(correct_row)
-      (field, level, pass, occupancy, columns, rows.at(row), &next[size_t(row) * columns.count]);
+      const Rect tile{i / tiles_down * tile_columns, i % tiles_down * tile_rows, tile_columns, tile_rows};
+      HWY_DYNAMIC_DISPATCH(correct_tile)
+      (field, level, pass, occupancy, part, intersect(tile, {0, 0, part.columns, part.rows}), next.data());
     });
-    tbb::parallel_for(0, rows.count, [&](int row) {
-      for (int i = 0; i < columns.count; i++)
-        field.at(columns.at(i), rows.at(row)) = next[size_t(row) * columns.count + i];
+    tbb::parallel_for(0, part.rows, [&](int row) {
+      for (int i = 0; i < part.columns; i++) field.at(part.x(i), part.y(row)) = next[size_t(row) * part.columns + i];
     });
   }
 }

@@ -38,7 +38,7 @@ class Occupancy {
   /// The same once and for all: recount() does nothing from now on.
   void count_for_good(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed);
   bool active() const { return weight_ > 0; }
-  uint32_t factor(int x, int y) const { return factors_[size_t(y / cell_) * columns_ + x / cell_]; }
+  uint32_t factor(int x, int y) const { return factors_[row_starts_[y] + columns_of_[x]]; }
 
  private:
   void count(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed);
@@ -48,7 +48,9 @@ class Occupancy {
   int cell_;
   int columns_;
   int rows_;
-  std::vector<double> shares_;  // of all use, by cell; empty: all alike
+  std::vector<uint32_t> columns_of_;  // the cells' column of every x
+  std::vector<uint32_t> row_starts_;  // the first cell of every y's row of cells
+  std::vector<double> shares_;        // of all use, by cell; empty: all alike
   std::vector<uint32_t> factors_;
 };
 

@@ -12,7 +12,11 @@ Occupancy::Occupancy(Size exemplar, double weight, const std::vector<double>& de
       cell_(std::max(2, std::max(exemplar.width, exemplar.height) / 16)),
       columns_((exemplar.width + cell_ - 1) / cell_),
       rows_((exemplar.height + cell_ - 1) / cell_),
+      columns_of_(size_t(exemplar.width)),
+      row_starts_(size_t(exemplar.height)),
       factors_(size_t(columns_) * rows_, unit_factor) {
+  for (int x = 0; x < exemplar.width; x++) columns_of_[x] = uint32_t(x / cell_);
+  for (int y = 0; y < exemplar.height; y++) row_starts_[y] = uint32_t(y / cell_ * columns_);
   if (demand.empty()) return;
   shares_.assign(factors_.size(), 0.0);
   double sum = 0;
@@ -36,7 +40,7 @@ void Occupancy::count(std::span<const ExemplarPixel> pixels, const FixedPixels& 
   int64_t free = 0;
   for (size_t i = 0; i < pixels.size(); i++) {
     if (fixed.at(i)) continue;
-    use[size_t(pixels[i].y / cell_) * columns_ + pixels[i].x / cell_]++;
+    use[row_starts_[pixels[i].y] + columns_of_[pixels[i].x]]++;
     free++;
   }
   const double even = std::max(least_expected, double(free) / double(factors_.size()));

@@ -11,13 +11,6 @@ struct Plane {
   bool tile_y = false;
 };
 
-/// Every second one of a run of columns or rows.
-struct EverySecond {
-  int first = 0;
-  int count = 0;
-  int at(int i) const { return first + 2 * i; }
-};
-
 /// Which part of a plane a field holds: its columns and rows are positions of the plane, counted from `part`'s corner.
 struct PlaneWindow {
   Plane plane;
@@ -40,15 +33,8 @@ struct PlaneWindow {
   int row(int y) const { return closed_y ? wrap(y, part.height) : y - part.y; }
   /// The columns and rows of a rectangle that the part holds; all of an axis that is closed.
   Rect held(const Rect& r) const;
-  /// The columns, or rows, of a rectangle of columns and rows whose positions in the plane are odd, or even.
-  EverySecond columns(const Rect& r, int odd) const { return every_second(r.x, r.width, part.x + odd); }
-  EverySecond rows(const Rect& r, int odd) const { return every_second(r.y, r.height, part.y + odd); }
 
  private:
-  static EverySecond every_second(int first, int count, int origin) {
-    const int skipped = (first + origin) & 1;
-    return {first + skipped, (count - skipped + 1) / 2};
-  }
   static int onto(int v, int length) { return v < 0 ? v + length : v >= length ? v - length : v; }
 };
 

@@ -50,8 +50,16 @@ struct Effort {
 
 /// The budget belongs to the coarse levels, where pixels are few and decisions are large. Filling in between kept
 /// pixels is harder than going on freely, and there are fewer pixels to do it for.
-Effort effort_at(int level, bool between_kept) {
+Effort effort_at(int level, Quality quality, bool between_kept) {
+  if (quality == Quality::draft) {
+    if (level <= 1) return {between_kept ? 3 : level + 1, 0, &sparse_window()};
+    return {5, level >= 3 ? 16 : 4, &full_window()};
+  }
   if (between_kept && level <= 1) return {6, 4, &full_window()};
+  if (quality == Quality::best) {
+    if (level <= 1) return {level == 0 ? 4 : 6, level == 0 ? 0 : 4, &full_window()};
+    return {16, level >= 3 ? 24 : 8, &full_window()};
+  }
   if (level == 0) return {2, 0, &sparse_window()};
   if (level == 1) return {3, 0, &full_window()};
   return {10, level >= 3 ? 24 : 8, &full_window()};
@@ -162,7 +170,7 @@ class LevelWork {
     const std::vector<ExemplarPixel> similar =
         similar_pixels(shared_.index.levels()[level_], shared_.exemplar(level_).size);
     const CorrectionLevel level = correction_level(window, similar, fixed_);
-    const Effort effort = effort_at(level_, fixed_.any());
+    const Effort effort = effort_at(level_, shared_.options.quality, fixed_.any());
     for (int pass = 0; pass < effort.passes; pass++) {
       CorrectionPass how{.window = effort.window,
                          .coherence = uint32_t(std::floor(shared_.options.coherence * unit_factor)),
@@ -179,7 +187,7 @@ class LevelWork {
   }
 
   /// How far beyond what is wanted of this level a field must reach.
-  int reach() const { return reach_of(effort_at(level_, fixed_.any()).passes); }
+  int reach() const { return reach_of(effort_at(level_, shared_.options.quality, fixed_.any()).passes); }
 
  private:
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.

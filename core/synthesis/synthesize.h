@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 #include <vector>
 
 #include "core/appearance.h"
@@ -11,11 +12,16 @@
 
 namespace terrazzo {
 
+/// How much work goes into a result: draft is for looking while settings are tried, best is slower than normal.
+enum class Quality : uint8_t { draft, normal, best };
+inline constexpr std::array<std::string_view, 3> quality_names = {"draft", "normal", "best"};
+
 struct SynthesisOptions {
   Size size;  ///< of the whole surface in pixels, 1..65536 a side
   uint64_t seed = 1;
   bool tile_x = false;  ///< the output wraps around in x
   bool tile_y = false;
+  Quality quality = Quality::normal;
   /// Factor on the cost of continuing a neighbour's piece of exemplar; smaller: larger pieces.
   double coherence = 0.5;
   /// Weight of the occupancy term; 0: parts of the exemplar may be over-used.

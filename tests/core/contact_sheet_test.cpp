@@ -1,5 +1,7 @@
 #include "core/contact_sheet.h"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include "core/error.h"
@@ -51,6 +53,18 @@ TEST_CASE("a sheet without pictures, or without room for them, is an error") {
 TEST_CASE("one map stands beside its exemplar, several below") {
   const Map color{"base_color", plain({16, 16}, 0, 0)}, height{"height", plain({16, 16}, 0, 0)};
   const MaterialPtr m = Material::make("m", {color, height});
-  CHECK(comparison_sheet(*m, *m, {"height"}, 100)->size() == Size{50, 28});
-  CHECK(comparison_sheet(*m, *m, {"height", "base_color"}, 100)->size() == Size{50, 50});
+  CHECK(comparison_sheet(*m, *m, {"height"}, 100)->size() == Size{50, 28 + 9});
+  CHECK(comparison_sheet(*m, *m, {"height", "base_color"}, 100)->size() == Size{50, 50 + 2 * 9});
+}
+
+TEST_CASE("captions stand below the pictures, at their full height") {
+  const std::vector<std::vector<ImagePtr>> rows = {{plain({60, 20}, 0, 0), plain({60, 20}, 0, 0)}};
+  const ImagePtr bare = contact_sheet(rows, 400), named = contact_sheet(rows, 400, {{"one", ""}});
+  CHECK(named->size() == Size{bare->width(), bare->height() + 9});
+  const auto brightest = [&](const Rect& r) {
+    const std::vector<float> values = named->read(r);
+    return *std::max_element(values.begin(), values.end());
+  };
+  CHECK(brightest({6, 6 + 20, 60, 9}) > 0.8f);
+  CHECK(brightest({72, 6 + 20, 60, 9}) < 0.2f);
 }

@@ -90,6 +90,39 @@ TEST_CASE("inpaint keeps what is there and takes nothing out of a masked hole") 
     }
 }
 
+TEST_CASE("holes that cover everything are refused with advice about holes") {
+  const ImagePtr white = make_image({96, 80}, 1, [](int, int, int) { return 1.f; });
+  CHECK_THROWS_WITH_AS(run_node("inpaint", {}, {{"index", {gravel_index()}}, {"mask", {white}}}),
+                       doctest::Contains("the holes cover everything"), Error);
+  const ImagePtr black = make_image({96, 80}, 1, [](int, int, int) { return 0.f; });
+  CHECK_THROWS_WITH_AS(gravel_index(black), doctest::Contains("if it comes from holes"), Error);
+}
+
+TEST_CASE("maps of different shapes are refused, both named with their sizes") {
+  const auto flat = [](Size size) {
+    return make_image(
+        size, 1, [](int x, int y, int) { return float(x * y % 7) / 7; }, Semantic::height);
+  };
+  const Value material = Material::make("m", {{"base_color", flat({32, 32})}, {"height", flat({32, 16})}});
+  for (const char* node : {"weight", "guidance", "progression", "filter_bank"})
+    CHECK_THROWS_WITH_AS(run_node(node, {}, {{"material", {material}}}),
+                         doctest::Contains("\"base_color\" has 32x32 pixels and \"height\" 32x16"), Error);
+  const Value smaller = Material::make("m", {{"base_color", flat({32, 32})}, {"height", flat({16, 16})}});
+  CHECK_NOTHROW(run_node("weight", {}, {{"material", {smaller}}}));
+}
+
+TEST_CASE("every quality is a result of its own, and normal is the default") {
+  const IndexPtr index = gravel_index();
+  const auto made = [&](const Params& params) {
+    Params all = params;
+    all["size"] = Size{64, 64};
+    return run_node("synthesize", all, {{"index", {index}}}).get<UvMap>("uv")->digest();
+  };
+  CHECK(made({}) == made({{"quality", "normal"}}));
+  CHECK(made({}) != made({{"quality", "draft"}}));
+  CHECK(made({}) != made({{"quality", "best"}}));
+}
+
 TEST_CASE("inpaint makes a part of an earlier result anew") {
   const IndexPtr index = gravel_index();
   const UvMapPtr first = run_node("synthesize", {{"size", Size{96, 80}}}, {{"index", {index}}}).get<UvMap>("uv");

@@ -30,6 +30,18 @@ TEST_CASE("the program says its version and helps on standard output") {
   CHECK(run_help.out.find("--dry-run") != std::string::npos);
 }
 
+TEST_CASE("a run that finds everything cached loads no image library") {
+  const Workplace w;
+  REQUIRE(w.run({"run", "soft.json"}).code == 0);
+  ::setenv("LD_DEBUG", "files", 1);
+  const ProgramRun again = w.run({"run", "soft.json"});
+  ::unsetenv("LD_DEBUG");
+  CHECK(again.code == 0);
+  CHECK(again.err.find("libtbb") != std::string::npos);
+  CHECK(again.err.find("OpenImageIO") == std::string::npos);
+  CHECK(again.err.find("OpenColorIO") == std::string::npos);
+}
+
 TEST_CASE("wrong command lines are refused with code 2, a message that helps, and nothing written") {
   struct Wrong {
     std::vector<std::string> args;
@@ -317,11 +329,18 @@ TEST_CASE("compare prints figures as a table or as json") {
     CHECK_MESSAGE(drawn.code == 0, drawn.err);
     CHECK(drawn.out == table.out);
   }
-  CHECK(read_image_info(w.path / "sheets/s.png").size == Size{6 + 32 + 6 + 32 + 6, 6 + 24 + 6});
+  CHECK(read_image_info(w.path / "sheets/s.png").size == Size{6 + 32 + 6 + 32 + 6, 6 + 24 + 9 + 6});
   const std::string page = read_text(w.path / "s.html");
   CHECK(page.find("<td>swd</td>") != std::string::npos);
   CHECK(page.find("data:image/png;base64,iVBOR") != std::string::npos);
   CHECK(w.run({"compare", "photo.png", "other.png", "--sheet", "s.doc"}).code == 2);
+  for (const std::string sheet : {"photo.png/s.html", "photo.png/s.png"}) {
+    const ProgramRun refused = w.run({"compare", "photo.png", "other.png", "--sheet", sheet});
+    CHECK(refused.code == 2);
+    CHECK(refused.out == "");
+    CHECK_MESSAGE(refused.err.find("photo.png") != std::string::npos, refused.err);
+  }
+  CHECK(w.run({"compare", "photo.png", "other.png", "--tileable", "x"}).out.find("wrap_seam_x") != std::string::npos);
   const ProgramRun missing = w.run({"compare", "photo.png", "gone.png"});
   CHECK(missing.code == 2);
   CHECK(missing.err.find("gone.png") != std::string::npos);
@@ -411,4 +430,72 @@ TEST_CASE("watching runs the graph again when a file that it reads is touched") 
   CHECK(program.says("3 stages: 3 cached, 0 run"));
   program.signal(SIGTERM);
   CHECK(program.wait().code == 0);
+}
+
+TEST_CASE("check finds what the plan of a run would refuse, once all parameters are set") {
+  const Workplace w;
+  write_text(w.path / "twice.json", R"({"terrazzo": 1, "nodes": {
+    "photo": {"type": "load_map", "path": "photo.png"},
+    "a": {"type": "export", "material": "@photo", "path": "out/a.png"},
+    "b": {"type": "export", "material": "@photo", "path": "out/a.png"}}})");
+  const ProgramRun twice = w.run({"check", "twice.json"});
+  CHECK(twice.code == 2);
+  CHECK_MESSAGE(twice.err.find("would be written twice") != std::string::npos, twice.err);
+  write_text(w.path / "open.json", R"({"terrazzo": 1, "parameters": {"image": {"type": "path"}}, "nodes": {
+    "photo": {"type": "load_map", "path": "$image"},
+    "a": {"type": "export", "material": "@photo", "path": "out/a.png"}}})");
+  const ProgramRun open = w.run({"check", "open.json"});
+  CHECK_MESSAGE(open.code == 0, open.err);
+  CHECK(open.err.find("--set image=VALUE") != std::string::npos);
+  CHECK(w.run({"check", "open.json", "--set", "image=gone.png"}).code == 2);
+}
+
+TEST_CASE("progress counts the stages that the summary of a failed run counts") {
+  const Workplace w;
+  write_text(w.path / "fails.json", R"({"terrazzo": 1, "nodes": {
+    "photo": {"type": "load_map", "path": "photo.png"},
+    "soft": {"type": "blur", "image": "@photo", "radius": 2},
+    "hole": {"type": "noise", "size": [16, 16]},
+    "bad": {"type": "blend", "base": "@soft", "top": "@hole"},
+    "sheet": {"type": "contact_sheet", "images": ["@photo", "@hole"]},
+    "a": {"type": "export", "material": "@bad", "path": "out/a.png"},
+    "b": {"type": "export", "material": "@sheet", "path": "out/b.png"}}})");
+  const ProgramRun r = w.run({"run", "fails.json", "--progress", "plain"});
+  CHECK_MESSAGE(r.code == 1, r.err);
+  const size_t end = r.err.rfind(" stages: ");
+  REQUIRE(end != std::string::npos);
+  const std::string all = r.err.substr(r.err.rfind('\n', end) + 1, end - r.err.rfind('\n', end) - 1);
+  CHECK_MESSAGE(r.err.find("/" + all + "] bad (blend) failed") != std::string::npos, r.err);
+}
+
+TEST_CASE("a damaged picture puts nothing but json objects on standard error") {
+  const Workplace w;
+  std::string bytes = read_text(w.path / "photo.png");
+  bytes.resize(bytes.size() - 60);
+  write_text(w.path / "photo.png", bytes);
+  const ProgramRun r = w.run({"run", "soft.json", "--progress", "json"});
+  CHECK(r.code == 1);
+  std::istringstream lines(r.err);
+  for (std::string line; std::getline(lines, line);) CHECK_MESSAGE(nlohmann::json::accept(line), line);
+}
+
+TEST_CASE("magnify refuses an analysis larger than the exemplar before anything runs") {
+  const Workplace w;
+  const std::string graph = TERRAZZO_SOURCE_DIR "/graphs/magnify.json";
+  const ProgramRun r = w.run({"run", graph, "--set", "material=.", "--set", "analysed=2"});
+  CHECK(r.code == 2);
+  CHECK_MESSAGE(r.err.find("analysed") != std::string::npos, r.err);
+}
+
+TEST_CASE("synth takes a quality, and draft is another result than normal") {
+  const Workplace w;
+  write_picture(w.path / "stone/base_color.png", 5);
+  for (const std::string quality : {"draft", "normal"}) {
+    const ProgramRun r = w.run({"synth", "stone", "-o", quality, "--size", "48x48", "--quality", quality});
+    CHECK_MESSAGE(r.code == 0, r.err);
+  }
+  CHECK(w.run({"synth", "stone", "-o", "unset", "--size", "48x48"}).code == 0);
+  CHECK(read_text(w.path / "unset/base_color.png") == read_text(w.path / "normal/base_color.png"));
+  CHECK(read_text(w.path / "draft/base_color.png") != read_text(w.path / "normal/base_color.png"));
+  CHECK(w.run({"synth", "stone", "-o", "x", "--quality", "great"}).code == 2);
 }

@@ -1,6 +1,9 @@
 #include "core/synthesis/alignment.h"
 
+#include <set>
+
 #include <doctest/doctest.h>
+#include <tbb/task_arena.h>
 
 #include "core/hash.h"
 #include "core/synthesis/pieces.h"
@@ -46,6 +49,48 @@ TEST_CASE("pieces that were moved apart find together again") {
     align_pieces(field, 1, level_of(exemplar, none), 2, Task());
     CHECK(Pieces(field, exemplar).count() == 1);
   }
+}
+
+TEST_CASE("pieces whose pixels stand for blocks meet as well, the blocks' pixels one by one") {
+  const std::vector<ExemplarPixel> none;
+  for (const bool wraps : {false, true}) {
+    const PaddedLevel exemplar = noise(wraps);
+    const auto blocks = [](int dx, int dy) {
+      Field field{{10, 8}, {}};
+      for (int y = 0; y < 8; y++)
+        for (int x = 0; x < 10; x++)
+          field.pixels.push_back({uint16_t(9 + 2 * x + (x < 6 ? 0 : dx)), uint16_t(7 + 2 * y + (x < 6 ? 0 : dy))});
+      return field;
+    };
+    Field field = blocks(1, -2);
+    REQUIRE(Pieces(field, exemplar, 2).count() == 2);
+    align_pieces(field, 2, level_of(exemplar, none), 2, Task());
+    CHECK(Pieces(field, exemplar, 2).count() == 1);
+  }
+}
+
+TEST_CASE("the order in which pieces move does not depend on the number of threads") {
+  const std::vector<ExemplarPixel> none;
+  const PaddedLevel exemplar = noise(true);
+  std::set<std::vector<uint32_t>> results;
+  for (const int threads : {1, 4})
+    tbb::task_arena(threads).execute([&] {
+      // Squares of 5 pixels, each moved its own way.
+      Field field{{60, 60}, {}};
+      for (int y = 0; y < 60; y++)
+        for (int x = 0; x < 60; x++) {
+          const uint64_t bits = random_bits(11, x / 5, y / 5);
+          field.pixels.push_back({uint16_t((x + below(uint32_t(bits), 3)) % side.width),
+                                  uint16_t((y + below(uint32_t(bits >> 32), 3)) % side.height)});
+        }
+      const int before = Pieces(field, exemplar).count();
+      align_pieces(field, 1, level_of(exemplar, none), 2, Task());
+      CHECK(Pieces(field, exemplar).count() < before);
+      std::vector<uint32_t> result;
+      for (const ExemplarPixel p : field.pixels) result.push_back(uint32_t(p.y) << 16 | p.x);
+      results.insert(result);
+    });
+  CHECK(results.size() == 1);
 }
 
 TEST_CASE("beyond their reach pieces stay apart, and what fits stays where it is") {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include "core/error.h"
@@ -41,24 +43,38 @@ TEST_CASE("parts made apart from one another are parts of the whole, bit for bit
       CAPTURE(regular);
       CAPTURE(wraps);
       const IndexPtr index = index_with(regular ? bricks() : Lattice{}, wraps);
-      const SynthesisOptions options{.size = {531, 470}, .seed = 3, .jitter = {1, 1, 1, 1}};
+      // Longer than an apron on either side; the other axis is short, to be quick.
+      const Size size = wraps ? Size{38, 471} : Size{531, 45};
+      const SynthesisOptions options{.size = size, .seed = 3, .jitter = {1, 1, 1, 1}};
       const UvMapPtr all = synthesize(*index, options, Task());
       const UvMapPtr coarse = coarse_uv(*index, options, Task());
-      for (const Rect& r : {Rect{0, 0, 40, 30}, Rect{250, 230, 31, 17}, Rect{530, 469, 1, 1}, Rect{0, 301, 531, 9}})
+      const int middle = std::max(size.width, size.height) / 2;
+      for (const Rect& r : {Rect{0, 0, 20, 30}, whole(size), Rect{size.width - 1, size.height - 1, 1, 1},
+                            wraps ? Rect{3, middle, 31, 17} : Rect{middle, 9, 17, 31}})
         check_part(*index, options, *coarse, *all, r);
     }
 }
 
+TEST_CASE("parts are right where every pixel is uncertain and changes spread as far as they can") {
+  const ImagePtr speckles =
+      make_image({64, 64}, 1, [](int x, int y, int) { return float(unit_double(random_bits(9, x, y))); });
+  const IndexPtr index = make_index(make_appearance(*plain_features(speckles), {}, {}, Task()), 3, Task());
+  const SynthesisOptions options{.size = {420, 40}, .coherence = 1, .jitter = {9, 9, 9, 9}};
+  const UvMapPtr all = synthesize(*index, options, Task());
+  const UvMapPtr coarse = coarse_uv(*index, options, Task());
+  for (int x = 5; x < 415; x += 67) check_part(*index, options, *coarse, *all, {x, x % 37, 3, 3});
+}
+
 TEST_CASE("parts of a surface that tiles go on around its border") {
   for (const bool regular : {false, true})
-    for (const Size size : {Size{512, 448}, Size{514, 447}, Size{130, 95}}) {
+    for (const Size size : {Size{512, 48}, Size{514, 47}, Size{51, 460}}) {
       CAPTURE(regular);
       CAPTURE(size.width);
       const IndexPtr index = index_with(regular ? bricks() : Lattice{}, false);
       const SynthesisOptions options{.size = size, .seed = 5, .tile_x = true, .tile_y = true};
       const UvMapPtr all = synthesize(*index, options, Task());
       const UvMapPtr coarse = coarse_uv(*index, options, Task());
-      for (const Rect& r : {Rect{0, 0, 24, 20}, Rect{size.width - 10, size.height - 7, 21, 18}, Rect{50, 41, 33, 27}})
+      for (const Rect& r : {Rect{0, 0, 24, 20}, Rect{size.width - 10, size.height - 7, 21, 18}, Rect{20, 21, 33, 27}})
         check_part(*index, options, *coarse, *all, r);
     }
 }
@@ -84,20 +100,20 @@ TEST_CASE("an exemplar of one level has nothing to refine, and parts of it are r
 
 TEST_CASE("evenness, control and kept pixels are the same in parts") {
   const IndexPtr index = index_with({}, false);
-  SynthesisOptions options{.size = {260, 256}, .evenness = 2};
+  SynthesisOptions options{.size = {460, 50}, .evenness = 2};
   options.kept = {std::vector<ExemplarPixel>(size_t(options.size.area())),
                   std::vector<uint8_t>(size_t(options.size.area()), 0)};
-  for (int y = 100; y < 140; y++)
-    for (int x = 110; x < 160; x++) {
-      options.kept.keep[size_t(y) * 260 + x] = 1;
-      options.kept.pixels[size_t(y) * 260 + x] = {uint16_t(x - 100), uint16_t(y - 90)};
+  for (int y = 10; y < 30; y++)
+    for (int x = 210; x < 250; x++) {
+      options.kept.keep[size_t(y) * 460 + x] = 1;
+      options.kept.pixels[size_t(y) * 460 + x] = {uint16_t(x - 200), uint16_t(y)};
     }
   const auto shade = [](Size size) { return make_image(size, 1, [](int x, int, int) { return float(x % 50) / 50; }); };
   options.controls = {{.exemplar = shade({72, 64}), .target = shade(options.size)}};
   const UvMapPtr all = synthesize(*index, options, Task());
   const UvMapPtr coarse = coarse_uv(*index, options, Task());
-  check_part(*index, options, *coarse, *all, {90, 80, 40, 50});
-  CHECK(all->at(120, 110) == ExemplarPixel{20, 20});
+  check_part(*index, options, *coarse, *all, {200, 5, 20, 40});
+  CHECK(all->at(220, 20) == ExemplarPixel{20, 20});
 }
 
 TEST_CASE("coarse levels of another surface, exemplar or wrapping are refused") {

@@ -1,0 +1,47 @@
+#include "core/image_libraries.h"
+
+#include <array>
+#include <filesystem>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* module_name = "terrazzo_libraries.so";
+
+/// Beside the program, where it is installed, or where it was built.
+fs::path module_path() {
+  std::error_code unreadable;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", unreadable).parent_path();
+  const std::array<fs::path, 3> folders = {beside, beside / "../lib/terrazzo", TERRAZZO_MODULE_FOLDER};
+  for (const fs::path& folder : folders)
+    if (std::error_code missing; fs::exists(folder / module_name, missing)) return folder / module_name;
+  throw Error(fmt::format("{} is not beside the program in {}; it belongs to the program and must go with it",
+                          module_name, beside.string()));
+}
+
+const ImageLibraries& load() {
+  const fs::path path = module_path();
+  const auto fail = [&] { return Error(fmt::format("cannot load {}: {}", path.string(), ::dlerror())); };
+  void* module = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (!module) throw fail();
+  void* symbol = ::dlsym(module, "terrazzo_image_libraries");
+  if (!symbol) throw fail();
+  return *reinterpret_cast<const ImageLibraries* (*)()>(symbol)();
+}
+
+}  // namespace
+
+const ImageLibraries& image_libraries() {
+  static const ImageLibraries& libraries = load();
+  return libraries;
+}
+
+}  // namespace terrazzo
