@@ -379,7 +379,7 @@ HWY_EXPORT(correct_tile);
 
 namespace {
 
-// Tiles are gone through downwards: what one row of pixels is compared with is still at hand for the next.
+// What one task corrects of a sub-pass; few enough pixels that the coarsest levels still make several tasks.
 constexpr int tile_columns = 32;
 constexpr int tile_rows = 4;
 
