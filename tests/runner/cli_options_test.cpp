@@ -1,0 +1,79 @@
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/runner/fakes.h"
+#include "tests/runner/program.h"
+#include "tests/runner/workplace.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+TEST_CASE("check finds what the plan of a run would refuse, once all parameters are set") {
+  const Workplace w;
+  write_text(w.path / "twice.json", R"({"terrazzo": 1, "nodes": {
+    "photo": {"type": "load_map", "path": "photo.png"},
+    "a": {"type": "export", "material": "@photo", "path": "out/a.png"},
+    "b": {"type": "export", "material": "@photo", "path": "out/a.png"}}})");
+  const ProgramRun twice = w.run({"check", "twice.json"});
+  CHECK(twice.code == 2);
+  CHECK_MESSAGE(twice.err.find("would be written twice") != std::string::npos, twice.err);
+  write_text(w.path / "open.json", R"({"terrazzo": 1, "parameters": {"image": {"type": "path"}}, "nodes": {
+    "photo": {"type": "load_map", "path": "$image"},
+    "a": {"type": "export", "material": "@photo", "path": "out/a.png"}}})");
+  const ProgramRun open = w.run({"check", "open.json"});
+  CHECK_MESSAGE(open.code == 0, open.err);
+  CHECK(open.err.find("--set image=VALUE") != std::string::npos);
+  CHECK(w.run({"check", "open.json", "--set", "image=gone.png"}).code == 2);
+}
+
+TEST_CASE("progress counts the stages that the summary of a failed run counts") {
+  const Workplace w;
+  write_text(w.path / "fails.json", R"({"terrazzo": 1, "nodes": {
+    "photo": {"type": "load_map", "path": "photo.png"},
+    "soft": {"type": "blur", "image": "@photo", "radius": 2},
+    "hole": {"type": "noise", "size": [16, 16]},
+    "bad": {"type": "blend", "base": "@soft", "top": "@hole"},
+    "sheet": {"type": "contact_sheet", "images": ["@photo", "@hole"]},
+    "a": {"type": "export", "material": "@bad", "path": "out/a.png"},
+    "b": {"type": "export", "material": "@sheet", "path": "out/b.png"}}})");
+  const ProgramRun r = w.run({"run", "fails.json", "--progress", "plain"});
+  CHECK_MESSAGE(r.code == 1, r.err);
+  const size_t end = r.err.rfind(" stages: ");
+  REQUIRE(end != std::string::npos);
+  const std::string all = r.err.substr(r.err.rfind('\n', end) + 1, end - r.err.rfind('\n', end) - 1);
+  CHECK_MESSAGE(r.err.find("/" + all + "] bad (blend) failed") != std::string::npos, r.err);
+}
+
+TEST_CASE("a damaged picture puts nothing but json objects on standard error") {
+  const Workplace w;
+  std::string bytes = read_text(w.path / "photo.png");
+  bytes.resize(bytes.size() - 60);
+  write_text(w.path / "photo.png", bytes);
+  const ProgramRun r = w.run({"run", "soft.json", "--progress", "json"});
+  CHECK(r.code == 1);
+  std::istringstream lines(r.err);
+  for (std::string line; std::getline(lines, line);) CHECK_MESSAGE(nlohmann::json::accept(line), line);
+}
+
+TEST_CASE("magnify refuses an analysis larger than the exemplar before anything runs") {
+  const Workplace w;
+  const std::string graph = TERRAZZO_SOURCE_DIR "/graphs/magnify.json";
+  const ProgramRun r = w.run({"run", graph, "--set", "material=.", "--set", "analysed=2"});
+  CHECK(r.code == 2);
+  CHECK_MESSAGE(r.err.find("analysed") != std::string::npos, r.err);
+}
+
+TEST_CASE("synth takes a quality, and draft is another result than normal") {
+  const Workplace w;
+  write_picture(w.path / "stone/base_color.png", 5);
+  for (const std::string quality : {"draft", "normal"}) {
+    const ProgramRun r = w.run({"synth", "stone", "-o", quality, "--size", "48x48", "--quality", quality});
+    CHECK_MESSAGE(r.code == 0, r.err);
+  }
+  CHECK(w.run({"synth", "stone", "-o", "unset", "--size", "48x48"}).code == 0);
+  CHECK(read_text(w.path / "unset/base_color.png") == read_text(w.path / "normal/base_color.png"));
+  CHECK(read_text(w.path / "draft/base_color.png") != read_text(w.path / "normal/base_color.png"));
+  CHECK(w.run({"synth", "stone", "-o", "x", "--quality", "great"}).code == 2);
+}
