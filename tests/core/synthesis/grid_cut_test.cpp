@@ -17,9 +17,8 @@ struct Problem {
 
 Problem random_problem(uint64_t seed) {
   Problem p{};
-  const auto draw = [&, n = 0](uint32_t most) mutable {
-    return int64_t(below(uint32_t(random_bits(seed, n++)), most));
-  };
+  int n = 0;
+  const auto draw = [&](uint32_t most) { return int64_t(below(uint32_t(random_bits(seed, n++)), most)); };
   for (int i = 0; i < count; i++) {
     p.prefer[i] = draw(21) - 10;
     p.right[i] = draw(8);
