@@ -85,7 +85,9 @@ LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool 
   resolves_cells_ = cell >= smallest_resolved;
   if (cell < smallest_cell) rank_ = 0;
   const double loose = cell * looseness * (1 - lattice.certainty * certainty_counts);
-  const double tolerance = std::clamp(loose, 0.5 * scale, 1.0);
+  // Whole pixels of the finest level are out of phase by up to half a pixel along each axis that the lattice speaks of.
+  const double rounding = (rank_ == 1 ? 0.501 : 0.708) * scale;
+  const double tolerance = std::clamp(loose, rounding, 1.0);
   stiffness_ = 1 / (tolerance * tolerance);
   to_exemplar_ = to_cells(lattice, scale);
   to_output_ = to_cells(lattice.fitted(output, tile_x, tile_y), scale);

@@ -56,7 +56,7 @@ NodeType pca_node() {
        .max = 1},
       {.name = "guidance_weight",
        .type = ParamType::number,
-       .fallback = 0.5,
+       .fallback = 0.25,
        .help = "Weight of the guidance at the coarsest level; it fades to 0 at the finest.",
        .min = 0,
        .max = 100},

@@ -11,7 +11,7 @@ namespace terrazzo {
 struct AppearanceOptions {
   int dimensions = appearance_dimensions;  ///< at most that; the kept dimensions per level
   double retained_variance = 1;            ///< keep only as many dimensions as explain this fraction
-  double guidance_weight = 0.5;            ///< at the coarsest level; fades linearly to 0 at the finest
+  double guidance_weight = 0.25;           ///< at the coarsest level; fades linearly to 0 at the finest
 };
 
 /// Brings an exemplar into appearance space (Lefebvre & Hoppe 2006): per level of a Gaussian pyramid, the 5x5

@@ -70,7 +70,7 @@ constexpr int seam_level = 2;  // the finest on which pieces still change
 constexpr int seam_reach = 8;
 constexpr int passes_after_seams = 2;
 // Of the exemplar. With a lattice less is out of phase, so pieces grow more readily.
-constexpr double large_piece = 0.2, large_piece_on_lattice = 0.12;
+constexpr double large_piece = 0.2, large_piece_on_lattice = 0.11;
 constexpr double most_coherence = 1.5;
 constexpr int finest_limited = 2;
 constexpr int finest_even = 1;       // evenness has no say below this level,

@@ -9,7 +9,7 @@ using namespace terrazzo;
 
 namespace {
 
-constexpr Size side{40, 32};
+constexpr Size side{64, 32};
 constexpr int agree = 20;  // the exemplar's columns 16 to 20 come again 12 columns further on
 
 AppearanceVector noise(int x, int y) {
@@ -28,10 +28,9 @@ PaddedLevel exemplar_with_repeat() {
 
 /// Two pieces, the right one 12 columns further on, which meet at `seam`.
 Field meeting_at(int seam) {
-  Field field{{24, 16}, {}};
+  Field field{{36, 16}, {}};
   for (int y = 0; y < 16; y++)
-    for (int x = 0; x < 24; x++) field.pixels.push_back({uint16_t(4 + x + (x < seam ? 0 : 12)), uint16_t(7 + y)});
-  for (ExemplarPixel& p : field.pixels) p.x = std::min<uint16_t>(p.x, uint16_t(side.width - 4));
+    for (int x = 0; x < 36; x++) field.pixels.push_back({uint16_t(4 + x + (x < seam ? 0 : 12)), uint16_t(7 + y)});
   return field;
 }
 
