@@ -1,6 +1,7 @@
 #include "core/lattice.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace terrazzo {
@@ -13,6 +14,21 @@ constexpr double smallest_cell = 0.3;
 // lattice, the less its cells differ from one another.
 constexpr double looseness = 1.0 / 12;
 constexpr double certainty_counts = 2.0 / 3;
+
+using Steps = std::array<std::array<int, 2>, 49>;
+
+/// To all pixels up to three away along each axis, the nearest first.
+const Steps& nearest_steps() {
+  static const Steps steps = [] {
+    Steps s{};
+    for (int i = 0; i < int(s.size()); i++) s[i] = {i % 7 - 3, i / 7 - 3};
+    std::stable_sort(s.begin(), s.end(), [](const auto& a, const auto& b) {
+      return a[0] * a[0] + a[1] * a[1] < b[0] * b[0] + b[1] * b[1];
+    });
+    return s;
+  }();
+  return steps;
+}
 
 }  // namespace
 
@@ -96,18 +112,20 @@ LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool 
 }
 
 void LatticePhase::search(int x, int y, int& u, int& v) const {
-  constexpr int reach = 3;
   constexpr double far = 0.001;  // settles which of several in phase
   double least = std::numeric_limits<double>::max();
   const int from_u = u, from_v = v;
-  for (int dy = -reach; dy <= reach; dy++)
-    for (int dx = -reach; dx <= reach; dx++) {
-      const double cost = penalty(from_u + dx, from_v + dy, x, y) + far * (dx * dx + dy * dy);
-      if (cost >= least) continue;
-      least = cost;
-      u = from_u + dx;
-      v = from_v + dy;
-    }
+  for (const auto& [dx, dy] : nearest_steps()) {
+    // Along courses every place is as good as the next.
+    if (rank_ == 1 && (first_.x == 0 ? dx : dy) != 0) continue;
+    const double misfit = penalty(from_u + dx, from_v + dy, x, y);
+    const double cost = misfit + far * (dx * dx + dy * dy);
+    if (cost >= least) continue;
+    least = cost;
+    u = from_u + dx;
+    v = from_v + dy;
+    if (misfit == 1) break;  // those further off cost more
+  }
 }
 
 }  // namespace terrazzo
