@@ -8,6 +8,8 @@ namespace terrazzo {
 
 namespace {
 
+constexpr double largest_side = 65536;  // of an exemplar
+
 std::string described(const Lattice& l) {
   if (l.rank == 0) return fmt::format("no lattice found (certainty {:.2f})", l.certainty);
   if (l.rank == 2)
@@ -81,12 +83,16 @@ NodeType regularity_node() {
        .fallback = Numbers{},
        .help = "For manual: [x, y] after which the exemplar repeats; alone, [0, height] of courses or [width, 0] of "
                "columns.",
+       .min = -largest_side,
+       .max = largest_side,
        .unit = "pixels",
        .max_count = 2},
       {.name = "second",
        .type = ParamType::numbers,
        .fallback = Numbers{},
        .help = "For manual: the other direction, [x, y].",
+       .min = -largest_side,
+       .max = largest_side,
        .unit = "pixels",
        .max_count = 2},
   };

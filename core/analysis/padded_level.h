@@ -38,7 +38,14 @@ class PaddedLevel {
       y = within(y, keep_off_, size_.height - 1 - keep_off_);
     }
   }
-  /// The same, and then to the nearest usable pixel.
+  /// Brings a position any number of times around an exemplar that tiles back into it; settle_inside() takes one that
+  /// is up to once around.
+  void unwind(int& x, int& y) const {
+    if (!wraps_) return;
+    if (x < 0 || x >= size_.width) x = wrap(x, size_.width);
+    if (y < 0 || y >= size_.height) y = wrap(y, size_.height);
+  }
+  /// The same as settle_inside, and then to the nearest usable pixel.
   void settle(int& x, int& y) const {
     settle_inside(x, y);
     if (masked_) settle_usable(x, y);

@@ -59,6 +59,7 @@ class LevelSearch {
   /// (u, v) where it is usable, of a regular exemplar the place in phase with (x, y) that is nearest to it.
   std::array<int, 2> settled(int x, int y, int u, int v) const {
     phase_.snap(x, y, u, v);
+    level_.unwind(u, v);
     level_.settle(u, v);
     return {u, v};
   }

@@ -176,6 +176,7 @@ class PixelCorrector {
     for (int k = 0; k < pass_.random_candidates; k++, count++) {
       auto [u, v] = level_.exemplar.place(random_bits(pass_.seed, level_.level, pass_.pass, x_, y_, k));
       level_.phase.snap(x_, y_, u, v);
+      level_.exemplar.unwind(u, v);
       proposed_x_[count] = u;
       proposed_y_[count] = v;
     }

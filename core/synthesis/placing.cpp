@@ -64,9 +64,7 @@ void place_block(Field& field, const Rect& block, std::array<int, 2> start, cons
 void displace(int& u, int& v, const PaddedLevel& exemplar, double amplitude, uint64_t bits) {
   u += int(std::floor(amplitude * (2 * unit_double(bits << 32) - 1) + 0.5));
   v += int(std::floor(amplitude * (2 * unit_double(bits) - 1) + 0.5));
-  if (!exemplar.wraps()) return;
-  u = wrap(u, exemplar.size().width);
-  v = wrap(v, exemplar.size().height);
+  exemplar.unwind(u, v);
 }
 
 /// Brings the first pixel of a block to where all four lie in the exemplar and continue one another.
@@ -91,6 +89,7 @@ Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* 
       const Rect block = intersect(whole(size), {left, top, side, side});
       std::array<int, 2> start = best_start(exemplar, control, size, block, side, seed);
       phase.snap(left, top, start[0], start[1]);
+      exemplar.unwind(start[0], start[1]);
       place_block(field, block, start, exemplar);
     }
   return field;
@@ -118,6 +117,7 @@ Field block_starts(const Field& parent, const PlaneWindow& window, const PaddedL
       if (amplitude > 0) displace(u, v, exemplar, amplitude, random_bits(seed, Purpose::jitter, level, x, y));
       // At the finest level pieces fit one another already; to round each to the lattice would undo that.
       if (level > 0 || amplitude > 0) phase.snap(2 * x, 2 * y, u, v);
+      exemplar.unwind(u, v);
       settle_block(u, v, exemplar);
       starts.at(column, row) = {uint16_t(u), uint16_t(v)};
     }

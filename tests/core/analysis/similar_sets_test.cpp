@@ -1,5 +1,7 @@
 #include "core/analysis/similar_sets.h"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
@@ -44,5 +46,15 @@ TEST_CASE("similar sets do not depend on the number of threads, for narrow exemp
     tbb::task_arena(1).execute([&] { one = wall_index(size)->digest(); });
     tbb::task_arena(4).execute([&] { four = wall_index(size)->digest(); });
     CHECK(one == four);
+  }
+}
+
+TEST_CASE("the search goes around an exemplar that tiles as often as it takes") {
+  for (const Size size : {Size{16, 200}, Size{300, 24}}) {
+    const IndexPtr index = wall_index(size, true);
+    for (const SimilarSets& level : index->levels()) {
+      const auto pixels = uint32_t(level.positions.size()) / uint32_t(level.per_pixel);
+      CHECK(*std::max_element(level.positions.begin(), level.positions.end()) < pixels);
+    }
   }
 }

@@ -119,3 +119,15 @@ TEST_CASE("a cancelled synthesis stops") {
   const std::atomic<bool> cancelled{true};
   CHECK_THROWS_AS(synthesize(index(), {.size = {50, 50}}, Task(&cancelled, {})), Cancelled);
 }
+
+TEST_CASE("cells larger than the exemplar lead around one that tiles, and nowhere else") {
+  const AppearancePtr found = make_appearance(*plain_features(wall({48, 40}), true), {}, {}, Task());
+  for (const Lattice& lattice : {Lattice{1, {0, 700}, {}, 1}, Lattice{2, {900, 0}, {800, 500}, 1}}) {
+    const IndexPtr regular = make_index(Appearance::make(found->levels(), found->channels(), true, lattice), 3, Task());
+    const UvMapPtr uv = synthesize(*regular, {.size = {30, 300}, .jitter = {2, 2}}, Task());
+    for (const ExemplarPixel p : uv->pixels()) {
+      REQUIRE(p.x < 48);
+      REQUIRE(p.y < 40);
+    }
+  }
+}
