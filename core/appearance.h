@@ -64,7 +64,7 @@ inline constexpr int most_similar = 8;
 
 /// Exemplar positions with similar surroundings, for every pixel of one level.
 struct SimilarSets {
-  int per_pixel = 0;                ///< at most most_similar
+  int per_pixel = 0;                ///< at most most_similar; 0: the level has no sets
   std::vector<uint32_t> positions;  ///< y * width + x; size.area() * per_pixel, best first, row by row
 };
 

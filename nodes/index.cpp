@@ -6,11 +6,12 @@ namespace terrazzo {
 NodeType index_node() {
   NodeType t;
   t.name = "index";
-  t.version = 3;
+  t.version = 4;
   t.category = "analysis";
   t.summary = "Finds each exemplar pixel's similar pixels";
   t.help =
-      "For every pixel of every level, a few positions whose surroundings look alike (the k-coherent candidates of "
+      "For every pixel of every level but the finest, a few positions whose surroundings look alike (the k-coherent "
+      "candidates of "
       "Tong et al. 2002). The result "
       "is all that synthesis needs; it does not depend on the size or seed of what will be made.";
   t.inputs = {{.name = "appearance", .type = ValueType::appearance, .help = "the exemplar in appearance space"}};
@@ -25,7 +26,7 @@ NodeType index_node() {
     node.output("index", make_index(node.input<Appearance>("appearance"), int(node.integer("similar")), node.task()));
   };
   t.memory_hint = [](const NodeContext& node) {
-    return size_t(node.input<Appearance>("appearance")->size().area()) * 260;
+    return size_t(node.input<Appearance>("appearance")->size().area()) * 140;
   };
   return t;
 }

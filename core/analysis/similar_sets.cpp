@@ -1,5 +1,6 @@
 #include "core/analysis/similar_sets.h"
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -15,7 +16,9 @@ constexpr int64_t exhaustive_area = 1600;
 constexpr int rounds = 4;
 // A level with a coarser one looks no farther for new places than one with this side: its parent has done that.
 constexpr int searched_side = 128;
-constexpr int apart = 3;       // pixels between members of a set, in x or y
+constexpr int apart = 3;  // pixels between members of a set, in x or y
+// At the finest level results are the same without similar pixels: pieces fit, and only their seams still move.
+constexpr int finest_searched = 1;
 constexpr int tile_side = 32;  // pixels that one thread goes through in order
 
 constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
@@ -215,7 +218,7 @@ IndexPtr make_index(const AppearancePtr& appearance, int per_pixel, const Task& 
   const std::vector<AppearanceLevel>& levels = appearance->levels();
   std::vector<SimilarSets> out(levels.size());
   Sets parent;
-  for (int l = int(levels.size()) - 1; l >= 0; l--) {
+  for (int l = int(levels.size()) - 1; l >= std::min(finest_searched, int(levels.size()) - 1); l--) {
     const LevelSearch level(levels[l], appearance->wraps(),
                             LatticePhase(appearance->lattice(), l, appearance->size(), false, false));
     Sets sets(level.size(), per_pixel);

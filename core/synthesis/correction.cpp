@@ -167,7 +167,7 @@ class PixelCorrector {
     const size_t per_pixel = size_t(level_.per_pixel), width = size_t(level_.exemplar.size().width);
     for (int n = 0; n < 9; n++) {
       if (!around_[n]) continue;
-      const ExemplarPixel* similar = &level_.similar[(around_[n]->y * width + around_[n]->x) * per_pixel];
+      const ExemplarPixel* similar = level_.similar.data() + (around_[n]->y * width + around_[n]->x) * per_pixel;
       for (size_t k = 0; k < per_pixel; k++, count++) {
         proposed_x_[count] = similar[k].x - step(n, 0);
         proposed_y_[count] = similar[k].y - step(n, 1);

@@ -81,7 +81,8 @@ struct CorrectionCase {
       }
   }
   CorrectionLevel correction_level() const {
-    return {exemplar, similar, similar_per_pixel, level, PlaneWindow::all_of({field.size}), {}, {}, nullptr};
+    return {exemplar, similar, index->levels()[size_t(level)].per_pixel, level, PlaneWindow::all_of({field.size}), {},
+            {},       nullptr};
   }
 };
 
