@@ -13,7 +13,9 @@ constexpr int coarse_side = 64;
 PaddedLevel::PaddedLevel(const AppearanceLevel& level, bool wraps)
     : size_(level.size),
       wraps_(wraps),
-      keep_off_(std::min(level.size.width, level.size.height) <= coarse_side ? 1 : 2),
+      keep_off_(wraps                                                          ? 0
+                : std::min(level.size.width, level.size.height) <= coarse_side ? 1
+                                                                               : 2),
       masked_(!level.usable.empty()),
       stride_(level.size.width + 2 * margin) {
   vectors_.reserve(size_t(stride_) * (size_.height + 2 * margin));

@@ -19,7 +19,6 @@ class PaddedLevel {
   PaddedLevel(const AppearanceLevel& level, bool wraps);
 
   Size size() const { return size_; }
-  bool wraps() const { return wraps_; }
   int stride() const { return stride_; }
   /// Valid for coordinates up to `margin` outside the level.
   const AppearanceVector* at(int x, int y) const {
@@ -27,19 +26,14 @@ class PaddedLevel {
   }
   /// Whether only some pixels are usable.
   bool masked() const { return masked_; }
-  /// Brings a position that a shift may have moved out of the exemplar back to where a window fits: around the other
-  /// side, or `keep_off()` pixels inside the border.
+  /// Brings a position that a shift may have moved out of the exemplar back to where a window fits, `keep_off()` pixels
+  /// inside the border. Not around an exemplar that tiles either: what lies across its border fits, but no exemplar
+  /// shows the two sides together, and results are nearer to it the fewer such places they have.
   [[gnu::always_inline]] void settle_inside(int& x, int& y) const {
-    if (wraps_) {
-      x = x < 0 ? x + size_.width : x >= size_.width ? x - size_.width : x;
-      y = y < 0 ? y + size_.height : y >= size_.height ? y - size_.height : y;
-    } else {
-      x = within(x, keep_off_, size_.width - 1 - keep_off_);
-      y = within(y, keep_off_, size_.height - 1 - keep_off_);
-    }
+    x = within(x, keep_off_, size_.width - 1 - keep_off_);
+    y = within(y, keep_off_, size_.height - 1 - keep_off_);
   }
-  /// Brings a position any number of times around an exemplar that tiles back into it; settle_inside() takes one that
-  /// is up to once around.
+  /// Brings a position any number of times around an exemplar that tiles back into it; leaves those of others alone.
   void unwind(int& x, int& y) const {
     if (!wraps_) return;
     if (x < 0 || x >= size_.width) x = wrap(x, size_.width);
@@ -65,7 +59,7 @@ class PaddedLevel {
     if (masked_) return usable_place(bits);
     return {int(below(uint32_t(bits), size_.width)), int(below(uint32_t(bits >> 32), size_.height))};
   }
-  /// How far positions keep off the border of an exemplar that does not tile. A window nearer to it sees continued
+  /// How far positions keep off the border: 0 if the exemplar tiles. Of others, a window nearer to it sees continued
   /// pixels: at coarse levels one row of those is better than to lose so much of the exemplar.
   int keep_off() const { return keep_off_; }
 

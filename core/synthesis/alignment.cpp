@@ -20,7 +20,7 @@ constexpr int64_t worthwhile = 61;
 class PieceAligner {
  public:
   PieceAligner(Field& field, int block, const CorrectionLevel& level, int reach, const Task& task)
-      : field_(field), block_(block), level_(level), reach_(reach), task_(task), pieces_(field, level.exemplar, block) {
+      : field_(field), block_(block), level_(level), reach_(reach), task_(task), pieces_(field, block) {
     find_borders();
     find_rounds();
   }
@@ -133,12 +133,11 @@ class PieceAligner {
   bool stays(ExemplarPixel p, int dx, int dy) const {
     int u = p.x + dx, v = p.y + dy;
     if (!level_.exemplar.settles(u, v)) return false;
-    return level_.exemplar.wraps() || (u == p.x + dx && v == p.y + dy);
+    return u == p.x + dx && v == p.y + dy;
   }
 
   /// Whether the exemplar has usable pixels for the whole piece where a move would take it.
   bool has_room(int piece, int dx, int dy) const {
-    if (!level_.exemplar.masked() && level_.exemplar.wraps()) return true;
     const std::span<const int> members = pieces_.members(piece);
     return std::all_of(members.begin(), members.end(), [&](int i) {
       const ExemplarPixel p = field_.pixels[i];

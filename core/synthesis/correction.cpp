@@ -253,12 +253,9 @@ class PixelCorrector {
   HWY_ATTR void settle_proposed(size_t count) {
     const hn::CappedTag<int32_t, 16> d;
     const PaddedLevel& exemplar = level_.exemplar;
-    const int keep_off = exemplar.wraps() ? 0 : exemplar.keep_off();
+    const auto least = hn::Set(d, exemplar.keep_off());
     const auto settle = [&](auto v, int length) HWY_ATTR {
-      const auto n = hn::Set(d, length);
-      if (!exemplar.wraps()) return hn::Min(hn::Max(v, hn::Set(d, keep_off)), hn::Sub(n, hn::Set(d, 1 + keep_off)));
-      v = hn::Add(v, hn::IfThenElseZero(hn::Lt(v, hn::Zero(d)), n));
-      return hn::Sub(v, hn::IfThenZeroElse(hn::Lt(v, n), n));
+      return hn::Min(hn::Max(v, least), hn::Set(d, length - 1 - exemplar.keep_off()));
     };
     for (size_t i = 0; i < count; i += hn::Lanes(d)) {
       const auto x = settle(hn::Load(d, &proposed_x_[i]), exemplar.size().width);

@@ -6,13 +6,12 @@
 
 namespace terrazzo {
 
-Pieces::Pieces(const Field& field, const PaddedLevel& exemplar, int block) {
+Pieces::Pieces(const Field& field, int block) {
   const Size size = field.size;
   const int count = int(size.area());
   const auto continues = [&](int from, int to, int dx, int dy) {
-    int u = field.pixels[from].x + dx, v = field.pixels[from].y + dy;
-    if (exemplar.wraps()) exemplar.settle(u, v);
-    return u == field.pixels[to].x && v == field.pixels[to].y;
+    const ExemplarPixel p = field.pixels[from], q = field.pixels[to];
+    return p.x + dx == q.x && p.y + dy == q.y;
   };
   DisjointSets joined{size_t(count)};
   for (int y = 0; y < size.height; y++)

@@ -4,11 +4,11 @@
 
 namespace terrazzo {
 
-/// The pieces of a field: connected pixels that continue one another in the exemplar. Numbered in the order of their
-/// first pixels. Pixels may stand for blocks of several exemplar pixels a side.
+/// The pieces of a field: connected pixels that continue one another in the exemplar, not across its border. Numbered
+/// in the order of their first pixels. Pixels may stand for blocks of several exemplar pixels a side.
 class Pieces {
  public:
-  Pieces(const Field& field, const PaddedLevel& exemplar, int block = 1);
+  explicit Pieces(const Field& field, int block = 1);
 
   int count() const { return int(begin_.size()) - 1; }
   int area(int piece) const { return begin_[piece + 1] - begin_[piece]; }

@@ -18,10 +18,9 @@ std::array<int, 2> random_start(const PaddedLevel& exemplar, int side, uint64_t 
     const auto [u, v] = exemplar.place(bits);
     return {u - side / 2, v - side / 2};
   }
-  const int keep_off = exemplar.wraps() ? 0 : exemplar.keep_off();
+  const int keep_off = exemplar.keep_off();
   const auto start = [&](uint32_t half, int n) {
-    const int room = exemplar.wraps() ? n : std::max(1, n - side - 2 * keep_off);
-    return keep_off + int(below(half, uint32_t(room)));
+    return keep_off + int(below(half, uint32_t(std::max(1, n - side - 2 * keep_off))));
   };
   return {start(uint32_t(bits), exemplar.size().width), start(uint32_t(bits >> 32), exemplar.size().height)};
 }
@@ -69,11 +68,9 @@ void displace(int& u, int& v, const PaddedLevel& exemplar, double amplitude, uin
 
 /// Brings the first pixel of a block to where all four lie in the exemplar and continue one another.
 void settle_block(int& u, int& v, const PaddedLevel& exemplar) {
-  if (!exemplar.wraps()) {
-    u++, v++;
-    exemplar.settle_inside(u, v);
-    u--, v--;
-  }
+  u++, v++;
+  exemplar.settle_inside(u, v);
+  u--, v--;
   exemplar.settle_inside(u, v);
 }
 

@@ -47,7 +47,7 @@ class SeamMover {
   bool step(ExemplarPixel& p, int side) const {
     const int x = p.x + sides[side][0], y = p.y + sides[side][1];
     int u = x, v = y;
-    if (!level_.exemplar.settles(u, v) || (!level_.exemplar.wraps() && (u != x || v != y))) return false;
+    if (!level_.exemplar.settles(u, v) || u != x || v != y) return false;
     p = {uint16_t(u), uint16_t(v)};
     return true;
   }
@@ -127,7 +127,7 @@ class SeamMover {
 }  // namespace
 
 void move_seams(Field& field, const CorrectionLevel& level, int reach, const Task& task) {
-  const Pieces pieces(field, level.exemplar);
+  const Pieces pieces(field);
   std::vector<int> order(size_t(pieces.count()));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.area(a) > pieces.area(b); });

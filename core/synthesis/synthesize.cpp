@@ -70,23 +70,26 @@ constexpr int seam_level = 2;  // the finest on which pieces still change
 constexpr int seam_reach = 8;
 constexpr int passes_after_seams = 2;
 // Of the exemplar. With a lattice less is out of phase, so pieces grow more readily.
-constexpr double large_piece = 0.2, large_piece_on_lattice = 0.11;
+constexpr double large_piece = 0.13, large_piece_on_lattice = 0.11;
+constexpr double fragment = 0.1;  // of a large piece
 constexpr double most_coherence = 1.5;
 constexpr int finest_limited = 2;
 constexpr int finest_even = 1;       // evenness has no say below this level,
 constexpr int finest_recounted = 2;  // and below this one it goes by what the level began with
 
 /// The larger a piece has become beyond a fair size, the less it pays to continue it, so that none comes back as a
-/// landmark. Finer levels are left out: there pieces no longer grow.
+/// landmark. Fragments are dear as well: they give way to their neighbours, for there are fewer seams between a few
+/// pieces of a size than among many. Finer levels are left out: there pieces no longer grow.
 std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence,
                                       bool regular) {
   if (level.level < finest_limited || level.fixed.any()) return {};
-  const Pieces pieces(field, level.exemplar);
+  const Pieces pieces(field);
   const double fair = (regular ? large_piece_on_lattice : large_piece) * double(level.exemplar.size().area());
   std::vector<uint32_t> factors(field.pixels.size());
   for (size_t i = 0; i < factors.size(); i++) {
-    const double size = std::max(1.0, pieces.area(pieces.of(int(i))) / fair);
-    factors[i] = uint32_t(std::min(most_coherence, coherence * size) * unit_factor);
+    const double size = pieces.area(pieces.of(int(i))) / fair;
+    const double dearness = size < fragment ? 2 - size / fragment : std::max(1.0, size);
+    factors[i] = uint32_t(std::min(most_coherence, coherence * dearness) * unit_factor);
   }
   return factors;
 }

@@ -118,7 +118,7 @@ BENCHMARK(occupancy_count)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecon
 
 void piece_labels(benchmark::State& state) {
   const CorrectionCase c(2);
-  for (auto _ : state) benchmark::DoNotOptimize(Pieces(c.field, c.exemplar).count());
+  for (auto _ : state) benchmark::DoNotOptimize(Pieces(c.field).count());
   count_items(state, c.field.size.area());
 }
 BENCHMARK(piece_labels)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);

@@ -45,9 +45,9 @@ TEST_CASE("pieces that were moved apart find together again") {
   for (const bool wraps : {false, true}) {
     const PaddedLevel exemplar = noise(wraps);
     Field field = shifted(-2, 1);
-    REQUIRE(Pieces(field, exemplar).count() == 2);
+    REQUIRE(Pieces(field).count() == 2);
     align_pieces(field, 1, level_of(exemplar, none), 2, Task());
-    CHECK(Pieces(field, exemplar).count() == 1);
+    CHECK(Pieces(field).count() == 1);
   }
 }
 
@@ -63,9 +63,9 @@ TEST_CASE("pieces whose pixels stand for blocks meet as well, the blocks' pixels
       return field;
     };
     Field field = blocks(1, -2);
-    REQUIRE(Pieces(field, exemplar, 2).count() == 2);
+    REQUIRE(Pieces(field, 2).count() == 2);
     align_pieces(field, 2, level_of(exemplar, none), 2, Task());
-    CHECK(Pieces(field, exemplar, 2).count() == 1);
+    CHECK(Pieces(field, 2).count() == 1);
   }
 }
 
@@ -83,9 +83,9 @@ TEST_CASE("the order in which pieces move does not depend on the number of threa
           field.pixels.push_back({uint16_t((x + below(uint32_t(bits), 3)) % side.width),
                                   uint16_t((y + below(uint32_t(bits >> 32), 3)) % side.height)});
         }
-      const int before = Pieces(field, exemplar).count();
+      const int before = Pieces(field).count();
       align_pieces(field, 1, level_of(exemplar, none), 2, Task());
-      CHECK(Pieces(field, exemplar).count() < before);
+      CHECK(Pieces(field).count() < before);
       std::vector<uint32_t> result;
       for (const ExemplarPixel p : field.pixels) result.push_back(uint32_t(p.y) << 16 | p.x);
       results.insert(result);
@@ -98,7 +98,7 @@ TEST_CASE("beyond their reach pieces stay apart, and what fits stays where it is
   const PaddedLevel exemplar = noise(false);
   Field apart = shifted(0, 5);
   align_pieces(apart, 1, level_of(exemplar, none), 2, Task());
-  CHECK(Pieces(apart, exemplar).count() == 2);
+  CHECK(Pieces(apart).count() == 2);
   Field whole = shifted(0, 0);
   const Field before = whole;
   align_pieces(whole, 1, level_of(exemplar, none), 2, Task());
@@ -126,6 +126,6 @@ TEST_CASE("no piece leaves an exemplar that does not tile") {
   KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 0)};
   kept.keep[0] = 1;
   align_pieces(field, 1, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 2, Task());
-  CHECK(Pieces(field, exemplar).count() == 2);
+  CHECK(Pieces(field).count() == 2);
   for (const ExemplarPixel p : field.pixels) CHECK(p.x < side.width - exemplar.keep_off());
 }
