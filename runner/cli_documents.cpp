@@ -111,8 +111,9 @@ void add_new_command(CLI::App& app, Chosen& chosen) {
 
 void add_document_commands(CLI::App& app, Chosen& chosen) {
   add_new_command(app, chosen);
-  const auto add = [&](const char* name, const char* help, int (*act)(const DocumentFlags&)) {
+  const auto add = [&](const char* name, const char* help, const char* footer, int (*act)(const DocumentFlags&)) {
     CLI::App* command = app.add_subcommand(name, help);
+    command->footer(footer);
     const auto flags = std::make_shared<DocumentFlags>();
     command->add_option("GRAPH", flags->graph, "The graph file")->required()->type_name("FILE.json");
     command->callback([&chosen, flags, act] { chosen = [flags, act] { return act(*flags); }; });
@@ -124,13 +125,25 @@ void add_document_commands(CLI::App& app, Chosen& chosen) {
         ->take_all()
         ->expected(1);
   };
-  const auto [check_command, check_flags] = add("check", "Checks a graph file without running it", check);
+  const auto [check_command, check_flags] =
+      add("check", "Checks a graph file without running it",
+          "Names every mistake at once, by line and column. Once all parameters are set, sources, maps and places to\n"
+          "write to are looked at, too.\n"
+          "Examples:\n"
+          "  terrazzo check bricks.json\n"
+          "  terrazzo check bricks.json --set material=bricks/",
+          check);
   add_set(check_command, *check_flags);
   const auto [upgrade_command, upgrade_flags] =
-      add("upgrade", "Rewrites a graph file in the current format version and layout", upgrade);
+      add("upgrade", "Rewrites a graph file in the current format version and layout",
+          "Example:\n  terrazzo upgrade bricks.json", upgrade);
   upgrade_command->add_option("-o,--out", upgrade_flags->out, "Write here and leave the graph file as it is")
       ->type_name("FILE.json");
-  const auto [draw_command, draw_flags] = add("draw", "Draws a graph file", draw);
+  const auto [draw_command, draw_flags] = add("draw", "Draws a graph file",
+                                              "Examples:\n"
+                                              "  terrazzo draw bricks.json -o bricks.svg\n"
+                                              "  terrazzo draw bricks.json -o bricks.dot",
+                                              draw);
   draw_command->add_option("-o,--out", draw_flags->out, "The drawing")->required()->type_name("FILE.svg|.dot");
   add_set(draw_command, *draw_flags);
 }

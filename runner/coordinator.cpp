@@ -237,10 +237,12 @@ void Coordinator::settle(Job& job) {
     computing_--;
     memory_in_use_ -= job.memory;
   }
+  made_folders_.insert(made_folders_.end(), job.made_folders.begin(), job.made_folders.end());
   if (job.span.end > 0) spans_.push_back(job.span);
   if (job.cancelled || (options_.cancelled && options_.cancelled->load())) cancelled_ = true;
   if (job.failure) {
-    failures_.push_back({plan_.stages[job.stage].node->name, *job.failure});
+    if (job.blames_input.empty() || blamed_inputs_.insert(job.blames_input).second)
+      failures_.push_back({plan_.stages[job.stage].node->name, *job.failure});
     outcomes_[job.stage].kind = StageOutcome::Kind::failed;
     if (options_.observer) options_.observer->failed(plan_.stages[job.stage], *job.failure);
   }

@@ -114,6 +114,14 @@ void store(Job& job, const Stage& stage, const RunOptions& options) {
   options.cache->store_stage(stage.known->key, *job.record);
 }
 
+/// The message with the files that the user asked for in place of those under which they were written so far.
+std::string of_targets(const NodeContext& context, std::string message) {
+  for (const StagedFile& f : context.staged())
+    for (size_t at; (at = message.find(f.temporary.native())) != std::string::npos;)
+      message.replace(at, f.temporary.native().size(), f.target.native());
+  return message;
+}
+
 void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
   const Stage& stage = plan.stages[job.stage];
   switch (job.kind) {
@@ -138,7 +146,9 @@ void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
 
 void perform(Job& job, const Plan& plan, const RunOptions& options) {
   const GraphNode& node = *plan.stages[job.stage].node;
-  const auto fail = [&](const std::string& about, const std::string& message) {
+  const auto fail = [&](const std::string& about, const std::string& reason) {
+    const std::string message = job.context ? of_targets(*job.context, reason) : reason;
+    if (node.type->find_input(about)) job.blames_input = message;
     job.failure = describe(plan.graph->file.string(), problem_of(node, about, message));
   };
   try {
@@ -154,6 +164,7 @@ void perform(Job& job, const Plan& plan, const RunOptions& options) {
   } catch (const std::exception& e) {
     fail("", fmt::format("a fault in the program: {}", e.what()));
   }
+  if (job.context) job.made_folders = job.context->made_folders();
   job.context.reset();  // lets go of the inputs
 }
 

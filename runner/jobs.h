@@ -24,6 +24,8 @@ struct Job {
   std::optional<Resolution> resolution;  ///< out for look_up
   bool cancelled = false;
   std::optional<std::string> failure;  ///< a complete message
+  std::string blames_input;            ///< what it says, if about an input: all that read it may say the same
+  std::vector<std::filesystem::path> made_folders;  ///< by compute, outer ones first
   Span span;
 };
 using JobPtr = std::shared_ptr<Job>;

@@ -105,7 +105,10 @@ class JsonProgress : public Progress {
     write({{"event", "progress"}, {"node", s.node->name}, {"fraction", fraction}});
   }
   void noted(const Stage& s, const std::string& message) override {
-    write({{"event", "note"}, {"node", s.node->name}, {"message", message}});
+    const bool warning = is_warning(message);
+    write({{"event", warning ? "warning" : "note"},
+           {"node", s.node->name},
+           {"message", warning ? message.substr(warning_mark.size()) : message}});
   }
   void finished(const Stage& s, double seconds) override {
     write({{"event", "done"}, {"node", s.node->name}, {"seconds", seconds}});
@@ -161,6 +164,7 @@ class PlainProgress : public Progress {
     if (throttle_.open(&s)) line(s, fmt::format("{:.0f} %", 100 * fraction));
   }
   void noted(const Stage& s, const std::string& message) override {
+    if (is_warning(message)) return;  // said at the end
     const std::lock_guard lock(mutex_);
     out_ << fmt::format("{}: {}", s.node->name, message) << std::endl;
   }
@@ -212,6 +216,7 @@ class BarProgress : public Progress {
     draw(false);
   }
   void noted(const Stage& s, const std::string& message) override {
+    if (is_warning(message)) return;  // said at the end
     const std::lock_guard lock(mutex_);
     erase();
     out_ << s.node->name << ": " << message << '\n';
@@ -313,6 +318,7 @@ void write_error(ProgressMode mode, std::ostream& out, const std::exception& err
 }
 
 void write_watching(ProgressMode mode, std::ostream& out, size_t files) {
+  if (mode == ProgressMode::none) return;
   if (mode == ProgressMode::json)
     write_event(out, {{"event", "watching"}, {"files", files}});
   else
