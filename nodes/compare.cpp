@@ -144,7 +144,7 @@ size_t memory_hint(const NodeContext& node) {
 NodeType compare_node() {
   NodeType t;
   t.name = "compare";
-  t.version = 3;
+  t.version = 4;
   t.category = "sink";
   t.summary = "Scores a result against its exemplar";
   t.help =
