@@ -1,6 +1,8 @@
 #include "runner/jobs.h"
 
+#include <chrono>
 #include <new>
+#include <thread>
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -96,15 +98,50 @@ void compute(Job& job, const Stage& stage, const RunOptions& options) {
   job.record = std::move(record);
 }
 
-void load(Job& job, const Stage& stage, Cache* cache) {
+void load(Job& job, const Stage& stage, const std::map<std::string, Digest>& names, Cache* cache) {
   for (const std::string& port : stage.used_outputs) {
-    std::optional<Value> value = cache->load_value(stage.known->names.at(port));
+    std::optional<Value> value = cache->load_value(names.at(port));
     if (!value || type_of(*value) != stage.type().find_output(port)->type) {
       job.values.clear();
       return;
     }
     job.values.emplace(port, std::move(*value));
   }
+}
+
+/// Whether this job is to compute the stage now: nobody else is at it, or nobody can tell. Waits for a while only,
+/// since a result may have to be stored by this thread before somebody else's can be had.
+bool claim(Job& job, const Stage& stage, const RunOptions& options) {
+  if (!options.cache || stage.type().persist != Persist::payload || stage.type().is_sink()) return true;
+  constexpr auto pause = std::chrono::milliseconds(5);
+  for (int i = 0; i < 10; i++) {
+    LeaseAttempt attempt = options.cache->try_lease(stage.known->key);
+    job.lease = std::move(attempt.lease);
+    if (!attempt.taken) return true;
+    if (!job.waited) {
+      if (options.observer) options.observer->waits(stage);
+      break;
+    }
+    job.context->task().check();
+    std::this_thread::sleep_for(pause);
+  }
+  job.waited = job.busy = true;
+  return false;
+}
+
+/// Loads what another process has computed since the stage was looked up.
+bool find_elsewhere(Job& job, const Stage& stage, Cache* cache) {
+  if (!job.lease) return false;
+  std::optional<StageRecord> record = cache->find_stage(stage.known->key);
+  if (!record || !is_complete(*record, stage.type())) return false;
+  for (const std::string& port : stage.used_outputs)
+    if (!cache->has_value(record->outputs.at(port))) return false;
+  load(job, stage, record->outputs, cache);
+  if (job.values.size() < stage.used_outputs.size()) return false;
+  job.record = std::move(record);
+  job.made_elsewhere = true;
+  job.lease.reset();
+  return true;
 }
 
 void store(Job& job, const Stage& stage, const RunOptions& options) {
@@ -131,10 +168,10 @@ void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
       job.resolution = resolve(plan, job.stage, options.cache, nullptr);
       break;
     case Job::Kind::load:
-      load(job, stage, options.cache);
+      load(job, stage, stage.known->names, options.cache);
       break;
     case Job::Kind::compute:
-      compute(job, stage, options);
+      if (claim(job, stage, options) && !find_elsewhere(job, stage, options.cache)) compute(job, stage, options);
       break;
     case Job::Kind::store:
       store(job, stage, options);
@@ -164,7 +201,9 @@ void perform(Job& job, const Plan& plan, const RunOptions& options) {
   } catch (const std::exception& e) {
     fail("", fmt::format("a fault in the program: {}", e.what()));
   }
+  if (job.busy) return;
   if (job.context) job.made_folders = job.context->made_folders();
+  if (job.kind == Job::Kind::store) job.lease.reset();
   job.context.reset();  // lets go of the inputs
 }
 

@@ -97,6 +97,7 @@ class JsonProgress : public Progress {
     write({{"event", "plan"}, {"stages", std::move(stages)}});
   }
   void started(const Stage& s) override { write({{"event", "start"}, {"node", s.node->name}}); }
+  void waits(const Stage& s) override { write({{"event", "wait"}, {"node", s.node->name}}); }
   void progressed(const Stage& s, double fraction) override {
     {
       const std::lock_guard lock(mutex_);
@@ -158,6 +159,11 @@ class PlainProgress : public Progress {
     const std::lock_guard lock(mutex_);
     throttle_.start(&s);
     count_.begin(s);
+  }
+  void waits(const Stage& s) override {
+    const std::lock_guard lock(mutex_);
+    count_.begin(s);
+    line(s, "is being made by another process");
   }
   void progressed(const Stage& s, double fraction) override {
     const std::lock_guard lock(mutex_);

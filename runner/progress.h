@@ -37,6 +37,7 @@ class Progress : public RunObserver {
 ///   warning   "message": about the document or the cache, or "node" and what its results may lack
 ///   plan      "stages": [{"node", "type", "state", "key" (or null), "why"}]; states as in StageState
 ///   start     "node"
+///   wait      "node": another process that shares the cache is computing it
 ///   progress  "node", "fraction" in [0, 1]; at most ten a second for each node
 ///   note      "node", "message"
 ///   done      "node", "seconds"
