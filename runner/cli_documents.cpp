@@ -7,6 +7,7 @@
 #include "graphs/document/load.h"
 #include "graphs/document/migrate.h"
 #include "runner/cli_commands.h"
+#include "runner/foresight.h"
 #include "runner/memory_graph.h"
 #include "runner/say.h"
 #include "runner/schedule.h"
@@ -26,8 +27,18 @@ struct DocumentFlags {
   std::vector<std::string> set;
 };
 
+/// Looks ahead as far as nothing depends on a parameter that is not set.
+void check_what_is_set(const Graph& graph, const std::string& unset) {
+  std::vector<GraphNode> complete;
+  for (const GraphNode& n : graph.nodes)
+    if (n.params.size() == n.type->params.size()) complete.push_back(n);
+  if (std::vector<Problem> problems = foreseen_in_nodes(complete); !problems.empty())
+    throw GraphError(graph.file.string(), std::move(problems));
+  say("what depends on a parameter that is not set was not looked at: --set {}=VALUE\n", unset);
+}
+
 int check(const DocumentFlags& flags) {
-  const LoadedGraph loaded = load_graph(flags.graph, flags.set, {.allow_unset = true});
+  const LoadedGraph loaded = load_graph(flags.graph, flags.set, {.allow_unset = true, .look_ahead = foreseen_in_nodes});
   for (const std::string& c : loaded.conversions) fmt::print("{}\n", c);
   for (const std::string& w : loaded.warnings) say("warning: {}\n", w);
   const auto unset = std::find_if(loaded.parameters.begin(), loaded.parameters.end(),
@@ -35,7 +46,7 @@ int check(const DocumentFlags& flags) {
   if (unset == loaded.parameters.end())
     make_plan(loaded.graph, nullptr);
   else
-    say("files and maps are not looked at as long as a parameter is not set: --set {}=VALUE\n", unset->param.name);
+    check_what_is_set(loaded.graph, unset->param.name);
   const auto counted = [](size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
   fmt::print("{} is valid: {}, {}\n", flags.graph, counted(loaded.graph.nodes.size(), "node"),
              counted(loaded.parameters.size(), "parameter"));
@@ -127,8 +138,8 @@ void add_document_commands(CLI::App& app, Chosen& chosen) {
   };
   const auto [check_command, check_flags] =
       add("check", "Checks a graph file without running it",
-          "Names every mistake at once, by line and column. Once all parameters are set, sources, maps and places to\n"
-          "write to are looked at, too.\n"
+          "Names every mistake at once, by line and column: in the file itself, in the sources and maps it speaks of,\n"
+          "and in the places it would write to.\n"
           "Examples:\n"
           "  terrazzo check bricks.json\n"
           "  terrazzo check bricks.json --set material=bricks/",

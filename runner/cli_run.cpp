@@ -10,6 +10,7 @@
 #include "core/synthesis/synthesize.h"
 #include "graphs/document/load.h"
 #include "runner/cli_commands.h"
+#include "runner/foresight.h"
 #include "runner/history.h"
 #include "runner/html_report.h"
 #include "runner/say.h"
@@ -176,7 +177,7 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
     chosen = [flags] {
       return run_with_flags(
           [&] {
-            LoadedGraph loaded = load_graph(flags->graph, flags->set);
+            LoadedGraph loaded = load_graph(flags->graph, flags->set, {.look_ahead = foreseen_in_nodes});
             for (const std::string& w : loaded.warnings) warn(*flags, w);
             return std::move(loaded.graph);
           },

@@ -15,11 +15,10 @@ namespace fs = std::filesystem;
 
 class Foresight {
  public:
-  std::vector<Problem> look(const Plan& plan) {
-    for (const Stage& s : plan.stages)
-      if (s.needed) note_sources(*s.node);
-    for (const Stage& s : plan.stages)
-      if (s.needed) look_at(s);
+  /// Nodes in the order of their wires, each with whether it is going to write.
+  std::vector<Problem> look(const std::vector<std::pair<const GraphNode*, bool>>& nodes) {
+    for (const auto& [node, writes] : nodes) note_sources(*node);
+    for (const auto& [node, writes] : nodes) look_at(*node, writes);
     return std::move(problems_);
   }
 
@@ -40,12 +39,11 @@ class Foresight {
                        reader->second);
   }
 
-  void look_at(const Stage& stage) {
-    const GraphNode& node = *stage.node;
+  void look_at(const GraphNode& node, bool writes) {
     if (!node.type->foresee) return;
     try {
       const Forecast forecast = node.type->foresee(node.params, inputs_of(node));
-      if (stage.state != StageState::up_to_date) check_files(node, forecast.files);
+      if (writes) check_files(node, forecast.files);
       // An image that becomes a material of one map is none of the material beside it.
       for (const Port& p : node.type->outputs)
         if (p.type == ValueType::material) forecasts_[{node.name, p.name}] = forecast;
@@ -98,7 +96,16 @@ class Foresight {
 }  // namespace
 
 std::vector<Problem> foreseen_problems(const Plan& plan) {
-  return Foresight().look(plan);
+  std::vector<std::pair<const GraphNode*, bool>> nodes;
+  for (const Stage& s : plan.stages)
+    if (s.needed) nodes.emplace_back(s.node, s.state != StageState::up_to_date);
+  return Foresight().look(nodes);
+}
+
+std::vector<Problem> foreseen_in_nodes(const std::vector<GraphNode>& nodes) {
+  std::vector<std::pair<const GraphNode*, bool>> all;
+  for (const GraphNode& n : nodes) all.emplace_back(&n, true);
+  return Foresight().look(all);
 }
 
 }  // namespace terrazzo

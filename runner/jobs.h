@@ -28,7 +28,7 @@ struct Job {
   bool waited = false;                   ///< has been busy before
   bool cancelled = false;
   std::optional<std::string> failure;  ///< a complete message
-  std::string blames_input;            ///< what it says, if about an input: all that read it may say the same
+  std::string blames_input;            ///< what it says, if what came in is to blame: others may say the same
   std::vector<std::filesystem::path> made_folders;  ///< by compute, outer ones first
   Span span;
 };
