@@ -216,6 +216,7 @@ class BarProgress : public Progress {
     count_.begin(s);
     draw(false);
   }
+  void waits(const Stage& s) override { started(s); }
   void progressed(const Stage& s, double fraction) override {
     const std::lock_guard lock(mutex_);
     running_[&s] = fraction;
