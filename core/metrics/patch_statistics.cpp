@@ -78,7 +78,8 @@ std::vector<double> distances(const NearestPoints& tree, const std::vector<float
 double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Task& task) {
   const Projection slices = random_directions(patch_values(exemplar), directions, direction_seed);
   const auto a = project(exemplar, random_patches(exemplar.size, sliced_patches, exemplar_seed), slices, task);
-  const auto b = project(output, random_patches(output.size, sliced_patches, output_seed(exemplar, output)), slices, task);
+  const auto b =
+      project(output, random_patches(output.size, sliced_patches, output_seed(exemplar, output)), slices, task);
   std::vector<double> distance(directions);
   tbb::parallel_for(0, directions, [&](int k) {
     task.check();
