@@ -51,13 +51,20 @@ bool holds(FileFormat format, Depth depth);
 /// From the name's extension; nullopt if it is none of the formats that can be written.
 std::optional<FileFormat> format_from(const std::filesystem::path& path);
 
+/// Values outside 0..1 that an integer depth cannot hold.
+struct Clipping {
+  int64_t values = 0;         ///< how many
+  int64_t all = 0;            ///< of how many
+  float least = 0, most = 0;  ///< those that were clipped
+};
+
 /// Writes strip by strip, pulling the image's pixels as it goes; `progress` is called with the fraction done and may
 /// throw to stop. No dithering: a value read from a file of the same depth is written back exactly. The same pixels
-/// give the same bytes. JPEG has no alpha channel and leaves it out. Returns how many values lay outside 0..1 and were
-/// clipped by an integer depth. Throws FileError where the operating system refuses (no space, no permission), Error
-/// where the format does; the file is then incomplete and the caller's to remove.
-int64_t write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
-                    const std::function<void(double)>& progress);
+/// give the same bytes. JPEG has no alpha channel and leaves it out. Throws FileError where the operating system
+/// refuses (no space, no permission), Error where the format does; the file is then incomplete and the caller's to
+/// remove.
+Clipping write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
+                     const std::function<void(double)>& progress);
 
 /// The image as an 8-bit PNG file in memory; otherwise as write_image.
 std::vector<uint8_t> png_of(const Image& image);

@@ -16,15 +16,21 @@ namespace fs = std::filesystem;
 
 constexpr const char* module_name = "terrazzo_libraries.so";
 
-/// Beside the program, where it is installed, or where it was built.
+/// Beside the program, where it is installed, or where it was built. Throws Error if it is in none of these places.
 fs::path module_path() {
   std::error_code unreadable;
   const fs::path beside = fs::read_symlink("/proc/self/exe", unreadable).parent_path();
   const std::array<fs::path, 3> folders = {beside, beside / "../lib/terrazzo", TERRAZZO_MODULE_FOLDER};
-  for (const fs::path& folder : folders)
-    if (std::error_code missing; fs::exists(folder / module_name, missing)) return folder / module_name;
-  throw Error(fmt::format("{} is not beside the program in {}; it belongs to the program and must go with it",
-                          module_name, beside.string()));
+  std::string places;
+  for (const fs::path& folder : folders) {
+    const fs::path path = (folder / module_name).lexically_normal();
+    if (std::error_code missing; fs::exists(path, missing)) return path;
+    places += (places.empty() ? "" : ", ") + path.string();
+  }
+  throw Error(
+      fmt::format("the part of terrazzo that knows JPEG, TIFF and EXR files is missing; looked for {}. `cmake "
+                  "--install BUILD_FOLDER --prefix FOLDER` puts it and the program in their places",
+                  places));
 }
 
 const ImageLibraries& load() {
@@ -38,6 +44,10 @@ const ImageLibraries& load() {
 }
 
 }  // namespace
+
+void require_image_libraries() {
+  module_path();
+}
 
 const ImageLibraries& image_libraries() {
   static const ImageLibraries& libraries = load();

@@ -90,6 +90,9 @@ struct ImageLibraries {
   std::shared_ptr<const ColorConfiguration> (*load_colors)(const std::string& path);
 };
 
+/// Throws Error if the module is missing; does not load it.
+void require_image_libraries();
+
 /// Loads the module when it is first called. Throws Error if it cannot be loaded. Thread-safe.
 const ImageLibraries& image_libraries();
 

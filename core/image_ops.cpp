@@ -1,17 +1,12 @@
 #include "core/image_ops.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 
 namespace terrazzo {
-
-std::string describe(Size size) {
-  return fmt::format("{}x{}", size.width, size.height);
-}
 
 std::string describe(const Image& image) {
   const int channels = image.channels();
@@ -42,29 +37,16 @@ void require_same_size(const std::string& port, const Image& image, const std::s
                         other_port, describe(other.size()), describe(image.size())));
 }
 
-namespace {
-
-bool same_shape(Size a, Size b) {
-  const int64_t across = int64_t{a.width} * b.height, down = int64_t{a.height} * b.width;
-  return std::abs(across - down) <= std::max({a.width, a.height, b.width, b.height});
-}
-
-}  // namespace
-
 void require_one_shape(const std::string& port, const Material& material) {
-  const Map& first = material.maps().front();
-  for (const Map& map : material.maps())
-    if (!same_shape(map.image->size(), first.image->size()))
-      throw Error(port,
-                  fmt::format("all maps must show the same area, but \"{}\" has {} pixels and \"{}\" {}, which is "
-                              "another shape; \"crop\" or \"resize\" one of them, or leave it out",
-                              first.name, describe(first.image->size()), map.name, describe(map.image->size())));
+  std::vector<std::pair<std::string, Size>> maps;
+  for (const Map& map : material.maps()) maps.emplace_back(map.name, map.image->size());
+  require_one_shape(port, maps);
 }
 
 void require_shape(const std::string& port, const Image& image, const std::string& of, Size size) {
   if (same_shape(image.size(), size)) return;
-  throw Error(port, fmt::format("expected an image of the shape of {}, {} pixels or a multiple of that, found {}", of,
-                                describe(size), describe(image)));
+  throw Error(port, fmt::format("expected an image of the shape of {}, {} pixels, at that or any other scale; found {}",
+                                of, describe(size), describe(image)));
 }
 
 ImagePtr nearest_at_size(const ImagePtr& image, Size size) {

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/map_names.h"
 #include "core/material.h"
 
 /// What operations on images share: checks whose messages say what was found, and images computed pixel by pixel when
 /// they are pulled. Thread-safe.
 namespace terrazzo {
 
-/// "256x128"
-std::string describe(Size size);
 /// "a height map of 256x128 pixels and 1 channel"
 std::string describe(const Image& image);
 
@@ -26,8 +25,7 @@ void require_same_size(const std::string& port, const Image& image, const std::s
 
 /// Throws Error about `port` unless the image has the same shape as what it belongs to, to a pixel.
 void require_shape(const std::string& port, const Image& image, const std::string& of, Size size);
-/// Throws Error about `port`, naming both maps and their sizes, unless all maps of the material have one shape, at
-/// whatever sizes, give or take what rounding to whole pixels does.
+/// See core/map_names.h.
 void require_one_shape(const std::string& port, const Material& material);
 
 /// The image at another size by nearest samples: keeps maps of different sizes aligned. Computed when pulled.

@@ -47,12 +47,13 @@ class Converter {
     }
     return nullptr;
   }
-  int64_t clipped() const { return clipped_; }
+  const Clipping& clipped() const { return clipped_; }
 
  private:
   template <typename T, typename Convert>
   const void* fill(std::vector<T>& out, const float* in, int64_t pixels, Convert convert) {
     out.resize(size_t(pixels) * out_channels_);
+    clipped_.all += int64_t(out.size());
     for (int64_t i = 0; i < pixels; i++)
       for (int c = 0; c < out_channels_; c++) out[i * out_channels_ + c] = convert(in[i * in_channels_ + c]);
     return out.data();
@@ -60,12 +61,14 @@ class Converter {
   /// k / scale gives k back, for every k.
   float rounded(float v, float scale) {
     if (v >= 0.0f && v <= 1.0f) return v * scale + 0.5f;
-    clipped_++;
+    clipped_.least = clipped_.values ? std::min(clipped_.least, v) : v;
+    clipped_.most = clipped_.values ? std::max(clipped_.most, v) : v;
+    clipped_.values++;
     return v > 1.0f ? scale : 0.0f;
   }
 
   int in_channels_, out_channels_;
-  int64_t clipped_ = 0;
+  Clipping clipped_;
   std::vector<uint8_t> bytes_;
   std::vector<uint16_t> words_;
   std::vector<float> floats_;
@@ -116,9 +119,9 @@ class WrittenBytes final : public ByteSink {
 using Fail = std::function<void(const std::string& reason)>;
 
 /// Writes to `sink`, or to the file `name` if there is none; `fail` is told why the encoder cannot go on, and throws.
-/// Returns how many values were clipped.
-int64_t write_through(const Image& image, const std::string& name, ByteSink* sink, const WriteOptions& options,
-                      const std::function<void(double)>& progress, const Fail& fail) {
+/// Returns what was clipped.
+Clipping write_through(const Image& image, const std::string& name, ByteSink* sink, const WriteOptions& options,
+                       const std::function<void(double)>& progress, const Fail& fail) {
   const EncodedImage target = encoded(image, options);
   std::unique_ptr<ImageEncoder> out;
   const auto encode = [&](const auto& step) {
@@ -144,8 +147,8 @@ int64_t write_through(const Image& image, const std::string& name, ByteSink* sin
 
 }  // namespace
 
-int64_t write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
-                    const std::function<void(double)>& progress) {
+Clipping write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
+                     const std::function<void(double)>& progress) {
   const Fail refuse = [&](const std::string& reason) {
     throw Error(fmt::format("cannot write {}: {}", path.string(), reason));
   };
@@ -158,7 +161,7 @@ int64_t write_image(const Image& image, const std::filesystem::path& path, const
   };
   // TIFF's library finishes half-float files by ways of its own, so it gets no proxy; what it wrote is checked below.
   const bool is_tiff = options.format == FileFormat::tiff;
-  const int64_t clipped = write_through(image, path.string(), is_tiff ? nullptr : &file, options, progress, fail);
+  const Clipping clipped = write_through(image, path.string(), is_tiff ? nullptr : &file, options, progress, fail);
   file.close_and_check();
   if (is_tiff && !tiff_is_complete(path)) refuse("not all of it could be written; is the disk full?");
   return clipped;

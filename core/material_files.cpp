@@ -264,7 +264,8 @@ Recognition recognise_maps(std::vector<MapFile> files) {
 std::string known_words(Semantic semantic) {
   std::string words;
   for (const MapWord& w : map_words)
-    if (w.part_count == 1 && w.parts[0].semantic == semantic && w.parts[0].map.empty() && w.word.size() > 2)
+    if (w.part_count == 1 && w.parts[0].semantic == semantic && w.parts[0].map.empty() &&
+        (w.strength == WordStrength::full || w.word.size() > 2))
       words += (words.empty() ? "" : ", ") + std::string(w.word);
   return words;
 }

@@ -106,6 +106,10 @@ std::filesystem::path NodeContext::stage(const std::filesystem::path& target) {
   if (const std::string trouble = why_not_writable(folder, target.filename().string()); !trouble.empty())
     throw Error(trouble);
   std::error_code failure;
+  std::vector<std::filesystem::path> missing;
+  for (std::filesystem::path f = folder; !f.empty() && !std::filesystem::exists(f, failure); f = f.parent_path())
+    missing.push_back(f);
+  made_folders_.insert(made_folders_.end(), missing.rbegin(), missing.rend());
   std::filesystem::create_directories(folder, failure);
   if (failure) throw Error(fmt::format("cannot make the folder {}: {}", folder.string(), failure.message()));
   const bool known = std::any_of(staged_.begin(), staged_.end(),

@@ -78,13 +78,17 @@ enum class Persist : uint8_t {
 struct FutureFile {
   std::string param;  ///< the parameter that says where
   std::filesystem::path folder;
-  std::string name;  ///< empty as long as it is not known; `folder` is then where it will lie, or deeper
+  std::string name;    ///< empty as long as it is not known; `folder` is then where it will lie, or deeper
+  std::string what{};  ///< what it is to hold, for messages
 };
 
 /// What can be told of a node's results before anything runs.
 struct Forecast {
-  std::vector<std::string> maps{};  ///< maps that its material will have, and perhaps more; empty if none is known
-  std::vector<FutureFile> files{};  ///< of a sink
+  std::vector<std::string> maps{};  ///< that its material will have
+  /// Maps that it may have besides; none if there is no telling which.
+  std::optional<std::vector<std::string>> possible_maps{};
+  std::map<std::string, Size> sizes{};  ///< of maps, where they are known
+  std::vector<FutureFile> files{};      ///< of a sink
 };
 /// Of a node's inputs: by connected port, one for each wire.
 using InputForecasts = std::map<std::string, std::vector<Forecast>>;
@@ -127,6 +131,12 @@ struct StagedFile {
   std::filesystem::path temporary;
   std::filesystem::path target;
 };
+
+/// How notes begin that are warnings.
+inline constexpr std::string_view warning_mark = "warning: ";
+inline bool is_warning(std::string_view note) {
+  return note.starts_with(warning_mark);
+}
 
 /// What compute gets: inputs, parameters, and a place for the results. Used from one thread at a time (a node may use
 /// many threads inside); `task()` is thread-safe.
@@ -174,16 +184,21 @@ class NodeContext {
   void output(std::string_view port, Value value);
   /// Something the user should know (what was recognised, what was ignored); printed, and repeated from the cache.
   void note(std::string message) { notes_.push_back(std::move(message)); }
+  /// The same for what is likely to be a mistake, or costs what the user would not want to lose. Shown where it cannot
+  /// be overlooked.
+  void warn(const std::string& message) { notes_.push_back(std::string(warning_mark) + message); }
 
   /// For sinks: a temporary name beside `target` (folders are made, and what killed runs left in them is removed) to
-  /// write to. The runner renames all staged files
-  /// once compute has returned, and removes them if it throws: a failed run leaves no partial file.
+  /// write to. The runner renames all staged files once compute has returned, and removes them and the folders if it
+  /// throws: a failed run leaves no partial file.
   std::filesystem::path stage(const std::filesystem::path& target);
 
   // What the runner takes away.
   std::map<std::string, Value>& outputs() { return outputs_; }
   const std::vector<std::string>& notes() const { return notes_; }
   const std::vector<StagedFile>& staged() const { return staged_; }
+  /// The folders that `stage` has made, outer ones first.
+  const std::vector<std::filesystem::path>& made_folders() const { return made_folders_; }
 
  private:
   const std::vector<Value>& values(std::string_view port) const;
@@ -202,6 +217,7 @@ class NodeContext {
   std::map<std::string, Value> outputs_;
   std::vector<std::string> notes_;
   std::vector<StagedFile> staged_;
+  std::vector<std::filesystem::path> made_folders_;
 };
 
 }  // namespace terrazzo

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/fine_layout.h"
+#include "core/image_ops.h"
 #include "core/local_mean.h"
 #include "core/normal.h"
 #include "core/pixel_space.h"
@@ -221,6 +222,7 @@ bool can_blend(Semantic semantic) {
 
 MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const ResolveOptions& options) {
   const Size size = exemplar.size();
+  require_one_shape("material", exemplar);
   check_scale(size, uv->exemplar(), options.scale);
   const auto exact = std::make_shared<FineLayout>(uv, size, 0);
   const auto blended = options.blend > 0 ? std::make_shared<FineLayout>(uv, size, options.blend) : exact;

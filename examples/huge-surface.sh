@@ -27,10 +27,14 @@ make() {
 }
 
 for ((y = 0; y < tiles; y++)); do
-  for ((x = 0; x < tiles; x++)); do make "$out/tile-$x-$y" "$pixels" $((x * pixels)) $((y * pixels)); done
+  for ((x = 0; x < tiles; x++)); do
+    echo "$out/tile-$x-$y"
+    make "$out/tile-$x-$y" "$pixels" $((x * pixels)) $((y * pixels))
+  done
 done
 
 # The same surface in one go, cut up; identical pixels make identical files.
+echo "$out/whole"
 make "$out/whole" "$side" 0 0
 for ((y = 0; y < tiles; y++)); do
   for ((x = 0; x < tiles; x++)); do

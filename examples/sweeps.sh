@@ -20,6 +20,7 @@ failed=()
 sheet() {
   local sweep=$1 maps=$2 to=$3
   shift 3
+  echo "  $to/$sweep.png"
   build/terrazzo run "examples/sweeps/$sweep.json" --progress none --set "material=$maps" --set "out=$to" "$@" ||
     failed+=("$to/$sweep.png")
 }

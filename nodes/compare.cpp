@@ -8,6 +8,7 @@
 #include "core/metrics/quality.h"
 #include "core/metrics/wrap_seam.h"
 #include "core/node.h"
+#include "nodes/image_work.h"
 
 namespace terrazzo {
 
@@ -143,7 +144,7 @@ size_t memory_hint(const NodeContext& node) {
 NodeType compare_node() {
   NodeType t;
   t.name = "compare";
-  t.version = 3;
+  t.version = 4;
   t.category = "sink";
   t.summary = "Scores a result against its exemplar";
   t.help =
@@ -190,6 +191,11 @@ NodeType compare_node() {
   };
   t.memory_hint = memory_hint;
   t.compute = compute;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    for (const char* side : {"exemplar", "output"})
+      foresee_maps("maps", std::get<Texts>(params.at("maps")), inputs.at(side).front(), fmt::format("the {}", side));
+    return Forecast{};
+  };
   return t;
 }
 

@@ -11,8 +11,8 @@
 #include "core/color.h"
 #include "core/file_io.h"
 #include "core/image_file.h"
+#include "core/map_names.h"
 #include "core/node.h"
-#include "core/suggest.h"
 #include "core/uv_image.h"
 #include "nodes/color_space.h"
 #include "nodes/export_paths.h"
@@ -31,7 +31,7 @@ struct Job {
   fs::path target;
   fs::path temporary;
   WriteOptions options{};
-  int64_t clipped = 0;
+  Clipping clipped{};
 };
 
 std::optional<Depth> depth_from(const std::string& name) {
@@ -90,17 +90,11 @@ ImagePtr with_normals(const ImagePtr& image, const std::string& wish) {
 std::vector<Map> chosen_maps(const NodeContext& node, const Material& material) {
   const Texts& only = node.texts("maps");
   if (only.empty()) return material.maps();
-  std::vector<std::string> known;
-  for (const Map& m : material.maps()) known.push_back(m.name);
+  require_maps("maps", only, names_of(material.maps()));
   std::vector<Map> chosen;
-  for (const std::string& name : only) {
-    const ImagePtr image = material.find(name);
-    if (!image)
-      throw Error("maps", fmt::format("the material has no map \"{}\"; it has {}{}", name, material.map_names(),
-                                      did_you_mean(name, known)));
+  for (const std::string& name : only)
     if (std::none_of(chosen.begin(), chosen.end(), [&](const Map& m) { return m.name == name; }))
-      chosen.push_back({name, image});
-  }
+      chosen.push_back({name, material.find(name)});
   return chosen;
 }
 
@@ -192,13 +186,21 @@ void require_distinct(const std::vector<Job>& jobs) {
   }
 }
 
-/// Writes one file; an error names the file that was asked for, not the temporary one.
-void write_one(Job& job, const std::function<void(double)>& progress) {
-  try {
-    job.clipped = write_image(*job.image, job.temporary, job.options, progress);
-  } catch (const FileError& e) {
-    throw_system_error("write", job.target, e.code());
-  }
+/// Loud, unless it is no more than what filters overshoot by.
+void tell_of_clipping(NodeContext& node, const Job& job) {
+  constexpr float overshoot = 0.01f;
+  const Clipping& c = job.clipped;
+  if (c.values == 0) return;
+  const std::string what = fmt::format(
+      "{}: {:.3g} % of its values lie outside 0..1 (from {:.4g} to {:.4g}) and were "
+      "clipped by {}",
+      job.name, 100.0 * double(c.values) / double(c.all), c.least, c.most, name_of(job.options.depth));
+  if (c.least >= -overshoot && c.most <= 1 + overshoot)
+    node.note(what);
+  else
+    node.warn(what +
+              "; write it as .exr, which keeps them, or bring them into 0..1 before, with \"normalize\" or "
+              "\"levels\"");
 }
 
 /// Writes all files, several at once; progress is their mean.
@@ -206,7 +208,7 @@ void write_all(NodeContext& node, std::vector<Job>& jobs) {
   std::mutex mutex;
   std::vector<double> done(jobs.size());
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
-    write_one(jobs[i], [&](double fraction) {
+    jobs[i].clipped = write_image(*jobs[i].image, jobs[i].temporary, jobs[i].options, [&](double fraction) {
       double sum = 0;
       {
         const std::lock_guard lock(mutex);
@@ -216,10 +218,7 @@ void write_all(NodeContext& node, std::vector<Job>& jobs) {
       node.task().progress(sum / double(jobs.size()));
     });
   });
-  for (const Job& job : jobs)
-    if (job.clipped)
-      node.note(fmt::format("{}: {} values lie outside 0..1 and were clipped by {}; EXR keeps them", job.name,
-                            job.clipped, name_of(job.options.depth)));
+  for (const Job& job : jobs) tell_of_clipping(node, job);
 }
 
 void compute(NodeContext& node) {
@@ -314,6 +313,7 @@ std::vector<Param> params() {
 NodeType export_node() {
   NodeType t;
   t.name = "export";
+  t.version = 2;
   t.category = "sink";
   t.summary = "Writes maps, a uv map and a report to files";
   t.help =

@@ -6,6 +6,8 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/image_libraries.h"
+#include "nodes/image_work.h"
 
 namespace terrazzo {
 
@@ -76,11 +78,11 @@ void require_some_input(bool connected) {
 namespace {
 
 /// The file of a pattern whose places are known in part; the folder it surely lies in if its name is not.
-FutureFile future_file(const char* param, const std::string& pattern, const std::string& map) {
+FutureFile future_file(const char* param, const std::string& pattern, const std::string& map, const std::string& what) {
   std::string path = pattern;
   for (size_t at; !map.empty() && (at = path.find("{map}")) != std::string::npos;) path.replace(at, 5, map);
   const fs::path known = path.substr(0, path.find('{'));
-  return {param, known.parent_path(), known == path ? known.filename().string() : ""};
+  return {param, known.parent_path(), known == path ? known.filename().string() : "", what};
 }
 
 }  // namespace
@@ -89,22 +91,30 @@ Forecast foresee_export(const Params& params, const InputForecasts& inputs) {
   const auto text = [&](const char* name) -> const std::string& { return std::get<std::string>(params.at(name)); };
   require_some_input(!inputs.empty());
   Forecast out;
+  const auto require_writer = [&](const char* param) {
+    if (const auto format = format_from(text(param)); format && *format != FileFormat::png) require_image_libraries();
+  };
   if (const auto material = inputs.find("material"); material != inputs.end()) {
     std::vector<std::string> maps;
     const Texts& chosen = std::get<Texts>(params.at("maps"));
+    require_writer("path");
+    foresee_maps("maps", chosen, material->second.front());
     for (const std::string& m : chosen.empty() ? material->second.front().maps : chosen)
       if (std::find(maps.begin(), maps.end(), m) == maps.end()) maps.push_back(m);
     require_pattern_for(text("path"), maps);
     if (maps.empty()) maps = {""};
-    for (const std::string& map : maps) out.files.push_back(future_file("path", text("path"), map));
+    for (const std::string& map : maps)
+      out.files.push_back(
+          future_file("path", text("path"), map, map.empty() ? "a map" : fmt::format("the map \"{}\"", map)));
   }
   if (inputs.count("uv")) {
     const char* param = param_of_uv(params);
-    out.files.push_back(future_file(param, text(param), "uv"));
+    require_writer(param);
+    out.files.push_back(future_file(param, text(param), "uv", "the uv map"));
   }
   if (inputs.count("report")) {
     require_report_path(text("report_path"));
-    out.files.push_back(future_file("report_path", text("report_path"), ""));
+    out.files.push_back(future_file("report_path", text("report_path"), "", "the report"));
   }
   return out;
 }

@@ -74,6 +74,12 @@ NodeType filter_bank_node() {
     return size_t(19 * 16 * side * side) + size_t(node.input<Material>("material")->size().area()) * 40;
   };
   t.compute = compute;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    const std::string& map = std::get<std::string>(params.at("map"));
+    if (!map.empty()) foresee_maps("map", {map}, inputs.at("material").front());
+    foresee_one_shape("material", inputs);
+    return Forecast{};
+  };
   return t;
 }
 

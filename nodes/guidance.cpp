@@ -5,6 +5,7 @@
 #include "core/color.h"
 #include "core/image_ops.h"
 #include "nodes/exemplar_tiles.h"
+#include "nodes/image_work.h"
 
 namespace terrazzo {
 
@@ -80,6 +81,11 @@ NodeType guidance_node() {
   };
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    foresee_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front());
+    foresee_one_shape("material", inputs);
+    return Forecast{};
+  };
   return t;
 }
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/suggest.h"
+#include "core/map_names.h"
 
 namespace terrazzo {
 
@@ -63,7 +63,29 @@ Port material_port(const std::string& name, const std::string& help) {
 }
 
 std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const std::string& port) {
-  return [port](const Params&, const InputForecasts& inputs) { return Forecast{.maps = inputs.at(port).front().maps}; };
+  return [port](const Params&, const InputForecasts& inputs) {
+    const Forecast& input = inputs.at(port).front();
+    return Forecast{.maps = input.maps, .possible_maps = input.possible_maps};
+  };
+}
+
+void foresee_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
+                  const std::string& whose) {
+  if (!material.possible_maps) return;
+  std::vector<std::string> surely_wrong = wanted;
+  std::erase_if(surely_wrong, [&](const std::string& name) {
+    return std::find(material.possible_maps->begin(), material.possible_maps->end(), name) !=
+           material.possible_maps->end();
+  });
+  require_maps(param, surely_wrong, material.maps, whose);
+}
+
+void foresee_one_shape(const std::string& port, const InputForecasts& inputs) {
+  const Forecast& material = inputs.at(port).front();
+  std::vector<std::pair<std::string, Size>> maps;
+  for (const std::string& name : material.maps)
+    if (const auto size = material.sizes.find(name); size != material.sizes.end()) maps.push_back(*size);
+  if (!maps.empty()) require_one_shape(port, maps);
 }
 
 Digest map_recipe(const NodeContext& node, const Image& map) {
@@ -75,16 +97,13 @@ Digest map_recipe(const NodeContext& node, const Image& map) {
 }
 
 ImagePtr require_map(const std::string& param, const Material& material, const std::string& map) {
-  if (ImagePtr image = material.find(map)) return image;
-  std::vector<std::string> names;
-  for (const Map& m : material.maps()) names.push_back(m.name);
-  throw Error(param, fmt::format("expected a map of the material, which has {}; found \"{}\"{}", material.map_names(),
-                                 map, did_you_mean(map, names)));
+  require_maps(param, {map}, names_of(material.maps()));
+  return material.find(map);
 }
 
 MaterialPtr with_maps_changed(const MaterialPtr& material, const Texts& maps,
                               const std::function<ImagePtr(const Map&)>& change) {
-  for (const std::string& name : maps) require_map("maps", *material, name);
+  require_maps("maps", maps, names_of(material->maps()));
   std::vector<Map> changed = material->maps();
   for (Map& m : changed)
     if (maps.empty() || std::find(maps.begin(), maps.end(), m.name) != maps.end()) m.image = change(m);

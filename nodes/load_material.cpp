@@ -328,8 +328,17 @@ std::vector<fs::path> files_read(const Params& params) {
 
 Forecast foresee(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
-  Forecast out;
-  for (const RecognisedMap& m : find_maps(params, ignored_notes)) out.maps.push_back(m.map);
+  Forecast out{.possible_maps = Texts{}};
+  for (const RecognisedMap& m : find_maps(params, ignored_notes)) {
+    out.maps.push_back(m.map);
+    try {
+      const FileInfo file = read_image_info(folder_of(params) / m.file);
+      out.sizes[m.map] = file.size;
+      if (m.semantic == Semantic::base_color && file.channels % 2 == 0) out.possible_maps->push_back("opacity");
+    } catch (const Error&) {
+      continue;  // compute reports it
+    }
+  }
   return out;
 }
 

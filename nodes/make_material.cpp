@@ -61,10 +61,13 @@ void compute(NodeContext& node) {
 Forecast foresee(const Params& params, const InputForecasts& inputs) {
   const size_t images = inputs.at("images").size();
   for (const char* param : {"names", "semantics"}) check_count(param, std::get<Texts>(params.at(param)), images);
-  Forecast out;
-  if (const auto base = inputs.find("material"); base != inputs.end()) out.maps = base->second.front().maps;
-  for (const std::string& name : std::get<Texts>(params.at("names")))
+  const Texts& names = std::get<Texts>(params.at("names"));
+  Forecast out{.possible_maps = Texts{}};
+  if (const auto base = inputs.find("material"); base != inputs.end())
+    out = {.maps = base->second.front().maps, .possible_maps = base->second.front().possible_maps};
+  for (const std::string& name : names)
     if (std::find(out.maps.begin(), out.maps.end(), name) == out.maps.end()) out.maps.push_back(name);
+  if (names.empty()) out.possible_maps.reset();  // what the images mean will name them
   return out;
 }
 

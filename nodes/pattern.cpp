@@ -107,7 +107,8 @@ NodeType pattern_node() {
   t.check = check;
   t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 9 * sizeof(float); };
   t.foresee = [](const Params&, const InputForecasts&) {
-    return Forecast{.maps = {"base_color", "normal", "height", "roughness", "ambient_occlusion"}};
+    return Forecast{.maps = {"base_color", "normal", "height", "roughness", "ambient_occlusion"},
+                    .possible_maps = Texts{}};
   };
   t.compute = [](NodeContext& node) { node.output("material", make_pattern(spec_of(node.params()), node.task())); };
   return t;

@@ -63,7 +63,10 @@ NodeType resolve_uv_node() {
     const ResolveOptions options{.blend = node.number("blend"), .scale = node.number("scale")};
     node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv"), options));
   };
-  t.foresee = same_maps_as("material");
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    foresee_one_shape("material", inputs);
+    return same_maps_as("material")(params, inputs);
+  };
   return t;
 }
 

@@ -2,6 +2,7 @@
 #include "core/color.h"
 #include "core/image_ops.h"
 #include "nodes/exemplar_tiles.h"
+#include "nodes/image_work.h"
 
 namespace terrazzo {
 
@@ -43,6 +44,13 @@ NodeType weight_node() {
   t.persist = Persist::digest;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    std::vector<std::string> weighted;
+    for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) weighted.push_back(name);
+    foresee_maps("weights", weighted, inputs.at("material").front());
+    foresee_one_shape("material", inputs);
+    return Forecast{};
+  };
   return t;
 }
 

@@ -103,6 +103,10 @@ void Cache::store_stage(const Digest& key, const StageRecord& record) {
   }
 }
 
+LeaseAttempt Cache::try_lease(const Digest& key) {
+  return terrazzo::try_lease(state_->folder.leases(), key);
+}
+
 bool Cache::has_value(const Digest& value) {
   state_->pins.pin(value);
   return CacheFolder::use(state_->folder.path_of(EntryKind::value, value));

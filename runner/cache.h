@@ -10,6 +10,7 @@
 
 #include "core/task.h"
 #include "core/value.h"
+#include "runner/cache_leases.h"
 
 namespace terrazzo {
 
@@ -56,6 +57,9 @@ class Cache {
 
   std::optional<StageRecord> find_stage(const Digest& key);
   void store_stage(const Digest& key, const StageRecord& record);
+
+  /// Asks to be the one who computes a stage, see runner/cache_leases.h.
+  LeaseAttempt try_lease(const Digest& key);
 
   /// Whether the value is there (its checksums are only verified by load). A value asked for is pinned: no process
   /// evicts it while this Cache object lives.

@@ -155,6 +155,7 @@ std::vector<std::string> Cache::verify(const Task& task) {
 
 uint64_t Cache::collect() {
   const CacheFolder& folder = state_->folder;
+  remove_abandoned_leases(folder.leases());
   const CacheScan scan = folder.scan();
   uint64_t freed = remove_abandoned(folder, scan.temporaries);
   const uint64_t total = scan.bytes() - freed;
@@ -172,6 +173,7 @@ uint64_t Cache::collect() {
 
 uint64_t Cache::clear() {
   const CacheFolder& folder = state_->folder;
+  remove_abandoned_leases(folder.leases());
   const CacheScan scan = folder.scan();
   uint64_t freed = remove_abandoned(folder, scan.temporaries);
   freed += remove_values(folder, of_kind(scan, EntryKind::value), scan.bytes() + 1);

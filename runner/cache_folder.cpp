@@ -86,6 +86,7 @@ CacheFolder::CacheFolder(const std::filesystem::path& folder) : root_(folder / "
                     folder.string(), failure.message()));
   for (const std::string_view kind : kind_folders) std::filesystem::create_directory(root_ / kind, failure);
   std::filesystem::create_directory(pins(), failure);
+  std::filesystem::create_directory(leases(), failure);
 }
 
 std::filesystem::path CacheFolder::path_of(EntryKind kind, const Digest& name) const {

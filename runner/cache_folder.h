@@ -15,6 +15,7 @@
 ///   v1/stages/ab/<key>          runner/cache_records.h
 ///   v1/files/ab/<path digest>   runner/cache_records.h
 ///   v1/pins/, v1/lock           runner/cache_pins.h
+///   v1/leases/<key>             runner/cache_leases.h
 /// An entry's modification time is when it was last used. Files being written end in ".tmp".
 namespace terrazzo {
 
@@ -53,6 +54,7 @@ class CacheFolder {
   const std::filesystem::path& root() const { return root_; }
   std::filesystem::path path_of(EntryKind kind, const Digest& name) const;
   std::filesystem::path pins() const { return root_ / "pins"; }
+  std::filesystem::path leases() const { return root_ / "leases"; }
   std::filesystem::path lock() const { return root_ / "lock"; }
 
   /// A name beside `target`, whose folder is made, to write to. `owner` tells whose it is. Throws FileError.

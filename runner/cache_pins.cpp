@@ -20,13 +20,6 @@ namespace {
 
 constexpr int64_t trusted_without_lock_ns = 24 * 3600 * ns_per_second;
 
-bool lock_file(const File& file, int operation) {
-  int result;
-  do result = ::flock(file.descriptor(), operation);
-  while (result != 0 && errno == EINTR);
-  return result == 0;
-}
-
 std::string host_name() {
   std::array<char, 256> name{};
   if (::gethostname(name.data(), name.size() - 1) != 0) return "host";
@@ -54,6 +47,13 @@ void add_pins(const File& file, const std::filesystem::path& path, std::set<Dige
 }
 
 }  // namespace
+
+bool lock_file(const File& file, int operation) {
+  int result;
+  do result = ::flock(file.descriptor(), operation);
+  while (result != 0 && errno == EINTR);
+  return result == 0;
+}
 
 LivePins read_live_pins(const std::filesystem::path& folder) {
   LivePins live;

@@ -14,6 +14,9 @@
 /// it exclusively, so that nothing is pinned between looking at the pins and removing a value.
 namespace terrazzo {
 
+/// flock(2), uninterrupted; false if it fails, and errno says why.
+bool lock_file(const File& file, int operation);
+
 /// What running processes use.
 struct LivePins {
   std::set<Digest> values;

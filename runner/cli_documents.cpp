@@ -7,6 +7,7 @@
 #include "graphs/document/load.h"
 #include "graphs/document/migrate.h"
 #include "runner/cli_commands.h"
+#include "runner/foresight.h"
 #include "runner/memory_graph.h"
 #include "runner/say.h"
 #include "runner/schedule.h"
@@ -26,8 +27,18 @@ struct DocumentFlags {
   std::vector<std::string> set;
 };
 
+/// Looks ahead as far as nothing depends on a parameter that is not set.
+void check_what_is_set(const Graph& graph, const std::string& unset) {
+  std::vector<GraphNode> complete;
+  for (const GraphNode& n : graph.nodes)
+    if (n.params.size() == n.type->params.size()) complete.push_back(n);
+  if (std::vector<Problem> problems = foreseen_in_nodes(complete); !problems.empty())
+    throw GraphError(graph.file.string(), std::move(problems));
+  say("what depends on a parameter that is not set was not looked at: --set {}=VALUE\n", unset);
+}
+
 int check(const DocumentFlags& flags) {
-  const LoadedGraph loaded = load_graph(flags.graph, flags.set, {.allow_unset = true});
+  const LoadedGraph loaded = load_graph(flags.graph, flags.set, {.allow_unset = true, .look_ahead = foreseen_in_nodes});
   for (const std::string& c : loaded.conversions) fmt::print("{}\n", c);
   for (const std::string& w : loaded.warnings) say("warning: {}\n", w);
   const auto unset = std::find_if(loaded.parameters.begin(), loaded.parameters.end(),
@@ -35,7 +46,7 @@ int check(const DocumentFlags& flags) {
   if (unset == loaded.parameters.end())
     make_plan(loaded.graph, nullptr);
   else
-    say("files and maps are not looked at as long as a parameter is not set: --set {}=VALUE\n", unset->param.name);
+    check_what_is_set(loaded.graph, unset->param.name);
   const auto counted = [](size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
   fmt::print("{} is valid: {}, {}\n", flags.graph, counted(loaded.graph.nodes.size(), "node"),
              counted(loaded.parameters.size(), "parameter"));
@@ -111,8 +122,9 @@ void add_new_command(CLI::App& app, Chosen& chosen) {
 
 void add_document_commands(CLI::App& app, Chosen& chosen) {
   add_new_command(app, chosen);
-  const auto add = [&](const char* name, const char* help, int (*act)(const DocumentFlags&)) {
+  const auto add = [&](const char* name, const char* help, const char* footer, int (*act)(const DocumentFlags&)) {
     CLI::App* command = app.add_subcommand(name, help);
+    command->footer(footer);
     const auto flags = std::make_shared<DocumentFlags>();
     command->add_option("GRAPH", flags->graph, "The graph file")->required()->type_name("FILE.json");
     command->callback([&chosen, flags, act] { chosen = [flags, act] { return act(*flags); }; });
@@ -124,13 +136,25 @@ void add_document_commands(CLI::App& app, Chosen& chosen) {
         ->take_all()
         ->expected(1);
   };
-  const auto [check_command, check_flags] = add("check", "Checks a graph file without running it", check);
+  const auto [check_command, check_flags] =
+      add("check", "Checks a graph file without running it",
+          "Names every mistake at once, by line and column: in the file itself, in the sources and maps it speaks of,\n"
+          "and in the places it would write to.\n"
+          "Examples:\n"
+          "  terrazzo check bricks.json\n"
+          "  terrazzo check bricks.json --set material=bricks/",
+          check);
   add_set(check_command, *check_flags);
   const auto [upgrade_command, upgrade_flags] =
-      add("upgrade", "Rewrites a graph file in the current format version and layout", upgrade);
+      add("upgrade", "Rewrites a graph file in the current format version and layout",
+          "Example:\n  terrazzo upgrade bricks.json", upgrade);
   upgrade_command->add_option("-o,--out", upgrade_flags->out, "Write here and leave the graph file as it is")
       ->type_name("FILE.json");
-  const auto [draw_command, draw_flags] = add("draw", "Draws a graph file", draw);
+  const auto [draw_command, draw_flags] = add("draw", "Draws a graph file",
+                                              "Examples:\n"
+                                              "  terrazzo draw bricks.json -o bricks.svg\n"
+                                              "  terrazzo draw bricks.json -o bricks.dot",
+                                              draw);
   draw_command->add_option("-o,--out", draw_flags->out, "The drawing")->required()->type_name("FILE.svg|.dot");
   add_set(draw_command, *draw_flags);
 }

@@ -10,6 +10,7 @@
 #include "core/synthesis/synthesize.h"
 #include "graphs/document/load.h"
 #include "runner/cli_commands.h"
+#include "runner/foresight.h"
 #include "runner/history.h"
 #include "runner/html_report.h"
 #include "runner/say.h"
@@ -46,8 +47,12 @@ bool is_terminal() {
 }
 
 /// What people read at the end; programs that asked for json have had it all.
-void print_end(const RunResult& result) {
+void print_end(const RunResult& result, ProgressMode mode) {
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
+  for (const StageOutcome& s : result.stages)
+    for (const std::string& note : s.notes)
+      if (is_warning(note)) say("{}node \"{}\": {}\n", warning_mark, s.node, note.substr(warning_mark.size()));
+  if (mode == ProgressMode::none) return;
   for (const StageOutcome& s : result.stages)
     if (s.kind == StageOutcome::Kind::run)
       for (const OutputFile& f : s.files) say("wrote {}\n", f.path.string());
@@ -88,7 +93,7 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
     for (const std::string& w : cache->take_warnings()) progress->warned(w);
   }
   progress->closed(result);
-  if (mode != ProgressMode::json) print_end(result);
+  if (mode != ProgressMode::json) print_end(result, mode);
   if (!flags.trace.empty()) write_trace(result, flags.trace);
   if (!flags.report.empty()) write_html_report(plan, result, flags.report);
   return result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
@@ -137,7 +142,7 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
                    "code of the last run, or 130 if it interrupts one");
   command.add_option("--report", flags.report, "Write a report with pictures")->type_name("FILE.html");
   command.add_option("--trace", flags.trace, "Write who did what when, for chrome://tracing")->type_name("FILE.json");
-  command.add_option("--progress", flags.progress, "auto, bar, plain, json or none")
+  command.add_option("--progress", flags.progress, "auto, bar, plain, json, or none: nothing but warnings and errors")
       ->type_name("MODE")
       ->check(CLI::IsMember(std::vector<std::string>(progress_mode_names.begin(), progress_mode_names.end())));
 }
@@ -172,7 +177,7 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
     chosen = [flags] {
       return run_with_flags(
           [&] {
-            LoadedGraph loaded = load_graph(flags->graph, flags->set);
+            LoadedGraph loaded = load_graph(flags->graph, flags->set, {.look_ahead = foreseen_in_nodes});
             for (const std::string& w : loaded.warnings) warn(*flags, w);
             return std::move(loaded.graph);
           },
@@ -183,11 +188,11 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
 
 /// What is wrong, said of the arguments of `synth` instead of the graph that they stand for.
 GraphError about_arguments(const GraphError& error) {
-  std::vector<Problem> problems = error.problems();
-  for (Problem& p : problems) {
-    const bool is_source = p.node == "exemplar";
+  std::vector<Problem> problems;
+  for (const Problem& p : error.problems()) {
+    const bool is_source = p.node == "exemplar" || p.node == "weighted";  // the latter looks at the maps' shapes
     if (!is_source && p.node != "files") return error;
-    p = {{}, is_source ? "FOLDER" : "-o", p.message};
+    problems.push_back({{}, is_source ? "FOLDER" : "-o", p.message});
   }
   return GraphError("", std::move(problems));
 }
@@ -200,7 +205,7 @@ bool same_folder(const std::string& a, const std::string& b) {
 void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
   struct Flags : RunFlags {
-    std::string folder, out, size, seed, quality;
+    std::string folder, out, size, seed, quality, format;
     bool tileable = false;
   };
   const auto flags = std::make_shared<Flags>();
@@ -211,6 +216,9 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
   synth->add_option("--quality", flags->quality, "draft is quick, best takes its time")
       ->type_name("LEVEL")
       ->check(CLI::IsMember(std::vector<std::string>(quality_names.begin(), quality_names.end())));
+  synth->add_option("--format", flags->format, "png, tif, exr or jpg; png if not given. Float maps need exr or tif")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember({"png", "tif", "exr", "jpg"}));
   synth->add_flag("--tileable", flags->tileable, "The result wraps around in both directions");
   add_run_flags(*synth, *flags);
   synth->footer("Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7");
@@ -220,6 +228,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       if (!flags->size.empty()) set.push_back("size=" + flags->size);
       if (!flags->seed.empty()) set.push_back("seed=" + flags->seed);
       if (!flags->quality.empty()) set.push_back("quality=" + flags->quality);
+      if (!flags->format.empty()) set.push_back("format=" + flags->format);
       if (flags->tileable) set.push_back("tileable=xy");
       if (same_folder(flags->folder, flags->out))
         throw UsageError(

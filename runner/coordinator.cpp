@@ -145,17 +145,20 @@ void Coordinator::computed(Job& job) {
   Stage& s = plan_.stages[stage];
   StageOutcome& outcome = outcomes_[stage];
   const bool first_time = outcome.kind != StageOutcome::Kind::reused || s.state == StageState::run;
-  outcome.kind = StageOutcome::Kind::run;
-  outcome.seconds += job.record->seconds;
+  outcome.kind = job.made_elsewhere ? StageOutcome::Kind::reused : StageOutcome::Kind::run;
+  if (!job.made_elsewhere) outcome.seconds += job.record->seconds;
   outcome.notes = job.record->notes;
   outcome.files = job.record->files;
   if (options_.observer) {
-    options_.observer->finished(s, job.record->seconds);
+    if (job.made_elsewhere)
+      options_.observer->reused(s);
+    else
+      options_.observer->finished(s, job.record->seconds);
     if (first_time)
       for (const std::string& note : outcome.notes) options_.observer->noted(s, note);
   }
   if (options_.history) options_.history->remember(s.node->name, s.known->ingredients);
-  if (options_.cache) enqueue_store(job);
+  if (options_.cache && !job.made_elsewhere) enqueue_store(job);
   if (s.known->names.empty()) s.known->names = job.record->outputs;
   live_[stage].values = std::move(job.values);
   std::erase_if(live_[stage].values, [&](const auto& value) {
@@ -177,7 +180,8 @@ void Coordinator::enqueue_store(const Job& job) {
   store->stage = job.stage;
   if (payload) store->values = job.values;
   store->record = job.record;
-  waiting_.push_back(store);
+  store->lease = job.lease;
+  waiting_.push_front(store);  // others may wait for it
 }
 
 /// It will not ask for its sources' values again.
@@ -237,14 +241,22 @@ void Coordinator::settle(Job& job) {
     computing_--;
     memory_in_use_ -= job.memory;
   }
+  made_folders_.insert(made_folders_.end(), job.made_folders.begin(), job.made_folders.end());
+  if (job.busy) job.span.what = "wait";
   if (job.span.end > 0) spans_.push_back(job.span);
   if (job.cancelled || (options_.cancelled && options_.cancelled->load())) cancelled_ = true;
   if (job.failure) {
-    failures_.push_back({plan_.stages[job.stage].node->name, *job.failure});
+    if (job.blames_input.empty() || blamed_inputs_.insert(job.blames_input).second)
+      failures_.push_back({plan_.stages[job.stage].node->name, *job.failure});
     outcomes_[job.stage].kind = StageOutcome::Kind::failed;
     if (options_.observer) options_.observer->failed(plan_.stages[job.stage], *job.failure);
   }
   if (job.failure || job.cancelled) return;
+  if (job.busy) {
+    job.busy = false;
+    waiting_.push_back(std::make_shared<Job>(std::move(job)));
+    return;
+  }
   react(job);
   take_steps();
 }
@@ -291,7 +303,9 @@ std::vector<JobPtr> Coordinator::admit() {
   for (auto at = waiting_.begin(); at != waiting_.end() && running_ < max_running_;) {
     Job& job = **at;
     const bool compute = job.kind == Job::Kind::compute;
-    if (compute && computing_ > 0 && memory_in_use_ + job.memory > memory_) {
+    const bool too_large = compute && computing_ > 0 && memory_in_use_ + job.memory > memory_;
+    // To wait for another process takes a thread, so it is done while there is nothing else to do.
+    if (too_large || (job.waited && running_ > 0)) {
       ++at;
       continue;
     }

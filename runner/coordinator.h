@@ -1,6 +1,8 @@
 #pragma once
 
 #include <deque>
+#include <set>
+#include <string>
 #include <unordered_map>
 
 #include "runner/jobs.h"
@@ -25,6 +27,8 @@ class Coordinator {
   std::vector<StageOutcome> take_outcomes() { return std::move(outcomes_); }
   std::vector<Failure> take_failures() { return std::move(failures_); }
   std::vector<Span> take_spans() { return std::move(spans_); }
+  /// That nodes have made, whether they then succeeded or not; outer ones first.
+  std::vector<std::filesystem::path> take_made_folders() { return std::move(made_folders_); }
   std::map<std::string, std::map<std::string, Value>> take_kept();
   bool cancelled() const { return cancelled_; }
 
@@ -73,7 +77,9 @@ class Coordinator {
   std::vector<Live> live_;
   std::vector<StageOutcome> outcomes_;
   std::vector<Failure> failures_;
+  std::set<std::string> blamed_inputs_;
   std::vector<Span> spans_;
+  std::vector<std::filesystem::path> made_folders_;
   std::deque<JobPtr> waiting_;
   std::deque<std::pair<Step, int>> steps_;
   std::unordered_map<std::string_view, int> places_;

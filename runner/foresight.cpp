@@ -15,11 +15,10 @@ namespace fs = std::filesystem;
 
 class Foresight {
  public:
-  std::vector<Problem> look(const Plan& plan) {
-    for (const Stage& s : plan.stages)
-      if (s.needed) note_sources(*s.node);
-    for (const Stage& s : plan.stages)
-      if (s.needed) look_at(s);
+  /// Nodes in the order of their wires, each with whether it is going to write.
+  std::vector<Problem> look(const std::vector<std::pair<const GraphNode*, bool>>& nodes) {
+    for (const auto& [node, writes] : nodes) note_sources(*node);
+    for (const auto& [node, writes] : nodes) look_at(*node, writes);
     return std::move(problems_);
   }
 
@@ -40,15 +39,18 @@ class Foresight {
                        reader->second);
   }
 
-  void look_at(const Stage& stage) {
-    const GraphNode& node = *stage.node;
+  void look_at(const GraphNode& node, bool writes) {
     if (!node.type->foresee) return;
     try {
-      Forecast forecast = node.type->foresee(node.params, inputs_of(node));
-      if (stage.state != StageState::up_to_date) check_files(node, forecast.files);
-      forecasts_[node.name] = std::move(forecast);
+      const Forecast forecast = node.type->foresee(node.params, inputs_of(node));
+      if (writes) check_files(node, forecast.files);
+      // An image that becomes a material of one map is none of the material beside it.
+      for (const Port& p : node.type->outputs)
+        if (p.type == ValueType::material) forecasts_[{node.name, p.name}] = forecast;
     } catch (const Error& e) {
-      problems_.push_back(problem_of(node, e.about(), e.what()));
+      // What is wrong with an input may be so for all that read it.
+      if (!node.type->find_input(e.about()) || said_.insert(e.what()).second)
+        problems_.push_back(problem_of(node, e.about(), e.what()));
     }
   }
 
@@ -56,7 +58,7 @@ class Foresight {
     InputForecasts inputs;
     for (const auto& [port, wires] : node.inputs)
       for (const Wire& w : wires) {
-        const auto known = forecasts_.find(w.node);
+        const auto known = forecasts_.find({w.node, w.port});
         inputs[port].push_back(known == forecasts_.end() ? Forecast{} : known->second);
       }
     return inputs;
@@ -69,25 +71,41 @@ class Foresight {
       const fs::path path = (f.folder / f.name).lexically_normal();
       if (trouble.empty() && !f.name.empty()) trouble = read_by_others(path);
       if (trouble.empty() && !f.name.empty()) {
-        const auto [writer, is_new] = writers_.emplace(path, node.name);
+        const auto [at, is_new] = writers_.emplace(path, Writer{node.name, f.what});
+        const Writer& writer = at->second;
         if (!is_new)
-          trouble =
-              fmt::format("{} would be written twice, here and by the node \"{}\"", path.string(), writer->second);
+          trouble = fmt::format("{} would be written twice, {}", path.string(),
+                                writer.node != node.name ? fmt::format("here and by the node \"{}\"", writer.node)
+                                                         : fmt::format("for {} and for {}", writer.what, f.what));
       }
       if (!trouble.empty() && said.insert(trouble).second) problems_.push_back(problem_of(node, f.param, trouble));
     }
   }
 
-  std::map<std::string, Forecast> forecasts_;
+  struct Writer {
+    std::string node, what;
+  };
+
+  std::map<std::pair<std::string, std::string>, Forecast> forecasts_;  ///< by node and port
   std::map<fs::path, std::string> readers_;
-  std::map<fs::path, std::string> writers_;
+  std::map<fs::path, Writer> writers_;
+  std::set<std::string> said_;
   std::vector<Problem> problems_;
 };
 
 }  // namespace
 
 std::vector<Problem> foreseen_problems(const Plan& plan) {
-  return Foresight().look(plan);
+  std::vector<std::pair<const GraphNode*, bool>> nodes;
+  for (const Stage& s : plan.stages)
+    if (s.needed) nodes.emplace_back(s.node, s.state != StageState::up_to_date);
+  return Foresight().look(nodes);
+}
+
+std::vector<Problem> foreseen_in_nodes(const std::vector<GraphNode>& nodes) {
+  std::vector<std::pair<const GraphNode*, bool>> all;
+  for (const GraphNode& n : nodes) all.emplace_back(&n, true);
+  return Foresight().look(all);
 }
 
 }  // namespace terrazzo

@@ -11,4 +11,7 @@ namespace terrazzo {
 /// written, two sinks that write one file. Stages whose files are up to date write none.
 std::vector<Problem> foreseen_problems(const Plan& plan);
 
+/// The same for nodes of a document that cannot be planned, see LoadOptions.
+std::vector<Problem> foreseen_in_nodes(const std::vector<GraphNode>& nodes);
+
 }  // namespace terrazzo

@@ -122,7 +122,8 @@ std::string stages_html(const Plan& plan, const RunResult& result) {
 std::string lists_html(const RunResult& result) {
   std::string notes, files;
   for (const StageOutcome& s : result.stages) {
-    for (const std::string& n : s.notes) notes += fmt::format("<li>{}: {}</li>\n", escaped(s.node), escaped(n));
+    for (const std::string& n : s.notes)
+      notes += fmt::format("<li{}>{}: {}</li>\n", is_warning(n) ? " class=failed" : "", escaped(s.node), escaped(n));
     for (const OutputFile& f : s.files) files += fmt::format("<li>{}</li>\n", escaped(f.path.string()));
   }
   std::string out;
@@ -155,6 +156,9 @@ void write_html_report(const Plan& plan, const RunResult& result, const std::fil
   page += fmt::format("<p>{}<br><span class=quiet>{}</span></p>\n", escaped(result.summary()),
                       escaped(plan.graph->file.string()));
   for (const Failure& f : result.failures) page += fmt::format("<p class=failed>{}</p>\n", escaped(f.message));
+  for (const StageOutcome& s : result.stages)
+    for (const std::string& n : s.notes)
+      if (is_warning(n)) page += fmt::format("<p class=failed>{}: {}</p>\n", escaped(s.node), escaped(n));
   page += values_html(result);
   page += "<h2>Stages</h2>\n" + stages_html(plan, result);
   page += lists_html(result);

@@ -1,6 +1,8 @@
 #include "runner/jobs.h"
 
+#include <chrono>
 #include <new>
+#include <thread>
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -96,9 +98,9 @@ void compute(Job& job, const Stage& stage, const RunOptions& options) {
   job.record = std::move(record);
 }
 
-void load(Job& job, const Stage& stage, Cache* cache) {
+void load(Job& job, const Stage& stage, const std::map<std::string, Digest>& names, Cache* cache) {
   for (const std::string& port : stage.used_outputs) {
-    std::optional<Value> value = cache->load_value(stage.known->names.at(port));
+    std::optional<Value> value = cache->load_value(names.at(port));
     if (!value || type_of(*value) != stage.type().find_output(port)->type) {
       job.values.clear();
       return;
@@ -107,11 +109,54 @@ void load(Job& job, const Stage& stage, Cache* cache) {
   }
 }
 
+/// Whether this job is to compute the stage now: nobody else is at it, or nobody can tell. Waits for a while only,
+/// since a result may have to be stored by this thread before somebody else's can be had.
+bool claim(Job& job, const Stage& stage, const RunOptions& options) {
+  if (!options.cache || stage.type().persist != Persist::payload || stage.type().is_sink()) return true;
+  constexpr auto pause = std::chrono::milliseconds(5);
+  for (int i = 0; i < 10; i++) {
+    LeaseAttempt attempt = options.cache->try_lease(stage.known->key);
+    job.lease = std::move(attempt.lease);
+    if (!attempt.taken) return true;
+    if (!job.waited) {
+      if (options.observer) options.observer->waits(stage);
+      break;
+    }
+    job.context->task().check();
+    std::this_thread::sleep_for(pause);
+  }
+  job.waited = job.busy = true;
+  return false;
+}
+
+/// Loads what another process has computed since the stage was looked up.
+bool find_elsewhere(Job& job, const Stage& stage, Cache* cache) {
+  if (!job.lease) return false;
+  std::optional<StageRecord> record = cache->find_stage(stage.known->key);
+  if (!record || !is_complete(*record, stage.type())) return false;
+  for (const std::string& port : stage.used_outputs)
+    if (!cache->has_value(record->outputs.at(port))) return false;
+  load(job, stage, record->outputs, cache);
+  if (job.values.size() < stage.used_outputs.size()) return false;
+  job.record = std::move(record);
+  job.made_elsewhere = true;
+  job.lease.reset();
+  return true;
+}
+
 void store(Job& job, const Stage& stage, const RunOptions& options) {
   const Task task(options.cancelled, {});
   if (stage.type().persist == Persist::payload)
     for (const auto& [port, value] : job.values) options.cache->store_value(value, job.record->seconds, task);
   options.cache->store_stage(stage.known->key, *job.record);
+}
+
+/// The message with the files that the user asked for in place of those under which they were written so far.
+std::string of_targets(const NodeContext& context, std::string message) {
+  for (const StagedFile& f : context.staged())
+    for (size_t at; (at = message.find(f.temporary.native())) != std::string::npos;)
+      message.replace(at, f.temporary.native().size(), f.target.native());
+  return message;
 }
 
 void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
@@ -123,10 +168,10 @@ void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
       job.resolution = resolve(plan, job.stage, options.cache, nullptr);
       break;
     case Job::Kind::load:
-      load(job, stage, options.cache);
+      load(job, stage, stage.known->names, options.cache);
       break;
     case Job::Kind::compute:
-      compute(job, stage, options);
+      if (claim(job, stage, options) && !find_elsewhere(job, stage, options.cache)) compute(job, stage, options);
       break;
     case Job::Kind::store:
       store(job, stage, options);
@@ -138,7 +183,9 @@ void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
 
 void perform(Job& job, const Plan& plan, const RunOptions& options) {
   const GraphNode& node = *plan.stages[job.stage].node;
-  const auto fail = [&](const std::string& about, const std::string& message) {
+  const auto fail = [&](const std::string& about, const std::string& reason) {
+    const std::string message = job.context ? of_targets(*job.context, reason) : reason;
+    if (!about.empty() && !node.type->find_param(about)) job.blames_input = message;
     job.failure = describe(plan.graph->file.string(), problem_of(node, about, message));
   };
   try {
@@ -154,6 +201,9 @@ void perform(Job& job, const Plan& plan, const RunOptions& options) {
   } catch (const std::exception& e) {
     fail("", fmt::format("a fault in the program: {}", e.what()));
   }
+  if (job.busy) return;
+  if (job.context) job.made_folders = job.context->made_folders();
+  if (job.kind == Job::Kind::store) job.lease.reset();
   job.context.reset();  // lets go of the inputs
 }
 

@@ -22,8 +22,14 @@ struct Job {
   std::map<std::string, Value> values;   ///< in for store; out for load (empty if it failed) and compute
   std::optional<StageRecord> record;     ///< in for store; out for compute
   std::optional<Resolution> resolution;  ///< out for look_up
+  std::shared_ptr<Lease> lease;          ///< out for compute, in for store: given up once its result is stored
+  bool made_elsewhere = false;           ///< out for compute: values and record are what another process has stored
+  bool busy = false;                     ///< out for compute: another process is at it; to be tried again
+  bool waited = false;                   ///< has been busy before
   bool cancelled = false;
   std::optional<std::string> failure;  ///< a complete message
+  std::string blames_input;            ///< what it says, if what came in is to blame: others may say the same
+  std::vector<std::filesystem::path> made_folders;  ///< by compute, outer ones first
   Span span;
 };
 using JobPtr = std::shared_ptr<Job>;

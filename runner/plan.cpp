@@ -84,11 +84,6 @@ void link_readers(Plan& plan, const Places& places) {
   }
 }
 
-bool complete(const StageRecord& record, const NodeType& type) {
-  return std::all_of(type.outputs.begin(), type.outputs.end(),
-                     [&](const Port& p) { return record.outputs.count(p.name) == 1; });
-}
-
 /// Why a sink's files are not what it wrote; empty if they are.
 std::string trouble_with_files(const StageRecord& record, Cache* cache) {
   for (const OutputFile& f : record.files) {
@@ -183,6 +178,11 @@ std::string_view name_of(StageState state) {
   return names[static_cast<size_t>(state)];
 }
 
+bool is_complete(const StageRecord& record, const NodeType& type) {
+  return std::all_of(type.outputs.begin(), type.outputs.end(),
+                     [&](const Port& p) { return record.outputs.count(p.name) == 1; });
+}
+
 Digest digest_of_file(Cache* cache, const fs::path& path) {
   return cache ? cache->file_digest(path) : file_content_digest(path);
 }
@@ -209,7 +209,7 @@ Resolution resolve(const Plan& plan, int index, Cache* cache, const History* his
       ingredients_of(*stage.node, inputs, [&](const fs::path& file) { return digest_of_file(cache, file); });
   r.key = key_of(r.ingredients);
   if (cache) r.record = cache->find_stage(r.key);
-  if (r.record && !complete(*r.record, stage.type())) r.record.reset();
+  if (r.record && !is_complete(*r.record, stage.type())) r.record.reset();
   if (r.record) r.names = r.record->outputs;
   if (!r.record && stage.type().persist == Persist::derived) r.names = names_of(stage.type(), r.key, {});
   if (r.record && stage.type().persist == Persist::payload)

@@ -79,6 +79,9 @@ Resolution resolve(const Plan& plan, int stage, Cache* cache, const History* his
 std::map<std::string, Digest> names_of(const NodeType& type, const Digest& key,
                                        const std::map<std::string, Value>& values);
 
+/// Whether the record names all outputs.
+bool is_complete(const StageRecord& record, const NodeType& type);
+
 /// The content digest of a file, memoised if there is a cache.
 Digest digest_of_file(Cache* cache, const std::filesystem::path& path);
 

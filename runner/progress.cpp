@@ -97,6 +97,7 @@ class JsonProgress : public Progress {
     write({{"event", "plan"}, {"stages", std::move(stages)}});
   }
   void started(const Stage& s) override { write({{"event", "start"}, {"node", s.node->name}}); }
+  void waits(const Stage& s) override { write({{"event", "wait"}, {"node", s.node->name}}); }
   void progressed(const Stage& s, double fraction) override {
     {
       const std::lock_guard lock(mutex_);
@@ -105,7 +106,10 @@ class JsonProgress : public Progress {
     write({{"event", "progress"}, {"node", s.node->name}, {"fraction", fraction}});
   }
   void noted(const Stage& s, const std::string& message) override {
-    write({{"event", "note"}, {"node", s.node->name}, {"message", message}});
+    const bool warning = is_warning(message);
+    write({{"event", warning ? "warning" : "note"},
+           {"node", s.node->name},
+           {"message", warning ? message.substr(warning_mark.size()) : message}});
   }
   void finished(const Stage& s, double seconds) override {
     write({{"event", "done"}, {"node", s.node->name}, {"seconds", seconds}});
@@ -156,11 +160,17 @@ class PlainProgress : public Progress {
     throttle_.start(&s);
     count_.begin(s);
   }
+  void waits(const Stage& s) override {
+    const std::lock_guard lock(mutex_);
+    count_.begin(s);
+    line(s, "is being made by another process");
+  }
   void progressed(const Stage& s, double fraction) override {
     const std::lock_guard lock(mutex_);
     if (throttle_.open(&s)) line(s, fmt::format("{:.0f} %", 100 * fraction));
   }
   void noted(const Stage& s, const std::string& message) override {
+    if (is_warning(message)) return;  // said at the end
     const std::lock_guard lock(mutex_);
     out_ << fmt::format("{}: {}", s.node->name, message) << std::endl;
   }
@@ -206,12 +216,14 @@ class BarProgress : public Progress {
     count_.begin(s);
     draw(false);
   }
+  void waits(const Stage& s) override { started(s); }
   void progressed(const Stage& s, double fraction) override {
     const std::lock_guard lock(mutex_);
     running_[&s] = fraction;
     draw(false);
   }
   void noted(const Stage& s, const std::string& message) override {
+    if (is_warning(message)) return;  // said at the end
     const std::lock_guard lock(mutex_);
     erase();
     out_ << s.node->name << ": " << message << '\n';
@@ -313,6 +325,7 @@ void write_error(ProgressMode mode, std::ostream& out, const std::exception& err
 }
 
 void write_watching(ProgressMode mode, std::ostream& out, size_t files) {
+  if (mode == ProgressMode::none) return;
   if (mode == ProgressMode::json)
     write_event(out, {{"event", "watching"}, {"files", files}});
   else

@@ -15,7 +15,7 @@ enum class ProgressMode : uint8_t {
   bar,        ///< one line that is drawn again and again; notes above it
   plain,      ///< a line per finished stage; now and then one for a stage that takes long
   json,       ///< an object per line, see make_progress
-  none,
+  none,       ///< nothing but warnings and errors
 };
 inline constexpr std::array<std::string_view, 5> progress_mode_names = {"auto", "bar", "plain", "json", "none"};
 std::optional<ProgressMode> progress_mode_from(std::string_view name);
@@ -34,9 +34,10 @@ class Progress : public RunObserver {
 ///   error     "message"; "file", "line", "column" and "node" where they are known: a wrong command line, a wrong
 ///   graph,
 ///             or a trace or report that cannot be written; several at once
-///   warning   "message": about the document or the cache, not a node
+///   warning   "message": about the document or the cache, or "node" and what its results may lack
 ///   plan      "stages": [{"node", "type", "state", "key" (or null), "why"}]; states as in StageState
 ///   start     "node"
+///   wait      "node": another process that shares the cache is computing it
 ///   progress  "node", "fraction" in [0, 1]; at most ten a second for each node
 ///   note      "node", "message"
 ///   done      "node", "seconds"

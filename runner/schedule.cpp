@@ -64,6 +64,12 @@ void execute(Coordinator& coordinator, const Plan& plan, const RunOptions& optio
   graph.wait_for_all();
 }
 
+/// Only now: as long as nodes run, one may be about to write into a folder that another has made and left empty.
+void remove_if_empty(const std::vector<std::filesystem::path>& folders) {
+  std::error_code not_empty;
+  for (size_t i = folders.size(); i-- > 0;) std::filesystem::remove(folders[i], not_empty);
+}
+
 }  // namespace
 
 int RunResult::count(StageOutcome::Kind kind) const {
@@ -92,6 +98,7 @@ RunResult run_plan(Plan plan, const RunOptions& options) {
   tbb::task_arena arena(threads);
   arena.execute([&] { execute(coordinator, plan, options, start); });
 
+  remove_if_empty(coordinator.take_made_folders());
   if (options.history) options.history->save();
   RunResult result;
   result.cancelled = coordinator.cancelled();

@@ -16,6 +16,8 @@ class RunObserver {
   virtual ~RunObserver() = default;
   virtual void planned(const Plan&) {}
   virtual void started(const Stage&) {}
+  /// Another process is computing it; called once.
+  virtual void waits(const Stage&) {}
   virtual void progressed(const Stage&, double /*fraction*/) {}
   virtual void noted(const Stage&, const std::string& /*message*/) {}
   virtual void finished(const Stage&, double /*seconds*/) {}
@@ -36,7 +38,7 @@ struct RunOptions {
 
 /// Something a worker did, for `write_trace`; times in seconds since the start of the run.
 struct Span {
-  std::string what;  ///< "run", "load", "store", "look up"
+  std::string what;  ///< "run", "wait", "load", "store", "look up"
   int stage = 0;
   int thread = 0;
   double start = 0, end = 0;

@@ -10,6 +10,7 @@
 #include "core/color.h"
 #include "core/error.h"
 #include "core/image_ops.h"
+#include "core/map_names.h"
 
 namespace terrazzo {
 
@@ -127,9 +128,9 @@ double default_weight(Semantic semantic) {
 
 FeaturesPtr weighted_features(const Material& material, const NumberMap& weights, bool wraps, const ImagePtr& mask) {
   if (mask) require_shape("mask", *mask, "the exemplar", material.size());
-  for (const auto& [name, unused] : weights)
-    if (!material.find(name))
-      throw Error("weights", fmt::format("there is no map \"{}\"; the material has {}", name, material.map_names()));
+  std::vector<std::string> weighted;
+  for (const auto& [name, unused] : weights) weighted.push_back(name);
+  require_maps("weights", weighted, names_of(material.maps()));
   std::vector<FeatureImage> images;
   for (const Map& map : material.maps()) {
     const ImagePtr image = nearest_at_size(analysis_image(map.image), material.size());
@@ -151,9 +152,7 @@ FeaturesPtr weighted_features(const Material& material, const NumberMap& weights
 }
 
 NumberMap weights_of_chosen(const Material& material, const std::vector<std::string>& maps) {
-  for (const std::string& name : maps)
-    if (!material.find(name))
-      throw Error("maps", fmt::format("there is no map \"{}\"; the material has {}", name, material.map_names()));
+  require_maps("maps", maps, names_of(material.maps()));
   NumberMap weights;
   const bool any_counts = std::any_of(material.maps().begin(), material.maps().end(),
                                       [](const Map& map) { return default_weight(map.image->info().semantic) > 0; });

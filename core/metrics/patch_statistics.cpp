@@ -15,7 +15,13 @@ namespace terrazzo {
 
 namespace {
 
-constexpr uint64_t exemplar_seed = 7, output_seed = 8, direction_seed = 9;
+constexpr uint64_t exemplar_seed = 7, direction_seed = 9;
+
+/// Images of one size are sampled at the same places, so that a thing compared with itself has no distance.
+uint64_t output_seed(const Planes& exemplar, const Planes& output) {
+  return output.size == exemplar.size ? exemplar_seed : 8;
+}
+
 constexpr int directions = 160;
 constexpr int quantiles = 512;
 constexpr size_t sliced_patches = 20000;
@@ -72,7 +78,8 @@ std::vector<double> distances(const NearestPoints& tree, const std::vector<float
 double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Task& task) {
   const Projection slices = random_directions(patch_values(exemplar), directions, direction_seed);
   const auto a = project(exemplar, random_patches(exemplar.size, sliced_patches, exemplar_seed), slices, task);
-  const auto b = project(output, random_patches(output.size, sliced_patches, output_seed), slices, task);
+  const auto b =
+      project(output, random_patches(output.size, sliced_patches, output_seed(exemplar, output)), slices, task);
   std::vector<double> distance(directions);
   tbb::parallel_for(0, directions, [&](int k) {
     task.check();
@@ -89,7 +96,7 @@ double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Ta
 
 PatchSimilarity patch_similarity(const Planes& exemplar, const Planes& output, const Task& task) {
   const PatchList from_exemplar = random_patches(exemplar.size, pool, exemplar_seed);
-  const PatchList from_output = random_patches(output.size, pool, output_seed);
+  const PatchList from_output = random_patches(output.size, pool, output_seed(exemplar, output));
   const Projection space = principal_projection(exemplar, from_exemplar, dimensions, task);
   const std::vector<float> e = project(exemplar, from_exemplar, space, task);
   const std::vector<float> o = project(output, from_output, space, task);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/map_names.h"
 #include "core/metrics/autocorrelation.h"
 #include "core/metrics/cooccurrence.h"
 #include "core/metrics/copies.h"
@@ -93,11 +94,8 @@ std::vector<std::string> compared_maps(const Material& exemplar, const Material&
     throw Error("output", fmt::format("exemplar and output must share a map to be compared; the exemplar has {}, the "
                                       "output {}",
                                       exemplar.map_names(), output.map_names()));
-  for (const std::string& name : names)
-    for (const Material* m : {&exemplar, &output})
-      if (!m->find(std::string_view(name)))
-        throw Error("maps", fmt::format("the {} has no map \"{}\"; it has {}", m == &exemplar ? "exemplar" : "output",
-                                        name, m->map_names()));
+  require_maps("maps", names, names_of(exemplar.maps()), "the exemplar");
+  require_maps("maps", names, names_of(output.maps()), "the output");
   return names;
 }
 

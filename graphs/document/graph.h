@@ -28,6 +28,13 @@ struct GraphNode {
   Params params;                                    ///< complete and checked; paths absolute
   std::map<std::string, std::vector<Wire>> inputs;  ///< by port; only connected ports
   Place place;
+  std::map<std::string, Place> places;  ///< of the parameters and ports that the document gives
+
+  /// Of the parameter or port if the document gives it, else of the node.
+  Place place_of(const std::string& about) const {
+    const auto at = places.find(about);
+    return at == places.end() || at->second.line == 0 ? place : at->second;
+  }
 };
 
 struct Graph {

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -66,6 +67,8 @@ class Loader {
     std::vector<Problem> conversions;
     connect(drafts, problems_, conversions);
     const std::vector<size_t> order = execution_order(drafts, problems_);
+    if (!problems_.empty() && options.look_ahead)
+      for (Problem& p : options.look_ahead(faultless(drafts, order))) problems_.push_back(std::move(p));
     finish();
 
     for (const size_t i : order) out.graph.nodes.push_back(std::move(drafts[i].node));
@@ -109,6 +112,23 @@ class Loader {
       if (!p.value && !p.is_wrong)
         problems_.push_back({p.place, "parameter " + in_quotes(p.param.name),
                              fmt::format("has no default and must be set: --set {}=VALUE", p.param.name)});
+  }
+
+  /// The nodes that nothing has been said against, and that have all they need but for what others are to give.
+  std::vector<GraphNode> faultless(const std::vector<NodeDraft>& drafts, const std::vector<size_t>& order) const {
+    std::set<std::string> faulty;
+    for (const Problem& p : problems_) faulty.insert(p.node);
+    std::vector<GraphNode> out;
+    for (const size_t i : order) {
+      const GraphNode& node = drafts[i].node;
+      if (!node.type || faulty.count(node.name) || node.params.size() < node.type->params.size()) continue;
+      const auto is_wired = [&](const PortWires& p) {
+        const auto wires = node.inputs.find(p.port->name);
+        return wires != node.inputs.end() && wires->second.size() == p.wires.size();
+      };
+      if (std::all_of(drafts[i].ports.begin(), drafts[i].ports.end(), is_wired)) out.push_back(node);
+    }
+    return out;
   }
 
   static std::vector<Problem> warnings_about(const Graph& graph, const Substitution& substitution) {

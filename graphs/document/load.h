@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,9 @@ struct LoadOptions {
   /// Parameters without a default need not be set. What depends on them is then missing from the nodes: such a graph
   /// can be looked at, but not run.
   bool allow_unset = false;
+  /// If a document has problems: finds more, in its nodes that have none themselves (whatever they read), so that the
+  /// user is told all at once. In an order in which wires come from earlier nodes, as far as there is one.
+  std::function<std::vector<Problem>(const std::vector<GraphNode>&)> look_ahead{};
 };
 
 struct LoadedGraph {

@@ -100,7 +100,7 @@ class NodeReader {
 
   void read_entry(const Entry& e) {
     given_.insert(e.name);
-    places_[e.name] = e.place;
+    draft_.node.places[e.name] = e.place;
     if (const Port* port = type().find_input(e.name)) {
       read_port(e, *port);
     } else if (const Param* param = type().find_param(e.name)) {
@@ -180,9 +180,7 @@ class NodeReader {
   /// Where the parameter stands that a message begins with, in quotes; else the node.
   Place place_of(const std::string& message) const {
     const size_t end = message.find('"', 1);
-    const auto at =
-        message.starts_with('"') && end != message.npos ? places_.find(message.substr(1, end - 1)) : places_.end();
-    return at == places_.end() || at->second.line == 0 ? member_.place : at->second;
+    return draft_.node.place_of(message.starts_with('"') && end != message.npos ? message.substr(1, end - 1) : "");
   }
 
   const JsonMember& member_;
@@ -192,7 +190,6 @@ class NodeReader {
   std::string where_;
   NodeDraft draft_;
   std::set<std::string> given_;
-  std::map<std::string, Place> places_;
 };
 
 }  // namespace

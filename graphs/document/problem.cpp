@@ -39,7 +39,7 @@ Problem problem_of(const GraphNode& node, const std::string& about, const std::s
   std::string where = fmt::format("node \"{}\" ({})", node.name, node.type->name);
   if (node.type->find_input(about)) where += fmt::format(", input \"{}\"", about);
   if (node.type->find_param(about)) where += fmt::format(", parameter \"{}\"", about);
-  return {node.place, where, message, node.name};
+  return {node.place_of(about), where, message, node.name};
 }
 
 GraphError::GraphError(const std::string& file, std::vector<Problem> problems)

@@ -99,10 +99,14 @@ TEST_CASE("JPEG keeps the picture about as it is, and leaves alpha out") {
 TEST_CASE("values out of range are clipped by integer depths, counted, and kept by floats") {
   const TemporaryFolder folder;
   const ImagePtr image = make_image({4, 1}, 1, [](int x, int, int) { return float(x) - 1.0f; });
-  CHECK(write_image(*image, folder.path() / "a.png", {}, [](double) {}) == 2);
+  const Clipping clipped = write_image(*image, folder.path() / "a.png", {}, [](double) {});
+  CHECK(clipped.values == 2);
+  CHECK(clipped.all == 4);
+  CHECK(clipped.least == -1);
+  CHECK(clipped.most == 2);
   CHECK(read(folder.path() / "a.png")->pixels() == std::vector<float>{0, 0, 1, 1});
-  CHECK(write_image(*image, folder.path() / "a.exr", {.format = FileFormat::exr, .depth = Depth::f16}, [](double) {}) ==
-        0);
+  CHECK(write_image(*image, folder.path() / "a.exr", {.format = FileFormat::exr, .depth = Depth::f16}, [](double) {
+        }).values == 0);
   CHECK(read(folder.path() / "a.exr")->pixels() == image->pixels());
 }
 

@@ -219,6 +219,11 @@ TEST_CASE("the order in which files are listed does not matter") {
   CHECK(shown(recognise_maps(all).maps) == first);
 }
 
+TEST_CASE("the known words are those that stand alone; letters that only end a name are not among them") {
+  CHECK(known_words(Semantic::ambient_occlusion) == "ambientocclusion, occlusion, ao, occ");
+  CHECK(known_words(Semantic::base_color).find("bc") == std::string::npos);
+}
+
 TEST_CASE("patterns match whole names") {
   CHECK(matches_pattern("rock_COLOR.png", "*_color.*"));
   CHECK(matches_pattern("a1.png", "a?.png"));

@@ -62,6 +62,15 @@ TEST_CASE("a window of the resolved map is that window of the whole, however it 
   }
 }
 
+TEST_CASE("a map of another shape than the rest is refused, not stretched") {
+  const ImagePtr square = make_image(
+      {10, 10}, 1, [](int x, int, int) { return float(x); }, Semantic::roughness);
+  std::vector<Map> maps = exemplar()->maps();
+  maps.push_back({"roughness", square});
+  CHECK_THROWS_WITH_AS(resolved(*Material::make("m", std::move(maps)), uv_map({8, 8})),
+                       doctest::Contains("10x10 (roughness)"), Error);
+}
+
 TEST_CASE("a uv map made for another exemplar is refused with both sizes") {
   const UvMapPtr other = UvMap::make({2, 2}, {64, 64}, std::vector<ExemplarPixel>(4));
   CHECK_THROWS_WITH_AS(resolved(*exemplar(), other),

@@ -186,12 +186,18 @@ TEST_CASE("a report is written as JSON or CSV, its pictures beside it") {
   CHECK(read(folder.path() / "r_worst.png")->size() == Size{24, 16});
 }
 
-TEST_CASE("clipped values are counted in a note") {
+TEST_CASE("clipped values are a warning that says how many and how far, or a note if it is next to nothing") {
   const TemporaryFolder folder;
   const ImagePtr bright = make_image(
       {4, 1}, 1, [](int x, int, int) { return float(x); }, Semantic::emission);
   CHECK(says(run(folder.path(), "{map}.png", {{"depth", "uint16"}}, Material::of(bright)),
-             "emission: 2 values lie outside 0..1 and were clipped by uint16"));
+             "warning: emission: 50 % of its values lie outside 0..1 (from 2 to 3) and were clipped by uint16; write "
+             "it as .exr"));
+  const ImagePtr overshot = make_image(
+      {4, 1}, 1, [](int x, int, int) { return float(x) / 2.99f; }, Semantic::emission);
+  const NodeRun quiet = run(folder.path(), "{map}.png", {{"depth", "uint16"}}, Material::of(overshot));
+  CHECK(says(quiet, "emission: 25 % of its values lie outside 0..1"));
+  CHECK_FALSE(says(quiet, "warning"));
 }
 
 TEST_CASE("what cannot be exported is refused, and nothing is left behind") {

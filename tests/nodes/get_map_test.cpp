@@ -12,5 +12,5 @@ TEST_CASE("get_map gives the very map") {
   const NodeRun run = run_node("get_map", {{"map", "height"}}, {{"material", {material}}});
   CHECK(run.get<Image>("image") == height);
   CHECK_THROWS_WITH_AS(run_node("get_map", {{"map", "color"}}, {{"material", {material}}}),
-                       "expected a map of the material, which has normal, height; found \"color\"", Error);
+                       "there is no map \"color\"; the material has normal, height", Error);
 }

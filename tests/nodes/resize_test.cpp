@@ -95,5 +95,5 @@ TEST_CASE("resize takes a missing side from the material's proportions, and only
 TEST_CASE("resize names the maps there are when one is missing") {
   const std::string message =
       error_of("resize", {{"maps", Texts{"hight"}}}, {{"material", flat_image({4, 4}, {1}, Semantic::height)}}, "maps");
-  CHECK(message.find("which has height; found \"hight\"") != std::string::npos);
+  CHECK(message.find("no map \"hight\" (did you mean \"height\"?); the material has height") != std::string::npos);
 }

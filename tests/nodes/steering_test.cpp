@@ -98,7 +98,7 @@ TEST_CASE("holes that cover everything are refused with advice about holes") {
   CHECK_THROWS_WITH_AS(gravel_index(black), doctest::Contains("if it comes from holes"), Error);
 }
 
-TEST_CASE("maps of different shapes are refused, both named with their sizes") {
+TEST_CASE("maps of different shapes are refused, all named with their sizes") {
   const auto flat = [](Size size) {
     return make_image(
         size, 1, [](int x, int y, int) { return float(x * y % 7) / 7; }, Semantic::height);
@@ -106,7 +106,7 @@ TEST_CASE("maps of different shapes are refused, both named with their sizes") {
   const Value material = Material::make("m", {{"base_color", flat({32, 32})}, {"height", flat({32, 16})}});
   for (const char* node : {"weight", "guidance", "progression", "filter_bank"})
     CHECK_THROWS_WITH_AS(run_node(node, {}, {{"material", {material}}}),
-                         doctest::Contains("\"base_color\" has 32x32 pixels and \"height\" 32x16"), Error);
+                         doctest::Contains("their shapes differ: 32x32 (base_color), 32x16 (height)"), Error);
   const Value smaller = Material::make("m", {{"base_color", flat({32, 32})}, {"height", flat({16, 16})}});
   CHECK_NOTHROW(run_node("weight", {}, {{"material", {smaller}}}));
 }

@@ -25,7 +25,38 @@ TEST_CASE("check finds what the plan of a run would refuse, once all parameters 
   const ProgramRun open = w.run({"check", "open.json"});
   CHECK_MESSAGE(open.code == 0, open.err);
   CHECK(open.err.find("--set image=VALUE") != std::string::npos);
+  write_text(w.path / "half.json", R"({"terrazzo": 1, "parameters": {"image": {"type": "path"}}, "nodes": {
+    "photo": {"type": "load_map", "path": "$image"},
+    "gone": {"type": "load_map", "path": "gone.png"},
+    "a": {"type": "export", "material": "@photo", "path": "out/a.png"}}})");
+  const ProgramRun half = w.run({"check", "half.json"});
+  CHECK(half.code == 2);
+  CHECK_MESSAGE(half.err.find("half.json:3:5: node \"gone\"") != std::string::npos, half.err);
   CHECK(w.run({"check", "open.json", "--set", "image=gone.png"}).code == 2);
+}
+
+TEST_CASE("check tells what the document's text shows and what only its plan shows in one go") {
+  const Workplace w;
+  write_text(w.path / "wrong.json", R"({"terrazzo": 1, "nodes": {
+    "gone": {"type": "load_map", "path": "gone.png"},
+    "photo": {"type": "load_map", "path": "photo.png"},
+    "soft": {"type": "blur", "image": "@photo", "radios": 2},
+    "odd": {"type": "blurr", "image": "@photo"},
+    "a": {"type": "export", "material": "@soft", "path": "out/a.png"},
+    "b": {"type": "export", "material": "@photo", "path": "out/a.png"},
+    "c": {"type": "export", "material": "@odd", "path": "out/a.png"},
+    "d": {"type": "export", "material": "@gone", "path": "photo.png/d.png"}}})");
+  for (const std::string command : {"check", "run"}) {
+    const ProgramRun r = w.run({command, "wrong.json"});
+    CHECK(r.code == 2);
+    for (const char* part :
+         {"wrong.json:2:5: node \"gone\" (load_map): cannot read", "wrong.json:4:49: node \"soft\": blur has no port",
+          "wrong.json:5:21: node \"odd\": unknown node type",
+          "wrong.json:7:51: node \"b\" (export), parameter \"path\"", "here and by the node \"a\"",
+          "wrong.json:9:50: node \"d\" (export), parameter \"path\": expected a folder"})
+      CHECK_MESSAGE(r.err.find(part) != std::string::npos, r.err);
+    CHECK(std::count(r.err.begin(), r.err.end(), '\n') == 5);
+  }
 }
 
 TEST_CASE("progress counts the stages that the summary of a failed run counts") {

@@ -424,7 +424,7 @@ TEST_CASE("the stock graphs that steer synthesis run") {
 
 TEST_CASE("watching runs the graph again when a file that it reads is touched") {
   const Workplace w;
-  StartedProgram program(w.path, {"run", "soft.json", "--watch", "--progress", "none"});
+  StartedProgram program(w.path, {"run", "soft.json", "--watch"});
   REQUIRE(program.says("watching 2 files"));
   fs::last_write_time(w.path / "photo.png", fs::last_write_time(w.path / "photo.png") + std::chrono::seconds(3));
   CHECK(program.says("3 stages: 3 cached, 0 run"));

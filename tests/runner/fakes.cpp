@@ -99,8 +99,9 @@ FakeTypes::FakeTypes() {
   fail.compute = [](NodeContext&) { throw Error("in", "these numbers cannot be added"); };
   write_fail = make_sink("write_fail");
   write_fail.compute = [](NodeContext& n) {
-    write_text(n.stage(n.text("path")), "half of");
-    throw Error("the disk is full");
+    const fs::path temporary = n.stage(n.text("path"));
+    write_text(temporary, "half of");
+    throw Error("the disk is full at " + temporary.string());
   };
   endless = make_sink("endless");
   endless.compute = [](NodeContext& n) {
@@ -123,7 +124,7 @@ FakeTypes::FakeTypes() {
 
 Graph& add(Graph& graph, const std::string& name, const NodeType& type, const Params& params,
            const std::vector<std::string>& in) {
-  GraphNode node{.name = name, .type = &type, .params = params, .inputs = {}, .place = {}};
+  GraphNode node{.name = name, .type = &type, .params = params, .inputs = {}, .place = {}, .places = {}};
   for (const Param& p : type.params)
     if (p.fallback) node.params.try_emplace(p.name, *p.fallback);
   for (const std::string& wire : in) node.inputs["in"].push_back({wire, "out"});

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Photos, a folder of two maps, a file and a folder that stand in the way.
+/// Photos, a folder of two maps, one of maps of two shapes, a file and a folder that stand in the way.
 struct Surroundings {
   TemporaryFolder folder;
   Surroundings() {
@@ -23,6 +23,9 @@ struct Surroundings {
     write_picture(folder.path() / "maps/stone_basecolor.png", 5);
     write_picture(folder.path() / "maps/stone_normal.png", 7, Semantic::normal);
     write_text(folder.path() / "maps-as-file", "");
+    write_picture(folder.path() / "odd/stone_basecolor.png", 5);
+    write_picture(folder.path() / "odd/stone_height.png", 5, Semantic::height, {32, 32});
+    write_picture(folder.path() / "odd/stone_roughness.png", 5, Semantic::roughness, {64, 48});
     fs::create_directories(folder.path() / "taken.png");
   }
 

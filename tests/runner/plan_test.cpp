@@ -148,7 +148,7 @@ TEST_CASE("names, places and comments are not in keys; versions, parameters and 
   const auto key = [](const GraphNode& n, Digest input = {}) {
     return key_of(ingredients_of(n, {{"in", {input}}}, [](const auto&) { return Digest(); }));
   };
-  const GraphNode node{"a", &t.sum, {{"plus", 1.0}}, {{"in", {{"source", "out"}}}}, {}};
+  const GraphNode node{"a", &t.sum, {{"plus", 1.0}}, {{"in", {{"source", "out"}}}}, {}, {}};
   GraphNode renamed = node;
   renamed.name = "b";
   renamed.place = {4, 4};
@@ -172,7 +172,8 @@ TEST_CASE("a folder may move, but renaming a file in it changes the key") {
   type.files_read = [&](const Params&) { return files; };
   const auto key = [&](const std::string& folder, const std::string& file) {
     files = {folder + "/" + file};
-    return key_of(ingredients_of({"a", &type, {{"path", folder}}, {}, {}}, {}, [](const auto&) { return Digest(); }));
+    return key_of(
+        ingredients_of({"a", &type, {{"path", folder}}, {}, {}, {}}, {}, [](const auto&) { return Digest(); }));
   };
   CHECK(key("/x/bricks", "normal.png") == key("/y/z/bricks", "normal.png"));
   CHECK(key("/x/bricks", "normal.png") == key("/x/bricks/", "normal.png"));

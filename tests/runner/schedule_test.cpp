@@ -274,24 +274,43 @@ TEST_CASE("another branch that is running when a node fails finishes, and its re
   CHECK(state(make_plan(g, &cache), "slow") == "cached");
 }
 
-TEST_CASE("a sink that throws leaves no file behind") {
+TEST_CASE("a sink that throws leaves no file behind, and no folder that it made") {
   TemporaryFolder folder;
   FakeTypes t;
   Graph g;
   add(g, "a", t.number, {{"value", 1.0}});
-  add(g, "file", t.write_fail, {{"path", (folder.path() / "out.txt").string()}}, {"a"});
+  add(g, "file", t.write_fail, {{"path", (folder.path() / "new/deep/out.txt").string()}}, {"a"});
   const RunResult r = run_graph(g, {});
   REQUIRE(r.failures.size() == 1);
-  CHECK(r.failures[0].message == "node \"file\" (write_fail): the disk is full");
+  CHECK(r.failures[0].message ==
+        "node \"file\" (write_fail): the disk is full at " + (folder.path() / "new/deep/out.txt").string());
   CHECK(listing(folder.path()).empty());
 }
 
-TEST_CASE("cancelling stops within a second and leaves no file behind") {
+TEST_CASE("what is wrong with an input is said once, however many nodes read it") {
+  FakeTypes t;
+  Graph g;
+  add(g, "a", t.number, {{"value", 1.0}});
+  add(g, "first", t.fail, {}, {"a"});
+  add(g, "second", t.fail, {}, {"a"});
+  std::atomic<int> arrived{0};
+  t.fail.compute = [&](NodeContext&) {
+    for (arrived++; arrived < 2;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    throw Error("in", "these numbers cannot be added");
+  };
+  RunOptions options;
+  options.threads = 2;
+  const RunResult r = run_graph(g, options);
+  CHECK(r.count(StageOutcome::Kind::failed) == 2);
+  CHECK(r.failures.size() == 1);
+}
+
+TEST_CASE("cancelling stops within a second and leaves no file behind, and no folder that it made") {
   TemporaryFolder folder;
   FakeTypes t;
   Graph g;
   add(g, "a", t.number, {{"value", 1.0}});
-  add(g, "file", t.endless, {{"path", (folder.path() / "out.txt").string()}}, {"a"});
+  add(g, "file", t.endless, {{"path", (folder.path() / "new/out.txt").string()}}, {"a"});
   std::atomic<bool> cancelled{false};
   struct CancelSoon : RunObserver {
     std::atomic<bool>& flag;

@@ -7,10 +7,10 @@ namespace terrazzo::test {
 
 namespace fs = std::filesystem;
 
-void write_picture(const fs::path& path, int step, Semantic semantic) {
+void write_picture(const fs::path& path, int step, Semantic semantic, Size size) {
   fs::create_directories(path.parent_path());
   const ImagePtr image = make_image(
-      {32, 24}, 3, [&](int x, int y, int c) { return static_cast<float>((x * step + y * 3 + c * 40) % 256) / 255; },
+      size, 3, [&](int x, int y, int c) { return static_cast<float>((x * step + y * 3 + c * 40) % 256) / 255; },
       semantic, "srgb_texture");
   write_image(*image, path, {.format = FileFormat::png, .depth = Depth::u8}, [](double) {});
 }

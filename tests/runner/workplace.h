@@ -10,8 +10,9 @@
 
 namespace terrazzo::test {
 
-/// Writes a PNG of 32x24 pixels; `step` tells pictures apart. Makes its folder.
-void write_picture(const std::filesystem::path& path, int step, Semantic semantic = Semantic::base_color);
+/// Writes a PNG; `step` tells pictures apart. Makes its folder.
+void write_picture(const std::filesystem::path& path, int step, Semantic semantic = Semantic::base_color,
+                   Size size = {32, 24});
 
 /// A folder with a small graph, soft.json, that blurs one picture.
 struct Workplace {

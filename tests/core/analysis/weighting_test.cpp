@@ -39,7 +39,8 @@ TEST_CASE("weights choose maps and channels") {
 
 TEST_CASE("wrong weights are refused with what would do") {
   CHECK_THROWS_WITH_AS(weighted_features(*wall_material(), {{"heigth", {1}}}, false),
-                       "there is no map \"heigth\"; the material has base_color, height", Error);
+                       "there is no map \"heigth\" (did you mean \"height\"?); the material has base_color, height",
+                       Error);
   CHECK_THROWS_WITH_AS(weighted_features(*wall_material(), {{"base_color", {1, 2}}}, false),
                        "\"base_color\" has 3 channels in analysis space, but 2 weights were given; give one or 3",
                        Error);

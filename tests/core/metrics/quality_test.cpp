@@ -53,6 +53,15 @@ void check_order(double Quality::*figure, const std::vector<std::vector<std::str
 
 }  // namespace
 
+TEST_CASE("a thing compared with itself has no distance, though not all of its patches are looked at") {
+  const Planes image = bricks({160, 170}, 1);
+  const Quality q = measured(image, image);
+  CHECK(q.swd == 0);
+  CHECK(q.coherence == 0);
+  CHECK(q.completeness == 0);
+  CHECK(q.broken == 0);
+}
+
 TEST_CASE("distances of distributions rise from tiling over a new sample to spoilt outputs") {
   check_order(&Quality::swd, {{"tiling"}, {"sample", "blocks"}, {"shuffled"}, {"different", "blur"}});
   check_order(&Quality::cooccurrence, {{"tiling"}, {"sample", "blocks"}, {"shuffled"}, {"different", "blur"}});

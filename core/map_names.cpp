@@ -1,0 +1,77 @@
+#include "core/map_names.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.h"
+#include "core/material_files.h"
+#include "core/suggest.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// By spelling, or by what the word would mean in a file's name: "ao" is "ambient_occlusion".
+std::string did_you_mean_map(const std::string& name, const std::vector<std::string>& known) {
+  if (std::string question = did_you_mean(name, known); !question.empty()) return question;
+  for (const RecognisedMap& m : recognise_map({.name = name + ".png", .size = {}}))
+    if (m.channels.empty() && std::find(known.begin(), known.end(), m.map) != known.end())
+      return fmt::format(" (did you mean \"{}\"?)", m.map);
+  return "";
+}
+
+}  // namespace
+
+std::vector<std::string> names_of(const std::vector<Map>& maps) {
+  std::vector<std::string> names;
+  for (const Map& m : maps) names.push_back(m.name);
+  return names;
+}
+
+void require_maps(const std::string& param, const std::vector<std::string>& wanted,
+                  const std::vector<std::string>& known, const std::string& whose) {
+  std::vector<std::string> unknown;
+  for (const std::string& name : wanted) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    std::string text = fmt::format("\"{}\"{}", name, did_you_mean_map(name, known));
+    if (std::find(unknown.begin(), unknown.end(), text) == unknown.end()) unknown.push_back(std::move(text));
+  }
+  if (unknown.empty()) return;
+  std::string all = unknown.front();
+  for (size_t i = 1; i < unknown.size(); i++) all += (i + 1 == unknown.size() ? " and " : ", ") + unknown[i];
+  throw Error(param, fmt::format("there {} {}; {} has {}", unknown.size() == 1 ? "is no map" : "are no maps", all,
+                                 whose, fmt::join(known, ", ")));
+}
+
+std::string describe(Size size) {
+  return fmt::format("{}x{}", size.width, size.height);
+}
+
+bool same_shape(Size a, Size b) {
+  const int64_t across = int64_t{a.width} * b.height, down = int64_t{a.height} * b.width;
+  return std::abs(across - down) <= std::max({a.width, a.height, b.width, b.height});
+}
+
+void require_one_shape(const std::string& port, const std::vector<std::pair<std::string, Size>>& maps) {
+  const auto fits = [&](const auto& map) { return same_shape(map.second, maps.front().second); };
+  if (std::all_of(maps.begin(), maps.end(), fits)) return;
+  std::vector<std::pair<Size, std::string>> by_size;
+  for (const auto& [name, size] : maps) {
+    const auto same = std::find_if(by_size.begin(), by_size.end(), [s = size](const auto& e) { return e.first == s; });
+    if (same == by_size.end())
+      by_size.emplace_back(size, name);
+    else
+      same->second += ", " + name;
+  }
+  std::string all;
+  for (const auto& [size, names] : by_size)
+    all += fmt::format("{}{} ({})", all.empty() ? "" : ", ", describe(size), names);
+  throw Error(port, fmt::format("all maps must show the same area, but their shapes differ: {}. Cut or scale the files "
+                                "to one shape, or take some away; in a graph, the nodes \"crop\" and \"resize\" do it",
+                                all));
+}
+
+}  // namespace terrazzo
