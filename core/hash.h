@@ -46,8 +46,6 @@ class Hasher {
   std::unique_ptr<State> state_;
 };
 
-/// A counter-based random number: a function of its arguments alone, the same everywhere, so that work can be done in
-/// any order and on any number of threads. (The finalizer of SplitMix64 applied in a chain; Steele et al. 2014.)
 inline uint64_t mix_bits(uint64_t v) {
   v ^= v >> 30;
   v *= 0xbf58476d1ce4e5b9ULL;
@@ -56,11 +54,18 @@ inline uint64_t mix_bits(uint64_t v) {
   return v ^ (v >> 31);
 }
 
+/// What random_bits() gives for all of its counters, of what it gives for all but these last ones.
+template <typename... Counters>
+uint64_t more_random_bits(uint64_t bits, Counters... counters) {
+  ((bits = mix_bits(bits ^ (static_cast<uint64_t>(counters) + 0x9e3779b97f4a7c15ULL))), ...);
+  return bits;
+}
+
+/// A counter-based random number: a function of its arguments alone, the same everywhere, so that work can be done in
+/// any order and on any number of threads. (The finalizer of SplitMix64 applied in a chain; Steele et al. 2014.)
 template <typename... Counters>
 uint64_t random_bits(uint64_t seed, Counters... counters) {
-  uint64_t v = mix_bits(seed + 0x9e3779b97f4a7c15ULL);
-  ((v = mix_bits(v ^ (static_cast<uint64_t>(counters) + 0x9e3779b97f4a7c15ULL))), ...);
-  return v;
+  return more_random_bits(mix_bits(seed + 0x9e3779b97f4a7c15ULL), counters...);
 }
 
 /// 32 random bits mapped to [0, n) without division.

@@ -15,21 +15,6 @@ constexpr double smallest_cell = 0.3;
 constexpr double looseness = 1.0 / 12;
 constexpr double certainty_counts = 2.0 / 3;
 
-using Steps = std::array<std::array<int, 2>, 49>;
-
-/// To all pixels up to three away along each axis, the nearest first.
-const Steps& nearest_steps() {
-  static const Steps steps = [] {
-    Steps s{};
-    for (int i = 0; i < int(s.size()); i++) s[i] = {i % 7 - 3, i / 7 - 3};
-    std::stable_sort(s.begin(), s.end(), [](const auto& a, const auto& b) {
-      return a[0] * a[0] + a[1] * a[1] < b[0] * b[0] + b[1] * b[1];
-    });
-    return s;
-  }();
-  return steps;
-}
-
 }  // namespace
 
 Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
@@ -109,23 +94,46 @@ LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool 
   to_output_ = to_cells(lattice.fitted(output, tile_x, tile_y), scale);
   const double x = origin.x * scale, y = origin.y * scale;
   origin_ = {to_output_.xx * x + to_output_.xy * y, to_output_.yx * x + to_output_.yy * y};
+  if (active() && !resolves_cells_) find_promising_steps();
 }
 
-void LatticePhase::search(int x, int y, int& u, int& v) const {
-  constexpr double far = 0.001;  // settles which of several in phase
-  double least = std::numeric_limits<double>::max();
-  const int from_u = u, from_v = v;
-  for (const auto& [dx, dy] : nearest_steps()) {
-    // Along courses every place is as good as the next.
-    if (rank_ == 1 && (first_.x == 0 ? dx : dy) != 0) continue;
-    const double misfit = penalty(from_u + dx, from_v + dy, x, y);
-    const double cost = misfit + far * (dx * dx + dy * dy);
-    if (cost >= least) continue;
-    least = cost;
-    u = from_u + dx;
-    v = from_v + dy;
-    if (misfit == 1) break;  // those further off cost more
-  }
+/// How much the end of a step is out of phase, at least and at most, is known of all starts in a bin at once: it is
+/// that of the bin's middle, give or take the bin's reach. What could be the cheapest is one step in most bins.
+void LatticePhase::find_promising_steps() {
+  const int rows = rank_ == 1 ? 1 : bins;
+  constexpr double half = 0.5 / bins + 1e-6;  // beyond what rounding does to a start
+  const auto length = [](const Vector2& v) { return std::sqrt(v.x * v.x + v.y * v.y); };
+  const double reach = half * (length(first_) + (rank_ == 1 ? 0 : length(second_)));
+  promising_.resize(size_t(rows) * bins);
+  for (int row = 0; row < rows; row++)
+    for (int column = 0; column < bins; column++) {
+      std::array<double, 64> least;
+      least.fill(std::numeric_limits<double>::infinity());
+      double limit = std::numeric_limits<double>::max();
+      // Along courses every place is as good as the next.
+      const int farthest_x = rank_ == 1 && first_.x == 0 ? 0 : farthest;
+      const int farthest_y = rank_ == 1 && first_.x != 0 ? 0 : farthest;
+      for (int dy = -farthest_y; dy <= farthest_y; dy++)
+        for (int dx = -farthest_x; dx <= farthest_x; dx++) {
+          const double i = (column + 0.5) / bins + to_exemplar_.xx * dx + to_exemplar_.xy * dy;
+          const double j = rank_ == 1 ? 0 : (row + 0.5) / bins + to_exemplar_.yx * dx + to_exemplar_.yy * dy;
+          const double p = i - nearest(i), q = j - nearest(j);
+          double& lowest = least[bit_of(dx, dy)];
+          double highest = 0;
+          // Half-way between two cells a part of the bin counts from the one, a part from the other.
+          for (const bool other_p : {false, true})
+            for (const bool other_q : {false, true}) {
+              if ((other_p && std::abs(p) + half < 0.5) || (other_q && std::abs(q) + half < 0.5)) continue;
+              const double pp = other_p ? p - std::copysign(1, p) : p, qq = other_q ? q - std::copysign(1, q) : q;
+              const double off = length({first_.x * pp + second_.x * qq, first_.y * pp + second_.y * qq});
+              lowest = std::min(lowest, cost(penalty({std::max(0.0, off - reach), 0}), dx, dy));
+              highest = std::max(highest, cost(penalty({off + reach, 0}), dx, dy));
+            }
+          limit = std::min(limit, highest);
+        }
+      for (int bit = 0; bit < int(least.size()); bit++)
+        promising_[size_t(row) * bins + column] |= uint64_t{least[bit] <= limit} << bit;
+    }
 }
 
 }  // namespace terrazzo

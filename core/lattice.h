@@ -1,6 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "core/geometry.h"
 #include "core/hash.h"
@@ -56,9 +61,8 @@ class LatticePhase {
 
   /// What the exemplar position (u, v) has too much to be in phase with the output position (x, y), in pixels.
   Vector2 excess(int u, int v, int x, int y) const {
-    const double i = to_exemplar_.xx * u + to_exemplar_.xy * v - to_output_.xx * x - to_output_.xy * y + origin_.x;
-    const double j = to_exemplar_.yx * u + to_exemplar_.yy * v - to_output_.yx * x - to_output_.yy * y + origin_.y;
-    const double p = i - nearest(i), q = j - nearest(j);
+    const Vector2 c = cells(u, v, x, y);
+    const double p = c.x - nearest(c.x), q = c.y - nearest(c.y);
     return {first_.x * p + second_.x * q, first_.y * p + second_.y * q};
   }
 
@@ -75,11 +79,7 @@ class LatticePhase {
   }
 
   /// Factor on the cost of a candidate that is further out of phase than the lattice's certainty leaves open.
-  double penalty(int u, int v, int x, int y) const {
-    const Vector2 e = excess(u, v, x, y);
-    const double misfit = (e.x * e.x + e.y * e.y) * stiffness_;
-    return misfit <= 1 ? 1.0 : 1.0 + misfit;
-  }
+  double penalty(int u, int v, int x, int y) const { return penalty(excess(u, v, x, y)); }
 
  private:
   struct Matrix {
@@ -87,8 +87,46 @@ class LatticePhase {
   };
   static Matrix to_cells(const Lattice& lattice, double scale);
   static double nearest(double v) { return std::floor(v + 0.5); }
+  double penalty(const Vector2& excess) const {
+    const double misfit = (excess.x * excess.x + excess.y * excess.y) * stiffness_;
+    return misfit <= 1 ? 1.0 : 1.0 + misfit;
+  }
 
-  void search(int x, int y, int& u, int& v) const;
+  /// By how many cells, in each direction, the exemplar position (u, v) is too far on for the output position (x, y).
+  Vector2 cells(int u, int v, int x, int y) const {
+    return {to_exemplar_.xx * u + to_exemplar_.xy * v - to_output_.xx * x - to_output_.xy * y + origin_.x,
+            to_exemplar_.yx * u + to_exemplar_.yy * v - to_output_.yx * x - to_output_.yy * y + origin_.y};
+  }
+  /// What it costs to take a step: of several positions in phase the nearest is the best.
+  static double cost(double penalty, int dx, int dy) { return penalty + 0.001 * (dx * dx + dy * dy); }
+
+  // A step's bit: the rows of a square, each in a byte.
+  static constexpr int farthest = 3;
+  static constexpr int bit_of(int dx, int dy) { return (dy + farthest) * 8 + dx + farthest; }
+  static constexpr int step_x(int bit) { return bit % 8 - farthest; }
+  static constexpr int step_y(int bit) { return bit / 8 - farthest; }
+
+  static constexpr int bins = 64;
+  static int bin_of(double cells) { return std::min(bins - 1, int((cells - std::floor(cells)) * bins)); }
+
+  /// Takes the cheapest of the steps to pixels up to `farthest` away along each axis.
+  void search(int x, int y, int& u, int& v) const {
+    const Vector2 place = cells(u, v, x, y);
+    uint64_t left = promising_[size_t(bin_of(place.x) + (rank_ == 1 ? 0 : bin_of(place.y) * bins))];
+    int best = std::countr_zero(left);
+    if (!std::has_single_bit(left)) {
+      double least = std::numeric_limits<double>::max();
+      for (; left != 0; left &= left - 1) {
+        const int bit = std::countr_zero(left), dx = step_x(bit), dy = step_y(bit);
+        const double c = cost(penalty(u + dx, v + dy, x, y), dx, dy);
+        best = c < least ? bit : best;
+        least = std::min(least, c);
+      }
+    }
+    u += step_x(best);
+    v += step_y(best);
+  }
+  void find_promising_steps();
 
   bool resolves_cells_ = false;
   double stiffness_ = 1;  // 1 / the square of what a position may be out of phase, in pixels
@@ -97,6 +135,8 @@ class LatticePhase {
   Matrix to_exemplar_;  // pixels to cells; for rank 1 its second row is 0
   Matrix to_output_;
   Vector2 origin_;  // in cells of the output
+  // Where cells are not resolved, which steps may be the cheapest, by where in a cell they start: `bins` to a row.
+  std::vector<uint64_t> promising_;
 };
 
 }  // namespace terrazzo

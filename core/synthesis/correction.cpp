@@ -52,6 +52,7 @@ class PixelCorrector {
         occupancy_(occupancy),
         exemplar_(level.exemplar.at(0, 0)),
         stride_(level.exemplar.stride()),
+        pass_bits_(random_bits(pass.seed, level.level, pass.pass)),
         dear_coherence_(!pass.piece_coherence.empty() || pass.coherence > unit_factor),
         taps_(int(pass.window->size())) {
     for (int t = 0; t < taps_; t++) {
@@ -173,8 +174,9 @@ class PixelCorrector {
         proposed_y_[count] = similar[k].y - step(n, 1);
       }
     }
+    const uint64_t bits = more_random_bits(pass_bits_, x_, y_);
     for (int k = 0; k < pass_.random_candidates; k++, count++) {
-      auto [u, v] = level_.exemplar.place(random_bits(pass_.seed, level_.level, pass_.pass, x_, y_, k));
+      auto [u, v] = level_.exemplar.place(more_random_bits(bits, k));
       level_.phase.snap(x_, y_, u, v);
       level_.exemplar.unwind(u, v);
       proposed_x_[count] = u;
@@ -324,6 +326,7 @@ class PixelCorrector {
   const Occupancy& occupancy_;
   const AppearanceVector* exemplar_;  // its first pixel
   ptrdiff_t stride_;
+  uint64_t pass_bits_;
   bool dear_coherence_;  // it may cost more to continue a neighbour than not to
   int taps_;
   std::array<ptrdiff_t, 9> around_offsets_{};

@@ -1,8 +1,11 @@
 #include "core/lattice.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
+
+#include "core/hash.h"
 
 using namespace terrazzo;
 
@@ -46,6 +49,31 @@ TEST_CASE("levels that are too coarse to see a cell still know positions that ar
     CHECK(std::abs(v - from) <= 1);
   }
   CHECK_FALSE(LatticePhase(courses(6), 8, output, false, false).active());
+}
+
+TEST_CASE("where cells are not resolved, snapping finds the best of all places in reach") {
+  const Vector2 origin{3.7, 1.2};
+  for (const Lattice& lattice : {Lattice{2, {17.3, 4.1}, {-6.2, 21.9}, 0.7}, Lattice{2, {40, 0}, {31, 5}, 0.2},
+                                 Lattice{1, {11.7, 0}, {}, 0.4}, Lattice{1, {0, 9.2}, {}, 0.9}})
+    for (int level = 2; level <= 5; level++) {
+      CAPTURE(lattice.first.x);
+      CAPTURE(level);
+      const LatticePhase phase(lattice, level, output, true, false, origin);
+      if (phase.resolves_cells() || !phase.active()) continue;
+      for (int i = 0; i < 1000; i++) {
+        const uint64_t r = random_bits(level, i);
+        const int x = int(r & 63), y = int(r >> 8 & 63), u = int(r >> 16 & 63), v = int(r >> 24 & 63);
+        const auto cost_of = [&](int to_u, int to_v) {
+          return phase.penalty(to_u, to_v, x, y) + 0.001 * ((to_u - u) * (to_u - u) + (to_v - v) * (to_v - v));
+        };
+        double least = 1e9;
+        for (int dy = -3; dy <= 3; dy++)
+          for (int dx = -3; dx <= 3; dx++) least = std::min(least, cost_of(u + dx, v + dy));
+        int to_u = u, to_v = v;
+        phase.snap(x, y, to_u, to_v);
+        REQUIRE(cost_of(to_u, to_v) == doctest::Approx(least).epsilon(1e-9));
+      }
+    }
 }
 
 TEST_CASE("the surer the lattice, the more it costs to be out of phase") {
