@@ -3,10 +3,6 @@
 #include <array>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 #include "core/appearance.h"
 
 namespace terrazzo {
@@ -82,42 +78,15 @@ class PaddedLevel {
   std::vector<uint32_t> nearest_usable_;  // for every pixel
 };
 
-/// Adds up squared distances of appearance vectors, of at most 25 pairs.
-class DistanceSum {
- public:
-#if defined(__SSE2__)
-  void add(const AppearanceVector& a, const AppearanceVector& b) {
-    const __m128i difference = _mm_sub_epi16(load(a), load(b));
-    sum_ = _mm_add_epi32(sum_, _mm_madd_epi16(difference, difference));
-  }
-  uint32_t total() const {
-    const __m128i pairs = _mm_add_epi32(sum_, _mm_shuffle_epi32(sum_, _MM_SHUFFLE(1, 0, 3, 2)));
-    return uint32_t(_mm_cvtsi128_si32(_mm_add_epi32(pairs, _mm_shuffle_epi32(pairs, _MM_SHUFFLE(2, 3, 0, 1)))));
-  }
-
- private:
-  static __m128i load(const AppearanceVector& v) {
-    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(v.data()));
-  }
-  __m128i sum_ = _mm_setzero_si128();
-#else
-  void add(const AppearanceVector& a, const AppearanceVector& b) {
-    for (int d = 0; d < appearance_dimensions; d++) sum_ += uint32_t((a[d] - b[d]) * (a[d] - b[d]));
-  }
-  uint32_t total() const {
-    return sum_;
-  }
-
- private:
-  uint32_t sum_ = 0;
-#endif
-};
-
-/// Squared distance of two appearance vectors.
+/// Squared distance of two appearance vectors. (The compiler makes vector instructions of it, as all differences fit 16
+/// bits.)
 inline int squared_distance(const AppearanceVector& a, const AppearanceVector& b) {
-  DistanceSum sum;
-  sum.add(a, b);
-  return int(sum.total());
+  int sum = 0;
+  for (int d = 0; d < appearance_dimensions; d++) {
+    const auto difference = int16_t(a[d] - b[d]);
+    sum += difference * difference;
+  }
+  return sum;
 }
 
 }  // namespace terrazzo

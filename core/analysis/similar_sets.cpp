@@ -47,6 +47,18 @@ struct Sets {
 
 constexpr int no_period = 1 << 30;
 
+/// Squared distance of three vectors, two pixels apart. Written such that the compiler adds up their vectors of squares
+/// before it adds those up.
+uint32_t row_distance(const AppearanceVector* a, const AppearanceVector* b) {
+  std::array<int16_t, 3 * appearance_dimensions> differences;
+  for (int k = 0; k < 3; k++)
+    for (int d = 0; d < appearance_dimensions; d++)
+      differences[k * appearance_dimensions + d] = int16_t(a[2 * k - 2][d] - b[2 * k - 2][d]);
+  int sum = 0;
+  for (const int16_t difference : differences) sum += difference * difference;
+  return uint32_t(sum);
+}
+
 class LevelSearch {
  public:
   LevelSearch(const AppearanceLevel& level, bool wraps, const LatticePhase& phase)
@@ -106,12 +118,11 @@ class LevelSearch {
   /// part of it, once that reaches the limit.
   uint32_t distance(int x, int y, int u, int v, uint32_t limit) const {
     const AppearanceVector *a = level_.at(x, y), *b = level_.at(u, v);
-    DistanceSum sum;
-    for (const int row : {0, -2 * level_.stride(), 2 * level_.stride()}) {
-      for (const int column : {0, -2, 2}) sum.add(a[row + column], b[row + column]);
-      if (sum.total() >= limit) break;
-    }
-    return sum.total();
+    const ptrdiff_t rows = 2 * level_.stride();
+    uint32_t sum = row_distance(a, b);
+    if (sum < limit) sum += row_distance(a - rows, b - rows);
+    if (sum < limit) sum += row_distance(a + rows, b + rows);
+    return sum;
   }
 
  private:
