@@ -3,7 +3,6 @@
 #include <set>
 
 #include <doctest/doctest.h>
-#include <hwy/targets.h>
 #include <tbb/task_arena.h>
 
 #include "tests/exemplars.h"
@@ -39,20 +38,6 @@ TEST_CASE("the same seed gives the same uv map on any number of threads, another
   CHECK(digests.size() == 1);
   digests.insert(synthesize(index(), {.size = {60, 44}, .seed = 8}, Task())->digest());
   CHECK(digests.size() == 2);
-}
-
-TEST_CASE("every instruction set gives the same uv map") {
-  const Digest expected = synthesize(index(), {.size = {50, 50}}, Task())->digest();
-  int targets = 0;
-  for (int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
-    const int64_t target = left & -left;
-    hwy::SetSupportedTargetsForTest(target);
-    CAPTURE(hwy::TargetName(target));
-    CHECK(synthesize(index(), {.size = {50, 50}}, Task())->digest() == expected);
-    targets++;
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  CHECK(targets > 0);
 }
 
 TEST_CASE("any output size works, down to a single pixel") {
