@@ -10,6 +10,7 @@
 #include "core/analysis/principal_components.h"
 #include "core/analysis/usable.h"
 #include "core/error.h"
+#include "core/linear_algebra.h"
 
 namespace terrazzo {
 
@@ -41,13 +42,13 @@ float window_weight(int dx, int dy) {
   }
 }
 
-/// The weighted neighbourhood of a pixel: for each of 25 places, all channels.
-void neighbourhood(const ExemplarPlanes& planes, int x, int y, float* out) {
+/// The weighted neighbourhood of a pixel: for each of 25 places, all channels, each number `stride` after the last.
+void neighbourhood(const ExemplarPlanes& planes, int x, int y, float* out, int stride = 1) {
   for (int j = -radius; j <= radius; j++)
     for (int i = -radius; i <= radius; i++) {
       const float w = window_weight(i, j);
       const float* v = planes.at(planes.column(x + i), planes.row(y + j));
-      for (int c = 0; c < planes.channels; c++) *out++ = w * v[c];
+      for (int c = 0; c < planes.channels; c++, out += stride) *out = w * v[c];
     }
 }
 
@@ -78,6 +79,29 @@ double integer_scale(const std::vector<float>& projected, double deviation) {
   return deviation > 0 ? std::max(fitting, appearance_limit / (5.0 * deviation)) : fitting;
 }
 
+/// What the level's basis makes of every pixel's neighbourhood of n numbers.
+std::vector<float> projection(const ExemplarPlanes& planes, const AppearanceLevel& level, int n) {
+  std::array<float, appearance_dimensions> offset{};
+  for (int d = 0; d < level.dimensions; d++)
+    for (int i = 0; i < n; i++) offset[d] += level.basis[size_t(d) * n + i] * level.mean[i];
+  std::vector<float> projected(size_t(planes.size.area()) * appearance_dimensions);
+  constexpr int strip = 32;  // pixels, side by side in memory
+  tbb::parallel_for(0, planes.size.height, [&](int y) {
+    std::vector<float> v(size_t(n) * strip);
+    for (int left = 0; left < planes.size.width; left += strip) {
+      const int count = std::min(strip, planes.size.width - left);
+      for (int p = 0; p < count; p++) neighbourhood(planes, left + p, y, &v[p], count);
+      float* out = &projected[(size_t(y) * planes.size.width + left) * appearance_dimensions];
+      for (int d = 0; d < level.dimensions; d++) {
+        std::array<float, strip> sums{};
+        add_products(sums.data(), count, v.data(), size_t(count), &level.basis[size_t(d) * n], 1, size_t(n));
+        for (int p = 0; p < count; p++) out[p * appearance_dimensions + d] = sums[p] - offset[d];
+      }
+    }
+  });
+  return projected;
+}
+
 AppearanceLevel make_level(const ExemplarPlanes& planes, std::vector<uint8_t> usable, const AppearanceOptions& options,
                            const Task& task) {
   const int n = window * planes.channels;
@@ -97,26 +121,7 @@ AppearanceLevel make_level(const ExemplarPlanes& planes, std::vector<uint8_t> us
   level.mean = std::move(pca.mean);
   level.basis.assign(pca.components.begin(), pca.components.begin() + size_t(level.dimensions) * n);
 
-  // Transposed and padded to 8: the innermost loop then runs over dimensions, each with its own sum.
-  std::vector<std::array<float, appearance_dimensions>> columns(n);
-  std::array<float, appearance_dimensions> offset{};
-  for (int d = 0; d < level.dimensions; d++)
-    for (int i = 0; i < n; i++) {
-      columns[i][d] = level.basis[size_t(d) * n + i];
-      offset[d] += columns[i][d] * level.mean[i];
-    }
-  std::vector<float> projected(size_t(planes.size.area()) * appearance_dimensions);
-  tbb::parallel_for(0, planes.size.height, [&](int y) {
-    std::vector<float> v(n);
-    for (int x = 0; x < planes.size.width; x++) {
-      neighbourhood(planes, x, y, v.data());
-      std::array<float, appearance_dimensions> sum{};
-      for (int i = 0; i < n; i++)
-        for (int d = 0; d < appearance_dimensions; d++) sum[d] += v[i] * columns[i][d];
-      float* out = &projected[(size_t(y) * planes.size.width + x) * appearance_dimensions];
-      for (int d = 0; d < appearance_dimensions; d++) out[d] = sum[d] - offset[d];
-    }
-  });
+  const std::vector<float> projected = projection(planes, level, n);
   level.scale = integer_scale(projected, pca.variances.empty() ? 0 : std::sqrt(pca.variances[0]));
   level.vectors.resize(size_t(planes.size.area()));
   for (size_t i = 0; i < level.vectors.size(); i++)

@@ -24,11 +24,8 @@ std::vector<double> covariance(const std::vector<float>& centred, int n, const T
     double* row = &matrix[size_t(i) * n];
     for (size_t begin = 0; begin < count; begin += block) {
       std::fill(partial.begin() + i, partial.end(), 0.0f);
-      for (size_t s = begin; s < std::min(count, begin + block); s++) {
-        const float* v = &centred[s * n];
-        const float factor = v[i];
-        for (int j = i; j < n; j++) partial[j] += factor * v[j];
-      }
+      const float* column = &centred[begin * n + i];
+      add_products(&partial[i], n - i, column, n, column, n, std::min(block, count - begin));
       for (int j = i; j < n; j++) row[j] += partial[j];
     }
   });
@@ -65,12 +62,25 @@ void orthonormalise(std::vector<double>& rows, int count, int n) {
   }
 }
 
+/// The products of an n x n matrix with m rows, as rows.
+std::vector<double> products(const std::vector<double>& matrix, const std::vector<double>& rows, int m, int n) {
+  // All rows at once, one number of each side by side: the sums of one row alone would wait for one another.
+  std::vector<double> columns(rows.size()), out(rows.size());
+  for (int r = 0; r < m; r++)
+    for (int i = 0; i < n; i++) columns[size_t(i) * m + r] = rows[size_t(r) * n + i];
+  tbb::parallel_for(0, n, [&](int i) {
+    std::vector<double> sums(m, 0.0);
+    for (int k = 0; k < n; k++)
+      for (int r = 0; r < m; r++) sums[r] += matrix[size_t(i) * n + k] * columns[size_t(k) * m + r];
+    for (int r = 0; r < m; r++) out[size_t(r) * n + i] = sums[r];
+  });
+  return out;
+}
+
 /// Turns the rows into Ritz vectors of `matrix` within their span, largest value first. Returns the values.
 std::vector<double> rayleigh_ritz(const std::vector<double>& matrix, std::vector<double>& rows, int m, int n) {
-  std::vector<double> image(size_t(m) * n), small(size_t(m) * m);
-  tbb::parallel_for(0, m, [&](int r) {
-    for (int i = 0; i < n; i++) image[size_t(r) * n + i] = dot(&matrix[size_t(i) * n], &rows[size_t(r) * n], n);
-  });
+  const std::vector<double> image = products(matrix, rows, m, n);
+  std::vector<double> small(size_t(m) * m);
   for (int r = 0; r < m; r++)
     for (int q = 0; q <= r; q++)
       small[r * m + q] = small[q * m + r] = dot(&rows[size_t(r) * n], &image[size_t(q) * n], n);
@@ -104,15 +114,12 @@ PrincipalComponents principal_components(const std::vector<float>& samples, int 
 
   // A few more rows than asked for: the gap beyond them is what sets the speed of convergence.
   const int m = std::min(n, count + 6);
-  std::vector<double> rows(size_t(m) * n), next(rows.size());
+  std::vector<double> rows(size_t(m) * n);
   for (size_t i = 0; i < rows.size(); i++) rows[i] = unit_double(random_bits(n, i)) - 0.5;
   orthonormalise(rows, m, n);
   for (int step = 0; step < 24; step++) {
     task.check();
-    tbb::parallel_for(0, m, [&](int r) {
-      for (int i = 0; i < n; i++) next[size_t(r) * n + i] = dot(&matrix[size_t(i) * n], &rows[size_t(r) * n], n);
-    });
-    rows.swap(next);
+    rows = products(matrix, rows, m, n);
     orthonormalise(rows, m, n);
   }
   const std::vector<double> values = rayleigh_ritz(matrix, rows, m, n);
