@@ -50,20 +50,6 @@ void diagonalise(std::vector<double>& a, std::vector<double>& vectors, int n) {
 
 }  // namespace
 
-void add_products(float* sums, int length, const float* rows, size_t row_stride, const float* factors,
-                  size_t factor_stride, size_t count) {
-  size_t i = 0;
-  // Four at once, so that the sums are not loaded and stored for each.
-  for (; i + 4 <= count; i += 4) {
-    const float *a = rows + i * row_stride, *b = a + row_stride, *c = b + row_stride, *d = c + row_stride;
-    const float* f = factors + i * factor_stride;
-    const float fa = f[0], fb = f[factor_stride], fc = f[2 * factor_stride], fd = f[3 * factor_stride];
-    for (int k = 0; k < length; k++) sums[k] = sums[k] + fa * a[k] + fb * b[k] + fc * c[k] + fd * d[k];
-  }
-  for (; i < count; i++)
-    for (int k = 0; k < length; k++) sums[k] += factors[i * factor_stride] * rows[i * row_stride + k];
-}
-
 SymmetricEigen eigen_symmetric(std::vector<double> matrix, int n) {
   if (n < 1 || matrix.size() != size_t(n) * n) throw std::logic_error("a square matrix is needed");
   std::vector<double> vectors(matrix.size(), 0.0);

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/add_products.h"
 #include "core/analysis/planes.h"
 #include "core/analysis/principal_components.h"
 #include "core/analysis/usable.h"
 #include "core/error.h"
-#include "core/linear_algebra.h"
 
 namespace terrazzo {
 

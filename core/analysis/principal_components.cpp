@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/add_products.h"
 #include "core/hash.h"
 #include "core/linear_algebra.h"
 
