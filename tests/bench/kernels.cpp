@@ -11,6 +11,7 @@
 #include "core/analysis/weighting.h"
 #include "core/hash.h"
 #include "core/image_file.h"
+#include "core/lattice.h"
 #include "core/material.h"
 #include "core/procedural/pattern.h"
 #include "core/synthesis/correction.h"
@@ -107,6 +108,20 @@ void correction_pass(benchmark::State& state) {
   count_items(state, c.field.size.area());
 }
 BENCHMARK(correction_pass)->DenseRange(0, 4)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+
+/// Brings places into phase with a skew lattice. Arguments: the level; cells are too small to see from level 3 on.
+void lattice_snap(benchmark::State& state) {
+  const LatticePhase phase({2, {12.4, 3.1}, {-4.2, 13.7}, 0.5}, int(state.range(0)), {1024, 1024}, false, false);
+  int at = 0;
+  for (auto _ : state) {
+    int u = at % 61, v = at % 53;
+    phase.snap(at % 128, at / 128 % 128, u, v);
+    benchmark::DoNotOptimize(u + v);
+    at++;
+  }
+  count_items(state, 1);
+}
+BENCHMARK(lattice_snap)->DenseRange(1, 4);
 
 void occupancy_count(benchmark::State& state) {
   const CorrectionCase c(1);

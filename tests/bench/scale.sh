@@ -22,7 +22,8 @@ fi
 
 echo "| size | seconds | CPU seconds | CPU µs per pixel | peak MiB |"
 echo "|---|---|---|---|---|"
-for size in ${@:-1024 2048 4096 8192}; do
+[ $# != 0 ] || set -- 1024 2048 4096 8192
+for size; do
   /usr/bin/time -o "$out/time" -f "%e %U %S %M" "$program" run graphs/material.json --progress none \
     --set "material=$material" --set "size=${size}x$size" --set "out=$out/maps" 2>/dev/null
   read -r wall user system peak < <(tail -1 "$out/time")
