@@ -44,10 +44,11 @@ ExemplarPlanes outlines(const ExemplarPlanes& in) {
   values = blurred(values, grain);
   ExemplarPlanes out{in.size, 1, in.wraps, std::vector<float>(size_t(in.size.area()))};
   const auto at = [&](int x, int y) { return &values.values[(size_t(y) * in.size.width + x) * in.channels]; };
+  const auto inside = [&](int i, int n) { return in.wraps ? wrap(i, n) : std::clamp(i, 0, n - 1); };
   for (int y = 0; y < in.size.height; y++)
     for (int x = 0; x < in.size.width; x++) {
-      const float *left = at(std::max(0, x - 1), y), *right = at(std::min(in.size.width - 1, x + 1), y);
-      const float *up = at(x, std::max(0, y - 1)), *down = at(x, std::min(in.size.height - 1, y + 1));
+      const float *left = at(inside(x - 1, in.size.width), y), *right = at(inside(x + 1, in.size.width), y);
+      const float *up = at(x, inside(y - 1, in.size.height)), *down = at(x, inside(y + 1, in.size.height));
       float sum = 0;
       for (int c = 0; c < in.channels; c++) {
         const float dx = right[c] - left[c], dy = down[c] - up[c];

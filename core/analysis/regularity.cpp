@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/analysis/few_cells.h"
 #include "core/analysis/lag_correlation.h"
 #include "core/analysis/planes.h"
 
@@ -266,8 +267,9 @@ Lattice most_telling(const Correlation& r, double least_certainty) {
   const Lattice courses = one_direction(r, true), columns = one_direction(r, false);
   const Lattice skew = two_directions(r);
   const double both = std::min(courses.certainty, columns.certainty);
-  if (both >= least_certainty && lattice_score(r, columns.first, courses.first) >= skew.certainty - about)
-    return {2, columns.first, courses.first, both};
+  // Lines that come again halfway along one axis do not make half cells.
+  const double grid = both >= least_certainty ? lattice_score(r, columns.first, courses.first) : -1;
+  if (grid >= std::max(both / 2, skew.certainty - about)) return {2, columns.first, courses.first, both};
   const Lattice& bands = courses.certainty > columns.certainty ? courses : columns;
   // What bands explain, any skew lattice that respects them explains too, up to a half.
   if (skew.certainty >= std::max(least_certainty, bands.certainty / 2)) return skew;
@@ -276,7 +278,11 @@ Lattice most_telling(const Correlation& r, double least_certainty) {
 
 Lattice searched(const ExemplarPlanes& planes, double least_certainty, const Task& task) {
   const Correlation r = correlate(planes, task);
-  return without_false_repeats(r, most_telling(r, least_certainty));
+  const Lattice best = without_false_repeats(r, most_telling(r, least_certainty));
+  if (!planes.wraps) return best;
+  // Several cells together do about as well as one.
+  const Lattice few = lattice_of_few_cells(r, planes.size);
+  return good_enough * few.certainty > best.certainty ? few : best;
 }
 
 }  // namespace
@@ -291,9 +297,15 @@ Lattice find_lattice(const Features& features, double least_certainty, const Tas
   }
   // What repeats may be the colours or, where those vary from brick to brick, only the joints.
   Lattice best = searched(planes, least_certainty, task);
-  const Lattice joints = searched(outlines(planes), least_certainty, task);
+  const ExemplarPlanes edges = outlines(planes);
+  const Lattice joints = searched(edges, least_certainty, task);
   if (joints.certainty > best.certainty) best = joints;
-  if (best.certainty < least_certainty || !best.is_valid()) return {0, {}, {}, best.certainty};
+  if (best.certainty < least_certainty || !best.is_valid()) best = {0, {}, {}, best.certainty};
+  if (planes.wraps) {
+    const Lattice lines = lattice_of_lines(edges, best);
+    if (lines.rank > 0) best = lines;
+  }
+  if (best.rank == 0) return best;
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
   return best.fitted(features.size(), features.wraps(), features.wraps());
 }

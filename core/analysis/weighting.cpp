@@ -74,20 +74,63 @@ class WindowSearch {
   std::array<std::vector<float>, places> windows_;
 };
 
+constexpr double slack = 1.25;
+
+std::vector<float> border_line(const Image& map, bool rows, int i) {
+  const Size size = map.size();
+  const int at = wrap(i, rows ? size.height : size.width);
+  return map.read(rows ? Rect{0, at, size.width, 1} : Rect{at, 0, 1, size.height});
+}
+
+double distance(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0;
+  for (size_t k = 0; k < a.size(); k++) sum += std::abs(double(a[k]) - b[k]);
+  return sum;
+}
+
+/// Whether a line differs more from the map's means, by channel, than along itself.
+bool stands_out(const std::vector<float>& line, const std::vector<double>& means) {
+  const size_t channels = means.size();
+  const double pixels = double(line.size() / channels);
+  double between = 0, within = 0;
+  for (size_t c = 0; c < channels; c++) {
+    double mean = 0;
+    for (size_t k = c; k < line.size(); k += channels) mean += line[k] / pixels;
+    for (size_t k = c; k < line.size(); k += channels) within += (line[k] - mean) * (line[k] - mean) / pixels;
+    between += (mean - means[c]) * (mean - means[c]);
+  }
+  return between > within;
+}
+
+/// Whether a joint runs along the border, on one side or both, and values go on across it as they do within.
+bool joint_along_border(const Image& map, bool rows) {
+  const std::vector<float> pixels = map.pixels();
+  std::vector<double> means(size_t(map.channels()), 0.0);
+  for (size_t i = 0; i < pixels.size(); i++) means[i % means.size()] += pixels[i] / double(map.size().area());
+  const auto line = [&](int i) { return border_line(map, rows, i); };
+  const std::vector<float> last = line(-1), first = line(0);
+  return (stands_out(first, means) || stands_out(last, means)) &&
+         distance(last, first) <= slack * std::max(distance(line(-2), last), distance(first, line(1)));
+}
+
 /// Whether windows across the seam look as much like the rest of the map as windows inside it do.
-bool borders_fit(const ImagePtr& map, const WindowSearch& search, bool rows) {
+bool windows_fit(const Image& map, const WindowSearch& search, bool rows) {
   constexpr int samples = 64;
-  constexpr double slack = 1.25;
   double across = 0, inside = 0;
   for (int i = 0; i < samples; i++) {
     const uint64_t r = random_bits(12, rows, i);
-    const int x = int(below(uint32_t(r), map->width() - WindowSearch::side));
-    const int y = int(below(uint32_t(r >> 32), map->height() - WindowSearch::side));
+    const int x = int(below(uint32_t(r), map.width() - WindowSearch::side));
+    const int y = int(below(uint32_t(r >> 32), map.height() - WindowSearch::side));
     inside += search.nearest(x, y);
-    across += rows ? search.nearest(x, map->height() - WindowSearch::side / 2)
-                   : search.nearest(map->width() - WindowSearch::side / 2, y);
+    across += rows ? search.nearest(x, map.height() - WindowSearch::side / 2)
+                   : search.nearest(map.width() - WindowSearch::side / 2, y);
   }
   return across <= slack * inside;
+}
+
+/// What a joint of a single tile shows across the seam comes nowhere else; it is judged by itself.
+bool borders_fit(const Image& map, const WindowSearch& search, bool rows) {
+  return windows_fit(map, search, rows) || joint_along_border(map, rows);
 }
 
 }  // namespace
@@ -167,7 +210,7 @@ bool seems_to_tile(const Material& material) {
     if (std::min(map.image->width(), map.image->height()) < 2 * WindowSearch::side) return false;
     const ImagePtr image = materialized(map.image);
     const auto search = std::make_unique<WindowSearch>(*image);
-    return borders_fit(image, *search, true) && borders_fit(image, *search, false);
+    return borders_fit(*image, *search, true) && borders_fit(*image, *search, false);
   });
 }
 

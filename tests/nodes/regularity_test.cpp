@@ -13,9 +13,18 @@ using namespace terrazzo::test;
 
 namespace {
 
-FeaturesPtr features_of(Size size, const std::function<float(int, int)>& value) {
-  return plain_features(make_image(
-      size, 1, [&](int x, int y, int) { return value(x, y) + 0.1f * float(unit_double(random_bits(3, x, y))); }));
+FeaturesPtr features_of(Size size, const std::function<float(int, int)>& value, bool wraps = false) {
+  return plain_features(
+      make_image(size, 1,
+                 [&](int x, int y, int) { return value(x, y) + 0.1f * float(unit_double(random_bits(3, x, y))); }),
+      wraps);
+}
+
+/// Tiles of one width and height, each of its own shade, with joints of two pixels.
+std::function<float(int, int)> tiles(int width, int height) {
+  return [=](int x, int y) {
+    return x % width < 2 || y % height < 2 ? 1.f : 0.5f * float(unit_double(random_bits(6, x / width, y / height)));
+  };
 }
 
 Lattice lattice_of(const FeaturesPtr& features, const Params& params = {}) {
@@ -129,4 +138,50 @@ TEST_CASE("a result that wraps holds a whole number of cells, and positions one 
   int u = 50, v = 33;
   phase.snap(3, 4, u, v);
   CHECK(phase.penalty(u, v, 3, 4) == 1.0);
+}
+
+TEST_CASE("a few tiles in an exemplar that tiles are a lattice") {
+  const Lattice l = lattice_of(features_of({96, 96}, tiles(48, 48), true));
+  REQUIRE(l.rank == 2);
+  CHECK(std::abs(l.first.x * l.second.y - l.first.y * l.second.x) == doctest::Approx(48 * 48));
+  CHECK(repeats_by(l, 48, 0));
+  CHECK(repeats_by(l, 0, 48));
+}
+
+TEST_CASE("an exemplar that is one tile is a cell, a cut from a larger tile is not") {
+  const Lattice one = lattice_of(features_of({96, 80}, tiles(96, 80), true));
+  REQUIRE(one.rank == 2);
+  CHECK(repeats_by(one, 96, 0));
+  CHECK(repeats_by(one, 0, 80));
+  CHECK(std::abs(one.first.x * one.second.y - one.first.y * one.second.x) == doctest::Approx(96 * 80));
+  CHECK(lattice_of(features_of({96, 80}, tiles(500, 500), false)).rank == 0);
+}
+
+TEST_CASE("two boards of an exemplar that tiles are courses, though their grain is finer") {
+  const Lattice l = lattice_of(features_of(
+      {128, 128},
+      [](int x, int y) {
+        const double grain = unit_double(random_bits(7, y / 2, x / 40));
+        return y % 64 < 3 || (x + y / 64 * 50) % 128 < 3 ? 0.f : float(1 + 0.1 * grain);
+      },
+      true));
+  REQUIRE(l.rank == 1);
+  CHECK(l.first.y == doctest::Approx(64));
+}
+
+TEST_CASE("an exemplar without lines has no cell, though it tiles") {
+  const Lattice l = lattice_of(features_of(
+      {96, 96},
+      [](int x, int y) {
+        float value = 0;
+        for (int i = 0; i < 60; i++) {
+          const uint64_t r = random_bits(9, i);
+          int dx = std::abs(int(r % 96) - x), dy = std::abs(int(r / 96 % 96) - y);
+          dx = std::min(dx, 96 - dx), dy = std::min(dy, 96 - dy);
+          if (dx * dx + dy * dy < 60) value = float(i) / 60;
+        }
+        return value;
+      },
+      true));
+  CHECK(l.rank == 0);
 }

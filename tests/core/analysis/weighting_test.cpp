@@ -80,3 +80,14 @@ TEST_CASE("tiling is seen from the borders") {
   CHECK_FALSE(seems_to_tile(*discs(false)));
   CHECK_FALSE(seems_to_tile(*Material::of(make_image({64, 64}, 1, [](int x, int, int) { return float(x) / 64; }))));
 }
+
+TEST_CASE("one tile with its joint along the border tiles, unless the joint is cut off on one side") {
+  const auto tile = [](int left) {
+    return Material::of(make_image({96, 96}, 1, [left](int x, int y, int) {
+      const float grain = 0.1f * float(unit_double(random_bits(4, x, y)));
+      return (x < left || x >= 93 || y < 3 || y >= 93 ? 1.f : 0.3f) + grain;
+    }));
+  };
+  CHECK(seems_to_tile(*tile(3)));
+  CHECK_FALSE(seems_to_tile(*tile(0)));
+}
