@@ -70,7 +70,7 @@ constexpr int seam_level = 2;  // the finest on which pieces still change
 constexpr int seam_reach = 8;
 constexpr int passes_after_seams = 2;
 // Of the exemplar. With a lattice less is out of phase, so pieces grow more readily.
-constexpr double large_piece = 0.13, large_piece_on_lattice = 0.11;
+constexpr double large_piece = 0.13, large_piece_on_lattice = 0.09;
 constexpr double fragment = 0.1;  // of a large piece
 constexpr double most_coherence = 1.5;
 constexpr int finest_limited = 2;
