@@ -10,6 +10,9 @@ namespace {
 
 constexpr double smallest_resolved = 3;  // pixels of the level
 constexpr double smallest_cell = 0.3;
+// Of pixels larger than two cells so few are in phase to half a pixel of the finest level that the same rows would come
+// back all over a large surface. There a whole one will do: finer levels bring pieces into place.
+constexpr double crowded_cell = 0.5;
 // How far out of phase a position may be, in cells, and how much of that a certain lattice takes away: the surer the
 // lattice, the less its cells differ from one another.
 constexpr double looseness = 1.0 / 12;
@@ -87,7 +90,7 @@ LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool 
   if (cell < smallest_cell) rank_ = 0;
   const double loose = cell * looseness * (1 - lattice.certainty * certainty_counts);
   // Whole pixels of the finest level are out of phase by up to half a pixel along each axis that the lattice speaks of.
-  const double rounding = (rank_ == 1 ? 0.501 : 0.708) * scale;
+  const double rounding = (rank_ == 1 ? 0.501 : 0.708) * scale * (cell < crowded_cell ? 2 : 1);
   const double tolerance = std::clamp(loose, rounding, 1.0);
   stiffness_ = 1 / (tolerance * tolerance);
   to_exemplar_ = to_cells(lattice, scale);
