@@ -13,6 +13,9 @@ constexpr double smallest_cell = 0.3;
 // Of pixels larger than two cells so few are in phase to half a pixel of the finest level that the same rows would come
 // back all over a large surface. There a whole one will do: finer levels bring pieces into place.
 constexpr double crowded_cell = 0.5;
+// Pixels by which a whole surface may be sheared to wrap around: rows of a woven or scanned exemplar are rarely exactly
+// level.
+constexpr double most_shear = 1;
 // How far out of phase a position may be, in cells, and how much of that a certain lattice takes away: the surer the
 // lattice, the less its cells differ from one another.
 constexpr double looseness = 1.0 / 12;
@@ -53,7 +56,7 @@ bool Lattice::fits(Size size, bool wraps_x, bool wraps_y) const {
     return length > 0 ? std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) * std::max(size.width, size.height) / length
                       : 0.0;
   };
-  return drift(first, to.first) <= 1 && drift(second, to.second) <= 1;
+  return drift(first, to.first) <= most_shear && drift(second, to.second) <= most_shear;
 }
 
 Size Lattice::largest_fitting(Size size, bool wraps_x, bool wraps_y) const {
@@ -62,7 +65,8 @@ Size Lattice::largest_fitting(Size size, bool wraps_x, bool wraps_y) const {
   const auto largest = [&](int length, int dx, int dy) {
     for (int n = length; 2 * n > length; n--) {
       const Vector2 e = phase.excess(n * dx, n * dy, 0, 0);
-      if (std::max(std::abs(e.x), std::abs(e.y)) <= 0.5) return n;
+      const double along = std::abs(dx > 0 ? e.x : e.y), across = std::abs(dx > 0 ? e.y : e.x);
+      if (along <= 0.5 && across <= most_shear) return n;
     }
     return length;
   };

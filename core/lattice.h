@@ -37,7 +37,7 @@ struct Lattice {
   bool fits(Size size, bool wraps_x, bool wraps_y) const;
 
   /// The largest size within `size`, and over half of it, that holds a whole number of cells along each axis in which
-  /// it wraps, to half a pixel; along an axis on which there is none, that of `size`.
+  /// it wraps: to half a pixel along the axis, one across it. Along an axis on which there is none, that of `size`.
   Size largest_fitting(Size size, bool wraps_x, bool wraps_y) const;
 
   void add_to(Hasher& h) const { h.add(rank).add(first.x).add(first.y).add(second.x).add(second.y).add(certainty); }

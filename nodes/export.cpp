@@ -98,10 +98,18 @@ std::vector<Map> chosen_maps(const NodeContext& node, const Material& material) 
   return chosen;
 }
 
+/// Colours as asked for. Kept ones are linear in float files and sRGB in others, as whoever opens them will take them
+/// to be; other spaces have to be told to readers in any case.
+ImagePtr with_colors(const ImagePtr& image, const std::string& wish, Depth written) {
+  const ImageInfo& info = image->info();
+  if (!is_color(info.semantic)) return image;
+  if (wish != "keep") return convert_color(image, wish);
+  const bool usual = info.color_space == "srgb_texture" || info.color_space == "lin_rec709";
+  return usual ? convert_color(image, assumed_color_space(info.semantic, written)) : image;
+}
+
 /// The image as it goes to the file, with the depth it gets there.
-Job job_for(NodeContext& node, const std::string& name, ImagePtr image, const fs::path& target) {
-  const std::string& space = node.text("color_space");
-  if (space != "keep" && is_color(image->info().semantic)) image = convert_color(image, space);
+Job job_for(NodeContext& node, const std::string& name, const ImagePtr& image, const fs::path& target) {
   Job job{.name = name, .image = with_normals(image, node.text("normal_y")), .target = target, .temporary = {}};
   job.options.format = required_format("path", target);
   require_depth(job.options.format, node.text("depth"));
@@ -109,6 +117,7 @@ Job job_for(NodeContext& node, const std::string& name, ImagePtr image, const fs
   const Depth have = image->info().depth;
   const std::optional<Depth> wanted = depth_from(node.text("depth"));
   job.options.depth = wanted ? *wanted : nearest_depth(job.options.format, have);
+  job.image = with_colors(job.image, node.text("color_space"), job.options.depth);
   if (loses(have, job.options.depth))
     node.note(fmt::format("{}: {} values are written as {}{}", name, name_of(have), name_of(job.options.depth),
                           wanted ? "" : fmt::format(", the nearest that {} holds", name_of(job.options.format))));
@@ -281,7 +290,9 @@ std::vector<Param> params() {
       {.name = "color_space",
        .type = ParamType::text,
        .fallback = "keep",
-       .help = "\"keep\", or a colour space that the colour maps are converted to. Data maps are never converted."},
+       .help = "\"keep\", or a colour space that the colour maps are converted to. Data maps are never converted. "
+               "\"keep\" writes sRGB and linear Rec.709 colours as readers of the file take them: linear in half and "
+               "float, sRGB in 8 and 16 bits."},
       {.name = "normal_y",
        .type = ParamType::choice,
        .fallback = "keep",

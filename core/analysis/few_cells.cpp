@@ -10,8 +10,9 @@ namespace terrazzo {
 namespace {
 
 constexpr int fewest_cells = 4, most_cells = 12;
-constexpr double least_few = 0.2;    // what cells must correlate more than places between them
-constexpr double least_lines = 0.1;  // of all variance, what differs from line to line
+constexpr double least_few = 0.2;  // what cells must correlate more than places between them
+// Of all variance, what differs from line to line. Layers of rock have up to a tenth, along one axis.
+constexpr double least_crossing = 0.1, least_parallel = 0.4;
 constexpr int most_repeats = 8;      // of lines in an exemplar
 constexpr double same_lines = 0.7;   // correlation of lines that repeat
 constexpr double other_lines = 0.3;  // and of those that do not
@@ -107,11 +108,11 @@ Lattice lattice_of_few_cells(const Correlation& r, Size size) {
 Lattice lattice_of_lines(const ExemplarPlanes& outlines, const Lattice& found) {
   const Lines rows = lines_of(outlines, true), columns = lines_of(outlines, false);
   const Vector2 down{0, rows.period}, right{columns.period, 0};
-  const bool courses = rows.share >= least_lines;
+  const bool courses = rows.share >= least_parallel;
   const double both = std::min(rows.share, columns.share);
-  if (found.rank < 2 && both >= std::max(least_lines, found.certainty)) return {2, right, down, both};
+  if (found.rank < 2 && both >= std::max(least_crossing, found.certainty)) return {2, right, down, both};
   const Lines& lines = courses ? rows : columns;
-  if (lines.share < least_lines || found.rank > 1) return {};
+  if (lines.share < least_parallel || found.rank > 1) return {};
   // Bands found otherwise stay, unless lines deny them.
   const double period = courses ? found.first.y : found.first.x;
   if (found.rank == 1 && (period == 0 || correlation_around(lines.profile, period) > other_lines)) return {};
