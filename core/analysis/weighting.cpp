@@ -74,8 +74,6 @@ class WindowSearch {
   std::array<std::vector<float>, places> windows_;
 };
 
-constexpr double slack = 1.25;
-
 std::vector<float> border_line(const Image& map, bool rows, int i) {
   const Size size = map.size();
   const int at = wrap(i, rows ? size.height : size.width);
@@ -102,20 +100,28 @@ bool stands_out(const std::vector<float>& line, const std::vector<double>& means
   return between > within;
 }
 
-/// Whether a joint runs along the border, on one side or both, and values go on across it as they do within.
-bool joint_along_border(const Image& map, bool rows) {
+/// Whether a joint seems to run along one of the borders.
+bool has_joint_along_border(const Image& map) {
   const std::vector<float> pixels = map.pixels();
   std::vector<double> means(size_t(map.channels()), 0.0);
   for (size_t i = 0; i < pixels.size(); i++) means[i % means.size()] += pixels[i] / double(map.size().area());
+  for (const bool rows : {true, false})
+    for (const int i : {-1, 0})
+      if (stands_out(border_line(map, rows, i), means)) return true;
+  return false;
+}
+
+/// Whether values go on from one border to the other about as they do from pixel to pixel beside them.
+bool goes_on(const Image& map, bool rows) {
+  constexpr double most = 1.5;
   const auto line = [&](int i) { return border_line(map, rows, i); };
-  const std::vector<float> last = line(-1), first = line(0);
-  return (stands_out(first, means) || stands_out(last, means)) &&
-         distance(last, first) <= slack * std::max(distance(line(-2), last), distance(first, line(1)));
+  return distance(line(-1), line(0)) <= most * std::max(distance(line(-2), line(-1)), distance(line(0), line(1)));
 }
 
 /// Whether windows across the seam look as much like the rest of the map as windows inside it do.
 bool windows_fit(const Image& map, const WindowSearch& search, bool rows) {
   constexpr int samples = 64;
+  constexpr double slack = 1.25;
   double across = 0, inside = 0;
   for (int i = 0; i < samples; i++) {
     const uint64_t r = random_bits(12, rows, i);
@@ -126,11 +132,6 @@ bool windows_fit(const Image& map, const WindowSearch& search, bool rows) {
                    : search.nearest(map.width() - WindowSearch::side / 2, y);
   }
   return across <= slack * inside;
-}
-
-/// What a joint of a single tile shows across the seam comes nowhere else; it is judged by itself.
-bool borders_fit(const Image& map, const WindowSearch& search, bool rows) {
-  return windows_fit(map, search, rows) || joint_along_border(map, rows);
 }
 
 }  // namespace
@@ -206,11 +207,18 @@ NumberMap weights_of_chosen(const Material& material, const std::vector<std::str
 }
 
 bool seems_to_tile(const Material& material) {
-  return std::all_of(material.maps().begin(), material.maps().end(), [](const Map& map) {
+  std::vector<ImagePtr> maps;
+  for (const Map& map : material.maps()) {
     if (std::min(map.image->width(), map.image->height()) < 2 * WindowSearch::side) return false;
-    const ImagePtr image = materialized(map.image);
-    const auto search = std::make_unique<WindowSearch>(*image);
-    return borders_fit(*image, *search, true) && borders_fit(*image, *search, false);
+    maps.push_back(materialized(map.image));
+  }
+  // What a joint along the border shows across the seam may come nowhere else: it is then judged by itself.
+  const bool joint =
+      std::any_of(maps.begin(), maps.end(), [](const ImagePtr& map) { return has_joint_along_border(*map); });
+  return std::all_of(maps.begin(), maps.end(), [&](const ImagePtr& map) {
+    const auto search = std::make_unique<WindowSearch>(*map);
+    const auto fits = [&](bool rows) { return windows_fit(*map, *search, rows) || (joint && goes_on(*map, rows)); };
+    return fits(true) && fits(false);
   });
 }
 

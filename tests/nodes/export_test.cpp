@@ -8,6 +8,7 @@
 
 #include "../odd_images.h"
 #include "../run_node.h"
+#include "core/color.h"
 #include "core/error.h"
 #include "core/image_file.h"
 #include "core/uv_image.h"
@@ -124,6 +125,27 @@ TEST_CASE("colours are converted on request, data never") {
   const float linear = read(folder.path() / "base_color.exr")->read({3, 2, 1, 1})[0];
   CHECK(linear == doctest::Approx(std::pow((encoded + 0.055) / 1.055, 2.4)).epsilon(1e-5));
   CHECK(read(folder.path() / "normal.exr")->pixels() == bricks()->find("normal")->pixels());
+}
+
+TEST_CASE("kept colours are linear in float files and sRGB in others, data as they are") {
+  const TemporaryFolder folder;
+  const auto mean = [](const ImagePtr& image) {
+    double sum = 0;
+    for (const float v : image->pixels()) sum += v;
+    return sum / double(image->pixels().size());
+  };
+  const ImagePtr stored = map_of(Semantic::base_color, 3, Depth::u8, "srgb_texture");
+  const double linear_mean = mean(convert_color(stored, "lin_rec709"));
+  const auto material = [](const ImagePtr& color) {
+    return Material::make("m", {{"base_color", color}, {"roughness", map_of(Semantic::roughness, 1, Depth::u8)}});
+  };
+  run(folder.path(), "{map}.exr", {}, material(stored));
+  CHECK(mean(read(folder.path() / "base_color.exr")) == doctest::Approx(linear_mean).epsilon(0.01));
+  CHECK(mean(read(folder.path() / "roughness.exr")) ==
+        doctest::Approx(mean(map_of(Semantic::roughness, 1, Depth::u8))).epsilon(0.01));
+  const ImagePtr linear = convert_color(stored, "lin_rec709");
+  run(folder.path(), "{map}.png", {{"depth", "uint8"}}, material(linear));
+  CHECK(mean(read(folder.path() / "base_color.png")) == doctest::Approx(mean(stored)).epsilon(0.01));
 }
 
 TEST_CASE("normals are turned to the convention asked for") {

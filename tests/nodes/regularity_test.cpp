@@ -169,6 +169,17 @@ TEST_CASE("two boards of an exemplar that tiles are courses, though their grain 
   CHECK(l.first.y == doctest::Approx(64));
 }
 
+TEST_CASE("layers of rock are no courses") {
+  const Lattice l = lattice_of(features_of(
+      {128, 128},
+      [](int x, int y) {
+        const double layer = unit_double(random_bits(7, y / 3)), grain = unit_double(random_bits(8, y, x / 3));
+        return float(0.2 * layer + 0.8 * grain);
+      },
+      true));
+  CHECK(l.rank == 0);
+}
+
 TEST_CASE("an exemplar without lines has no cell, though it tiles") {
   const Lattice l = lattice_of(features_of(
       {96, 96},
