@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include "core/synthesis/grid_cut.h"
 #include "core/synthesis/pieces.h"
 
@@ -14,10 +17,24 @@ namespace {
 constexpr int smallest_piece = 2;  // pixels; smaller ones only give way
 constexpr double fraction = 16;    // mismatches are integers of this part of a unit
 
+/// What all movers work on. Those of pieces whose reaches do not meet can work at the same time.
+struct Ground {
+  static constexpr int beyond_reach = -1, in_piece = -2;
+
+  Ground(Field& f, const CorrectionLevel& l, int r)
+      : field(f), before(f), level(l), reach(r), node(f.pixels.size(), beyond_reach) {}
+
+  Field& field;
+  const Field before;
+  const CorrectionLevel& level;
+  int reach;
+  std::vector<int> node;  // of each pixel in its mover's graph
+};
+
 class SeamMover {
  public:
-  SeamMover(Field& field, const CorrectionLevel& level, int reach)
-      : field_(field), before_(field), level_(level), reach_(reach), node_(field.pixels.size(), beyond_reach) {}
+  explicit SeamMover(Ground& ground)
+      : field_(ground.field), before_(ground.before), level_(ground.level), reach_(ground.reach), node_(ground.node) {}
 
   void spread(std::span<const int> piece) {
     gather(piece);
@@ -32,7 +49,7 @@ class SeamMover {
   }
 
  private:
-  static constexpr int beyond_reach = -1, in_piece = -2;
+  static constexpr int beyond_reach = Ground::beyond_reach, in_piece = Ground::in_piece;
   /// A pixel that the piece may spread to, and what it would show then.
   struct Free {
     int pixel;
@@ -115,13 +132,59 @@ class SeamMover {
   }
 
   Field& field_;
-  const Field before_;
+  const Field& before_;
   const CorrectionLevel& level_;
   int reach_;
-  std::vector<int> node_;    // of each pixel
+  std::vector<int>& node_;
   std::vector<int> inside_;  // the piece
   std::vector<Free> free_;
   GridCut cut_;
+};
+
+/// Pieces that spread one after the other, put into rounds: those of a round lie so far apart that it does not matter
+/// which comes first, and all that come earlier and lie near are in earlier rounds.
+class Rounds {
+ public:
+  Rounds(const Field& field, const PlaneWindow& window, int reach)
+      : size_(field.size),
+        window_(window),
+        side_(reach + 1),
+        cells_{(size_.width + side_ - 1) / side_, (size_.height + side_ - 1) / side_},
+        last_(size_t(cells_.area()), 0) {}
+
+  void add(int piece, std::span<const int> members) {
+    int round = 0;
+    for_each_near(members, [&](size_t cell) { round = std::max(round, last_[cell]); });
+    for_each_near(members, [&](size_t cell) { last_[cell] = round + 1; });
+    if (round == int(rounds_.size())) rounds_.emplace_back();
+    rounds_[size_t(round)].push_back(piece);
+  }
+  const std::vector<std::vector<int>>& all() const { return rounds_; }
+
+ private:
+  /// Calls `visit` for the cells of the pixels and those beside them. Where the field wraps around, its last cells may
+  /// be narrower than a reach: one more counts as beside.
+  template <typename Visit>
+  void for_each_near(std::span<const int> members, const Visit& visit) const {
+    int previous = -1;
+    for (const int i : members) {
+      const int cx = i % size_.width / side_, cy = i / size_.width / side_, cell = cy * cells_.width + cx;
+      if (cell == previous) continue;
+      previous = cell;
+      for (int dy = -2; dy <= 2; dy++)
+        for (int dx = -2; dx <= 2; dx++) {
+          const int64_t n = pixel_index(cells_, cx + dx, cy + dy, window_.closed_x, window_.closed_y);
+          if (n >= 0) visit(size_t(n));
+        }
+    }
+  }
+
+  Size size_;
+  const PlaneWindow& window_;
+  int side_;
+  Size cells_;
+  std::vector<int> last_;  // the round after the last of each cell
+  std::vector<std::vector<int>> rounds_;
 };
 
 }  // namespace
@@ -131,12 +194,16 @@ void move_seams(Field& field, const CorrectionLevel& level, int reach, const Tas
   std::vector<int> order(size_t(pieces.count()));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.area(a) > pieces.area(b); });
-  SeamMover mover(field, level, reach);
-  for (const int piece : order) {
-    if (pieces.area(piece) < smallest_piece) break;
-    task.check();
-    mover.spread(pieces.members(piece));
-  }
+  Rounds rounds(field, level.window, reach);
+  for (const int piece : order)
+    if (pieces.area(piece) >= smallest_piece) rounds.add(piece, pieces.members(piece));
+  Ground ground(field, level, reach);
+  tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(ground); });
+  for (const std::vector<int>& round : rounds.all())
+    tbb::parallel_for(0, int(round.size()), [&](int i) {
+      task.check();
+      movers.local().spread(pieces.members(round[size_t(i)]));
+    });
 }
 
 }  // namespace terrazzo
