@@ -14,6 +14,7 @@ namespace {
 
 constexpr int smallest_piece = 4;  // pixels; smaller ones are left to correction
 constexpr int sweeps = 2;
+constexpr size_t many_seams = 1000;
 // A move must lower the mismatch by this much, in 1/64.
 constexpr int64_t worthwhile = 61;
 
@@ -175,17 +176,28 @@ class PieceAligner {
 
   void move(int piece) {
     const Seams seams = seams_of(piece);
-    int64_t least = cost(piece, seams, 0, 0, std::numeric_limits<int64_t>::max()) * worthwhile / 64;
+    const int64_t stay = cost(piece, seams, 0, 0, std::numeric_limits<int64_t>::max()) * worthwhile / 64;
+    const int across = 2 * reach_ + 1, moves = across * across;
+    const auto cost_of = [&](int m, int64_t limit) {
+      return cost(piece, seams, m % across - reach_, m / across - reach_, limit);
+    };
+    // Where few pieces are left to a round, the largest keep all threads busy.
+    std::vector<int64_t> costs;
+    if (seams.size() >= many_seams) {
+      costs.resize(size_t(moves));
+      tbb::parallel_for(0, moves, [&](int m) { costs[size_t(m)] = cost_of(m, stay); });
+    }
+    int64_t least = stay;
     int best_x = 0, best_y = 0;
-    for (int dy = -reach_; dy <= reach_; dy++)
-      for (int dx = -reach_; dx <= reach_; dx++) {
-        if (dx == 0 && dy == 0) continue;
-        const int64_t c = cost(piece, seams, dx, dy, least);
-        if (c >= least || !has_room(piece, dx, dy)) continue;
-        least = c;
-        best_x = dx;
-        best_y = dy;
-      }
+    for (int m = 0; m < moves; m++) {
+      const int dx = m % across - reach_, dy = m / across - reach_;
+      if (dx == 0 && dy == 0) continue;
+      const int64_t c = costs.empty() ? cost_of(m, least) : costs[size_t(m)];
+      if (c >= least || !has_room(piece, dx, dy)) continue;
+      least = c;
+      best_x = dx;
+      best_y = dy;
+    }
     if (best_x == 0 && best_y == 0) return;
     for (const int i : pieces_.members(piece)) {
       ExemplarPixel& p = field_.pixels[i];

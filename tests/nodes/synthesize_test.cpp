@@ -64,3 +64,18 @@ TEST_CASE("a place off the surface is a problem of the document") {
   CHECK(first({{"size", Size{50, 50}}, {"origin", Numbers{0.5, 0}}}).find("whole numbers") != std::string::npos);
   CHECK(first({{"size", Size{50, 50}}, {"surface", Size{40, 90}}}).starts_with("\"surface\""));
 }
+
+TEST_CASE("a result that wraps and holds no whole number of repeats names a size that does") {
+  const ImagePtr image = wall({64, 64});
+  const Lattice lattice{2, {16, 0}, {0, 16}, 0.5};
+  const FeaturesPtr features = Features::make(image->size(), {{image, {1, 1, 1}}}, true, lattice);
+  const IndexPtr index = make_index(make_appearance(*features, {}, {}, Task()), 3, Task());
+  const auto notes = [&](Size size, const std::string& tileable) {
+    return run_node("synthesize", {{"size", size}, {"tileable", tileable}}, {{"index", {index}}}).notes;
+  };
+  CHECK(notes({112, 96}, "xy").empty());
+  CHECK(notes({120, 100}, "none").empty());
+  const std::vector<std::string> stretched = notes({120, 100}, "xy");
+  REQUIRE(stretched.size() == 1);
+  CHECK(stretched[0].find("112x96 would hold them as they are") != std::string::npos);
+}
