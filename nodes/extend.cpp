@@ -40,12 +40,7 @@ void compute(NodeContext& node) {
                                   room.width, room.height, describe(uv->size()), describe(options.size), at[0], at[1]));
   options.origin = {int(at[0]), int(at[1])};
   options.kept = placed(*uv, options.size, options.origin);
-  const Lattice& lattice = index->appearance()->lattice();
-  if (!lattice.fits(options.size, options.tile_x, options.tile_y))
-    node.note(fmt::format(
-        "{} does not hold a whole number of the exemplar's repeats, so that courses or tiles are cut "
-        "where the result wraps; {} would",
-        describe(options.size), describe(lattice.largest_fitting(options.size, options.tile_x, options.tile_y))));
+  note_unless_repeats_fit(node, *index, options, "courses or tiles are cut where the result wraps");
   node.output("uv", synthesize(*index, options, node.task()));
 }
 

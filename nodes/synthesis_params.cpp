@@ -157,6 +157,15 @@ void require_same_exemplar(const UvMap& uv, const Index& index) {
                                 describe(analysed), describe(uv.exemplar())));
 }
 
+void note_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
+                             std::string_view consequence) {
+  const Lattice& lattice = index.appearance()->lattice();
+  if (lattice.fits(options.size, options.tile_x, options.tile_y)) return;
+  node.note(fmt::format("{} does not hold a whole number of the exemplar's repeats, so that {}; {} would",
+                        describe(options.size), consequence,
+                        describe(lattice.largest_fitting(options.size, options.tile_x, options.tile_y))));
+}
+
 size_t synthesis_memory(Size size) {
   // The pixels, those that a sub-pass has corrected, and the blocks they began with.
   return size_t(size.area()) * 6 + (size_t{16} << 20);

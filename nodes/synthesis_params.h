@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "core/node.h"
@@ -28,6 +29,11 @@ SynthesisOptions synthesis_options(const NodeContext& node, const Index& index);
 
 /// Throws Error about port "uv" unless the uv map was made for the exemplar of the index.
 void require_same_exemplar(const UvMap& uv, const Index& index);
+
+/// Unless a result that wraps holds a whole number of the exemplar's repeats, notes what becomes of them and a size
+/// that does hold them.
+void note_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
+                             std::string_view consequence);
 
 /// What synthesis of so many output pixels needs.
 size_t synthesis_memory(Size size);

@@ -32,12 +32,7 @@ void compute(NodeContext& node) {
   const Part part = part_of(node);
   SynthesisOptions options = synthesis_options(node, *index);
   options.size = part.surface;
-  const Lattice& lattice = index->appearance()->lattice();
-  if (!lattice.fits(options.size, options.tile_x, options.tile_y))
-    node.note(fmt::format(
-        "{} does not hold a whole number of the exemplar's repeats: where the result wraps, they are stretched to fit, "
-        "and joints may jog; {} would hold them as they are",
-        describe(options.size), describe(lattice.largest_fitting(options.size, options.tile_x, options.tile_y))));
+  note_unless_repeats_fit(node, *index, options, "they are stretched to wrap around and joints may jog");
   if (!coarse && part.is_whole())
     node.output("uv", synthesize(*index, options, node.task()));
   else

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -212,12 +213,19 @@ bool seems_to_tile(const Material& material) {
     if (std::min(map.image->width(), map.image->height()) < 2 * WindowSearch::side) return false;
     maps.push_back(materialized(map.image));
   }
-  // What a joint along the border shows across the seam may come nowhere else: it is then judged by itself.
-  const bool joint =
-      std::any_of(maps.begin(), maps.end(), [](const ImagePtr& map) { return has_joint_along_border(*map); });
+  // What a joint along the border shows across the seam may come nowhere else: it is then judged by itself. Rarely
+  // asked for.
+  std::optional<bool> joint;
+  const auto has_joint = [&] {
+    if (!joint)
+      joint = std::any_of(maps.begin(), maps.end(), [](const ImagePtr& map) { return has_joint_along_border(*map); });
+    return *joint;
+  };
   return std::all_of(maps.begin(), maps.end(), [&](const ImagePtr& map) {
     const auto search = std::make_unique<WindowSearch>(*map);
-    const auto fits = [&](bool rows) { return windows_fit(*map, *search, rows) || (joint && goes_on(*map, rows)); };
+    const auto fits = [&](bool rows) {
+      return windows_fit(*map, *search, rows) || (goes_on(*map, rows) && has_joint());
+    };
     return fits(true) && fits(false);
   });
 }
