@@ -205,7 +205,7 @@ bool same_folder(const std::string& a, const std::string& b) {
 void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
   struct Flags : RunFlags {
-    std::string folder, out, size, seed, quality, format;
+    std::string folder, out, size, seed, quality, blend, format;
     bool tileable = false;
   };
   const auto flags = std::make_shared<Flags>();
@@ -216,6 +216,10 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
   synth->add_option("--quality", flags->quality, "draft is quick, best takes its time")
       ->type_name("LEVEL")
       ->check(CLI::IsMember(std::vector<std::string>(quality_names.begin(), quality_names.end())));
+  synth
+      ->add_option("--blend", flags->blend,
+                   "How far from a seam pixels are blended, 0 to 8; 2 to 3 hides most seams. None if not given")
+      ->type_name("PIXELS");
   synth->add_option("--format", flags->format, "png, tif, exr or jpg; png if not given. Float maps need exr or tif")
       ->type_name("FORMAT")
       ->check(CLI::IsMember({"png", "tif", "exr", "jpg"}));
@@ -228,6 +232,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       if (!flags->size.empty()) set.push_back("size=" + flags->size);
       if (!flags->seed.empty()) set.push_back("seed=" + flags->seed);
       if (!flags->quality.empty()) set.push_back("quality=" + flags->quality);
+      if (!flags->blend.empty()) set.push_back("blend=" + flags->blend);
       if (!flags->format.empty()) set.push_back("format=" + flags->format);
       if (flags->tileable) set.push_back("tileable=xy");
       if (same_folder(flags->folder, flags->out))

@@ -34,3 +34,24 @@ TEST_CASE("every graph that comes with the program checks clean and says what it
     }
   }
 }
+
+TEST_CASE("every stock graph that resolves a uv map lets its user blend seams, as far as the node can") {
+  int graphs = 0;
+  for (const fs::path& path : graphs_in("graphs")) {
+    CAPTURE(path.string());
+    const LoadedGraph loaded = load_graph(path, {}, {.allow_unset = true});
+    const auto resolves = [](const GraphNode& n) { return n.type->name == "resolve_uv"; };
+    const auto node = std::find_if(loaded.graph.nodes.begin(), loaded.graph.nodes.end(), resolves);
+    if (node == loaded.graph.nodes.end()) continue;
+    graphs++;
+    const auto blend = std::find_if(loaded.parameters.begin(), loaded.parameters.end(),
+                                    [](const GraphParameter& p) { return p.param.name == "blend"; });
+    REQUIRE(blend != loaded.parameters.end());
+    CHECK(blend->param.min == node->type->find_param("blend")->min);
+    CHECK(blend->param.max == node->type->find_param("blend")->max);
+    const LoadedGraph soft = load_graph(path, {"blend=2.5"}, {.allow_unset = true});
+    for (const GraphNode& n : soft.graph.nodes)
+      if (resolves(n)) CHECK(std::get<double>(n.params.at("blend")) == 2.5);
+  }
+  CHECK(graphs == 6);
+}

@@ -108,3 +108,28 @@ TEST_CASE("synth takes a quality, and draft is another result than normal") {
   CHECK(read_text(w.path / "draft/base_color.png") != read_text(w.path / "normal/base_color.png"));
   CHECK(w.run({"synth", "stone", "-o", "x", "--quality", "great"}).code == 2);
 }
+
+TEST_CASE("synth blends seams as far as it is told to, none unless told, and refuses what resolve_uv would refuse") {
+  const Workplace w;
+  write_picture(w.path / "stone/base_color.png", 5);
+  const auto result = [&](const std::string& name, std::vector<std::string> options) {
+    std::vector<std::string> args = {"synth", "stone", "-o", name, "--size", "48x48"};
+    args.insert(args.end(), options.begin(), options.end());
+    const ProgramRun r = w.run(args);
+    CHECK_MESSAGE(r.code == 0, r.err);
+    return read_text(w.path / name / "base_color.png");
+  };
+  const std::string exact = result("unset", {});
+  CHECK(result("zero", {"--blend", "0"}) == exact);
+  const std::string soft = result("soft", {"--blend", "2.5"});
+  CHECK(soft != exact);
+  const ProgramRun graph = w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/material.json", "--set", "material=stone",
+                                  "--set", "size=48x48", "--set", "out=graph", "--set", "blend=2.5"});
+  CHECK_MESSAGE(graph.code == 0, graph.err);
+  CHECK(read_text(w.path / "graph/base_color.png") == soft);
+  for (const std::string wrong : {"9", "-1", "nan", "much"}) {
+    const ProgramRun r = w.run({"synth", "stone", "-o", "x", "--blend", wrong});
+    CHECK(r.code == 2);
+    CHECK_MESSAGE(r.err.find("\"blend=" + wrong + "\"") != std::string::npos, r.err);
+  }
+}
