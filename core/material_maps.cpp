@@ -38,17 +38,16 @@ ImagePtr channels_of(const ImagePtr& image, ImageInfo info, const std::vector<in
   return Image::from_floats(info, std::move(out));
 }
 
+int index_of_channel(char c) {
+  return c == 'r' ? 0 : c == 'g' ? 1 : c == 'b' ? 2 : 3;
+}
+
 /// The channels of the file that make the map. Grey maps stored in colour are reduced to one channel; alpha is left out
 /// of everything but colours.
 std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::vector<std::string>& notes) {
+  require_channels(m, file.channels());
   std::vector<int> channels;
-  for (const char c : m.channels) {
-    const int index = c == 'r' ? 0 : c == 'g' ? 1 : c == 'b' ? 2 : 3;
-    if (index >= file.channels())
-      throw Error("maps", fmt::format("{} is to be channel {} of {}, which has only {} channel{}", m.map, c, m.file,
-                                      file.channels(), file.channels() == 1 ? "" : "s"));
-    channels.push_back(index);
-  }
+  for (const char c : m.channels) channels.push_back(index_of_channel(c));
   if (!channels.empty()) return channels;
   const int colors = file.channels() - (file.channels() % 2 == 0 ? 1 : 0);  // without alpha
   if (is_one_value(m.semantic)) {
@@ -65,6 +64,13 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
 }
 
 }  // namespace
+
+void require_channels(const RecognisedMap& source, int file_channels) {
+  for (const char c : source.channels)
+    if (index_of_channel(c) >= file_channels)
+      throw Error("maps", fmt::format("{} is to be channel {} of {}, which has only {} channel{}", source.map, c,
+                                      source.file, file_channels, file_channels == 1 ? "" : "s"));
+}
 
 ImagePtr map_of_file(const RecognisedMap& source, const ImagePtr& file, const std::string& color_space,
                      std::vector<std::string>& notes) {

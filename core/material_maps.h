@@ -9,6 +9,9 @@
 /// From the pixels of a file to the map it holds.
 namespace terrazzo {
 
+/// Throws Error about `maps` unless a file of so many channels has those that `source` names.
+void require_channels(const RecognisedMap& source, int file_channels);
+
 /// The map that `source` describes, taken from its file: the channels that are meant, inverted if need be. Grey maps
 /// stored in colour are reduced to one channel, and alpha is left out. Throws Error if the file lacks the channels.
 /// What the user should know is added to `notes`.

@@ -41,6 +41,10 @@ std::vector<std::string> image_names(const fs::path& folder) {
   return names;
 }
 
+fs::path folder_of(const Params& params) {
+  return without_trailing_slash(std::get<std::string>(params.at("path")));
+}
+
 /// The map that a name of the `maps` parameter stands for: a semantic's name, or one with a suffix.
 std::optional<Semantic> semantic_of_map(const std::string& map) {
   for (const std::string_view name : semantic_names)
@@ -57,6 +61,30 @@ RecognisedMap given_map(const std::string& map, const std::string& text) {
     m.channels = text.substr(colon + 1);
   }
   return m;
+}
+
+/// Throws if the file that the `maps` parameter gives for a map is not there or has not the channels asked for.
+void require_given_map(const fs::path& folder, const std::string& map, const std::string& text) {
+  const RecognisedMap given = given_map(map, text);
+  const size_t colon = text.rfind(':');
+  std::error_code missing;
+  if (given.file == text && colon != std::string::npos && !fs::exists(folder / text, missing) &&
+      fs::is_regular_file(folder / text.substr(0, colon), missing))
+    throw Error(fmt::format("{} is to be channel {} of {}, but channels are called r, g, b and a", map,
+                            text.substr(colon + 1), text.substr(0, colon)));
+  require_image_file(folder / given.file);
+  if (!given.channels.empty()) require_channels(given, read_image_info(folder / given.file).channels);
+}
+
+/// Says at once all that is wrong with the files that the parameter `maps` gives.
+void require_given_maps(const Params& params) {
+  std::string troubles;
+  for (const auto& [map, text] : std::get<TextMap>(params.at("maps"))) try {
+      if (!text.empty()) require_given_map(folder_of(params), map, text);
+    } catch (const Error& e) {
+      troubles += fmt::format("{}{}", troubles.empty() ? "" : "; ", e.what());
+    }
+  if (!troubles.empty()) throw Error("maps", troubles);
 }
 
 std::vector<std::string> check(const Params& params) {
@@ -87,10 +115,6 @@ void require_folder(const fs::path& folder) {
   std::sort(siblings.begin(), siblings.end());
   throw Error("path", fmt::format("there is no folder {}{}", folder.string(),
                                   did_you_mean(folder.filename().string(), siblings)));
-}
-
-fs::path folder_of(const Params& params) {
-  return without_trailing_slash(std::get<std::string>(params.at("path")));
 }
 
 std::string all_words() {
@@ -152,6 +176,7 @@ std::vector<MapFile> files_to_recognise(const Params& params, const std::set<std
 std::vector<RecognisedMap> find_maps(const Params& params, Texts& notes) {
   const fs::path folder = folder_of(params);
   require_folder(folder);
+  require_given_maps(params);
   const TextMap& given = std::get<TextMap>(params.at("maps"));
   std::vector<RecognisedMap> maps;
   std::set<std::string> taken;

@@ -171,6 +171,8 @@ TEST_CASE("the parameters maps and ignore overrule the names") {
                  "did you mean \"scan.png\"?"));
   CHECK(contains(error_of({{"path", folder.path().string()}, {"maps", TextMap{{"height", "scan.png:a"}}}}),
                  "height is to be channel a of scan.png, which has only 3 channels"));
+  CHECK(contains(error_of({{"path", folder.path().string()}, {"maps", TextMap{{"height", "scan.png:red"}}}}),
+                 "height is to be channel red of scan.png, but channels are called r, g, b and a"));
   const NodeType* type = find_node_type("load_material");
   Params params = {{"maps", TextMap{{"hieght", "scan.png"}}}, {"color_space", "auto"}};
   REQUIRE(type->check(params).size() == 1);
