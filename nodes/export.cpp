@@ -13,6 +13,7 @@
 #include "core/image_file.h"
 #include "core/map_names.h"
 #include "core/node.h"
+#include "core/paths.h"
 #include "core/uv_image.h"
 #include "nodes/color_space.h"
 #include "nodes/export_paths.h"
@@ -188,7 +189,7 @@ void write_text(const fs::path& path, const std::string& text) {
 void require_distinct(const std::vector<Job>& jobs) {
   std::map<fs::path, std::string> names;
   for (const Job& job : jobs) {
-    const auto [at, is_new] = names.emplace(job.target.lexically_normal(), job.name);
+    const auto [at, is_new] = names.emplace(place_of_file(job.target), job.name);
     if (!is_new)
       throw Error("path",
                   fmt::format("{} and {} would both be written to {}", at->second, job.name, job.target.string()));

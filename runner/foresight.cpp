@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/paths.h"
 #include "core/staging.h"
 
 namespace terrazzo {
@@ -71,12 +72,13 @@ class Foresight {
       const fs::path path = (f.folder / f.name).lexically_normal();
       if (trouble.empty() && !f.name.empty()) trouble = read_by_others(path);
       if (trouble.empty() && !f.name.empty()) {
-        const auto [at, is_new] = writers_.emplace(path, Writer{node.name, f.what});
+        const auto [at, is_new] = writers_.emplace(place_of_file(path), Writer{node.name, f.what, path});
         const Writer& writer = at->second;
         if (!is_new)
-          trouble = fmt::format("{} would be written twice, {}", path.string(),
+          trouble = fmt::format("{} would be written twice, {}{}", path.string(),
                                 writer.node != node.name ? fmt::format("here and by the node \"{}\"", writer.node)
-                                                         : fmt::format("for {} and for {}", writer.what, f.what));
+                                                         : fmt::format("for {} and for {}", writer.what, f.what),
+                                writer.path != path ? fmt::format(" ({} is the same file)", writer.path.string()) : "");
       }
       if (!trouble.empty() && said.insert(trouble).second) problems_.push_back(problem_of(node, f.param, trouble));
     }
@@ -84,11 +86,12 @@ class Foresight {
 
   struct Writer {
     std::string node, what;
+    fs::path path;  ///< as it names the file
   };
 
   std::map<std::pair<std::string, std::string>, Forecast> forecasts_;  ///< by node and port
   std::map<fs::path, std::string> readers_;
-  std::map<fs::path, Writer> writers_;
+  std::map<fs::path, Writer> writers_;  ///< by place_of_file
   std::set<std::string> said_;
   std::vector<Problem> problems_;
 };

@@ -253,6 +253,17 @@ TEST_CASE("what cannot be exported is refused, and nothing is left behind") {
   CHECK(count_files(folder.path()) == 0);
 }
 
+TEST_CASE("maps and uv map do not go to one file through a link to its folder either") {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "there");
+  fs::create_directory_symlink("there", folder.path() / "link");
+  const Params params = {{"path", (folder.path() / "there/{map}.png").string()},
+                         {"uv_path", (folder.path() / "link/height.png").string()}};
+  CHECK(contains(error_of(params, {{"material", {bricks()}}, {"uv", {some_uv()}}}),
+                 "height and uv would both be written to"));
+  CHECK(fs::is_empty(folder.path() / "there"));
+}
+
 TEST_CASE("a folder that may not be written is named, not a temporary file in it") {
   if (::geteuid() == 0) {
     MESSAGE("skipped: root may write everywhere");

@@ -27,6 +27,7 @@ struct Surroundings {
     write_picture(folder.path() / "odd/stone_height.png", 5, Semantic::height, {32, 32});
     write_picture(folder.path() / "odd/stone_roughness.png", 5, Semantic::roughness, {64, 48});
     fs::create_directories(folder.path() / "taken.png");
+    fs::create_directory_symlink("maps", folder.path() / "link-to-maps");
   }
 
   LoadedGraph load(const std::string& text) const { return load_graph_text(text, folder.path() / "graph.json"); }
