@@ -282,7 +282,8 @@ std::vector<Param> params() {
        .type = ParamType::path,
        .fallback = "",
        .help = "Where the maps go: a pattern with {map} for the map's name, and if wanted {material}, {width} and "
-               "{height}. The extension decides the format: png, tif, exr or jpg. Needed if a material is connected."},
+               "{height}. The extension decides the format: png, tif or tiff, exr, jpg or jpeg. Needed if a material "
+               "is connected."},
       {.name = "depth",
        .type = ParamType::choice,
        .fallback = "keep",

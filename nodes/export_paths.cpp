@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/image_libraries.h"
+#include "core/suggest.h"
 #include "nodes/image_work.h"
 
 namespace terrazzo {
@@ -36,10 +37,11 @@ std::string filled(const char* param, const std::string& pattern, const std::map
 
 FileFormat required_format(const char* param, const fs::path& path) {
   if (const auto format = format_from(path)) return *format;
+  const std::string extension = path.extension().string();
   throw Error(param, fmt::format("the extension decides the file format, and \"{}\" ends in {}; expected .png, .tif, "
-                                 ".tiff, .exr, .jpg or .jpeg",
-                                 path.filename().string(),
-                                 path.has_extension() ? "\"" + path.extension().string() + "\"" : "no extension"));
+                                 ".tiff, .exr, .jpg or .jpeg{}",
+                                 path.filename().string(), extension.empty() ? "no extension" : "\"" + extension + "\"",
+                                 did_you_mean(extension, {".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg"})));
 }
 
 void require_pattern_for(const std::string& pattern, const std::vector<std::string>& maps) {

@@ -1,5 +1,6 @@
 #include "runner/cli_run.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -7,8 +8,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "core/synthesis/synthesize.h"
 #include "graphs/document/load.h"
+#include "graphs/document/override.h"
 #include "runner/cli_commands.h"
 #include "runner/foresight.h"
 #include "runner/history.h"
@@ -144,7 +145,8 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
   command.add_option("--trace", flags.trace, "Write who did what when, for chrome://tracing")->type_name("FILE.json");
   command.add_option("--progress", flags.progress, "auto, bar, plain, json, or none: nothing but warnings and errors")
       ->type_name("MODE")
-      ->check(CLI::IsMember(std::vector<std::string>(progress_mode_names.begin(), progress_mode_names.end())));
+      ->check(CLI::IsMember(std::vector<std::string>(progress_mode_names.begin(), progress_mode_names.end()),
+                            CLI::ignore_case));
 }
 
 int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
@@ -186,13 +188,27 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   });
 }
 
+/// An argument of `synth`, and the parameter of the stock graph that it sets.
+struct Argument {
+  std::string name, parameter, value;
+
+  std::string override_text() const { return parameter + "=" + value; }
+};
+
 /// What is wrong, said of the arguments of `synth` instead of the graph that they stand for.
-GraphError about_arguments(const GraphError& error) {
+GraphError about_arguments(const GraphError& error, const std::vector<Argument>& arguments) {
   std::vector<Problem> problems;
   for (const Problem& p : error.problems()) {
     const bool is_source = p.node == "exemplar" || p.node == "weighted";  // the latter looks at the maps' shapes
-    if (!is_source && p.node != "files") return error;
-    problems.push_back({{}, is_source ? "FOLDER" : "-o", p.message});
+    const auto argument = std::find_if(arguments.begin(), arguments.end(), [&](const Argument& a) {
+      return p.where == where_of_override(a.override_text());
+    });
+    if (argument != arguments.end())
+      problems.push_back({{}, argument->name + " " + argument->value, p.message});
+    else if (is_source || p.node == "files")
+      problems.push_back({{}, is_source ? "FOLDER" : "-o", p.message});
+    else
+      return error;
   }
   return GraphError("", std::move(problems));
 }
@@ -213,28 +229,33 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
   synth->add_option("-o,--out", flags->out, "The folder to write to")->required()->type_name("DIR");
   synth->add_option("--size", flags->size, "The size of the result")->type_name("WxH");
   synth->add_option("--seed", flags->seed, "Another number gives another variation")->type_name("N");
-  synth->add_option("--quality", flags->quality, "draft is quick, best takes its time")
-      ->type_name("LEVEL")
-      ->check(CLI::IsMember(std::vector<std::string>(quality_names.begin(), quality_names.end())));
+  synth->add_option("--quality", flags->quality, "draft, normal or best: draft is quick, best takes its time")
+      ->type_name("LEVEL");
   synth
       ->add_option("--blend", flags->blend,
                    "How far from a seam pixels are blended, 0 to 8; 2 to 3 hides most seams. None if not given")
       ->type_name("PIXELS");
-  synth->add_option("--format", flags->format, "png, tif, exr or jpg; png if not given. Float maps need exr or tif")
-      ->type_name("FORMAT")
-      ->check(CLI::IsMember({"png", "tif", "exr", "jpg"}));
+  synth
+      ->add_option("--format", flags->format,
+                   "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
+      ->type_name("FORMAT");
   synth->add_flag("--tileable", flags->tileable, "The result wraps around in both directions");
   add_run_flags(*synth, *flags);
   synth->footer("Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7");
   synth->callback([&chosen, flags] {
     chosen = [flags] {
-      std::vector<std::string> set = {"material=" + flags->folder, "out=" + flags->out};
-      if (!flags->size.empty()) set.push_back("size=" + flags->size);
-      if (!flags->seed.empty()) set.push_back("seed=" + flags->seed);
-      if (!flags->quality.empty()) set.push_back("quality=" + flags->quality);
-      if (!flags->blend.empty()) set.push_back("blend=" + flags->blend);
-      if (!flags->format.empty()) set.push_back("format=" + flags->format);
-      if (flags->tileable) set.push_back("tileable=xy");
+      std::vector<Argument> arguments = {{"FOLDER", "material", flags->folder}, {"-o", "out", flags->out}};
+      const auto set_if_given = [&](const char* name, const char* parameter, const std::string& value) {
+        if (!value.empty()) arguments.push_back({name, parameter, value});
+      };
+      set_if_given("--size", "size", flags->size);
+      set_if_given("--seed", "seed", flags->seed);
+      set_if_given("--quality", "quality", flags->quality);
+      set_if_given("--blend", "blend", flags->blend);
+      set_if_given("--format", "format", flags->format);
+      set_if_given("--tileable", "tileable", flags->tileable ? "xy" : "");
+      std::vector<std::string> set;
+      for (const Argument& a : arguments) set.push_back(a.override_text());
       if (same_folder(flags->folder, flags->out))
         throw UsageError(
             fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
@@ -242,7 +263,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
         return run_with_flags(
             [&] { return load_graph_text(stock_graph("material"), "stock graph material.json", set).graph; }, *flags);
       } catch (const GraphError& e) {
-        throw about_arguments(e);
+        throw about_arguments(e, arguments);
       }
     };
   });

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/suggest.h"
+#include "core/text.h"
 #include "graphs/document/format.h"
 
 namespace terrazzo {
@@ -320,10 +321,14 @@ std::string text_of(const ParamValue& value) {
   return json.is_text() ? json.text : compact(json);
 }
 
-JsonValue read_command_line(const std::string& text, ParamType type) {
+JsonValue read_command_line(const std::string& text, const Param& param) {
   ParsedJson parsed = parse_json(text);
-  const bool means_json = parsed.problems.empty() && has_kind_of(*parsed.value, type);
-  return means_json ? std::move(*parsed.value) : JsonValue::of(text);
+  const bool means_json = parsed.problems.empty() && has_kind_of(*parsed.value, param.type);
+  JsonValue value = means_json ? std::move(*parsed.value) : JsonValue::of(text);
+  if (param.type != ParamType::choice) return value;
+  for (const std::string& c : param.choices)
+    if (lowercase(c) == lowercase(value.text)) value.text = c;
+  return value;
 }
 
 std::string expectation(const Param& p) {

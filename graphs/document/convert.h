@@ -25,9 +25,9 @@ JsonValue json_of(const ParamValue& value);
 /// A value as it reads inside a longer text: numbers in their shortest spelling, sizes as 512x256.
 std::string text_of(const ParamValue& value);
 
-/// A value from the command line for a parameter of this type: what it means as JSON if that has the right kind, else
-/// the text itself.
-JsonValue read_command_line(const std::string& text, ParamType type);
+/// A value from the command line for a parameter: what it means as JSON if that has the right kind, else the text
+/// itself, which for a choice may be in upper or lower case.
+JsonValue read_command_line(const std::string& text, const Param& param);
 
 /// What a parameter takes, for messages and the reference: "a number from 0 to 1".
 std::string expectation(const Param& param);

@@ -117,7 +117,7 @@ class NodeReader {
 
   void read_parameter(const Entry& e, const Param& param) {
     Complaints complaints = complaints_about(e, "parameter");
-    const JsonValue given = e.by ? read_command_line(e.by->value, param.type) : *e.value;
+    const JsonValue given = e.by ? read_command_line(e.by->value, param) : *e.value;
     const std::optional<JsonValue> value = substitution_.expand(given, takes_texts(param.type), complaints);
     if (!value) return;
     const std::filesystem::path& base = e.by ? reading_.working_folder : reading_.graph_folder;
@@ -127,7 +127,8 @@ class NodeReader {
 
   void read_port(const Entry& e, const Port& port) {
     PortWires wires{&port, {}, complaints_about(e, "port")};
-    const JsonValue given = e.by ? read_command_line(e.by->value, ParamType::texts) : *e.value;
+    const JsonValue given =
+        e.by ? read_command_line(e.by->value, {.name = port.name, .type = ParamType::texts}) : *e.value;
     const std::string expected = fmt::format("a {} such as \"@node\" or \"@node.port\"{}",
                                              port.list ? "list of wires" : "wire", port.list ? ", or one wire," : "");
     if (is_wire(given)) {

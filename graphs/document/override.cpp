@@ -5,7 +5,11 @@
 namespace terrazzo {
 
 Complaints Override::complaints(std::vector<Problem>& all) const {
-  return Complaints(all, "override " + in_quotes(spelled)).from_command_line();
+  return Complaints(all, where_of_override(spelled)).from_command_line();
+}
+
+std::string where_of_override(const std::string& spelled) {
+  return "override " + in_quotes(spelled);
 }
 
 std::vector<Override> read_overrides(const std::vector<std::string>& texts, std::vector<Problem>& problems) {

@@ -18,6 +18,9 @@ struct Override {
   Complaints complaints(std::vector<Problem>& all) const;
 };
 
+/// How problems say (as Problem::where) that they are about the override of this spelling.
+std::string where_of_override(const std::string& spelled);
+
 /// Texts without "=" or without a name become problems.
 std::vector<Override> read_overrides(const std::vector<std::string>& texts, std::vector<Problem>& problems);
 

@@ -223,7 +223,7 @@ void set_parameters(std::vector<GraphParameter>& parameters, const std::vector<O
     p.overridden = true;
     if (p.is_wrong) continue;
     p.as_written = o.value;
-    p.value = read_param(read_command_line(o.value, p.param.type), p.param, folder, complaints);
+    p.value = read_param(read_command_line(o.value, p.param), p.param, folder, complaints);
     p.is_wrong = !p.value;
   }
 }

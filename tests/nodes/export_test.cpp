@@ -232,6 +232,7 @@ TEST_CASE("what cannot be exported is refused, and nothing is left behind") {
   CHECK(contains(error_of({{"path", in("{name}.png")}}, material), "unknown place {name}"));
   CHECK(contains(error_of({{"path", in("{map.png")}}, material), "without }"));
   CHECK(contains(error_of({{"path", in("{map}.bmp")}}, material), "ends in \".bmp\"; expected .png"));
+  CHECK(contains(error_of({{"path", in("{map}.pgn")}}, material), "did you mean \".png\"?"));
   CHECK(contains(error_of({{"path", in("{map}")}}, material), "ends in no extension"));
   CHECK(contains(error_of({{"path", in("{map}.png")}, {"depth", "half"}}, material), "PNG files hold uint8, uint16"));
   CHECK(contains(error_of({{"path", in("{map}.png")}, {"maps", Texts{"hieght"}}}, material), "mean \"height\"?"));
