@@ -20,13 +20,13 @@ bool stands_alone(uint8_t marker) {
   return marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8);
 }
 
-/// Reads numbers out of a TIFF file in the file's byte order; past the end everything is 0.
-class TiffNumbers {
+/// Reads numbers out of a file; past its end everything is 0.
+class Numbers {
  public:
-  explicit TiffNumbers(const std::filesystem::path& path) : in_(path, std::ios::binary | std::ios::ate) {
+  explicit Numbers(const std::filesystem::path& path) : in_(path, std::ios::binary | std::ios::ate) {
     size_ = uint64_t(std::max<std::streamoff>(0, in_.tellg()));
-    is_big_endian_ = number(0, 1) == 'M';
   }
+  void set_big_endian(bool is_big_endian) { is_big_endian_ = is_big_endian; }
   uint64_t size() const { return size_; }
   uint64_t number(uint64_t at, int bytes) {
     uint8_t raw[8] = {};
@@ -43,8 +43,15 @@ class TiffNumbers {
  private:
   std::ifstream in_;
   uint64_t size_ = 0;
-  bool is_big_endian_ = false;
+  bool is_big_endian_ = true;
 };
+
+constexpr uint64_t png_signature = 0x89504e470d0a1a0a;
+
+/// "II" or "MM" and 42, or 43 for BigTIFF, in the byte order that the letters say.
+bool is_tiff(uint64_t start) {
+  return start == 0x49492a00 || start == 0x49492b00 || start == 0x4d4d002a || start == 0x4d4d002b;
+}
 
 int bytes_of_type(uint64_t type) {
   constexpr uint64_t tiff_short = 3, tiff_long8 = 16, tiff_ifd8 = 18;
@@ -52,7 +59,7 @@ int bytes_of_type(uint64_t type) {
 }
 
 /// The numbers of one directory entry, which begins with its tag at `entry`.
-std::vector<uint64_t> entry_numbers(TiffNumbers& file, uint64_t entry, bool is_big_tiff) {
+std::vector<uint64_t> entry_numbers(Numbers& file, uint64_t entry, bool is_big_tiff) {
   const int bytes = bytes_of_type(file.number(entry + 2, 2));
   const int word = is_big_tiff ? 8 : 4;
   const uint64_t count = file.number(entry + 4, word);
@@ -99,8 +106,21 @@ JpegFacts read_jpeg_facts(const std::filesystem::path& path) {
   return facts;
 }
 
+bool png_is_complete(const std::filesystem::path& path) {
+  constexpr uint64_t end_mark = 0x49454e44, around = 12;  // "IEND"; a chunk's length, name and checksum
+  Numbers file(path);
+  if (file.size() >= around && file.number(file.size() - around, 8) == end_mark) return true;
+  for (uint64_t at = 8; at + around <= file.size();) {
+    const uint64_t next = at + around + file.number(at, 4);
+    if (file.number(at + 4, 4) == end_mark) return next <= file.size();
+    at = next;
+  }
+  return false;
+}
+
 bool tiff_is_complete(const std::filesystem::path& path) {
-  TiffNumbers file(path);
+  Numbers file(path);
+  file.set_big_endian(file.number(0, 1) == 'M');
   const bool is_big_tiff = file.number(2, 2) == 43;
   const uint64_t directory = is_big_tiff ? file.number(8, 8) : file.number(4, 4);
   const uint64_t entries = file.number(directory, is_big_tiff ? 8 : 2);
@@ -116,6 +136,14 @@ bool tiff_is_complete(const std::filesystem::path& path) {
   for (size_t i = 0; i < offsets.size(); i++)
     if (offsets[i] > file.size() || (i < byte_counts.size() && byte_counts[i] > file.size() - offsets[i])) return false;
   return true;
+}
+
+bool seems_complete(const std::filesystem::path& path) {
+  Numbers file(path);
+  if (file.number(0, 8) == png_signature) return png_is_complete(path);
+  if (file.number(0, 2) == (0xff00 | start_of_image))
+    return file.number(file.size() - 2, 2) == (0xff00 | end_of_image) || read_jpeg_facts(path).complete;
+  return !is_tiff(file.number(0, 4)) || tiff_is_complete(path);
 }
 
 }  // namespace terrazzo

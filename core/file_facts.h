@@ -17,7 +17,14 @@ struct JpegFacts {
 };
 JpegFacts read_jpeg_facts(const std::filesystem::path& path);
 
+/// Whether the chunks of a PNG file go on to its end mark.
+bool png_is_complete(const std::filesystem::path& path);
+
 /// Whether all strips or tiles of a TIFF or BigTIFF file's first image lie inside the file.
 bool tiff_is_complete(const std::filesystem::path& path);
+
+/// False if the end of a PNG, JPEG or TIFF file is missing. Reads little, and so takes a cut-off JPEG file that by
+/// chance ends like a whole one for whole; true for files of other formats.
+bool seems_complete(const std::filesystem::path& path);
 
 }  // namespace terrazzo

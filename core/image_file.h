@@ -28,6 +28,10 @@ bool looks_like_image(const std::filesystem::path& path);
 /// Throws unless there is a file that may be read; what is in it is not looked at.
 void require_image_file(const std::filesystem::path& path);
 
+/// Throws for what reading the file would fail at, as far as this shows in little time, before anything is decoded:
+/// there is no such file, what it takes to read it is not installed, or its end is missing.
+void require_readable_image(const std::filesystem::path& path);
+
 FileInfo read_image_info(const std::filesystem::path& path);
 
 /// Reads the first image of the file into memory. 1..4 channels come through; palettes are expanded; CMYK and images of

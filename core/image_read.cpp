@@ -87,11 +87,16 @@ OpenFile open(const fs::path& path) {
   return file;
 }
 
-/// The image library makes up what is missing of these formats.
+[[noreturn]] void fail_cut_off(const fs::path& path) {
+  fail(path, "it is cut off: the end of the image is missing");
+}
+
+/// The image library makes up what is missing of JPEG and TIFF files.
 void require_complete(const fs::path& path, const OpenFile& file) {
   const std::string_view format = file.header().format;
-  if ((format == "jpeg" && !read_jpeg_facts(path).complete) || (format == "tiff" && !tiff_is_complete(path)))
-    fail(path, "it is cut off: the end of the image is missing");
+  if ((format == "jpeg" && !read_jpeg_facts(path).complete) || (format == "tiff" && !tiff_is_complete(path)) ||
+      (format == "png" && !png_is_complete(path)))
+    fail_cut_off(path);
 }
 
 /// The stored pixels in the depth asked for.
@@ -229,6 +234,19 @@ void require_image_file(const fs::path& path) {
   }
   if (::access(path.c_str(), R_OK) != 0) throw_system_error("read", path, errno);
   if (fs::file_size(path, failure) == 0) fail(path, "the file is empty (0 bytes)");
+}
+
+void require_readable_image(const fs::path& path) {
+  require_image_file(path);
+  if (!seems_complete(path)) fail_cut_off(path);
+  const auto is_plain_png = [&] {
+    try {
+      return open_png(path) != nullptr;
+    } catch (const Error& e) {
+      fail(path, one_line(e.what()));
+    }
+  };
+  if (!is_plain_png()) require_image_libraries();
 }
 
 FileInfo read_image_info(const fs::path& path) {

@@ -354,16 +354,19 @@ std::vector<fs::path> files_read(const Params& params) {
 Forecast foresee(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
   Forecast out{.possible_maps = Texts{}};
+  std::set<std::string> troubles;
   for (const RecognisedMap& m : find_maps(params, ignored_notes)) {
     out.maps.push_back(m.map);
     try {
+      require_readable_image(folder_of(params) / m.file);
       const FileInfo file = read_image_info(folder_of(params) / m.file);
       out.sizes[m.map] = file.size;
       if (m.semantic == Semantic::base_color && file.channels % 2 == 0) out.possible_maps->push_back("opacity");
-    } catch (const Error&) {
-      continue;  // compute reports it
+    } catch (const Error& e) {
+      troubles.insert(e.what());
     }
   }
+  if (!troubles.empty()) throw Error(fmt::format("{}", fmt::join(troubles, "; ")));
   return out;
 }
 

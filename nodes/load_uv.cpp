@@ -49,7 +49,7 @@ NodeType load_uv_node() {
     return std::vector<std::filesystem::path>{std::get<std::string>(params.at("path"))};
   };
   t.foresee = [](const Params& p, const InputForecasts&) {
-    require_image_file(std::get<std::string>(p.at("path")));
+    require_readable_image(std::get<std::string>(p.at("path")));
     return Forecast{};
   };
   t.compute = compute;

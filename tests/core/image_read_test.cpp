@@ -98,6 +98,44 @@ TEST_CASE("a cut-off or altered file gives an error or the right picture, never 
   }
 }
 
+TEST_CASE("that the end of a file is missing shows before it is read, and whole files do not seem cut off") {
+  const TemporaryFolder folder;
+  const ImagePtr image =
+      make_image({70, 50}, 3, [](int x, int y, int c) { return float(random_bits(1, x, y, c) & 255) / 255.0f; });
+  const auto trouble_of = [](const fs::path& path) {
+    try {
+      require_readable_image(path);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  for (const char* name : {"a.png", "a.jpg", "a.tif", "a.exr"}) {
+    CAPTURE(name);
+    const fs::path path = folder.path() / name;
+    const FileFormat format = *format_from(path);
+    write_image(*image, path, {.format = format, .depth = format == FileFormat::exr ? Depth::f16 : Depth::u8},
+                [](double) {});
+    CHECK(trouble_of(path) == "");
+    const Bytes whole = read_bytes(path);
+    Bytes more = whole;
+    more.insert(more.end(), 100, 0xab);
+    write_bytes(path, more);
+    CHECK(trouble_of(path) == "");
+    CHECK_NOTHROW(read(path));
+    if (format == FileFormat::exr) continue;  // has no end to look for
+    for (const size_t missing : {size_t{1}, size_t{2}, size_t{30}, whole.size() / 2}) {
+      if (format == FileFormat::tiff && missing < whole.size() / 2) continue;  // the directory may come last
+      Bytes cut = whole;
+      cut.resize(whole.size() - missing);
+      write_bytes(path, cut);
+      CHECK(says(trouble_of(path), "it is cut off: the end of the image is missing"));
+      CHECK(error_of(path) != "");
+    }
+  }
+  CHECK(says(trouble_of(folder.path() / "b.png"), "there is no such file"));
+}
+
 TEST_CASE("files that are no images are refused, whatever their names say") {
   const TemporaryFolder folder;
   Bytes noise(5000);

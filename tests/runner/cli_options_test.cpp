@@ -77,15 +77,20 @@ TEST_CASE("progress counts the stages that the summary of a failed run counts") 
   CHECK_MESSAGE(r.err.find("/" + all + "] bad (blend) failed") != std::string::npos, r.err);
 }
 
-TEST_CASE("a damaged picture puts nothing but json objects on standard error") {
+TEST_CASE("a damaged picture puts nothing but json objects on standard error; a cut-off one is found before the run") {
   const Workplace w;
-  std::string bytes = read_text(w.path / "photo.png");
-  bytes.resize(bytes.size() - 60);
-  write_text(w.path / "photo.png", bytes);
-  const ProgramRun r = w.run({"run", "soft.json", "--progress", "json"});
-  CHECK(r.code == 1);
-  std::istringstream lines(r.err);
-  for (std::string line; std::getline(lines, line);) CHECK_MESSAGE(nlohmann::json::accept(line), line);
+  const std::string whole = read_text(w.path / "photo.png");
+  const auto code_for = [&](const std::string& bytes) {
+    write_text(w.path / "photo.png", bytes);
+    const ProgramRun r = w.run({"run", "soft.json", "--progress", "json"});
+    std::istringstream lines(r.err);
+    for (std::string line; std::getline(lines, line);) CHECK_MESSAGE(nlohmann::json::accept(line), line);
+    return r.code;
+  };
+  CHECK(code_for(whole.substr(0, whole.size() - 60)) == 2);
+  std::string damaged = whole;
+  damaged[damaged.size() - 60] = char(damaged[damaged.size() - 60] ^ 0x55);
+  CHECK(code_for(damaged) == 1);
 }
 
 TEST_CASE("magnify refuses an analysis larger than the exemplar before anything runs") {

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Photos, a folder of two maps, one of maps of two shapes, a file and a folder that stand in the way.
+/// Photos, a folder of two maps, one of maps of two shapes, cut-off files, a file and a folder that stand in the way, a
+/// link to a folder.
 struct Surroundings {
   TemporaryFolder folder;
   Surroundings() {
@@ -27,6 +28,11 @@ struct Surroundings {
     write_picture(folder.path() / "odd/stone_height.png", 5, Semantic::height, {32, 32});
     write_picture(folder.path() / "odd/stone_roughness.png", 5, Semantic::roughness, {64, 48});
     fs::create_directories(folder.path() / "taken.png");
+    const std::string whole = read_text(folder.path() / "photo.png");
+    fs::create_directories(folder.path() / "torn");
+    write_text(folder.path() / "cut.png", whole.substr(0, whole.size() - 20));
+    write_text(folder.path() / "torn/rock_color.png", whole.substr(0, whole.size() / 2));
+    write_text(folder.path() / "torn/rock_height.png", whole.substr(0, 20));
     fs::create_directory_symlink("maps", folder.path() / "link-to-maps");
   }
 
