@@ -75,9 +75,9 @@ uint64_t remove_values(const CacheFolder& folder, const std::vector<CacheEntry>&
   return freed;
 }
 
-/// Removes what dead processes left half-written.
+/// Removes what dead processes left: their leases, their pins, and what they had half-written.
 uint64_t remove_abandoned(const CacheFolder& folder, const std::vector<TemporaryEntry>& temporaries) {
-  if (temporaries.empty()) return 0;
+  remove_abandoned_leases(folder.leases());
   const EvictionLock lock(folder.lock());
   const LivePins pins = read_live_pins(folder.pins());
   uint64_t freed = 0;
@@ -155,7 +155,6 @@ std::vector<std::string> Cache::verify(const Task& task) {
 
 uint64_t Cache::collect() {
   const CacheFolder& folder = state_->folder;
-  remove_abandoned_leases(folder.leases());
   const CacheScan scan = folder.scan();
   uint64_t freed = remove_abandoned(folder, scan.temporaries);
   const uint64_t total = scan.bytes() - freed;
@@ -173,7 +172,6 @@ uint64_t Cache::collect() {
 
 uint64_t Cache::clear() {
   const CacheFolder& folder = state_->folder;
-  remove_abandoned_leases(folder.leases());
   const CacheScan scan = folder.scan();
   uint64_t freed = remove_abandoned(folder, scan.temporaries);
   freed += remove_values(folder, of_kind(scan, EntryKind::value), scan.bytes() + 1);

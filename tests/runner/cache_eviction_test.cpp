@@ -6,6 +6,7 @@
 #include "runner/cache.h"
 #include "runner/cache_folder.h"
 #include "tests/run_node.h"
+#include "tests/runner/fakes.h"
 #include "tests/sample_values.h"
 
 using namespace terrazzo;
@@ -167,4 +168,22 @@ TEST_CASE("what a dead process left half-written is removed, what a living one w
   CHECK(cache.collect() == 12);
   CHECK_FALSE(std::filesystem::exists(dead));
   CHECK(std::filesystem::exists(values / (living + "-7.tmp")));
+}
+
+TEST_CASE(
+    "the pins of a dead process go, though nothing else is to be removed; those that may be of a living one stay") {
+  const TemporaryFolder folder;
+  Cache cache(folder.path());
+  const auto pins = folder.path() / "v1" / "pins";
+  const std::string mine = std::filesystem::directory_iterator(pins)->path().filename();
+  const std::string host = mine.substr(0, mine.rfind('-', mine.rfind('-') - 1));
+  for (const std::string& name : {host + "-123-7", std::string("elsewhere-123-0"), std::string("elsewhere-123-1")})
+    std::ofstream(pins / name) << "some digest      ";
+  make_older(pins / "elsewhere-123-1", 2);
+  cache.collect();
+  CHECK(listing(pins).size() == 2);
+  CHECK(std::filesystem::exists(pins / "elsewhere-123-0"));
+  make_older(pins / "elsewhere-123-0", 2);
+  cache.clear();
+  CHECK(listing(pins) == std::vector<std::string>{mine});
 }
