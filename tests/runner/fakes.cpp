@@ -137,6 +137,24 @@ void set(Graph& graph, const std::string& node, const std::string& param, const 
     if (n.name == node) n.params[param] = value;
 }
 
+Graph small_graph(const FakeTypes& types) {
+  Graph g;
+  add(g, "a", types.number, {{"value", 2.0}});
+  add(g, "b", types.number, {{"value", 3.0}});
+  return add(g, "total", types.sum, {}, {"a", "b"});
+}
+
+RunOptions keeping(const std::vector<std::string>& nodes, Cache* cache) {
+  RunOptions options;
+  options.targets = {.only = nodes, .keep = nodes};
+  options.cache = cache;
+  return options;
+}
+
+double kept_number(const RunResult& result, const std::string& node) {
+  return number_of(result.kept.at(node).at("out"));
+}
+
 std::string outcome(const RunResult& result, const std::string& node) {
   constexpr std::array<const char*, 5> names = {"idle", "reused", "run", "failed", "unfinished"};
   for (const StageOutcome& s : result.stages)

@@ -47,6 +47,14 @@ Graph& add(Graph& graph, const std::string& name, const NodeType& type, const Pa
 /// Sets a parameter of a node.
 void set(Graph& graph, const std::string& node, const std::string& param, const ParamValue& value);
 
+/// Two numbers "a" and "b" and their sum "total", which is 5.
+Graph small_graph(const FakeTypes& types);
+
+/// Options to run just these nodes and what they need, and keep what they give.
+RunOptions keeping(const std::vector<std::string>& nodes, Cache* cache = nullptr);
+/// What a node gave that was kept.
+double kept_number(const RunResult& result, const std::string& node);
+
 /// "reused", "run", ... of a node.
 std::string outcome(const RunResult& result, const std::string& node);
 /// "cached", "run", ... of a node in a plan, and its reason.

@@ -27,64 +27,65 @@ struct Waits : RunObserver {
   }
 };
 
-Graph one_stage(const FakeTypes& t) {
-  Graph g;
-  add(g, "a", t.quick, {{"value", 2.0}});
-  return add(g, "slow", t.sum, {{"plus", 1.0}}, {"a"});
-}
+/// A graph of one stage that is worth keeping, "slow", and a folder for caches.
+struct OneStage {
+  TemporaryFolder folder;
+  FakeTypes t;
+  Graph graph;
+  Cache cache{folder.path()};
+  fs::path leases = CacheFolder(folder.path()).leases();
 
-RunOptions keeping_slow(Cache& cache, RunObserver* observer = nullptr) {
-  RunOptions options;
-  options.targets = {.only = {"slow"}, .keep = {"slow"}};
-  options.cache = &cache;
-  options.threads = 1;
-  options.observer = observer;
-  return options;
-}
+  OneStage() {
+    add(graph, "a", t.quick, {{"value", 2.0}});
+    add(graph, "slow", t.sum, {{"plus", 1.0}}, {"a"});
+  }
+  RunResult run(Cache& with, RunObserver* observer = nullptr, const std::atomic<bool>* cancelled = nullptr) const {
+    RunOptions options = keeping({"slow"}, &with);
+    options.threads = 1;
+    options.observer = observer;
+    options.cancelled = cancelled;
+    return run_graph(graph, options);
+  }
+};
 
 /// Told by a run somewhere else.
 Digest key_of_slow() {
-  const FakeTypes t;
-  const Graph g = one_stage(t);
-  const TemporaryFolder elsewhere;
-  Cache cache(elsewhere.path());
+  OneStage elsewhere;
   struct Planned : RunObserver {
     Digest key;
     void finished(const Stage& s, double) override {
       if (s.node->name == "slow") key = s.known->key;
     }
   } planned;
-  REQUIRE(run_graph(g, keeping_slow(cache, &planned)).ok());
+  REQUIRE(elsewhere.run(elsewhere.cache, &planned).ok());
   return planned.key;
 }
 
 }  // namespace
 
 TEST_CASE("of two runs of one graph, the one waits for what the other is computing, and computes nothing") {
-  const TemporaryFolder folder;
-  FakeTypes t;
-  const Graph g = one_stage(t);
-  Cache mine(folder.path()), theirs(folder.path());
+  OneStage s;
+  Cache theirs(s.folder.path());
   Waits waits;
   std::atomic<bool> computing{false}, other_waits{false};
   waits.then = [&] { other_waits = true; };
-  t.during_sum = [&](NodeContext&) {
+  s.t.during_sum = [&](NodeContext&) {
     computing = true;
     while (!other_waits) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   };
   RunResult first;
-  std::thread run([&] { first = run_graph(g, keeping_slow(theirs)); });
+  std::thread run([&] { first = s.run(theirs); });
   while (!computing) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  const RunResult second = run_graph(g, keeping_slow(mine, &waits));
+  const RunResult second = s.run(s.cache, &waits);
   run.join();
   CHECK(first.ok());
   CHECK(outcome(first, "slow") == "run");
   CHECK(second.ok());
   CHECK(outcome(second, "slow") == "reused");
-  CHECK(number_of(second.kept.at("slow").at("out")) == 3);
-  CHECK(t.runs("sum") == 1);
+  CHECK(kept_number(second, "slow") == 3);
+  CHECK(s.t.runs("sum") == 1);
   CHECK(waits.count == 1);
-  CHECK(listing(folder.path() / "v1/leases").empty());
+  CHECK(listing(s.leases).empty());
 }
 
 TEST_CASE("equal nodes of one graph are computed once, on any number of threads") {
@@ -100,75 +101,60 @@ TEST_CASE("equal nodes of one graph are computed once, on any number of threads"
     }
     add(g, "slow", t.sum, {{"plus", 7.0}}, same);
     Cache cache(folder.path());
-    RunOptions options = keeping_slow(cache);
+    RunOptions options = keeping({"slow"}, &cache);
     options.threads = threads;
     const RunResult r = run_graph(g, options);
     REQUIRE(r.ok());
-    CHECK(number_of(r.kept.at("slow").at("out")) == 6 * 3 + 7);
+    CHECK(kept_number(r, "slow") == 6 * 3 + 7);
     CHECK(t.runs("sum") == 2);
   }
 }
 
 TEST_CASE("when the other one goes without a result, the stage is computed after all") {
-  const TemporaryFolder folder;
-  FakeTypes t;
-  const Graph g = one_stage(t);
-  Cache cache(folder.path());
-  LeaseAttempt other = try_lease(CacheFolder(folder.path()).leases(), key_of_slow());
+  OneStage s;
+  LeaseAttempt other = try_lease(s.leases, key_of_slow());
   REQUIRE(other.lease);
-  CHECK(try_lease(CacheFolder(folder.path()).leases(), key_of_slow()).taken);
+  CHECK(try_lease(s.leases, key_of_slow()).taken);
   Waits waits;
   waits.then = [&] { other.lease.reset(); };
-  const RunResult r = run_graph(g, keeping_slow(cache, &waits));
+  const RunResult r = s.run(s.cache, &waits);
   CHECK(r.ok());
   CHECK(waits.count == 1);
   CHECK(outcome(r, "slow") == "run");
 }
 
 TEST_CASE("a run that waits for another one can be cancelled") {
-  const TemporaryFolder folder;
-  FakeTypes t;
-  const Graph g = one_stage(t);
-  Cache cache(folder.path());
-  const LeaseAttempt other = try_lease(CacheFolder(folder.path()).leases(), key_of_slow());
+  OneStage s;
+  const LeaseAttempt other = try_lease(s.leases, key_of_slow());
   Waits waits;
   std::atomic<bool> cancelled{false};
   waits.then = [&] { cancelled = true; };
-  RunOptions options = keeping_slow(cache, &waits);
-  options.cancelled = &cancelled;
-  const RunResult r = run_graph(g, options);
+  const RunResult r = s.run(s.cache, &waits, &cancelled);
   CHECK(r.cancelled);
   CHECK(outcome(r, "slow") == "unfinished");
-  CHECK(t.runs("sum") == 0);
+  CHECK(s.t.runs("sum") == 0);
 }
 
 TEST_CASE("the lease of a dead process is free, and what it leaves is cleared away") {
-  const TemporaryFolder folder;
-  FakeTypes t;
-  const Graph g = one_stage(t);
-  Cache cache(folder.path());
-  const fs::path leases = CacheFolder(folder.path()).leases();
-  write_text(leases / key_of_slow().hex(), "");
-  write_text(leases / "somebody-else", "");
+  OneStage s;
+  write_text(s.leases / key_of_slow().hex(), "");
+  write_text(s.leases / "somebody-else", "");
   Waits waits;
-  CHECK(run_graph(g, keeping_slow(cache, &waits)).ok());
+  CHECK(s.run(s.cache, &waits).ok());
   CHECK(waits.count == 0);
-  CHECK(t.runs("sum") == 1);
-  CHECK(listing(leases) == std::vector<std::string>{"somebody-else"});
-  const LeaseAttempt held = try_lease(leases, Digest{1, 2});
-  cache.collect();
-  CHECK(listing(leases) == std::vector<std::string>{Digest{1, 2}.hex()});
+  CHECK(s.t.runs("sum") == 1);
+  CHECK(listing(s.leases) == std::vector<std::string>{"somebody-else"});
+  const LeaseAttempt held = try_lease(s.leases, Digest{1, 2});
+  s.cache.collect();
+  CHECK(listing(s.leases) == std::vector<std::string>{Digest{1, 2}.hex()});
 }
 
 TEST_CASE("a cache without a place for leases does without them") {
-  const TemporaryFolder folder;
-  FakeTypes t;
-  const Graph g = one_stage(t);
-  Cache cache(folder.path());
-  fs::remove(folder.path() / "v1/leases");
-  write_text(folder.path() / "v1/leases", "");
-  CHECK(run_graph(g, keeping_slow(cache)).ok());
-  CHECK(t.runs("sum") == 1);
+  OneStage s;
+  fs::remove(s.leases);
+  write_text(s.leases, "");
+  CHECK(s.run(s.cache).ok());
+  CHECK(s.t.runs("sum") == 1);
 }
 
 TEST_CASE("of programs that run one graph at once, one lays it out; killing it makes another one do so") {
