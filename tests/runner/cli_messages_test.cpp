@@ -62,36 +62,6 @@ TEST_CASE("synth writes the format that is asked for, and float maps keep their 
   CHECK(listing(w.path / "out") == std::vector<std::string>{"base_color.exr", "height.exr"});
 }
 
-TEST_CASE("formats go by all their names, in upper and lower case, and a wrong one is told with the right ones") {
-  const Workplace w;
-  write_picture(w.path / "stone/base_color.png", 5);
-  for (const auto& [given, extension] :
-       {std::pair("tiff", "tiff"), {"TIF", "tif"}, {"PNG", "png"}, {"JPEG", "jpeg"}, {"jpg", "jpg"}}) {
-    CAPTURE(given);
-    const ProgramRun r =
-        w.run({"synth", "stone", "-o", given, "--size", "40x40", "--quality", "DRAFT", "--format", given});
-    CHECK_MESSAGE(r.code == 0, r.err);
-    CHECK(listing(w.path / given) == std::vector<std::string>{std::string("base_color.") + extension});
-    CHECK(read_image_info(w.path / given / ("base_color." + std::string(extension))).size == Size{40, 40});
-  }
-  const ProgramRun set =
-      w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/material.json", "--set", "material=stone", "--set", "size=40x40",
-             "--set", "out=set", "--set", "format=TIFF", "--set", "layout.quality=Draft"});
-  CHECK_MESSAGE(set.code == 0, set.err);
-  CHECK(read_text(w.path / "set/base_color.tiff") == read_text(w.path / "tiff/base_color.tiff"));
-  const ProgramRun wrong =
-      w.run({"synth", "stone", "-o", "x", "--format", "pgn", "--size", "big", "--quality", "great"});
-  CHECK(wrong.code == 2);
-  CHECK_MESSAGE(has(wrong.err,
-                    "--format pgn: expected \"png\", \"tif\", \"tiff\", \"exr\", \"jpg\" or \"jpeg\", found "
-                    "the text \"pgn\" (did you mean \"png\"?)"),
-                wrong.err);
-  CHECK(has(wrong.err, "--size big: expected a size"));
-  CHECK(has(wrong.err, "--quality great: expected \"draft\", \"normal\" or \"best\""));
-  CHECK_FALSE(has(wrong.err, "override"));
-  CHECK_FALSE(fs::exists(w.path / "x"));
-}
-
 TEST_CASE("progress none writes nothing but warnings and errors") {
   const Workplace w;
   const ProgramRun quiet = w.run({"run", "soft.json", "--progress", "none"});

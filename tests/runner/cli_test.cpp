@@ -362,33 +362,6 @@ TEST_CASE("compare measures the layout too when it is given the uv map") {
   CHECK(figures.at("largest_copy") == 1);
 }
 
-TEST_CASE("synth makes a larger material without a graph file") {
-  const Workplace w;
-  write_picture(w.path / "maps/stone_basecolor.png", 5);
-  const ProgramRun r = w.run({"synth", "maps", "-o", "big", "--size", "48x40", "--seed", "3"});
-  CHECK_MESSAGE(r.code == 0, r.err);
-  const FileInfo info = read_image_info(w.path / "big/base_color.png");
-  CHECK(info.size == Size{48, 40});
-
-  const ProgramRun other = w.run({"synth", "maps", "-o", "big", "--size", "48x40", "--seed", "4"});
-  CHECK(other.code == 0);
-  CHECK_MESSAGE(other.err.find("9 stages: 5 cached, 4 run, ") != std::string::npos, other.err);
-  CHECK(other.err.find("warning") == std::string::npos);
-}
-
-TEST_CASE("synth --tileable asks for a result that wraps, and synth never overwrites its exemplar") {
-  const Workplace w;
-  write_picture(w.path / "maps/stone_basecolor.png", 5);
-  const ProgramRun plain = w.run({"synth", "maps", "-o", "plain", "--size", "40x40"});
-  const ProgramRun wraps = w.run({"synth", "maps", "-o", "wraps", "--size", "40x40", "--tileable"});
-  REQUIRE(plain.code == 0);
-  REQUIRE(wraps.code == 0);
-  CHECK(read_text(w.path / "plain/base_color.png") != read_text(w.path / "wraps/base_color.png"));
-  const ProgramRun onto = w.run({"synth", "maps", "-o", "maps"});
-  CHECK(onto.code == 2);
-  CHECK(onto.err.find("would overwrite the exemplar") != std::string::npos);
-}
-
 TEST_CASE("new writes a commented graph that runs") {
   const Workplace w;
   write_picture(w.path / "maps/stone_basecolor.png", 5);
@@ -403,23 +376,6 @@ TEST_CASE("new writes a commented graph that runs") {
   CHECK_MESSAGE(run.code == 0, run.err);
   CHECK(fs::exists(w.path / "big/base_color.png"));
   CHECK(w.run({"new", "nowhere", "-o", "x.json"}).code == 2);
-}
-
-TEST_CASE("the stock graphs that steer synthesis run") {
-  const Workplace w;
-  write_picture(w.path / "maps/stone_basecolor.png", 5);
-  const std::string graphs = TERRAZZO_SOURCE_DIR "/graphs/", picture = "maps/stone_basecolor.png";
-  const auto makes = [&](const std::string& graph, std::vector<std::string> settings) {
-    std::vector<std::string> args = {"run",         graphs + graph + ".json", "--set", "material=maps", "--set",
-                                     "out=" + graph};
-    for (const std::string& s : settings) args.insert(args.end(), {"--set", s});
-    const ProgramRun run = w.run(args);
-    CHECK_MESSAGE(run.code == 0, run.err);
-    CHECK(fs::exists(w.path / graph / "base_color.png"));
-  };
-  makes("make_tileable", {"border=4"});
-  makes("inpaint", {"mask=" + picture});
-  makes("transfer", {"target=" + picture, "size=40x40"});
 }
 
 TEST_CASE("watching runs the graph again when a file that it reads is touched") {

@@ -1,0 +1,139 @@
+#include <doctest/doctest.h>
+
+#include "core/image_file.h"
+#include "tests/runner/fakes.h"
+#include "tests/runner/program.h"
+#include "tests/runner/workplace.h"
+
+/// `synth` and the stock graphs.
+using namespace terrazzo;
+using namespace terrazzo::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("synth makes a larger material without a graph file") {
+  const Workplace w;
+  write_picture(w.path / "maps/stone_basecolor.png", 5);
+  const ProgramRun r = w.run({"synth", "maps", "-o", "big", "--size", "48x40", "--seed", "3"});
+  CHECK_MESSAGE(r.code == 0, r.err);
+  const FileInfo info = read_image_info(w.path / "big/base_color.png");
+  CHECK(info.size == Size{48, 40});
+
+  const ProgramRun other = w.run({"synth", "maps", "-o", "big", "--size", "48x40", "--seed", "4"});
+  CHECK(other.code == 0);
+  CHECK_MESSAGE(other.err.find("9 stages: 5 cached, 4 run, ") != std::string::npos, other.err);
+  CHECK(other.err.find("warning") == std::string::npos);
+}
+
+TEST_CASE("synth --tileable asks for a result that wraps, and synth never overwrites its exemplar") {
+  const Workplace w;
+  write_picture(w.path / "maps/stone_basecolor.png", 5);
+  const ProgramRun plain = w.run({"synth", "maps", "-o", "plain", "--size", "40x40"});
+  const ProgramRun wraps = w.run({"synth", "maps", "-o", "wraps", "--size", "40x40", "--tileable"});
+  REQUIRE(plain.code == 0);
+  REQUIRE(wraps.code == 0);
+  CHECK(read_text(w.path / "plain/base_color.png") != read_text(w.path / "wraps/base_color.png"));
+  const ProgramRun onto = w.run({"synth", "maps", "-o", "maps"});
+  CHECK(onto.code == 2);
+  CHECK(onto.err.find("would overwrite the exemplar") != std::string::npos);
+}
+
+TEST_CASE("synth takes a quality, and draft is another result than normal") {
+  const Workplace w;
+  write_picture(w.path / "stone/base_color.png", 5);
+  for (const std::string quality : {"draft", "normal"}) {
+    const ProgramRun r = w.run({"synth", "stone", "-o", quality, "--size", "48x48", "--quality", quality});
+    CHECK_MESSAGE(r.code == 0, r.err);
+  }
+  CHECK(w.run({"synth", "stone", "-o", "unset", "--size", "48x48"}).code == 0);
+  CHECK(read_text(w.path / "unset/base_color.png") == read_text(w.path / "normal/base_color.png"));
+  CHECK(read_text(w.path / "draft/base_color.png") != read_text(w.path / "normal/base_color.png"));
+  CHECK(w.run({"synth", "stone", "-o", "x", "--quality", "great"}).code == 2);
+}
+
+TEST_CASE("synth blends seams as far as it is told to, none unless told, and refuses what resolve_uv would refuse") {
+  const Workplace w;
+  write_picture(w.path / "stone/base_color.png", 5);
+  const auto result = [&](const std::string& name, std::vector<std::string> options) {
+    std::vector<std::string> args = {"synth", "stone", "-o", name, "--size", "48x48"};
+    args.insert(args.end(), options.begin(), options.end());
+    const ProgramRun r = w.run(args);
+    CHECK_MESSAGE(r.code == 0, r.err);
+    return read_text(w.path / name / "base_color.png");
+  };
+  const std::string exact = result("unset", {});
+  CHECK(result("zero", {"--blend", "0"}) == exact);
+  const std::string soft = result("soft", {"--blend", "2.5"});
+  CHECK(soft != exact);
+  const ProgramRun graph = w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/material.json", "--set", "material=stone",
+                                  "--set", "size=48x48", "--set", "out=graph", "--set", "blend=2.5"});
+  CHECK_MESSAGE(graph.code == 0, graph.err);
+  CHECK(read_text(w.path / "graph/base_color.png") == soft);
+  for (const std::string wrong : {"9", "-1", "nan", "much"}) {
+    const ProgramRun r = w.run({"synth", "stone", "-o", "x", "--blend", wrong});
+    CHECK(r.code == 2);
+    CHECK_MESSAGE(r.err.find("--blend " + wrong + ": expected a number from 0 to 8") != std::string::npos, r.err);
+  }
+}
+
+TEST_CASE("formats go by all their names, in upper and lower case, and a wrong one is told with the right ones") {
+  const Workplace w;
+  write_picture(w.path / "stone/base_color.png", 5);
+  for (const auto& [given, extension] :
+       {std::pair("tiff", "tiff"), {"TIF", "tif"}, {"PNG", "png"}, {"JPEG", "jpeg"}, {"jpg", "jpg"}}) {
+    CAPTURE(given);
+    const ProgramRun r =
+        w.run({"synth", "stone", "-o", given, "--size", "40x40", "--quality", "DRAFT", "--format", given});
+    CHECK_MESSAGE(r.code == 0, r.err);
+    CHECK(listing(w.path / given) == std::vector<std::string>{std::string("base_color.") + extension});
+    CHECK(read_image_info(w.path / given / ("base_color." + std::string(extension))).size == Size{40, 40});
+  }
+  const ProgramRun set =
+      w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/material.json", "--set", "material=stone", "--set", "size=40x40",
+             "--set", "out=set", "--set", "format=TIFF", "--set", "layout.quality=Draft"});
+  CHECK_MESSAGE(set.code == 0, set.err);
+  CHECK(read_text(w.path / "set/base_color.tiff") == read_text(w.path / "tiff/base_color.tiff"));
+  const ProgramRun wrong =
+      w.run({"synth", "stone", "-o", "x", "--format", "pgn", "--size", "big", "--quality", "great"});
+  CHECK(wrong.code == 2);
+  CHECK_MESSAGE(says(wrong.err,
+                     "--format pgn: expected \"png\", \"tif\", \"tiff\", \"exr\", \"jpg\" or \"jpeg\", found "
+                     "the text \"pgn\" (did you mean \"png\"?)"),
+                wrong.err);
+  CHECK(says(wrong.err, "--size big: expected a size"));
+  CHECK(says(wrong.err, "--quality great: expected \"draft\", \"normal\" or \"best\""));
+  CHECK_FALSE(says(wrong.err, "override"));
+  CHECK_FALSE(fs::exists(w.path / "x"));
+}
+
+TEST_CASE("the stock graphs that steer synthesis run") {
+  const Workplace w;
+  write_picture(w.path / "maps/stone_basecolor.png", 5);
+  const std::string graphs = TERRAZZO_SOURCE_DIR "/graphs/", picture = "maps/stone_basecolor.png";
+  const auto makes = [&](const std::string& graph, std::vector<std::string> settings) {
+    std::vector<std::string> args = {"run",         graphs + graph + ".json", "--set", "material=maps", "--set",
+                                     "out=" + graph};
+    for (const std::string& s : settings) args.insert(args.end(), {"--set", s});
+    const ProgramRun run = w.run(args);
+    CHECK_MESSAGE(run.code == 0, run.err);
+    CHECK(fs::exists(w.path / graph / "base_color.png"));
+  };
+  makes("make_tileable", {"border=4"});
+  makes("inpaint", {"mask=" + picture});
+  makes("transfer", {"target=" + picture, "size=40x40"});
+}
+
+TEST_CASE("magnify refuses an analysis larger than the exemplar before anything runs") {
+  const Workplace w;
+  const std::string graph = TERRAZZO_SOURCE_DIR "/graphs/magnify.json";
+  const ProgramRun r = w.run({"run", graph, "--set", "material=.", "--set", "analysed=2"});
+  CHECK(r.code == 2);
+  CHECK_MESSAGE(r.err.find("analysed") != std::string::npos, r.err);
+}
