@@ -19,23 +19,52 @@ Planes without_gradients(const ExemplarPlanes& in) {
   return out;
 }
 
+/// Of an exemplar that tiles: each lag's pairs within the exemplar and those across its borders.
+std::vector<double> around_borders(const Correlogram& r, Size size) {
+  const auto sum = [&](int dx, int dy) {
+    if (dx < 0) {
+      dx = -dx;
+      dy = -dy;
+    }
+    const double pairs = double(size.width - dx) * (size.height - std::abs(dy));
+    return pairs <= 0 ? 0.0 : r.at(dx, dy) * pairs / double(size.area());
+  };
+  std::vector<double> out;
+  for (int dy = 1 - size.height; dy < size.height; dy++)
+    for (int dx = 0; dx < size.width; dx++) {
+      const int other_y = dy > 0 ? dy - size.height : dy + size.height;
+      out.push_back(sum(dx, dy) + sum(dx - size.width, dy) + sum(dx, other_y) + sum(dx - size.width, other_y));
+    }
+  return out;
+}
+
 }  // namespace
 
 Correlation correlate(const ExemplarPlanes& planes, const Task& task) {
   const Planes details = without_gradients(planes);
-  const Size lags{planes.size.width * 6 / 10, planes.size.height * 6 / 10};
+  const Size size = planes.size;
+  const Size within = planes.wraps ? size : Size{size.width * 3 / 4, size.height * 3 / 4};
   std::vector<double> variance(planes.channels, 0.0);
   for (size_t i = 0; i < details.values.size(); i++)
     variance[i % planes.channels] += double(details.values[i]) * details.values[i];
   double total = 1e-12;
   for (const double v : variance) total += v;
   std::vector<double> sum;
-  const std::vector<Correlogram> all = correlograms(details, lags, task);
+  const std::vector<Correlogram> all = correlograms(details, within, task);
   for (int c = 0; c < planes.channels; c++) {
-    sum.resize(all[c].values.size(), 0.0);
-    for (size_t i = 0; i < sum.size(); i++) sum[i] += all[c].values[i] * variance[c] / total;
+    const std::vector<double> values = planes.wraps ? around_borders(all[c], size) : all[c].values;
+    sum.resize(values.size(), 0.0);
+    for (size_t i = 0; i < sum.size(); i++) sum[i] += values[i] * variance[c] / total;
   }
-  return {std::move(sum), lags};
+  return {std::move(sum), within, size, planes.wraps};
+}
+
+Correlation mean_of(const Correlation& a, const Correlation& b) {
+  std::vector<double> values;
+  const Size lags = a.lags();
+  for (int y = 1 - lags.height; y < lags.height; y++)
+    for (int x = 0; x < lags.width; x++) values.push_back((a.at(x, y) + b.at(x, y)) / 2);
+  return {std::move(values), lags, a.exemplar(), a.wraps()};
 }
 
 ExemplarPlanes outlines(const ExemplarPlanes& in) {

@@ -14,11 +14,20 @@ namespace terrazzo {
 /// Correlation over lags, all channels together; symmetric about the origin.
 class Correlation {
  public:
-  Correlation(std::vector<double> values, Size lags) : values_(std::move(values)), lags_(lags) {}
+  /// `lags`: 0..width-1 in x, -(height-1)..height-1 in y, row by row. `wraps`: of an exemplar that tiles.
+  Correlation(std::vector<double> values, Size lags, Size exemplar, bool wraps)
+      : values_(std::move(values)), lags_(lags), exemplar_(exemplar), wraps_(wraps) {}
 
   Size lags() const { return lags_; }
+  Size exemplar() const { return exemplar_; }
+  bool wraps() const { return wraps_; }
+  /// Whether enough of the exemplar lies on itself at this lag. All lags of an exemplar that tiles are within half its
+  /// sides.
   bool covers(double dx, double dy) const {
-    return std::abs(dx) <= lags_.width - 3 && std::abs(dy) <= lags_.height - 3;
+    const double x = std::abs(dx), y = std::abs(dy);
+    if (wraps_) return x <= exemplar_.width * 0.5 && y <= exemplar_.height * 0.5;
+    return x <= lags_.width - 3 && y <= lags_.height - 3 &&
+           (exemplar_.width - x) * (exemplar_.height - y) >= least_overlap * double(exemplar_.area());
   }
   double at(int dx, int dy) const {
     if (dx < 0) {
@@ -49,13 +58,18 @@ class Correlation {
   }
 
  private:
+  static constexpr double least_overlap = 0.16;
   std::vector<double> values_;
-  Size lags_;
+  Size lags_, exemplar_;
+  bool wraps_;
 };
 
-/// The correlation of an exemplar's details with themselves, channels weighted by their variance, over lags up to six
-/// tenths of its sides. Throws Cancelled.
+/// The correlation of an exemplar's details with themselves, channels weighted by their variance: over lags up to three
+/// quarters of its sides or, around its borders, all of its sides if it tiles. Throws Cancelled.
 Correlation correlate(const ExemplarPlanes& planes, const Task& task);
+
+/// The mean of two correlations over the same lags.
+Correlation mean_of(const Correlation& a, const Correlation& b);
 
 /// Edge strength, all channels together, as one channel: joints show in it however much bricks differ in colour.
 ExemplarPlanes outlines(const ExemplarPlanes& planes);

@@ -7,9 +7,9 @@
 namespace terrazzo {
 
 /// Finds how an exemplar repeats from the autocorrelation of all its weighted channels, or of their outlines where
-/// those repeat more surely: the pair of peaks whose lattice gathers the most correlation on its points and the least
-/// between them (Liu, Collins & Tsin 2004 judge lattices alike), or else the period of its courses or columns. Rank 0
-/// if the certainty stays under `least_certainty`.
+/// those repeat more surely: the cell whose repeats correlate most and places between them least (Liu, Collins & Tsin
+/// 2004 judge lattices alike), or else the period of its courses or columns. Rank 0 if the certainty stays under
+/// `least_certainty`.
 Lattice find_lattice(const Features& features, double least_certainty, const Task& task);
 
 }  // namespace terrazzo

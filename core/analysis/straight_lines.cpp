@@ -1,4 +1,4 @@
-#include "core/analysis/few_cells.h"
+#include "core/analysis/straight_lines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,38 +9,11 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int fewest_cells = 4, most_cells = 12;
-constexpr double least_few = 0.2;  // what cells must correlate more than places between them
 // Of all variance, what differs from line to line. Layers of rock have up to a tenth, along one axis.
 constexpr double least_crossing = 0.1, least_parallel = 0.4;
 constexpr int most_repeats = 8;      // of lines in an exemplar
 constexpr double same_lines = 0.7;   // correlation of lines that repeat
 constexpr double other_lines = 0.3;  // and of those that do not
-
-/// Correlation at a lag of an exemplar that wraps around.
-double around(const Correlation& r, Size size, double x, double y) {
-  x -= size.width * std::floor(x / size.width + 0.5);
-  y -= size.height * std::floor(y / size.height + 0.5);
-  return r.peak_near({x, y}).second;
-}
-
-/// How far the points of the lattice with `across` times `down` cells, each row of them shifted by `shift` of a cell,
-/// stand out against those half a cell off.
-double standing_out(const Correlation& r, Size size, int across, int down, double shift) {
-  const double width = double(size.width) / across, height = double(size.height) / down;
-  const auto at = [&](double i, double j) { return around(r, size, (i + j * shift) * width, j * height); };
-  double on = 1, off = -1;
-  for (int j = 0; j < down; j++)
-    for (int i = 0; i < across; i++)
-      if (i + j > 0) on = std::min(on, at(i, j));
-  for (const auto& [half_i, half_j] : {std::pair{0.5, 0.0}, {0.0, 0.5}, {0.5, 0.5}}) {
-    double sum = 0;
-    for (int j = 0; j < down; j++)
-      for (int i = 0; i < across; i++) sum += at(i + half_i, j + half_j);
-    off = std::max(off, sum / (across * down));
-  }
-  return on - off;
-}
 
 /// What of all variance is differences between lines along one axis, and after how many pixels lines come again.
 struct Lines {
@@ -85,25 +58,6 @@ Lines lines_of(const ExemplarPlanes& plane, bool rows) {
 }
 
 }  // namespace
-
-Lattice lattice_of_few_cells(const Correlation& r, Size size) {
-  Lattice best;
-  best.certainty = least_few;
-  for (int cells = most_cells; cells >= fewest_cells; cells--)
-    for (int across = 1; across <= cells; across++) {
-      if (cells % across != 0) continue;
-      const int down = cells / across;
-      // Of whole shifts by the exemplar's width over all cells there are as many as rows (Hermite normal form).
-      for (int shift = 0; shift < down; shift++) {
-        const double part = double(shift) / down;
-        const double certainty = standing_out(r, size, across, down, part);
-        if (certainty <= best.certainty) continue;
-        const double width = double(size.width) / across;
-        best = {2, {width, 0}, {part * width, double(size.height) / down}, certainty};
-      }
-    }
-  return best.rank > 0 ? best : Lattice{};
-}
 
 Lattice lattice_of_lines(const ExemplarPlanes& outlines, const Lattice& found) {
   const Lines rows = lines_of(outlines, true), columns = lines_of(outlines, false);

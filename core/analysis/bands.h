@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/analysis/lag_correlation.h"
+#include "core/lattice.h"
+
+namespace terrazzo {
+
+struct Bands {
+  Lattice lattice;      ///< of rank 1, or 0 if no lines repeat
+  double distinct = 0;  ///< how far lines that repeat stand out, of what differs from line to line at all
+};
+
+/// Courses, or columns: after how many pixels whole lines come again.
+Bands bands_of(const Correlation& r, bool courses);
+
+}  // namespace terrazzo
