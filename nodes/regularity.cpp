@@ -30,9 +30,20 @@ void compute(NodeContext& node) {
   const auto features = node.input<Features>("features");
   const std::string& mode = node.text("mode");
   Lattice lattice;
-  if (mode == "auto") lattice = find_lattice(*features, node.number("least_certainty"), node.task());
+  bool too_few = false;
+  if (mode == "auto") {
+    const FoundLattice found = find_lattice(*features, node.number("least_certainty"), node.task());
+    lattice = found.lattice;
+    too_few = found.too_few;
+  }
   if (mode == "manual") lattice = manual_lattice(node.numbers("first"), node.numbers("second"));
   if (mode != "off") node.note(described(lattice));
+  if (too_few)
+    node.warn(
+        "straight joints cross, but the exemplar shows too few tiles, or too unlike ones, to tell how they repeat, so "
+        "that "
+        "results may break them; crop it to whole tiles so that its borders fit, take one of more tiles, or give "
+        "\"first\" and \"second\" with \"mode\": \"manual\"");
   node.output("features", features->with(lattice));
 }
 

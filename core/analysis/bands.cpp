@@ -11,7 +11,8 @@ namespace {
 constexpr double shortest = 4;  // pixels; anything finer is grain
 constexpr int most_repeats = 24;
 constexpr double least_of_one = 0.25;  // certainty from which lines that come again only once count
-constexpr double multiple = 1.5;       // of a period found before, which a longer one must beat clearly
+constexpr double often = 5, often_counts = 0.5;
+constexpr double multiple = 1.5;  // of a period found before, which a longer one must beat clearly
 constexpr double clearly_better = 1.15;
 constexpr double better = 0.005;
 
@@ -50,7 +51,7 @@ class LineCorrelation {
     }
     if (count == 0) return -1;
     const double mean = sum / count, deviation = std::sqrt(std::max(0.0, squares / count - mean * mean));
-    const double low = mean - 0.3 * deviation;
+    const double low = mean - (0.3 + 1.4 / count) * deviation;
     return count > 1 || low >= least_of_one ? low : -1;
   }
 
@@ -83,8 +84,10 @@ Bands bands_of(const Correlation& r, bool courses) {
       }
   }
   if (best == 0) return {};
-  const Lattice lattice{1, courses ? Vector2{0, best} : Vector2{best, 0}, {}, certainty};
-  return {lattice, certainty / std::sqrt(std::max(certainty, lines.at(0)))};
+  const double distinct = certainty / std::sqrt(std::max(certainty, lines.at(0)));
+  // Thin joints are little of all there is, but what comes again so often is no chance.
+  if (lines.size() >= (r.wraps() ? 2 : 1) * often * best) certainty = std::max(certainty, often_counts * distinct);
+  return {{1, courses ? Vector2{0, best} : Vector2{best, 0}, {}, certainty}, distinct};
 }
 
 }  // namespace terrazzo

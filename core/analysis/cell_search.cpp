@@ -23,7 +23,7 @@ constexpr double good_enough = 0.4;  // of the best score
 constexpr double same_area = 1.02;
 // By what part of it correlation on points must be lower before they count as others, and by how many standard errors:
 // hundreds of lattices are compared with one another.
-constexpr double least_gap = 0.1, least_errors = 3.8;
+constexpr double least_gap = 0.1, least_errors = 4;
 // The same where one lattice has been found and its multiples are compared with it.
 constexpr int most_cells = 4;
 constexpr double least_errors_of_parts = 6;
@@ -65,7 +65,9 @@ std::vector<Vector2> near_peaks(const Correlation& r) {
       bool highest = v > least_peak;
       for (int j = -2; j <= 2 && highest; j++)
         for (int i = -2; i <= 2 && highest; i++) highest = r.at(x + i, y + j) <= v;
-      if (highest) peaks.push_back({r.peak_near({double(x), double(y)}).first, v});
+      if (!highest) continue;
+      const auto [at, value] = r.peak_near({double(x), double(y)});
+      peaks.push_back({at, value});
     }
   if (peaks.empty()) return {};
   const size_t rank = std::min(strongest, peaks.size() - 1);

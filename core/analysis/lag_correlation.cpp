@@ -43,7 +43,7 @@ std::vector<double> around_borders(const Correlogram& r, Size size) {
 Correlation correlate(const ExemplarPlanes& planes, const Task& task) {
   const Planes details = without_gradients(planes);
   const Size size = planes.size;
-  const Size within = planes.wraps ? size : Size{size.width * 3 / 4, size.height * 3 / 4};
+  const Size within = planes.wraps ? size : Size{size.width * 5 / 6, size.height * 5 / 6};
   std::vector<double> variance(planes.channels, 0.0);
   for (size_t i = 0; i < details.values.size(); i++)
     variance[i % planes.channels] += double(details.values[i]) * details.values[i];

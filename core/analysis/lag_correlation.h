@@ -38,7 +38,7 @@ class Correlation {
   }
   double at(Vector2 d) const { return at(int(std::floor(d.x + 0.5)), int(std::floor(d.y + 0.5))); }
 
-  /// The highest lag within one pixel, to a fraction of a pixel.
+  /// The highest lag within one pixel and the correlation there, to a fraction of a pixel.
   std::pair<Vector2, double> peak_near(Vector2 d) const {
     const int cx = int(std::floor(d.x + 0.5)), cy = int(std::floor(d.y + 0.5));
     int bx = cx, by = cy;
@@ -48,13 +48,18 @@ class Correlation {
           bx = x;
           by = y;
         }
-    const auto vertex = [](double left, double middle, double right) {
+    // The vertex of a parabola along each axis.
+    double value = at(bx, by);
+    const auto vertex = [&](double left, double middle, double right) {
       const double bend = left - 2 * middle + right;
-      return bend < 0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0.0;
+      if (bend >= 0) return 0.0;
+      const double offset = std::clamp(0.5 * (left - right) / bend, -0.5, 0.5);
+      value += 0.25 * (right - left) * offset;
+      return offset;
     };
-    return {{bx + vertex(at(bx - 1, by), at(bx, by), at(bx + 1, by)),
-             by + vertex(at(bx, by - 1), at(bx, by), at(bx, by + 1))},
-            at(bx, by)};
+    const double x = bx + vertex(at(bx - 1, by), at(bx, by), at(bx + 1, by));
+    const double y = by + vertex(at(bx, by - 1), at(bx, by), at(bx, by + 1));
+    return {{x, y}, value};
   }
 
  private:
@@ -64,8 +69,8 @@ class Correlation {
   bool wraps_;
 };
 
-/// The correlation of an exemplar's details with themselves, channels weighted by their variance: over lags up to three
-/// quarters of its sides or, around its borders, all of its sides if it tiles. Throws Cancelled.
+/// The correlation of an exemplar's details with themselves, channels weighted by their variance: over lags up to five
+/// sixths of its sides or, around its borders, all of its sides if it tiles. Throws Cancelled.
 Correlation correlate(const ExemplarPlanes& planes, const Task& task);
 
 /// The mean of two correlations over the same lags.

@@ -55,7 +55,7 @@ Lattice searched(const Correlation& values, const Correlation& joints, double le
 
 }  // namespace
 
-Lattice find_lattice(const Features& features, double least_certainty, const Task& task) {
+FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task) {
   if (std::min(features.size().width, features.size().height) < smallest_side) return {};
   ExemplarPlanes planes = weighted_planes(features, task);
   double scale = 1;
@@ -71,10 +71,12 @@ Lattice find_lattice(const Features& features, double least_certainty, const Tas
     const Lattice lines = lattice_of_lines(edges, best);
     if (lines.rank > 0) best = lines;
   }
-  if (best.rank == 0) return best;
+  const bool too_few = best.rank < 2 && !planes.wraps && lines_cross(edges);
+  if (best.rank == 0) return {best, too_few};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
   best = best.fitted(features.size(), features.wraps(), features.wraps());
-  return best.rank == 2 && area(best) < smallest_cell * smallest_cell ? two_by_two(best, features) : best;
+  if (best.rank == 2 && area(best) < smallest_cell * smallest_cell) best = two_by_two(best, features);
+  return {best, too_few};
 }
 
 }  // namespace terrazzo

@@ -6,10 +6,16 @@
 
 namespace terrazzo {
 
+struct FoundLattice {
+  Lattice lattice;
+  bool too_few =
+      false;  ///< joints seem to cross, but of what is between them the exemplar does not hold enough to tell
+};
+
 /// Finds how an exemplar repeats from the autocorrelation of all its weighted channels, or of their outlines where
 /// those repeat more surely: the cell whose repeats correlate most and places between them least (Liu, Collins & Tsin
 /// 2004 judge lattices alike), or else the period of its courses or columns. Rank 0 if the certainty stays under
 /// `least_certainty`.
-Lattice find_lattice(const Features& features, double least_certainty, const Task& task);
+FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task);
 
 }  // namespace terrazzo

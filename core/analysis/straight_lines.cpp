@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace terrazzo {
@@ -34,7 +35,8 @@ double correlation_around(const std::vector<double>& profile, double lag) {
   return most / std::max(1e-12, at_lag(0));
 }
 
-Lines lines_of(const ExemplarPlanes& plane, bool rows) {
+/// Without the period.
+Lines shares_of(const ExemplarPlanes& plane, bool rows) {
   const int width = plane.size.width, height = plane.size.height;
   const double mean = std::accumulate(plane.values.begin(), plane.values.end(), 0.0) / double(plane.values.size());
   std::vector<double> profile(size_t(rows ? height : width), 0.0);
@@ -48,7 +50,13 @@ Lines lines_of(const ExemplarPlanes& plane, bool rows) {
   const double length = rows ? width : height, count = double(profile.size());
   double between = 0;
   for (const double v : profile) between += v * v / length;
-  Lines out{between / std::max(1e-12, variance), count, profile};
+  return {between / std::max(1e-12, variance), count, std::move(profile)};
+}
+
+Lines lines_of(const ExemplarPlanes& plane, bool rows) {
+  Lines out = shares_of(plane, rows);
+  const std::vector<double>& profile = out.profile;
+  const double count = out.period;
   for (int n = 2; n <= most_repeats; n++) {
     double least = 1;
     for (int k = 1; k < n; k++) least = std::min(least, correlation_around(profile, k * count / n));
@@ -71,6 +79,10 @@ Lattice lattice_of_lines(const ExemplarPlanes& outlines, const Lattice& found) {
   const double period = courses ? found.first.y : found.first.x;
   if (found.rank == 1 && (period == 0 || correlation_around(lines.profile, period) > other_lines)) return {};
   return {1, courses ? down : right, {}, lines.share};
+}
+
+bool lines_cross(const ExemplarPlanes& outlines) {
+  return std::min(shares_of(outlines, true).share, shares_of(outlines, false).share) >= least_crossing;
 }
 
 }  // namespace terrazzo

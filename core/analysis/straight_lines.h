@@ -11,4 +11,7 @@ namespace terrazzo {
 /// `found`, a lattice found otherwise.
 Lattice lattice_of_lines(const ExemplarPlanes& outlines, const Lattice& found);
 
+/// Whether straight lines run from border to border both ways, as joints between tiles do.
+bool lines_cross(const ExemplarPlanes& outlines);
+
 }  // namespace terrazzo

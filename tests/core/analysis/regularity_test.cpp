@@ -1,0 +1,206 @@
+#include "core/analysis/regularity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "tests/exemplars.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+
+struct Piece {
+  int column, row;  ///< which it is
+  double edge;      ///< how far inside it a point lies, in units of the pattern
+};
+
+/// A point of a pattern, in its units.
+using Pattern = Piece (*)(double x, double y);
+
+double inside(double x, double y, double width, double height) {
+  return std::min(std::min(x, width - x), std::min(y, height - y));
+}
+
+double part(double v) {
+  return v - std::floor(v);
+}
+
+Piece running_bond(double x, double y) {
+  const double row = std::floor(y * 2.5), shift = wrap(int(row), 2) * 0.5;
+  return {int(std::floor(x - shift)) * 2 + wrap(int(row), 2), int(row),
+          inside(part(x - shift), part(y * 2.5) / 2.5, 1, 0.4)};
+}
+
+/// A course of stretchers, a course of headers.
+Piece english_bond(double x, double y) {
+  const int row = int(std::floor(y * 3));
+  const double width = row & 1 ? 0.5 : 1, shift = row & 1 ? 0.25 : 0;
+  const double place = (x - shift) / width;
+  return {int(std::floor(place)) * 2 + (row & 1), row, inside(part(place) * width, part(y * 3) / 3, width, 1.0 / 3)};
+}
+
+/// Squares of two bricks, lying and standing in turn.
+Piece basket_weave(double x, double y) {
+  const int column = int(std::floor(x)), row = int(std::floor(y));
+  const bool stands = (column + row) & 1;
+  const double across = stands ? part(x) : part(y), along = stands ? part(y) : part(x);
+  return {column * 2 + (across > 0.5), row, inside(along, part(across * 2) / 2, 1, 0.5)};
+}
+
+/// Blocks of three to one, in zigzag.
+Piece herringbone(double x, double y) {
+  const double u = (x + y) / std::sqrt(2.0), v = (y - x) / std::sqrt(2.0);
+  const int column = int(std::floor(u)), row = int(std::floor(v)), kind = wrap(column - row, 6);
+  if (kind < 3) return {column - kind, row, inside(u - (column - kind), part(v), 3, 1)};
+  const int first = row - (5 - kind);
+  return {column, first + 1000, inside(part(u), v - first, 1, 3)};
+}
+
+Piece squares(double x, double y) {
+  return {int(std::floor(x)), int(std::floor(y)), inside(part(x), part(y), 1, 1)};
+}
+
+/// A picture of a pattern from (x, y) on, `unit` pixels to its unit. Pieces differ in shade; joints are light.
+FeaturesPtr picture(Pattern pattern, double unit, double x, double y, double joint = 2, int side = 192) {
+  return plain_features(make_image({side, side}, 1, [&](int i, int j, int) {
+    const Piece p = pattern((i + 0.5) / unit + x, (j + 0.5) / unit + y);
+    const double shade = 0.4 * unit_double(random_bits(5, p.column, p.row));
+    const double piece = std::clamp(p.edge * unit - joint + 0.5, 0.0, 1.0);
+    return float(0.9 + piece * (shade - 0.9) + 0.1 * unit_double(random_bits(6, i, j)));
+  }));
+}
+
+/// Whether a lattice repeats after (x, y), to a tenth of a cell.
+bool repeats_by(const Lattice& l, double x, double y) {
+  const double d = l.first.x * l.second.y - l.first.y * l.second.x;
+  const double i = (x * l.second.y - y * l.second.x) / d, j = (y * l.first.x - x * l.first.y) / d;
+  return std::abs(i - std::round(i)) < 0.1 && std::abs(j - std::round(j)) < 0.1;
+}
+
+/// Whether all of the lattice's steps are whole ones of the lattice of (ax, ay) and (bx, by), and at most `cells` of
+/// its cells make one.
+void check_cell(const Lattice& l, double ax, double ay, double bx, double by, double cells = 1) {
+  CAPTURE(l.first.x);
+  CAPTURE(l.first.y);
+  CAPTURE(l.second.x);
+  CAPTURE(l.second.y);
+  CAPTURE(l.certainty);
+  REQUIRE(l.rank == 2);
+  const Lattice truth{2, {ax, ay}, {bx, by}, 1};
+  CHECK(repeats_by(truth, l.first.x, l.first.y));
+  CHECK(repeats_by(truth, l.second.x, l.second.y));
+  const double area = std::abs(l.first.x * l.second.y - l.first.y * l.second.x) / std::abs(ax * by - ay * bx);
+  CHECK(area < cells + 0.1);
+  CHECK(area > 0.9);
+}
+
+Lattice lattice_of(const FeaturesPtr& features) {
+  return find_lattice(*features, 0.08, Task()).lattice;
+}
+
+}  // namespace
+
+TEST_CASE("the half bricks of a basket weave lie on a grid, but its squares are the cells") {
+  for (const double unit : {28.0, 43.0, 60.0}) {
+    CAPTURE(unit);
+    check_cell(lattice_of(picture(basket_weave, unit, 0.3, 0.6)), unit, unit, 2 * unit, 0);
+  }
+}
+
+TEST_CASE("courses of stretchers and of headers are not taken for one another") {
+  for (const double unit : {34.0, 52.0, 77.0}) {
+    CAPTURE(unit);
+    check_cell(lattice_of(picture(english_bond, unit, 0.1, 0.2)), unit, 0, 0, unit * 2 / 3);
+  }
+}
+
+TEST_CASE("a herringbone in zigzag repeats with its blocks' ends, not with their sides") {
+  for (const double unit : {12.0, 17.0, 23.0}) {
+    CAPTURE(unit);
+    const double step = unit * std::sqrt(2.0);
+    check_cell(lattice_of(picture(herringbone, unit, 0.4, 0.7)), 0, step, 3 * step, 0);
+  }
+}
+
+TEST_CASE("of few bricks, whole ones are found and not halves") {
+  for (const double unit : {60.0, 90.0, 110.0}) {
+    CAPTURE(unit);
+    check_cell(lattice_of(picture(running_bond, unit, 0.35, 0.1)), unit, 0, unit / 2, unit * 0.4);
+  }
+}
+
+TEST_CASE("tiles of which an exemplar that does not tile shows hardly two are found") {
+  check_cell(lattice_of(picture(squares, 105, 0.35, 0.45, 3)), 105, 0, 0, 105);
+}
+
+TEST_CASE("fine cells are not taken for large ones that fall on whole pixels") {
+  const double unit = 9.4;
+  check_cell(lattice_of(picture(squares, unit, 0.3, 0.6, 1)), unit, 0, 0, unit);
+}
+
+TEST_CASE("cells of a few pixels come two by two") {
+  const double unit = 6.4;
+  const Lattice l = lattice_of(picture(squares, unit, 0.3, 0.6, 1));
+  check_cell(l, unit, 0, 0, unit, 4);
+  CHECK(repeats_by(l, 2 * unit, 0));
+  CHECK(!repeats_by(l, unit, 0));
+}
+
+TEST_CASE("a chequered floor repeats with its colours, not with its joints") {
+  const auto chequered = [](int x, int y) {
+    const bool joint = x % 24 == 0 || y % 24 == 0;
+    return float(joint ? 0.5 : (x / 24 + y / 24) % 2 + 0.3 * unit_double(random_bits(4, x / 24, y / 24)));
+  };
+  const Lattice l = lattice_of(
+      plain_features(make_image({180, 200}, 1, [&](int x, int y, int) { return chequered(x + 11, y + 7); })));
+  check_cell(l, 24, 24, 48, 0);
+}
+
+TEST_CASE("a herringbone that tiles and comes four times is found") {
+  const double side = 192, step = side / 6;
+  const FeaturesPtr f = plain_features(make_image({int(side), int(side)}, 1,
+                                                  [&](int i, int j, int) {
+                                                    const double unit = step / std::sqrt(2.0);
+                                                    const Piece p = herringbone((i + 0.5) / unit, (j + 0.5) / unit);
+                                                    const double shade = 0.4 * unit_double(random_bits(5, p.column));
+                                                    return float(p.edge * unit < 2 ? 0.9 : shade);
+                                                  }),
+                                       true);
+  check_cell(lattice_of(f), 0, step, 3 * step, 0);
+}
+
+TEST_CASE("boards with thin joints are courses, few of them too") {
+  for (const int height : {23, 74, 105}) {
+    CAPTURE(height);
+    const Lattice l = lattice_of(plain_features(make_image({192, 192}, 1, [&](int x, int y, int) {
+      const int row = (y + 31) / height, end = int(below(uint32_t(random_bits(8, row)), 300));
+      const bool joint = (y + 31) % height < 2 || wrap(x - end, 300) < 2;
+      return float(joint ? 0 : 0.6 + 0.3 * unit_double(random_bits(7, y / 2, (x + 17 * y) / 30)));
+    })));
+    REQUIRE(l.rank == 1);
+    CHECK(l.first.y == doctest::Approx(height).epsilon(0.02));
+  }
+}
+
+TEST_CASE("joints that cross without a second tile to measure are told of, stones are not") {
+  CHECK(find_lattice(*picture(squares, 170, 0.35, 0.45, 3), 0.08, Task()).too_few);
+  CHECK(!find_lattice(*picture(squares, 40, 0.35, 0.45, 3), 0.08, Task()).too_few);
+  const FeaturesPtr stones = plain_features(make_image({160, 160}, 1, [](int x, int y, int) {
+    double nearest = 1e9, shade = 0;
+    for (int i = 0; i < 60; i++) {
+      const uint64_t r = random_bits(9, i);
+      const double dx = double(r % 160) - x, dy = double(r / 160 % 160) - y;
+      if (dx * dx + dy * dy < nearest) {
+        nearest = dx * dx + dy * dy;
+        shade = i / 60.0;
+      }
+    }
+    return float(shade);
+  }));
+  const FoundLattice none = find_lattice(*stones, 0.08, Task());
+  CHECK(none.lattice.rank == 0);
+  CHECK(!none.too_few);
+}
