@@ -289,7 +289,7 @@ class CellSearch {
 
 }  // namespace
 
-Lattice best_cell(const Correlation& r, const std::vector<Lattice>& further) {
+Cell best_cell(const Correlation& r, const std::vector<Lattice>& further) {
   CellSearch search(r);
   const std::vector<Vector2> peaks = near_peaks(r);
   for (size_t p = 0; p < peaks.size(); p++)
@@ -307,12 +307,12 @@ Lattice best_cell(const Correlation& r, const std::vector<Lattice>& further) {
     }
   const Candidate* best = search.best();
   if (!best) return {};
-  Lattice out{2, best->a, best->b, best->score / std::max(0.01, 1 - best->around)};
+  Lattice out{2, best->a, best->b, std::clamp(best->on.mean - best->on.deviation, 0.0, 1.0)};
   refine(r, out.first, out.second, 24);
   if (std::abs(out.first.x) < std::abs(out.second.x)) std::swap(out.first, out.second);
   if (out.first.x < 0) out.first = {-out.first.x, -out.first.y};
   if (out.second.y < 0) out.second = {-out.second.x, -out.second.y};
-  return out;
+  return {out, best->score / std::max(0.01, 1 - best->around)};
 }
 
 Lattice without_false_repeats(const Correlation& r, const Lattice& lattice) {

@@ -59,14 +59,6 @@ Correlation correlate(const ExemplarPlanes& planes, const Task& task) {
   return {std::move(sum), within, size, planes.wraps};
 }
 
-Correlation mean_of(const Correlation& a, const Correlation& b) {
-  std::vector<double> values;
-  const Size lags = a.lags();
-  for (int y = 1 - lags.height; y < lags.height; y++)
-    for (int x = 0; x < lags.width; x++) values.push_back((a.at(x, y) + b.at(x, y)) / 2);
-  return {std::move(values), lags, a.exemplar(), a.wraps()};
-}
-
 ExemplarPlanes outlines(const ExemplarPlanes& in) {
   Planes values = Planes::zeros(in.size, in.channels);
   values.values = in.values;

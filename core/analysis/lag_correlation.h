@@ -73,9 +73,6 @@ class Correlation {
 /// sixths of its sides or, around its borders, all of its sides if it tiles. Throws Cancelled.
 Correlation correlate(const ExemplarPlanes& planes, const Task& task);
 
-/// The mean of two correlations over the same lags.
-Correlation mean_of(const Correlation& a, const Correlation& b);
-
 /// Edge strength, all channels together, as one channel: joints show in it however much bricks differ in colour.
 ExemplarPlanes outlines(const ExemplarPlanes& planes);
 

@@ -17,8 +17,7 @@ constexpr int most_side = 256;     // periods are found to a fraction of a pixel
 constexpr int smallest_side = 16;  // less has no room for repeats
 // Pixels. Coarse levels see nothing of finer cells and would mix what they show; they keep pieces of two by two apart.
 constexpr double smallest_cell = 7.5;
-// From here on cells say more than the bands they lie in.
-constexpr double least_certainty_of_cells = 0.15;
+constexpr double least_distinct = 0.15;  // from here on cells say more than the bands they lie in
 
 double area(const Lattice& l) {
   return std::abs(l.first.x * l.second.y - l.second.x * l.first.y);
@@ -38,7 +37,7 @@ Lattice two_by_two(const Lattice& l, const Features& features) {
 /// What repeats may be the colours or, where those vary from brick to brick, only the joints. Cells before bands.
 Lattice searched(const Correlation& values, const Correlation& joints, double least_certainty) {
   Bands bands;
-  Lattice cell;
+  Cell cell;
   for (const Correlation* r : {&values, &joints}) {
     const Bands courses = bands_of(*r, true), columns = bands_of(*r, false);
     std::vector<Lattice> grids;
@@ -46,11 +45,12 @@ Lattice searched(const Correlation& values, const Correlation& joints, double le
       grids.push_back({2, columns.lattice.first, courses.lattice.first, 0});
     for (const Bands& b : {courses, columns})
       if (b.lattice.certainty >= least_certainty && b.distinct > bands.distinct) bands = b;
-    if (const Lattice l = best_cell(*r, grids); l.certainty > cell.certainty)
-      cell = without_false_repeats(r == &values ? joints : values, l);
+    const Cell c = best_cell(*r, grids);
+    if (c.distinct > cell.distinct)
+      cell = {without_false_repeats(r == &values ? joints : values, c.lattice), c.distinct};
   }
-  if (cell.certainty >= std::max(least_certainty, least_certainty_of_cells)) return cell;
-  return bands.lattice.rank > 0 ? bands.lattice : Lattice{0, {}, {}, cell.certainty};
+  if (cell.distinct >= least_distinct && cell.lattice.certainty >= least_certainty) return cell.lattice;
+  return bands.lattice.rank > 0 ? bands.lattice : Lattice{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)};
 }
 
 }  // namespace
