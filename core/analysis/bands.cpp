@@ -55,6 +55,19 @@ class LineCorrelation {
     return count > 1 || low >= least_of_one ? low : -1;
   }
 
+  /// Of what lines a period apart have in common; what nearly all exceed.
+  double alike(double period) const {
+    double sum = 0, squares = 0;
+    int count = 0;
+    for (double d = period; d < size() - 1 && count < most_repeats; d += period, count++) {
+      const double v = std::max({at(d - 1), at(d), at(std::min(size() - 1.0, d + 1))}) / std::max(1e-12, at(0));
+      sum += v;
+      squares += v * v;
+    }
+    const double mean = sum / std::max(1, count);
+    return std::clamp(mean - std::sqrt(std::max(0.0, squares / std::max(1, count) - mean * mean)), 0.0, 1.0);
+  }
+
  private:
   std::vector<double> values_;
 };
@@ -87,7 +100,8 @@ Bands bands_of(const Correlation& r, bool courses) {
   const double distinct = certainty / std::sqrt(std::max(certainty, lines.at(0)));
   // Thin joints are little of all there is, but what comes again so often is no chance.
   if (lines.size() >= (r.wraps() ? 2 : 1) * often * best) certainty = std::max(certainty, often_counts * distinct);
-  return {{1, courses ? Vector2{0, best} : Vector2{best, 0}, {}, certainty}, distinct};
+  return {
+      {1, courses ? Vector2{0, best} : Vector2{best, 0}, {}, std::min(1.0, certainty)}, distinct, lines.alike(best)};
 }
 
 }  // namespace terrazzo

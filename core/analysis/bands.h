@@ -8,6 +8,7 @@ namespace terrazzo {
 struct Bands {
   Lattice lattice;      ///< of rank 1, or 0 if no lines repeat
   double distinct = 0;  ///< how far lines that repeat stand out, of what differs from line to line at all
+  double alike = 0;     ///< how much lines that repeat are alike, along their whole length; nearly all must be
 };
 
 /// Courses, or columns: after how many pixels whole lines come again.

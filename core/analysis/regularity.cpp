@@ -34,8 +34,13 @@ Lattice two_by_two(const Lattice& l, const Features& features) {
   return out;
 }
 
+struct Found {
+  Lattice lattice;
+  double alike = 0;  ///< how much repeats are alike
+};
+
 /// What repeats may be the colours or, where those vary from brick to brick, only the joints. Cells before bands.
-Lattice searched(const Correlation& values, const Correlation& joints, double least_certainty) {
+Found searched(const Correlation& values, const Correlation& joints, double least_certainty) {
   Bands bands;
   Cell cell;
   for (const Correlation* r : {&values, &joints}) {
@@ -49,8 +54,10 @@ Lattice searched(const Correlation& values, const Correlation& joints, double le
     if (c.distinct > cell.distinct)
       cell = {without_false_repeats(r == &values ? joints : values, c.lattice), c.distinct};
   }
-  if (cell.distinct >= least_distinct && cell.lattice.certainty >= least_certainty) return cell.lattice;
-  return bands.lattice.rank > 0 ? bands.lattice : Lattice{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)};
+  if (cell.distinct >= least_distinct && cell.lattice.certainty >= least_certainty)
+    return {cell.lattice, cell.lattice.certainty};
+  if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
+  return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }
 
 }  // namespace
@@ -65,12 +72,14 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
   }
   // What repeats may be the colours or, where those vary from brick to brick, only the joints.
   const ExemplarPlanes edges = outlines(planes);
-  Lattice best = searched(correlate(planes, task), correlate(edges, task), least_certainty);
+  const Found found = searched(correlate(planes, task), correlate(edges, task), least_certainty);
+  Lattice best = found.lattice;
   if (best.certainty < least_certainty || !best.is_valid()) best = {0, {}, {}, best.certainty};
-  if (planes.wraps) {
-    const Lattice lines = lattice_of_lines(edges, best);
-    if (lines.rank > 0) best = lines;
-  }
+  const Lattice lines = planes.wraps ? lattice_of_lines(edges, best) : Lattice{};
+  if (lines.rank > 0)
+    best = lines;
+  else if (best.rank > 0)
+    best.certainty = std::max(best.certainty, found.alike);
   const bool too_few = best.rank < 2 && !planes.wraps && lines_cross(edges);
   if (best.rank == 0) return {best, too_few};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
