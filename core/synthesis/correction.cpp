@@ -90,7 +90,7 @@ class PixelCorrector {
   }
 
  private:
-  static uint32_t packed(int x, int y) { return uint32_t(y) << 16 | uint32_t(x); }
+  static uint32_t packed(int x, int y) { return (uint32_t(y) << 16) + uint32_t(x); }
   static uint32_t packed(const ExemplarPixel& p) { return packed(p.x, p.y); }
 
   static constexpr int step(int n, int axis) {

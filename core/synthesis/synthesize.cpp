@@ -1,5 +1,6 @@
 #include "core/synthesis/synthesize.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -9,6 +10,7 @@
 #include "core/image_ops.h"
 #include "core/synthesis/alignment.h"
 #include "core/synthesis/correction.h"
+#include "core/synthesis/mending.h"
 #include "core/synthesis/pieces.h"
 #include "core/synthesis/placing.h"
 #include "core/synthesis/seams.h"
@@ -69,8 +71,11 @@ constexpr int alignment_reach = 2;
 constexpr int seam_level = 2;  // the finest on which pieces still change
 constexpr int seam_reach = 8;
 constexpr int passes_after_seams = 2;
+// Levels that are worked out for the plane as a whole; at coarser ones it brings nothing.
+constexpr int finest_mended = 2, finest_mended_on_lattice = 1, coarsest_mended = 3;
+constexpr int passes_after_mending[] = {2, 5, 8};
 // Of the exemplar. With a lattice less is out of phase, so pieces grow more readily.
-constexpr double large_piece = 0.13, large_piece_on_lattice = 0.09;
+constexpr double large_piece = 0.1, large_piece_on_lattice = 0.04;
 constexpr double fragment = 0.1;  // of a large piece
 constexpr double most_coherence = 1.5;
 constexpr int finest_limited = 2;
@@ -183,6 +188,8 @@ class LevelWork {
                          .wanted = grown(wanted, reach_of(effort.passes - 1 - pass))};
       if (moves_seams() && pass == effort.passes - passes_after_seams)
         move_seams(field, level, seam_reach, shared_.task);
+      if (mends(effort.passes - pass))
+        mend_seams(field, level, random_bits(shared_.options.seed, Purpose::mending), shared_.task);
       how.piece_coherence = piece_coherence(field, level, shared_.options.coherence, regular());
       terrazzo::correct(field, level, how, occupancy_, shared_.task);
       shared_.task.progress(std::pow(0.25, level_ - shared_.finest) * (pass + 1) / effort.passes);
@@ -195,6 +202,10 @@ class LevelWork {
  private:
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
   bool moves_seams() const { return level_ == seam_level && regular() && !control_; }
+  bool mends(int passes_left) const {
+    return level_ >= (regular() ? finest_mended_on_lattice : finest_mended) && level_ <= coarsest_mended && !control_ &&
+           std::ranges::count(passes_after_mending, passes_left) > 0;
+  }
   bool regular() const { return shared_.lattice.rank > 0; }
 
   static int reach_of(int passes) { return passes * sub_passes * correction_reach; }

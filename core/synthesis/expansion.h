@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/synthesis/correction.h"
+#include "core/synthesis/grid_cut.h"
+
+namespace terrazzo {
+
+/// What all expansions on one field share. Those whose pixels do not meet can work at the same time.
+struct ExpansionGround {
+  static constexpr int untouched = -1, kept = -2;
+
+  ExpansionGround(Field& f, const CorrectionLevel& l) : field(f), level(l), node(f.pixels.size(), untouched) {}
+
+  /// How much shows where a pixel shows a and its neighbour on that side (of field.h) b: a metric, 0 if b continues a.
+  int64_t mismatch(ExemplarPixel a, ExemplarPixel b, int side) const;
+
+  Field& field;
+  const CorrectionLevel& level;
+  std::vector<int> node;  ///< of each pixel in its expansion's graph
+};
+
+/// One expansion move (Boykov, Veksler & Zabih 2001; for textures Kwatra et al. 2003): some pixels may come to show
+/// something else, and of all subsets that may the one is taken that lowers the mismatch summed along all seams most.
+/// Not thread-safe.
+class Expansion {
+ public:
+  explicit Expansion(ExpansionGround& ground) : ground_(ground) {}
+
+  /// Keeps a pixel from what is offered.
+  void keep(int pixel);
+  /// Offers a pixel something to show. False if it has been offered already, or must stay as it is.
+  bool offer(int pixel, ExemplarPixel shown);
+  /// Makes the move and forgets what was offered.
+  void apply();
+
+ private:
+  struct Free {
+    int pixel;
+    ExemplarPixel offered;
+  };
+  void connect(int n);
+
+  ExpansionGround& ground_;
+  std::vector<Free> free_;
+  std::vector<int> kept_;
+  GridCut cut_;
+};
+
+}  // namespace terrazzo
