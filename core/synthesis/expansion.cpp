@@ -29,7 +29,9 @@ void Expansion::keep(int pixel) {
 }
 
 bool Expansion::offer(int pixel, ExemplarPixel shown) {
-  if (ground_.node[size_t(pixel)] != ExpansionGround::untouched || ground_.level.fixed.at(size_t(pixel))) return false;
+  if (ground_.node[size_t(pixel)] != ExpansionGround::untouched || ground_.field.pixels[size_t(pixel)] == shown ||
+      ground_.level.fixed.at(size_t(pixel)))
+    return false;
   ground_.node[size_t(pixel)] = int(free_.size());
   free_.push_back({pixel, shown});
   return true;

@@ -31,7 +31,7 @@ class Expansion {
 
   /// Keeps a pixel from what is offered.
   void keep(int pixel);
-  /// Offers a pixel something to show. False if it has been offered already, or must stay as it is.
+  /// Offers a pixel something else to show. False if it has been offered already, or stays as it is.
   bool offer(int pixel, ExemplarPixel shown);
   /// Makes the move and forgets what was offered.
   void apply();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int half = 6;   // of a window, without its middle
 constexpr int core = 4;   // the same without the rim
-constexpr int near = 14;  // what shows so near the middle already is not shown again
+constexpr int near = 20;  // what shows so near the middle already is not shown again
 constexpr int random_places = 16;
 
 struct Offset {
@@ -40,8 +40,8 @@ std::vector<Offset> scattered_rim() {
 /// Finds what fits a window. One per thread.
 class Fitter {
  public:
-  Fitter(ExpansionGround& ground, uint64_t seed)
-      : ground_(ground), seed_(seed), rim_(scattered_rim()), expansion_(ground) {}
+  Fitter(ExpansionGround& ground, const Occupancy& occupancy, uint64_t seed)
+      : ground_(ground), occupancy_(occupancy), seed_(seed), rim_(scattered_rim()), expansion_(ground) {}
 
   /// Mends the window around a pixel.
   void mend(int x, int y) {
@@ -112,13 +112,15 @@ class Fitter {
     places_.push_back(packed(u, v));
   }
 
-  /// How much the rim of a place differs from what the window's shows; gives up at the limit.
+  /// How much the rim of a place differs from what the window's shows, dearer the more often the place is in use;
+  /// gives up at the limit.
   int64_t misfit_at(uint32_t place, int64_t limit) const {
     const PaddedLevel& e = ground_.level.exemplar;
     const AppearanceVector* middle = e.at(column(place), row(place));
+    const int64_t factor = occupancy_.factor(column(place), row(place));
     int64_t sum = 0;
     for (size_t i = 0; i < rim_.size() && sum < limit; i++)
-      sum += squared_distance(*shown_[i], middle[rim_[i].y * e.stride() + rim_[i].x]);
+      sum += factor * squared_distance(*shown_[i], middle[rim_[i].y * e.stride() + rim_[i].x]);
     return sum;
   }
 
@@ -138,6 +140,7 @@ class Fitter {
   }
 
   ExpansionGround& ground_;
+  const Occupancy& occupancy_;
   uint64_t seed_;
   std::vector<Offset> rim_;
   std::vector<const AppearanceVector*> shown_;  // by the rim
@@ -207,12 +210,13 @@ std::vector<int> worst_windows(const ExpansionGround& ground) {
 
 }  // namespace
 
-void mend_seams(Field& field, const CorrectionLevel& level, uint64_t seed, const Task& task) {
+void mend_seams(Field& field, const CorrectionLevel& level, Occupancy& occupancy, uint64_t seed, const Task& task) {
+  occupancy.recount(field, level.fixed);
   ExpansionGround ground(field, level);
   const std::vector<int> windows = worst_windows(ground);
   Rounds rounds(field, level.window, near + half);
   for (const int i : windows) rounds.add(i, {&i, 1});
-  tbb::enumerable_thread_specific<Fitter> fitters([&] { return Fitter(ground, seed); });
+  tbb::enumerable_thread_specific<Fitter> fitters([&] { return Fitter(ground, occupancy, seed); });
   for (const std::vector<int>& round : rounds.all())
     tbb::parallel_for(0, int(round.size()), [&](int i) {
       task.check();

@@ -63,8 +63,8 @@ Effort effort_at(int level, Quality quality, bool between_kept) {
     return {16, level >= 3 ? 24 : 8, &full_window()};
   }
   if (level == 0) return {2, 0, &sparse_window()};
-  if (level == 1) return {3, 0, &full_window()};
-  return {10, level >= 3 ? 24 : 8, &full_window()};
+  if (level == 1) return {2, 0, &full_window()};
+  return {7, level >= 3 ? 24 : 8, &full_window()};
 }
 
 constexpr int alignment_reach = 2;
@@ -73,9 +73,9 @@ constexpr int seam_reach = 8;
 constexpr int passes_after_seams = 2;
 // Levels that are worked out for the plane as a whole; at coarser ones it brings nothing.
 constexpr int finest_mended = 2, finest_mended_on_lattice = 1, coarsest_mended = 3;
-constexpr int passes_after_mending[] = {2, 5, 8};
+constexpr int passes_after_mending[] = {2, 5};
 // Of the exemplar. With a lattice less is out of phase, so pieces grow more readily.
-constexpr double large_piece = 0.1, large_piece_on_lattice = 0.04;
+constexpr double large_piece = 0.12, large_piece_on_lattice = 0.05;
 constexpr double fragment = 0.1;  // of a large piece
 constexpr double most_coherence = 1.5;
 constexpr int finest_limited = 2;
@@ -189,7 +189,7 @@ class LevelWork {
       if (moves_seams() && pass == effort.passes - passes_after_seams)
         move_seams(field, level, seam_reach, shared_.task);
       if (mends(effort.passes - pass))
-        mend_seams(field, level, random_bits(shared_.options.seed, Purpose::mending), shared_.task);
+        mend_seams(field, level, occupancy_, random_bits(shared_.options.seed, Purpose::mending), shared_.task);
       how.piece_coherence = piece_coherence(field, level, shared_.options.coherence, regular());
       terrazzo::correct(field, level, how, occupancy_, shared_.task);
       shared_.task.progress(std::pow(0.25, level_ - shared_.finest) * (pass + 1) / effort.passes);

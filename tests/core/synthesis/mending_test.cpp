@@ -1,0 +1,145 @@
+#include "core/synthesis/mending.h"
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include "core/hash.h"
+#include "core/synthesis/expansion.h"
+
+using namespace terrazzo;
+
+namespace {
+
+constexpr Size exemplar_size{64, 64};
+constexpr Size field_size{44, 40};
+
+PaddedLevel noise(const std::vector<uint8_t>& usable = {}) {
+  AppearanceLevel level;
+  level.size = exemplar_size;
+  level.usable = usable;
+  for (int y = 0; y < exemplar_size.height; y++)
+    for (int x = 0; x < exemplar_size.width; x++) {
+      AppearanceVector v{};
+      for (int d = 0; d < appearance_dimensions; d++)
+        v[d] = int16_t(below(uint32_t(random_bits(7, x, y, d)), 2000)) - 1000;
+      level.vectors.push_back(v);
+    }
+  return {level, false};
+}
+
+Field one_piece() {
+  Field field{field_size, {}};
+  for (int y = 0; y < field_size.height; y++)
+    for (int x = 0; x < field_size.width; x++) field.pixels.push_back({uint16_t(9 + x), uint16_t(11 + y)});
+  return field;
+}
+
+constexpr Rect wrong{18, 16, 5, 4};
+
+/// One piece, but for a few pixels that show another place.
+Field with_wrong_place() {
+  Field field = one_piece();
+  for (int y = wrong.y; y < wrong.bottom(); y++)
+    for (int x = wrong.x; x < wrong.right(); x++)
+      field.at(x, y) = {uint16_t(4 + x - wrong.x), uint16_t(5 + y - wrong.y)};
+  return field;
+}
+
+/// Blocks from anywhere.
+Field rubble(int side) {
+  Field field{field_size, std::vector<ExemplarPixel>(size_t(field_size.area()))};
+  for (int y = 0; y < field_size.height; y++)
+    for (int x = 0; x < field_size.width; x++) {
+      const uint64_t r = random_bits(3, x / side, y / side);
+      field.at(x, y) = {uint16_t(2 + below(uint32_t(r), 60 - side) + x % side),
+                        uint16_t(2 + below(uint32_t(r >> 32), 60 - side) + y % side)};
+    }
+  return field;
+}
+
+CorrectionLevel level_of(const PaddedLevel& exemplar, const std::vector<ExemplarPixel>& none, bool closed = false,
+                         FixedPixels fixed = {}) {
+  return {.exemplar = exemplar,
+          .similar = none,
+          .window = PlaneWindow::all_of({field_size, closed, closed}),
+          .phase = {},
+          .fixed = std::move(fixed)};
+}
+
+void mend(Field& field, const CorrectionLevel& level) {
+  Occupancy evenness(exemplar_size, 0);
+  mend_seams(field, level, evenness, 1, Task());
+}
+
+int64_t mismatch(Field field, const CorrectionLevel& level) {
+  const ExpansionGround ground(field, level);
+  int64_t sum = 0;
+  for (int i = 0; i < int(field.pixels.size()); i++)
+    for (int side = 0; side < 2; side++) {
+      const int64_t n = pixel_beside(field.size, i, side, level.window.closed_x, level.window.closed_y);
+      if (n >= 0) sum += ground.mismatch(field.pixels[i], field.pixels[size_t(n)], side);
+    }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("what does not belong there is covered by what goes on around it") {
+  const std::vector<ExemplarPixel> none;
+  const PaddedLevel exemplar = noise();
+  Field field = with_wrong_place();
+  mend(field, level_of(exemplar, none));
+  CHECK(field.pixels == one_piece().pixels);
+}
+
+TEST_CASE("a result without seams stays as it is") {
+  const std::vector<ExemplarPixel> none;
+  const PaddedLevel exemplar = noise();
+  Field field = one_piece();
+  mend(field, level_of(exemplar, none));
+  CHECK(field.pixels == one_piece().pixels);
+}
+
+TEST_CASE("fixed pixels stay, whatever they show") {
+  const std::vector<ExemplarPixel> none;
+  const PaddedLevel exemplar = noise();
+  Field field = with_wrong_place();
+  KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 0)};
+  for (int y = wrong.y; y < wrong.bottom(); y++)
+    for (int x = wrong.x; x < wrong.right(); x++) kept.keep[size_t(y) * field_size.width + x] = 1;
+  mend(field, level_of(exemplar, none, false, FixedPixels(kept, field_size, 0, exemplar_size)));
+  CHECK(field.pixels == with_wrong_place().pixels);
+}
+
+TEST_CASE("what a mask forbids is not shown") {
+  const std::vector<ExemplarPixel> none;
+  std::vector<uint8_t> usable(size_t(exemplar_size.area()), 1);
+  // Where the piece goes on below the wrong place.
+  const int u = 9 + wrong.x + 2, v = 11 + wrong.y + 1;
+  usable[size_t(v) * exemplar_size.width + u] = 0;
+  const PaddedLevel exemplar = noise(usable);
+  Field field = with_wrong_place();
+  mend(field, level_of(exemplar, none));
+  bool shown = false;
+  for (const ExemplarPixel& p : field.pixels) shown |= p.x == u && p.y == v;
+  CHECK_FALSE(shown);
+}
+
+TEST_CASE("mending lowers the mismatch and gives the same pixels on one thread as on many") {
+  const std::vector<ExemplarPixel> none;
+  const PaddedLevel exemplar = noise();
+  for (const bool closed : {false, true})
+    for (const int side : {5, 9}) {
+      CAPTURE(closed);
+      CAPTURE(side);
+      const CorrectionLevel level = level_of(exemplar, none, closed);
+      Field many = rubble(side), one = rubble(side);
+      mend(many, level);
+      {
+        const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+        mend(one, level);
+      }
+      CHECK(many.pixels == one.pixels);
+      CHECK(mismatch(many, level) < mismatch(rubble(side), level));
+    }
+}
