@@ -64,7 +64,7 @@ Effort effort_at(int level, Quality quality, bool between_kept) {
   }
   if (level == 0) return {2, 0, &sparse_window()};
   if (level == 1) return {2, 0, &full_window()};
-  return {7, level >= 3 ? 24 : 8, &full_window()};
+  return {between_kept ? 10 : 7, level >= 3 ? 24 : 8, &full_window()};
 }
 
 constexpr int alignment_reach = 2;
