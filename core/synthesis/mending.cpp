@@ -18,6 +18,8 @@ constexpr int half = 6;   // of a window, without its middle
 constexpr int core = 4;   // the same without the rim
 constexpr int near = 20;  // what shows so near the middle already is not shown again
 constexpr int random_places = 16;
+// From this level on there are so many pixels that only what shows most is worth the time.
+constexpr int many_pixels = 1;
 
 struct Offset {
   int x;
@@ -183,8 +185,8 @@ std::vector<int64_t> core_sums(const std::vector<int64_t>& values, Size size, co
   return out;
 }
 
-/// The middles of windows whose seams show more than they do on average, the worst first. No window's middle lies in
-/// another's core.
+/// The middles of windows whose seams show more, or much more, than they do on average, the worst first. No window's
+/// middle lies in another's core.
 std::vector<int> worst_windows(const ExpansionGround& ground) {
   const Size size = ground.field.size;
   const std::vector<int64_t> values = mismatches(ground);
@@ -192,9 +194,10 @@ std::vector<int> worst_windows(const ExpansionGround& ground) {
   for (const int64_t v : values) total += v;
   const std::vector<int64_t> sums = core_sums(values, size, ground.level.window);
   const int64_t average = total * (2 * core + 1) * (2 * core + 1) / size.area();
+  const int64_t least = average * (ground.level.level <= many_pixels ? 3 : 1);
   std::vector<int> order;
   for (size_t i = 0; i < sums.size(); i++)
-    if (sums[i] > average) order.push_back(int(i));
+    if (sums[i] > least) order.push_back(int(i));
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return sums[a] > sums[b]; });
   std::vector<uint8_t> taken(sums.size(), 0);
   std::vector<int> out;

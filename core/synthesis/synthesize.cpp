@@ -75,7 +75,7 @@ constexpr int passes_after_seams = 2;
 constexpr int finest_mended = 2, finest_mended_on_lattice = 1, coarsest_mended = 3;
 constexpr int passes_after_mending[] = {2, 5};
 // Of the exemplar. With a lattice less is out of phase, so pieces grow more readily.
-constexpr double large_piece = 0.12, large_piece_on_lattice = 0.05;
+constexpr double large_piece = 0.12, large_piece_on_lattice = 0.06;
 constexpr double fragment = 0.1;  // of a large piece
 constexpr double most_coherence = 1.5;
 constexpr int finest_limited = 2;

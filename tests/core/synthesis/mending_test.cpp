@@ -61,6 +61,7 @@ CorrectionLevel level_of(const PaddedLevel& exemplar, const std::vector<Exemplar
                          FixedPixels fixed = {}) {
   return {.exemplar = exemplar,
           .similar = none,
+          .level = 2,
           .window = PlaneWindow::all_of({field_size, closed, closed}),
           .phase = {},
           .fixed = std::move(fixed)};
