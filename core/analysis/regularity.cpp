@@ -67,6 +67,8 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
   ExemplarPlanes planes = weighted_planes(features, task);
   double scale = 1;
   while (std::max(planes.size.width, planes.size.height) > most_side) {
+    // Of a narrow strip nothing would be left to see.
+    if (std::min(planes.size.width, planes.size.height) < 2 * smallest_side) return {};
     planes = halved(planes);
     scale *= 2;
   }
@@ -76,7 +78,7 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
   Lattice best = found.lattice;
   if (best.certainty < least_certainty || !best.is_valid()) best = {0, {}, {}, best.certainty};
   const Lattice lines = planes.wraps ? lattice_of_lines(edges, best) : Lattice{};
-  if (lines.rank > 0)
+  if (lines.rank > 0 && lines.certainty >= least_certainty)
     best = lines;
   else if (best.rank > 0)
     best.certainty = std::max(best.certainty, found.alike);

@@ -151,16 +151,16 @@ class Fitter {
 };
 
 /// The mismatch of every pixel with its right and its lower neighbour.
-std::vector<int64_t> mismatches(const ExpansionGround& ground) {
+std::vector<int32_t> mismatches(const ExpansionGround& ground) {
   const Size size = ground.field.size;
   const PlaneWindow& window = ground.level.window;
-  std::vector<int64_t> out(ground.field.pixels.size(), 0);
+  std::vector<int32_t> out(ground.field.pixels.size(), 0);
   tbb::parallel_for(0, size.height, [&](int y) {
     for (int x = 0; x < size.width; x++) {
       const int i = y * size.width + x;
       for (int side = 0; side < 2; side++) {
         const int64_t n = pixel_beside(size, i, side, window.closed_x, window.closed_y);
-        if (n >= 0) out[i] += ground.mismatch(ground.field.pixels[i], ground.field.pixels[size_t(n)], side);
+        if (n >= 0) out[i] += int32_t(ground.mismatch(ground.field.pixels[i], ground.field.pixels[size_t(n)], side));
       }
     }
   });
@@ -168,9 +168,9 @@ std::vector<int64_t> mismatches(const ExpansionGround& ground) {
 }
 
 /// The sums of the values of every pixel's core; 0 where the window does not lie in the field.
-std::vector<int64_t> core_sums(const std::vector<int64_t>& values, Size size, const PlaneWindow& window) {
+std::vector<int32_t> core_sums(const std::vector<int32_t>& values, Size size, const PlaneWindow& window) {
   const bool closed_x = window.closed_x && size.width > 2 * near, closed_y = window.closed_y && size.height > 2 * near;
-  std::vector<int64_t> across(values.size(), 0), out(values.size(), 0);
+  std::vector<int32_t> across(values.size(), 0), out(values.size(), 0);
   tbb::parallel_for(0, size.height, [&](int y) {
     for (int x = 0; x < size.width; x++)
       if (closed_x || (x >= half && x < size.width - half))
@@ -189,10 +189,10 @@ std::vector<int64_t> core_sums(const std::vector<int64_t>& values, Size size, co
 /// middle lies in another's core.
 std::vector<int> worst_windows(const ExpansionGround& ground) {
   const Size size = ground.field.size;
-  const std::vector<int64_t> values = mismatches(ground);
+  const std::vector<int32_t> values = mismatches(ground);
   int64_t total = 0;
-  for (const int64_t v : values) total += v;
-  const std::vector<int64_t> sums = core_sums(values, size, ground.level.window);
+  for (const int32_t v : values) total += v;
+  const std::vector<int32_t> sums = core_sums(values, size, ground.level.window);
   const int64_t average = total * (2 * core + 1) * (2 * core + 1) / size.area();
   const int64_t least = average * (ground.level.level <= many_pixels ? 3 : 1);
   std::vector<int> order;
@@ -217,7 +217,7 @@ void mend_seams(Field& field, const CorrectionLevel& level, Occupancy& occupancy
   occupancy.recount(field, level.fixed);
   ExpansionGround ground(field, level);
   const std::vector<int> windows = worst_windows(ground);
-  Rounds rounds(field, level.window, near + half);
+  Rounds rounds(field, level.window, (near + half) / 3 + 1);
   for (const int i : windows) rounds.add(i, {&i, 1});
   tbb::enumerable_thread_specific<Fitter> fitters([&] { return Fitter(ground, occupancy, seed); });
   for (const std::vector<int>& round : rounds.all())

@@ -13,7 +13,7 @@ namespace terrazzo {
 /// it does not matter which comes first, and all that come earlier and lie near are in earlier rounds.
 class Rounds {
  public:
-  /// Jobs whose pixels lie no farther than `reach` apart are near each other.
+  /// The pixels of two jobs of one round lie more than three times `reach` apart.
   Rounds(const Field& field, const PlaneWindow& window, int reach)
       : size_(field.size),
         window_(window),
@@ -31,8 +31,8 @@ class Rounds {
   const std::vector<std::vector<int>>& all() const { return rounds_; }
 
  private:
-  /// Calls `visit` for the cells of the pixels and those beside them. Where the field wraps around, its last cells may
-  /// be narrower than a reach: one more counts as beside.
+  /// Calls `visit` for the cells of the pixels and two more on each side. As jobs both look and mark there, four cells
+  /// lie between those of a round, or three and a narrow one where the field wraps around.
   template <typename Visit>
   void for_each_near(std::span<const int> pixels, const Visit& visit) const {
     int previous = -1;

@@ -204,3 +204,14 @@ TEST_CASE("joints that cross without a second tile to measure are told of, stone
   CHECK(none.lattice.rank == 0);
   CHECK(!none.too_few);
 }
+
+TEST_CASE("long narrow strips hold no lattice that could be seen") {
+  for (const Size strip : {Size{16, 2048}, Size{2048, 16}, Size{1024, 20}})
+    for (const bool wraps : {false, true}) {
+      CAPTURE(strip.width);
+      CAPTURE(wraps);
+      const FeaturesPtr noise = plain_features(
+          make_image(strip, 1, [](int i, int j, int) { return float(unit_double(random_bits(6, i, j))); }), wraps);
+      CHECK(lattice_of(noise).rank == 0);
+    }
+}

@@ -12,6 +12,7 @@ namespace {
 
 constexpr Size exemplar_size{64, 64};
 constexpr Size field_size{44, 40};
+constexpr Size large{170, 150};  // several windows at a time
 
 PaddedLevel noise(const std::vector<uint8_t>& usable = {}) {
   AppearanceLevel level;
@@ -46,10 +47,10 @@ Field with_wrong_place() {
 }
 
 /// Blocks from anywhere.
-Field rubble(int side) {
-  Field field{field_size, std::vector<ExemplarPixel>(size_t(field_size.area()))};
-  for (int y = 0; y < field_size.height; y++)
-    for (int x = 0; x < field_size.width; x++) {
+Field rubble(int side, Size size) {
+  Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
       const uint64_t r = random_bits(3, x / side, y / side);
       field.at(x, y) = {uint16_t(2 + below(uint32_t(r), 60 - side) + x % side),
                         uint16_t(2 + below(uint32_t(r >> 32), 60 - side) + y % side)};
@@ -58,11 +59,11 @@ Field rubble(int side) {
 }
 
 CorrectionLevel level_of(const PaddedLevel& exemplar, const std::vector<ExemplarPixel>& none, bool closed = false,
-                         FixedPixels fixed = {}) {
+                         FixedPixels fixed = {}, Size size = field_size) {
   return {.exemplar = exemplar,
           .similar = none,
           .level = 2,
-          .window = PlaneWindow::all_of({field_size, closed, closed}),
+          .window = PlaneWindow::all_of({size, closed, closed}),
           .phase = {},
           .fixed = std::move(fixed)};
 }
@@ -133,14 +134,14 @@ TEST_CASE("mending lowers the mismatch and gives the same pixels on one thread a
     for (const int side : {5, 9}) {
       CAPTURE(closed);
       CAPTURE(side);
-      const CorrectionLevel level = level_of(exemplar, none, closed);
-      Field many = rubble(side), one = rubble(side);
+      const CorrectionLevel level = level_of(exemplar, none, closed, {}, large);
+      Field many = rubble(side, large), one = rubble(side, large);
       mend(many, level);
       {
         const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
         mend(one, level);
       }
       CHECK(many.pixels == one.pixels);
-      CHECK(mismatch(many, level) < mismatch(rubble(side), level));
+      CHECK(mismatch(many, level) < mismatch(rubble(side, large), level));
     }
 }
