@@ -41,8 +41,7 @@ void compute(NodeContext& node) {
   if (too_few)
     node.warn(
         "straight joints cross, but the exemplar shows too few tiles, or too unlike ones, to tell how they repeat, so "
-        "that "
-        "results may break them; crop it to whole tiles so that its borders fit, take one of more tiles, or give "
+        "that results may break them; crop it to whole tiles so that its borders fit, take one of more tiles, or give "
         "\"first\" and \"second\" with \"mode\": \"manual\"");
   node.output("features", features->with(lattice));
 }

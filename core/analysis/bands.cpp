@@ -8,7 +8,6 @@ namespace terrazzo {
 
 namespace {
 
-constexpr double shortest = 4;  // pixels; anything finer is grain
 constexpr int most_repeats = 24;
 constexpr double least_of_one = 0.25;  // certainty from which lines that come again only once count
 constexpr double often = 5, often_counts = 0.5;
@@ -86,9 +85,9 @@ Bands bands_of(const Correlation& r, bool courses) {
   };
   if (r.wraps()) {
     const int length = courses ? r.exemplar().height : r.exemplar().width;
-    for (int n = int(length / shortest); n >= 2; n--) consider(double(length) / n);
+    for (int n = int(length / shortest_repeat); n >= 2; n--) consider(double(length) / n);
   } else {
-    for (double period = shortest; period <= lines.size() / 1.3; period += 0.1) consider(period);
+    for (double period = shortest_repeat; period <= lines.size() / 1.3; period += 0.1) consider(period);
     for (int step = -20; step <= 20 && best > 0; step++)
       if (const double c = lines.certainty(best + 0.005 * step); c > certainty) {
         certainty = c;

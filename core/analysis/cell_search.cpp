@@ -10,7 +10,6 @@ namespace terrazzo {
 
 namespace {
 
-constexpr double shortest = 4;  // pixels; anything finer is grain
 constexpr double least_peak = 0.02;
 constexpr size_t most_peaks = 44;
 constexpr size_t strongest = 5;      // peaks that may be chance
@@ -60,7 +59,7 @@ std::vector<Vector2> near_peaks(const Correlation& r) {
   std::vector<Peak> peaks;
   for (int y = 0; y < r.lags().height - 3; y++)
     for (int x = y == 0 ? 1 : 4 - r.lags().width; x < r.lags().width - 3; x++) {
-      if (x * x + y * y < shortest * shortest || !r.covers(x, y)) continue;
+      if (x * x + y * y < shortest_repeat * shortest_repeat || !r.covers(x, y)) continue;
       const double v = r.at(x, y);
       bool highest = v > least_peak;
       for (int j = -2; j <= 2 && highest; j++)

@@ -11,6 +11,9 @@
 
 namespace terrazzo {
 
+/// Pixels; what repeats after fewer is grain.
+inline constexpr double shortest_repeat = 4;
+
 /// Correlation over lags, all channels together; symmetric about the origin.
 class Correlation {
  public:

@@ -72,7 +72,6 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
     planes = halved(planes);
     scale *= 2;
   }
-  // What repeats may be the colours or, where those vary from brick to brick, only the joints.
   const ExemplarPlanes edges = outlines(planes);
   const Found found = searched(correlate(planes, task), correlate(edges, task), least_certainty);
   Lattice best = found.lattice;

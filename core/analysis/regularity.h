@@ -8,8 +8,8 @@ namespace terrazzo {
 
 struct FoundLattice {
   Lattice lattice;
-  bool too_few =
-      false;  ///< joints seem to cross, but of what is between them the exemplar does not hold enough to tell
+  /// Joints seem to cross, but of what is between them the exemplar does not hold enough to tell.
+  bool too_few = false;
 };
 
 /// Finds how an exemplar repeats from the autocorrelation of all its weighted channels, or of their outlines where

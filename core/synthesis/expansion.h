@@ -14,7 +14,8 @@ struct ExpansionGround {
 
   ExpansionGround(Field& f, const CorrectionLevel& l) : field(f), level(l), node(f.pixels.size(), untouched) {}
 
-  /// How much shows where a pixel shows a and its neighbour on that side (of field.h) b: a metric, 0 if b continues a.
+  /// How much shows where a pixel shows a and its neighbour on that side (of field.h) b: 0 if b continues
+  /// a, as the exemplar's last pixel is continued by itself.
   int64_t mismatch(ExemplarPixel a, ExemplarPixel b, int side) const;
 
   Field& field;

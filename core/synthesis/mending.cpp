@@ -216,7 +216,9 @@ std::vector<int> worst_windows(const ExpansionGround& ground) {
 void mend_seams(Field& field, const CorrectionLevel& level, Occupancy& occupancy, uint64_t seed, const Task& task) {
   occupancy.recount(field, level.fixed);
   ExpansionGround ground(field, level);
+  task.check();
   const std::vector<int> windows = worst_windows(ground);
+  task.check();
   Rounds rounds(field, level.window, (near + half) / 3 + 1);
   for (const int i : windows) rounds.add(i, {&i, 1});
   tbb::enumerable_thread_specific<Fitter> fitters([&] { return Fitter(ground, occupancy, seed); });

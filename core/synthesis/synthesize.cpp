@@ -44,6 +44,12 @@ Lattice lattice_of(const Appearance& appearance, const SynthesisOptions& options
   return options.kept.empty() || lattice.fits(options.size, options.tile_x, options.tile_y) ? lattice : Lattice{};
 }
 
+/// The finest level that can be worked out for the plane as a whole. Pieces of a regular exemplar are aligned as
+/// wholes, so that every level but the finest needs all of the plane.
+int finest_whole_level(bool regular) {
+  return regular ? 1 : 2;
+}
+
 struct Effort {
   int passes;
   int random_candidates;
@@ -68,11 +74,10 @@ Effort effort_at(int level, Quality quality, bool between_kept) {
 }
 
 constexpr int alignment_reach = 2;
-constexpr int seam_level = 2;  // the finest on which pieces still change
+constexpr int seam_level = 2;  // the finest on which pieces still change as wholes
 constexpr int seam_reach = 8;
 constexpr int passes_after_seams = 2;
-// Levels that are worked out for the plane as a whole; at coarser ones it brings nothing.
-constexpr int finest_mended = 2, finest_mended_on_lattice = 1, coarsest_mended = 3;
+constexpr int coarsest_mended = 3;  // at coarser ones it brings nothing
 constexpr int passes_after_mending[] = {2, 5};
 // Of the exemplar. With a lattice less is out of phase, so pieces grow more readily.
 constexpr double large_piece = 0.12, large_piece_on_lattice = 0.06;
@@ -84,7 +89,7 @@ constexpr int finest_recounted = 2;  // and below this one it goes by what the l
 
 /// The larger a piece has become beyond a fair size, the less it pays to continue it, so that none comes back as a
 /// landmark. Fragments are dear as well: they give way to their neighbours, for there are fewer seams between a few
-/// pieces of a size than among many. Finer levels are left out: there pieces no longer grow.
+/// pieces of a size than among many. Finer levels are left out: there pieces hardly grow.
 std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence,
                                       bool regular) {
   if (level.level < finest_limited || level.fixed.any()) return {};
@@ -203,7 +208,7 @@ class LevelWork {
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
   bool moves_seams() const { return level_ == seam_level && regular() && !control_; }
   bool mends(int passes_left) const {
-    return level_ >= (regular() ? finest_mended_on_lattice : finest_mended) && level_ <= coarsest_mended && !control_ &&
+    return level_ >= finest_whole_level(regular()) && level_ <= coarsest_mended && !control_ &&
            std::ranges::count(passes_after_mending, passes_left) > 0;
   }
   bool regular() const { return shared_.lattice.rank > 0; }
@@ -233,10 +238,9 @@ class LevelWork {
   Occupancy occupancy_;
 };
 
-/// The finest level that is worked out for the plane as a whole. Pieces of a regular exemplar are aligned as a whole,
-/// so that every level but the finest needs all of the plane.
+/// The finest level that is worked out for the plane as a whole.
 int coarse_level(const Shared& s) {
-  return std::min(s.levels - 1, s.lattice.rank > 0 ? 1 : 2);
+  return std::min(s.levels - 1, finest_whole_level(s.lattice.rank > 0));
 }
 
 /// What coarse_uv() gives.
