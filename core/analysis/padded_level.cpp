@@ -8,6 +8,12 @@ namespace {
 
 constexpr int coarse_side = 64;
 
+/// The coordinate that one beyond the border shows.
+int mirrored(int i, int length) {
+  const int last = length - 1;
+  return std::clamp(i < 0 ? -i : i > last ? 2 * last - i : i, 0, last);
+}
+
 }  // namespace
 
 PaddedLevel::PaddedLevel(const AppearanceLevel& level, bool wraps)
@@ -21,9 +27,7 @@ PaddedLevel::PaddedLevel(const AppearanceLevel& level, bool wraps)
   vectors_.reserve(size_t(stride_) * (size_.height + 2 * margin));
   for (int y = -margin; y < size_.height + margin; y++)
     for (int x = -margin; x < size_.width + margin; x++) {
-      const int u = wraps ? wrap(x, size_.width) : std::clamp(x, 0, size_.width - 1);
-      const int v = wraps ? wrap(y, size_.height) : std::clamp(y, 0, size_.height - 1);
-      vectors_.push_back(level.vectors[size_t(v) * size_.width + u]);
+      vectors_.push_back(level.vectors[size_t(mirrored(y, size_.height)) * size_.width + mirrored(x, size_.width)]);
     }
   if (!masked_) return;
   nearest_usable_ = nearest_set(level.usable, size_, wraps);

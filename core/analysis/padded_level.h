@@ -7,8 +7,9 @@
 
 namespace terrazzo {
 
-/// One appearance level with a margin around it, so that windows need no bounds checks: beyond the border the level
-/// wraps around (exemplars that tile) or its border pixels continue.
+/// One appearance level with a margin around it, so that windows need no bounds checks. Beyond the border the level is
+/// mirrored, at its outermost pixels, whether the exemplar tiles or not: what lies across then seldom fits, and neither
+/// does the border pixel itself, so that pieces end where the exemplar does instead of going on or being drawn out.
 class PaddedLevel {
  public:
   static constexpr int margin = 4;

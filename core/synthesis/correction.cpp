@@ -216,7 +216,7 @@ class PixelCorrector {
     // The nearest pixels tell most candidates off, before the dearer terms, which only raise the cost.
     difference += tap_distance(centre, 0);
     if (difference * factor >= best_cost_) return;
-    factor += factor / 2 * repeats(id);
+    factor += factor / 4 * repeats(id);
     if (level_.phase.active()) factor = uint32_t(std::min(most_factor, factor * level_.phase.penalty(x, y, x_, y_)));
     for (int t = taps_at_once; t < count_ && difference * factor < best_cost_; t += taps_at_once)
       difference += tap_distance(centre, t);

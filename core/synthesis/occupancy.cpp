@@ -47,8 +47,9 @@ void Occupancy::count(std::span<const ExemplarPixel> pixels, const FixedPixels& 
   for (size_t i = 0; i < use.size(); i++) {
     const double expected = shares_.empty() ? even : std::max(least_expected, double(free) * shares_[i]);
     const double excess = std::clamp(double(use[i]) / expected - 1.0, -0.6, 4.0);
-    // What is used too little is made cheaper as what is used too much is made dearer, but never next to free.
-    const double factor = std::max(0.5, 1.0 + weight_ * excess);
+    // What is used too little is made cheaper as what is used too much is made dearer, but never by much: to be
+    // everywhere alike is not worth breaking features for.
+    const double factor = std::max(0.75, 1.0 + weight_ * excess);
     factors_[i] = uint32_t(unit_factor * factor);
   }
 }

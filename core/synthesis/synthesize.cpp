@@ -79,10 +79,16 @@ constexpr int seam_reach = 8;
 constexpr int passes_after_seams = 2;
 constexpr int coarsest_mended = 3;  // at coarser ones it brings nothing
 constexpr int passes_after_mending[] = {2, 5};
-// Of the exemplar. With a lattice less is out of phase, so pieces grow more readily.
-constexpr double large_piece = 0.12, large_piece_on_lattice = 0.06;
-constexpr double fragment = 0.1;  // of a large piece
-constexpr double most_coherence = 1.5;
+
+/// What is too large and too small for a piece.
+struct PieceLimits {
+  double large;     ///< of the exemplar
+  double fragment;  ///< of a large piece
+};
+constexpr PieceLimits irregular_pieces{0.15, 0.3};
+// With a lattice less is out of phase, so pieces grow more readily.
+constexpr PieceLimits pieces_on_lattice{0.055, 0.1};
+constexpr double most_coherence = 3;
 constexpr int finest_limited = 2;
 constexpr int finest_even = 1;       // evenness has no say below this level,
 constexpr int finest_recounted = 2;  // and below this one it goes by what the level began with
@@ -94,11 +100,12 @@ std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel&
                                       bool regular) {
   if (level.level < finest_limited || level.fixed.any()) return {};
   const Pieces pieces(field);
-  const double fair = (regular ? large_piece_on_lattice : large_piece) * double(level.exemplar.size().area());
+  const PieceLimits& limits = regular ? pieces_on_lattice : irregular_pieces;
+  const double fair = limits.large * double(level.exemplar.size().area());
   std::vector<uint32_t> factors(field.pixels.size());
   for (size_t i = 0; i < factors.size(); i++) {
     const double size = pieces.area(pieces.of(int(i))) / fair;
-    const double dearness = size < fragment ? 2 - size / fragment : std::max(1.0, size);
+    const double dearness = size < limits.fragment ? 2 - size / limits.fragment : std::max(1.0, size);
     factors[i] = uint32_t(std::min(most_coherence, coherence * dearness) * unit_factor);
   }
   return factors;
