@@ -89,6 +89,8 @@ constexpr PieceLimits irregular_pieces{0.15, 0.3};
 // With a lattice less is out of phase, so pieces grow more readily.
 constexpr PieceLimits pieces_on_lattice{0.055, 0.1};
 constexpr double most_coherence = 3;
+// Where pieces hardly change any more, ragged seams only cost time.
+constexpr double coherence_where_fine = 0.75;
 constexpr int finest_limited = 2;
 constexpr int finest_even = 1;       // evenness has no say below this level,
 constexpr int finest_recounted = 2;  // and below this one it goes by what the level began with
@@ -193,7 +195,7 @@ class LevelWork {
     const Effort effort = effort_at(level_, shared_.options.quality, fixed_.any());
     for (int pass = 0; pass < effort.passes; pass++) {
       CorrectionPass how{.window = effort.window,
-                         .coherence = uint32_t(std::floor(shared_.options.coherence * unit_factor)),
+                         .coherence = uint32_t(std::floor(coherence() * unit_factor)),
                          .random_candidates = effort.random_candidates,
                          .seed = random_bits(shared_.options.seed, Purpose::correction),
                          .pass = pass,
@@ -212,6 +214,7 @@ class LevelWork {
   int reach() const { return reach_of(effort_at(level_, shared_.options.quality, fixed_.any()).passes); }
 
  private:
+  double coherence() const { return shared_.options.coherence * (level_ < finest_limited ? coherence_where_fine : 1); }
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
   bool moves_seams() const { return level_ == seam_level && regular() && !control_; }
   bool mends(int passes_left) const {
