@@ -36,7 +36,7 @@ const std::vector<Param>& shared_params() {
        .choices = {quality_names.begin(), quality_names.end()}},
       {.name = "coherence",
        .type = ParamType::number,
-       .fallback = 0.9,
+       .fallback = 0.7,
        .help = "Factor on the cost of continuing a neighbouring piece of the exemplar. Smaller values copy larger "
                "pieces: more faithful, less varied.",
        .min = 0.05,

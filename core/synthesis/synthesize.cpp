@@ -85,7 +85,7 @@ struct PieceLimits {
   double large;     ///< of the exemplar
   double fragment;  ///< of a large piece
 };
-constexpr PieceLimits irregular_pieces{0.15, 0.3};
+constexpr PieceLimits irregular_pieces{0.12, 0.3};
 // With a lattice less is out of phase, so pieces grow more readily.
 constexpr PieceLimits pieces_on_lattice{0.055, 0.1};
 constexpr double most_coherence = 3;

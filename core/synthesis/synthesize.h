@@ -23,7 +23,7 @@ struct SynthesisOptions {
   bool tile_y = false;
   Quality quality = Quality::normal;
   /// Factor on the cost of continuing a neighbour's piece of exemplar; smaller: larger pieces.
-  double coherence = 0.9;
+  double coherence = 0.7;
   /// Weight of the occupancy term; 0: parts of the exemplar may be over-used.
   double evenness = 0.7;
   /// Per level, coarsest first, in that level's exemplar pixels; missing levels have none.
