@@ -89,8 +89,8 @@ constexpr PieceLimits irregular_pieces{0.12, 0.3};
 // With a lattice less is out of phase, so pieces grow more readily.
 constexpr PieceLimits pieces_on_lattice{0.055, 0.1};
 constexpr double most_coherence = 3;
-// Where pieces hardly change any more, ragged seams only cost time.
-constexpr double coherence_where_fine = 0.75;
+// Where nothing is said about whole pieces (finer levels, between kept pixels) single pixels hold together more.
+constexpr double coherence_without_limits = 0.75;
 constexpr int finest_limited = 2;
 constexpr int finest_even = 1;       // evenness has no say below this level,
 constexpr int finest_recounted = 2;  // and below this one it goes by what the level began with
@@ -214,7 +214,10 @@ class LevelWork {
   int reach() const { return reach_of(effort_at(level_, shared_.options.quality, fixed_.any()).passes); }
 
  private:
-  double coherence() const { return shared_.options.coherence * (level_ < finest_limited ? coherence_where_fine : 1); }
+  double coherence() const {
+    const bool limits_pieces = level_ >= finest_limited && !fixed_.any();
+    return shared_.options.coherence * (limits_pieces ? 1 : coherence_without_limits);
+  }
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
   bool moves_seams() const { return level_ == seam_level && regular() && !control_; }
   bool mends(int passes_left) const {
