@@ -100,7 +100,6 @@ constexpr int finest_recounted = 2;  // and below this one it goes by what the l
 /// pieces of a size than among many. Finer levels are left out: there pieces hardly grow.
 std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence,
                                       bool regular) {
-  if (level.level < finest_limited || level.fixed.any()) return {};
   const Pieces pieces(field);
   const PieceLimits& limits = regular ? pieces_on_lattice : irregular_pieces;
   const double fair = limits.large * double(level.exemplar.size().area());
@@ -204,7 +203,7 @@ class LevelWork {
         move_seams(field, level, seam_reach, shared_.task);
       if (mends(effort.passes - pass))
         mend_seams(field, level, occupancy_, random_bits(shared_.options.seed, Purpose::mending), shared_.task);
-      how.piece_coherence = piece_coherence(field, level, shared_.options.coherence, regular());
+      if (limits_pieces()) how.piece_coherence = piece_coherence(field, level, shared_.options.coherence, regular());
       terrazzo::correct(field, level, how, occupancy_, shared_.task);
       shared_.task.progress(std::pow(0.25, level_ - shared_.finest) * (pass + 1) / effort.passes);
     }
@@ -214,10 +213,8 @@ class LevelWork {
   int reach() const { return reach_of(effort_at(level_, shared_.options.quality, fixed_.any()).passes); }
 
  private:
-  double coherence() const {
-    const bool limits_pieces = level_ >= finest_limited && !fixed_.any();
-    return shared_.options.coherence * (limits_pieces ? 1 : coherence_without_limits);
-  }
+  bool limits_pieces() const { return level_ >= finest_limited && !fixed_.any(); }
+  double coherence() const { return shared_.options.coherence * (limits_pieces() ? 1 : coherence_without_limits); }
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
   bool moves_seams() const { return level_ == seam_level && regular() && !control_; }
   bool mends(int passes_left) const {
