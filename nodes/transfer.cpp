@@ -41,7 +41,7 @@ void compute(NodeContext& node) {
 NodeType transfer_node() {
   NodeType t;
   t.name = "transfer";
-  t.version = 5;
+  t.version = 6;
   t.category = "synthesis";
   t.summary = "Synthesis steered by a target image";
   t.help =

@@ -30,9 +30,10 @@ const Window& sparse_window();
 /// more: above 1 where use exceeds an even share, below 1 where it falls short of it.
 class Occupancy {
  public:
-  /// `weight`: how much a doubled use adds to the cost; 0 turns the term off. `demand`: how often each exemplar pixel
-  /// is wanted, relative to the others; empty: all alike.
-  Occupancy(Size exemplar, double weight, const std::vector<double>& demand = {});
+  /// `weight`: how much a doubled use adds to the cost; 0 turns the term off. `least_factor`: what the cost of
+  /// a cell that is used too little falls to at most. `demand`: how often each exemplar pixel is wanted, relative to the
+  /// others; empty: all alike.
+  Occupancy(Size exemplar, double weight, double least_factor, const std::vector<double>& demand = {});
   /// Fixed pixels do not count.
   void recount(const Field& field, const FixedPixels& fixed);
   /// The same once and for all: recount() does nothing from now on.
@@ -44,6 +45,7 @@ class Occupancy {
   void count(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed);
 
   double weight_;
+  double least_factor_;
   bool settled_ = false;
   int cell_;
   int columns_;

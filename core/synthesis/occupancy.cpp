@@ -7,8 +7,9 @@ namespace terrazzo {
 // Pixels of a cell that hardly ever should be used: keeps the excess finite.
 constexpr double least_expected = 1e-6;
 
-Occupancy::Occupancy(Size exemplar, double weight, const std::vector<double>& demand)
+Occupancy::Occupancy(Size exemplar, double weight, double least_factor, const std::vector<double>& demand)
     : weight_(weight),
+      least_factor_(least_factor),
       cell_(std::max(2, std::max(exemplar.width, exemplar.height) / 16)),
       columns_((exemplar.width + cell_ - 1) / cell_),
       rows_((exemplar.height + cell_ - 1) / cell_),
@@ -46,10 +47,10 @@ void Occupancy::count(std::span<const ExemplarPixel> pixels, const FixedPixels& 
   const double even = std::max(least_expected, double(free) / double(factors_.size()));
   for (size_t i = 0; i < use.size(); i++) {
     const double expected = shares_.empty() ? even : std::max(least_expected, double(free) * shares_[i]);
-    const double excess = std::clamp(double(use[i]) / expected - 1.0, -0.6, 4.0);
-    // What is used too little is made cheaper as what is used too much is made dearer, but never by much: to be
+    const double excess = std::min(4.0, double(use[i]) / expected - 1.0);
+    // What is used too little is made cheaper as what is used too much is made dearer, but only so far: to be
     // everywhere alike is not worth breaking features for.
-    const double factor = std::max(0.75, 1.0 + weight_ * excess);
+    const double factor = std::max(least_factor_, 1.0 + weight_ * excess);
     factors_[i] = uint32_t(unit_factor * factor);
   }
 }

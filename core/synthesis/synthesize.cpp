@@ -92,6 +92,12 @@ constexpr double most_coherence = 3;
 // Where nothing is said about whole pieces (finer levels, between kept pixels) single pixels hold together more.
 constexpr double coherence_without_limits = 0.75;
 constexpr int finest_limited = 2;
+// Rare features are won or lost at the coarsest levels. There pieces hold together more, and what is used too little
+// is made much cheaper; finer levels would break features for it.
+constexpr int landmark_levels = 2;
+constexpr double landmark_coherence = 0.7;
+constexpr double least_landmark_factor = 0.5;
+constexpr double least_occupancy_factor = 0.75;
 constexpr int finest_even = 1;       // evenness has no say below this level,
 constexpr int finest_recounted = 2;  // and below this one it goes by what the level began with
 
@@ -129,6 +135,7 @@ struct Shared {
     const size_t order = size_t(levels - 1 - level);
     return order < options.jitter.size() ? options.jitter[order] : 0;
   }
+  bool places_landmarks(int level) const { return levels - 1 - level < landmark_levels; }
   FixedPixels fixed(int level) const { return {options.kept, options.size, level, exemplar(level).size}; }
 
   const Index& index;
@@ -152,6 +159,7 @@ class LevelWork {
         fixed_(shared.fixed(level)),
         control_(shared.controls.empty() ? nullptr : std::make_unique<LevelControl>(shared.controls, level, exemplar_)),
         occupancy_(shared.exemplar(level).size, level >= finest_even ? shared.options.evenness : 0,
+                   shared.places_landmarks(level) ? least_landmark_factor : least_occupancy_factor,
                    demand_of(shared.exemplar(level), control_.get())) {}
 
   /// What the coarsest level begins with.
@@ -203,7 +211,7 @@ class LevelWork {
         move_seams(field, level, seam_reach, shared_.task);
       if (mends(effort.passes - pass))
         mend_seams(field, level, occupancy_, random_bits(shared_.options.seed, Purpose::mending), shared_.task);
-      if (limits_pieces()) how.piece_coherence = piece_coherence(field, level, shared_.options.coherence, regular());
+      if (limits_pieces()) how.piece_coherence = piece_coherence(field, level, coherence(), regular());
       terrazzo::correct(field, level, how, occupancy_, shared_.task);
       shared_.task.progress(std::pow(0.25, level_ - shared_.finest) * (pass + 1) / effort.passes);
     }
@@ -214,7 +222,11 @@ class LevelWork {
 
  private:
   bool limits_pieces() const { return level_ >= finest_limited && !fixed_.any(); }
-  double coherence() const { return shared_.options.coherence * (limits_pieces() ? 1 : coherence_without_limits); }
+  double coherence() const {
+    const double full = shared_.options.coherence;
+    if (!limits_pieces()) return full * coherence_without_limits;
+    return shared_.places_landmarks(level_) ? full * landmark_coherence : full;
+  }
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
   bool moves_seams() const { return level_ == seam_level && regular() && !control_; }
   bool mends(int passes_left) const {

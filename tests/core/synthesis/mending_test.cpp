@@ -69,7 +69,7 @@ CorrectionLevel level_of(const PaddedLevel& exemplar, const std::vector<Exemplar
 }
 
 void mend(Field& field, const CorrectionLevel& level) {
-  Occupancy evenness(exemplar_size, 0);
+  Occupancy evenness(exemplar_size, 0, 1);
   mend_seams(field, level, evenness, 1, Task());
 }
 

@@ -1,5 +1,7 @@
 #include "core/synthesis/synthesize.h"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -72,6 +74,36 @@ TEST_CASE("evenness spreads the use of the exemplar") {
     return used.size();
   };
   CHECK(used_pixels(2) > used_pixels(0));
+}
+
+TEST_CASE("rare features come about as often as in the exemplar") {
+  const Size size{128, 128};
+  const auto is_crack = [](int x, int y) {
+    return std::abs(y - 64 - 20 * std::sin(x / 20.0)) < 2.5 - std::abs(x - 64) / 25.0;
+  };
+  const ImagePtr image = make_image(
+      size, 1,
+      [&](int x, int y, int) {
+        const double blotch = unit_double(random_bits(3, x / 5, y / 5)), speckle = unit_double(random_bits(4, x, y));
+        return float(is_crack(x, y) ? 0.05 : 0.5 + 0.3 * blotch + 0.15 * speckle);
+      },
+      Semantic::height, "raw");
+  const IndexPtr exemplar = make_index(make_appearance(*plain_features(image), {}, {}, Task()), 3, Task());
+  const auto share = [&](const auto& pixels, auto&& at) {
+    return double(std::ranges::count_if(pixels, at)) / double(pixels.size());
+  };
+  double wanted = 0, shown = 0;
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) wanted += is_crack(x, y) / double(size.area());
+  constexpr int seeds = 4;
+  for (uint64_t seed = 1; seed <= seeds; seed++) {
+    const UvMapPtr uv = synthesize(*exemplar, {.size = {256, 256}, .seed = seed}, Task());
+    const double one = share(uv->pixels(), [&](const ExemplarPixel& p) { return is_crack(p.x, p.y); });
+    CHECK(one > 0.6 * wanted);
+    shown += one / seeds;
+  }
+  CHECK(shown > 0.75 * wanted);
+  CHECK(shown < 1.35 * wanted);
 }
 
 TEST_CASE("less coherence makes smaller pieces") {
