@@ -21,17 +21,25 @@ constexpr int64_t worthwhile = 61;
 class PieceAligner {
  public:
   PieceAligner(Field& field, int block, const CorrectionLevel& level, int reach, const Task& task)
-      : field_(field), block_(block), level_(level), reach_(reach), task_(task), pieces_(field, block) {
+      : field_(field),
+        block_(block),
+        level_(level),
+        reach_(reach),
+        task_(task),
+        pieces_(field, block),
+        moved_(size_t(pieces_.count()), -1) {
     find_borders();
     find_rounds();
   }
 
   void align() {
     for (int sweep = 0; sweep < sweeps; sweep++)
-      for (size_t round = 0; round + 1 < round_begin_.size(); round++)
+      for (int round = 0; round < rounds(); round++)
         tbb::parallel_for(round_begin_[round], round_begin_[round + 1], [&](int i) {
           task_.check();
-          move(movable_[i]);
+          const int piece = movable_[i], turn = sweep * rounds() + round;
+          if (sweep > 0 && !changed_since(piece, turn - rounds())) return;
+          if (move(piece)) moved_[size_t(piece)] = turn;
         });
   }
 
@@ -111,6 +119,16 @@ class PieceAligner {
     for (const int piece : order) movable_[next[turn[piece] - 1]++] = piece;
   }
 
+  int rounds() const { return int(round_begin_.size()) - 1; }
+
+  /// Whether a piece or one beside it has moved in a turn or after it. If not, to move the piece again changes nothing.
+  bool changed_since(int piece, int turn) const {
+    if (moved_[size_t(piece)] >= turn) return true;
+    return std::ranges::any_of(borders(piece), [&](uint32_t b) {
+      return moved_[size_t(pieces_.of(int(beyond(int(b >> 2), int(b & 3)))))] >= turn;
+    });
+  }
+
   /// The k-th pixel along one of the sides of the block that begins with p.
   ExemplarPixel on_side(ExemplarPixel p, int dx, int dy, int k) const {
     const int far = block_ - 1;
@@ -174,7 +192,8 @@ class PieceAligner {
                                                     i / field_.size.width * block_));
   }
 
-  void move(int piece) {
+  /// Whether the piece has moved.
+  bool move(int piece) {
     const Seams seams = seams_of(piece);
     const int64_t stay = cost(piece, seams, 0, 0, std::numeric_limits<int64_t>::max()) * worthwhile / 64;
     const int across = 2 * reach_ + 1, moves = across * across;
@@ -198,13 +217,14 @@ class PieceAligner {
       best_x = dx;
       best_y = dy;
     }
-    if (best_x == 0 && best_y == 0) return;
+    if (best_x == 0 && best_y == 0) return false;
     for (const int i : pieces_.members(piece)) {
       ExemplarPixel& p = field_.pixels[i];
       int u = p.x + best_x, v = p.y + best_y;
       level_.exemplar.settle_inside(u, v);
       p = {uint16_t(u), uint16_t(v)};
     }
+    return true;
   }
 
   Field& field_;
@@ -217,6 +237,7 @@ class PieceAligner {
   std::vector<uint32_t> borders_;       // pixel * 4 + side, piece by piece
   std::vector<int> round_begin_;        // of every round in movable_
   std::vector<int> movable_;            // pieces, round by round
+  std::vector<int> moved_;              // the last turn in which each piece moved
 };
 
 }  // namespace

@@ -53,15 +53,16 @@ class Fitter {
       shown_.push_back(ground_.level.exemplar.at(p.x, p.y));
     }
     collect_places(x, y);
-    int64_t least = std::numeric_limits<int64_t>::max();
+    constexpr int64_t none = std::numeric_limits<int64_t>::max();
+    int64_t least = none;
     uint32_t best = 0;
-    for (const uint32_t place : places_) {
+    for (const auto& [place, votes] : by_votes_) {
       const int64_t misfit = misfit_at(place, least);
-      if (misfit >= least || shows_near(x, y, place)) continue;
+      if (misfit > least || (misfit == least && place >= best) || shows_near(x, y, place)) continue;
       least = misfit;
       best = place;
     }
-    if (least == std::numeric_limits<int64_t>::max()) return;
+    if (least == none) return;
     for (int dy = -half; dy <= half; dy++)
       for (int dx = -half; dx <= half; dx++) {
         const int u = column(best) + dx, v = row(best) + dy;
@@ -72,6 +73,11 @@ class Fitter {
   }
 
  private:
+  struct Suggested {
+    uint32_t place;
+    int votes;
+  };
+
   // Places pack the exemplar position that a window's middle would show.
   static uint32_t packed(int u, int v) { return uint32_t(v) << 16 | uint32_t(u); }
   static int column(uint32_t place) { return int(place & 0xffff); }
@@ -82,7 +88,7 @@ class Fitter {
   }
   ExemplarPixel pixel(int x, int y) const { return ground_.field.pixels[size_t(index(x, y))]; }
 
-  /// Ascending, so that of places that fit equally well always the same one is taken.
+  /// Those that most pixels suggest come first: they fit best more often than not, and tell the others off sooner.
   void collect_places(int x, int y) {
     const CorrectionLevel& level = ground_.level;
     places_.clear();
@@ -102,7 +108,13 @@ class Fitter {
       add_place(x, y, u, v);
     }
     std::sort(places_.begin(), places_.end());
-    places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+    by_votes_.clear();
+    for (const uint32_t place : places_) {
+      if (by_votes_.empty() || by_votes_.back().place != place) by_votes_.push_back({place, 0});
+      by_votes_.back().votes++;
+    }
+    std::stable_sort(by_votes_.begin(), by_votes_.end(),
+                     [](const Suggested& a, const Suggested& b) { return a.votes > b.votes; });
   }
 
   /// Unless the window would hang over the exemplar's border or be out of phase.
@@ -115,13 +127,13 @@ class Fitter {
   }
 
   /// How much the rim of a place differs from what the window's shows, dearer the more often the place is in use;
-  /// gives up at the limit.
+  /// gives up beyond the limit.
   int64_t misfit_at(uint32_t place, int64_t limit) const {
     const PaddedLevel& e = ground_.level.exemplar;
     const AppearanceVector* middle = e.at(column(place), row(place));
     const int64_t factor = occupancy_.factor(column(place), row(place));
     int64_t sum = 0;
-    for (size_t i = 0; i < rim_.size() && sum < limit; i++)
+    for (size_t i = 0; i < rim_.size() && sum <= limit; i++)
       sum += factor * squared_distance(*shown_[i], middle[rim_[i].y * e.stride() + rim_[i].x]);
     return sum;
   }
@@ -146,7 +158,8 @@ class Fitter {
   uint64_t seed_;
   std::vector<Offset> rim_;
   std::vector<const AppearanceVector*> shown_;  // by the rim
-  std::vector<uint32_t> places_;
+  std::vector<uint32_t> places_;                // as often as they are suggested
+  std::vector<Suggested> by_votes_;
   Expansion expansion_;
 };
 

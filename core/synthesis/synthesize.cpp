@@ -68,7 +68,7 @@ Effort effort_at(int level, Quality quality, bool between_kept) {
     if (level <= 1) return {level == 0 ? 4 : 6, level == 0 ? 0 : 4, &full_window()};
     return {16, level >= 3 ? 24 : 8, &full_window()};
   }
-  if (level == 0) return {2, 0, &sparse_window()};
+  if (level == 0) return {1, 0, &sparse_window()};
   if (level == 1) return {2, 0, &full_window()};
   return {between_kept ? 10 : 7, level >= 3 ? 24 : 8, &full_window()};
 }
