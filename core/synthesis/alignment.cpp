@@ -26,7 +26,7 @@ class PieceAligner {
         level_(level),
         reach_(reach),
         task_(task),
-        pieces_(field, block),
+        pieces_(field, block, level.window.closed_x, level.window.closed_y),
         moved_(size_t(pieces_.count()), -1) {
     find_borders();
     find_rounds();

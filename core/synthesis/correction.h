@@ -31,8 +31,8 @@ const Window& sparse_window();
 class Occupancy {
  public:
   /// `weight`: how much a doubled use adds to the cost; 0 turns the term off. `least_factor`: what the cost of
-  /// a cell that is used too little falls to at most. `demand`: how often each exemplar pixel is wanted, relative to the
-  /// others; empty: all alike.
+  /// a cell that is used too little falls to at most. `demand`: how often each exemplar pixel is wanted, relative to
+  /// the others; empty: all alike.
   Occupancy(Size exemplar, double weight, double least_factor, const std::vector<double>& demand = {});
   /// Fixed pixels do not count.
   void recount(const Field& field, const FixedPixels& fixed);

@@ -6,19 +6,19 @@
 
 namespace terrazzo {
 
-Pieces::Pieces(const Field& field, int block) {
+Pieces::Pieces(const Field& field, int block, bool wraps_x, bool wraps_y) {
   const Size size = field.size;
   const int count = int(size.area());
-  const auto continues = [&](int from, int to, int dx, int dy) {
-    const ExemplarPixel p = field.pixels[from], q = field.pixels[to];
-    return p.x + dx == q.x && p.y + dy == q.y;
-  };
   DisjointSets joined{size_t(count)};
+  const auto join_if_continued = [&](int from, int to, int dx, int dy) {
+    const ExemplarPixel p = field.pixels[from], q = field.pixels[to];
+    if (p.x + dx == q.x && p.y + dy == q.y) joined.join(uint32_t(from), uint32_t(to));
+  };
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) {
       const int i = y * size.width + x;
-      if (x > 0 && continues(i - 1, i, block, 0)) joined.join(uint32_t(i - 1), uint32_t(i));
-      if (y > 0 && continues(i - size.width, i, 0, block)) joined.join(uint32_t(i - size.width), uint32_t(i));
+      if (x > 0 || wraps_x) join_if_continued(x > 0 ? i - 1 : i + size.width - 1, i, block, 0);
+      if (y > 0 || wraps_y) join_if_continued(y > 0 ? i - size.width : i + count - size.width, i, 0, block);
     }
   piece_.resize(count);
   std::vector<int> areas;

@@ -5,10 +5,11 @@
 namespace terrazzo {
 
 /// The pieces of a field: connected pixels that continue one another in the exemplar, not across its border. Numbered
-/// in the order of their first pixels. Pixels may stand for blocks of several exemplar pixels a side.
+/// in the order of their first pixels. Pixels may stand for blocks of several exemplar pixels a side. Pieces go on
+/// around the borders of a field that wraps: taken apart there, they would come to meet in a seam.
 class Pieces {
  public:
-  explicit Pieces(const Field& field, int block = 1);
+  explicit Pieces(const Field& field, int block = 1, bool wraps_x = false, bool wraps_y = false);
 
   int count() const { return int(begin_.size()) - 1; }
   int area(int piece) const { return begin_[piece + 1] - begin_[piece]; }

@@ -72,7 +72,7 @@ class SeamMover {
 }  // namespace
 
 void move_seams(Field& field, const CorrectionLevel& level, int reach, const Task& task) {
-  const Pieces pieces(field);
+  const Pieces pieces(field, 1, level.window.closed_x, level.window.closed_y);
   std::vector<int> order(size_t(pieces.count()));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.area(a) > pieces.area(b); });

@@ -106,7 +106,7 @@ constexpr int finest_recounted = 2;  // and below this one it goes by what the l
 /// pieces of a size than among many. Finer levels are left out: there pieces hardly grow.
 std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence,
                                       bool regular) {
-  const Pieces pieces(field);
+  const Pieces pieces(field, 1, level.window.closed_x, level.window.closed_y);
   const PieceLimits& limits = regular ? pieces_on_lattice : irregular_pieces;
   const double fair = limits.large * double(level.exemplar.size().area());
   std::vector<uint32_t> factors(field.pixels.size());

@@ -32,6 +32,19 @@ TEST_CASE("a piece ends at the exemplar's border") {
   CHECK(Pieces(two_parts(7, 7)).count() == 2);
 }
 
+TEST_CASE("a piece goes on around the borders of a field that wraps, and only there") {
+  // Columns 4, 5, 6, 1, 2, 3 of the exemplar: what the last shows goes on in the first.
+  const Field across = two_parts(4, 8);
+  CHECK(Pieces(across).count() == 2);
+  CHECK(Pieces(across, 1, false, true).count() == 2);
+  CHECK(Pieces(across, 1, true).count() == 1);
+  Field down{{1, 4}, {{3, 6}, {3, 7}, {3, 4}, {3, 5}}};
+  CHECK(Pieces(down, 1, true, false).count() == 2);
+  CHECK(Pieces(down, 1, false, true).count() == 1);
+  Field blocks{{1, 2}, {{3, 6}, {3, 4}}};
+  CHECK(Pieces(blocks, 2, false, true).count() == 1);
+}
+
 TEST_CASE("diagonal neighbours alone do not join") {
   Field field{{2, 2}, {{1, 1}, {5, 5}, {4, 0}, {2, 2}}};
   CHECK(Pieces(field).count() == 4);

@@ -127,6 +127,25 @@ TEST_CASE("a tileable result fits together across its borders as well as inside"
   CHECK(seam < 1.6 * inside / 62);
 }
 
+TEST_CASE("the borders of a tileable result have hardly more seams than its inside") {
+  constexpr int side = 256;
+  const IndexPtr exemplar = wall_index({side, side});
+  double border = 0, all = 0;
+  for (uint64_t seed = 1; seed <= 24; seed++) {
+    const UvMapPtr uv =
+        synthesize(*exemplar, {.size = {side, side}, .seed = seed, .tile_x = true, .tile_y = true}, Task());
+    const auto is_seam = [&](int x, int y, int dx, int dy) {
+      const ExemplarPixel a = uv->at(x, y), b = uv->at((x + dx) % side, (y + dy) % side);
+      return a.x + dx != b.x || a.y + dy != b.y;
+    };
+    for (int i = 0; i < side; i++) {
+      border += is_seam(side - 1, i, 1, 0) + is_seam(i, side - 1, 0, 1);
+      for (int k = 0; k < side; k++) all += double(is_seam(k, i, 1, 0) + is_seam(i, k, 0, 1)) / side;
+    }
+  }
+  CHECK(border < 1.2 * all);
+}
+
 TEST_CASE("jitter changes the result") {
   const Digest still = synthesize(index(), {.size = {50, 50}}, Task())->digest();
   CHECK(synthesize(index(), {.size = {50, 50}, .jitter = {0, 3}}, Task())->digest() != still);
