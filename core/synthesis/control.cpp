@@ -215,18 +215,20 @@ LevelControl::LevelControl(const ControlPyramid& pyramid, int level, const Padde
     const double whole = 255.0 * 255 * (part.labels ? 2 : part.count);
     const double factor = part.strength * typical * (part.labels ? 1 : values_factor) / whole;
     const double weight = std::min(factor * (1 << weight_bits), 1e9);
-    parts_.push_back({part.first, part.first + part.count, uint64_t(std::floor(weight + 0.5)),
-                      part.labels       ? 1
-                      : part.count == 1 ? 4
-                                        : 2});
+    parts_.push_back({part.first, part.first + part.count, uint64_t(std::floor(weight + 0.5)), part.labels,
+                      part.count == 1 ? 4 : 2});
     influence_ = std::max(influence_, std::min(1.0, part.strength));
   }
 }
 
 uint64_t LevelControl::key(const uint8_t* values) const {
   uint64_t key = 0;
-  for (const Part& part : parts_)
-    for (int c = part.first; c < part.end; c++) key = random_bits(key, values[c] >> (8 - part.bin_bits));
+  for (const Part& part : parts_) {
+    if (part.labels)  // Coarse pixels mix them; few would have to serve all borders if mixtures were told apart.
+      key = random_bits(key, uint64_t(std::max_element(values + part.first, values + part.end) - values));
+    else
+      for (int c = part.first; c < part.end; c++) key = random_bits(key, values[c] >> (8 - part.bin_bits));
+  }
   return key;
 }
 

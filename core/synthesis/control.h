@@ -87,6 +87,7 @@ class LevelControl {
     int first;
     int end;
     uint64_t weight;
+    bool labels;
     int bin_bits;  ///< leading bits of a value that tell it from others when demand is counted
   };
   uint64_t key(const uint8_t* values) const;

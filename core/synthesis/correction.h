@@ -27,7 +27,7 @@ const Window& full_window();
 const Window& sparse_window();
 
 /// How often each cell of the exemplar (it is divided into 16x16) is in use, as a factor on the cost of using it once
-/// more: above 1 where use exceeds an even share, below 1 where it falls short of it.
+/// more: above 1 where use exceeds an even share, and once all of the cell, below 1 where it falls short of it.
 class Occupancy {
  public:
   /// `weight`: how much a doubled use adds to the cost; 0 turns the term off. `least_factor`: what the cost of
@@ -52,6 +52,7 @@ class Occupancy {
   int rows_;
   std::vector<uint32_t> columns_of_;  // the cells' column of every x
   std::vector<uint32_t> row_starts_;  // the first cell of every y's row of cells
+  std::vector<double> areas_;         // of the cells: their usable pixels
   std::vector<double> shares_;        // of all use, by cell; empty: all alike
   std::vector<uint32_t> factors_;
 };

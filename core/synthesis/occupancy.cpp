@@ -18,12 +18,16 @@ Occupancy::Occupancy(Size exemplar, double weight, double least_factor, const st
       factors_(size_t(columns_) * rows_, unit_factor) {
   for (int x = 0; x < exemplar.width; x++) columns_of_[x] = uint32_t(x / cell_);
   for (int y = 0; y < exemplar.height; y++) row_starts_[y] = uint32_t(y / cell_ * columns_);
+  areas_.assign(factors_.size(), 0.0);
+  for (int y = 0; y < exemplar.height; y++)
+    for (int x = 0; x < exemplar.width; x++)
+      areas_[row_starts_[y] + columns_of_[x]] += demand.empty() || demand[size_t(y) * exemplar.width + x] > 0;
   if (demand.empty()) return;
   shares_.assign(factors_.size(), 0.0);
   double sum = 0;
   for (const double d : demand) sum += d;
   for (size_t i = 0; i < demand.size(); i++)
-    shares_[size_t(int(i) / exemplar.width / cell_) * columns_ + int(i) % exemplar.width / cell_] += demand[i] / sum;
+    shares_[row_starts_[i / exemplar.width] + columns_of_[i % exemplar.width]] += demand[i] / sum;
 }
 
 void Occupancy::recount(const Field& field, const FixedPixels& fixed) {
@@ -47,7 +51,10 @@ void Occupancy::count(std::span<const ExemplarPixel> pixels, const FixedPixels& 
   const double even = std::max(least_expected, double(free) / double(factors_.size()));
   for (size_t i = 0; i < use.size(); i++) {
     const double expected = shares_.empty() ? even : std::max(least_expected, double(free) * shares_[i]);
-    const double excess = std::min(4.0, double(use[i]) / expected - 1.0);
+    // Where less is wanted than there is, a few pieces of it are better than bits of everything: to show one once is
+    // not too much, and to leave others out hardly too little.
+    const double used = double(use[i]), once = std::max(expected, areas_[i]);
+    const double excess = used > once ? std::min(4.0, used / once - 1) : std::min(0.0, (used - expected) / once);
     // What is used too little is made cheaper as what is used too much is made dearer, but only so far: to be
     // everywhere alike is not worth breaking features for.
     const double factor = std::max(least_factor_, 1.0 + weight_ * excess);
