@@ -37,11 +37,10 @@ std::vector<double> demand_of(const AppearanceLevel& level, const LevelControl* 
   return {level.usable.begin(), level.usable.end()};
 }
 
-/// Kept pixels have the exemplar's lattice as it is. One that would have to be stretched to wrap around contradicts
-/// them; the free pixels then do better without.
-Lattice lattice_of(const Appearance& appearance, const SynthesisOptions& options) {
-  const Lattice& lattice = appearance.lattice();
-  return options.kept.empty() || lattice.fits(options.size, options.tile_x, options.tile_y) ? lattice : Lattice{};
+/// Kept pixels have the exemplar's lattice as it is: if it would have to be stretched to wrap around, the others follow
+/// the kept ones, and it is cut where the result wraps.
+bool stretches_lattice(const Appearance& appearance, const SynthesisOptions& options) {
+  return options.kept.empty() || appearance.lattice().fits(options.size, options.tile_x, options.tile_y);
 }
 
 /// The finest level that can be worked out for the plane as a whole. Pieces of a regular exemplar are aligned as
@@ -125,7 +124,8 @@ struct Shared {
         options(options),
         task(task),
         levels(int(index.levels().size())),
-        lattice(lattice_of(*index.appearance(), options)),
+        lattice(index.appearance()->lattice()),
+        stretched(stretches_lattice(*index.appearance(), options)),
         controls(options.controls, index.appearance()->size(), options.size, levels, task) {}
 
   const AppearanceLevel& exemplar(int level) const { return index.appearance()->levels()[level]; }
@@ -143,6 +143,7 @@ struct Shared {
   const Task& task;
   int levels;
   Lattice lattice;
+  bool stretched;  ///< the lattice, to wrap around with the result
   ControlPyramid controls;
   int finest = 0;  ///< the level that ends the work
 };
@@ -154,7 +155,8 @@ class LevelWork {
       : shared_(shared),
         level_(level),
         exemplar_(shared.exemplar(level), shared.index.appearance()->wraps()),
-        phase_(shared.lattice, level, shared.options.size, shared.options.tile_x, shared.options.tile_y,
+        phase_(shared.lattice, level, shared.options.size, shared.stretched && shared.options.tile_x,
+               shared.stretched && shared.options.tile_y,
                {double(shared.options.origin[0]), double(shared.options.origin[1])}),
         fixed_(shared.fixed(level)),
         control_(shared.controls.empty() ? nullptr : std::make_unique<LevelControl>(shared.controls, level, exemplar_)),
