@@ -1,5 +1,6 @@
 #include "core/synthesis/kept.h"
 
+#include <algorithm>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -75,6 +76,20 @@ TEST_CASE("where all is kept nothing changes") {
   SynthesisOptions options{.size = {48, 40}};
   options.kept = identity(options.size, [](int, int) { return true; });
   CHECK(synthesize(*index, options, Task())->pixels() == options.kept.pixels);
+}
+
+TEST_CASE("where no whole number of courses fits, the new ones follow those that are kept") {
+  const FeaturesPtr plain = plain_features(wall({64, 64}));
+  const IndexPtr index =
+      make_index(make_appearance(*plain->with(Lattice{1, {0, 16}, {}, 1}), {}, {}, Task()), 3, Task());
+  SynthesisOptions options{.size = {64, 72}, .tile_x = true, .tile_y = true};
+  options.kept = identity(options.size, [](int x, int y) { return x < 64 && y < 28; });
+  for (ExemplarPixel& p : options.kept.pixels) p.y = std::min<uint16_t>(p.y, 63);
+  const UvMapPtr uv = synthesize(*index, options, Task());
+  int level = 0, all = 0;
+  for (int y = 32; y < 64; y++)
+    for (int x = 0; x < 64; x++, all++) level += (uv->at(x, y).y - y) % 16 == 0;
+  CHECK(level > 0.9 * all);
 }
 
 TEST_CASE("evenness counts free pixels only") {
