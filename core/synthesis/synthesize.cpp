@@ -88,8 +88,8 @@ constexpr PieceLimits irregular_pieces{0.12, 0.3};
 // With a lattice less is out of phase, so pieces grow more readily.
 constexpr PieceLimits pieces_on_lattice{0.055, 0.1};
 constexpr double most_coherence = 3;
-// Where nothing is said about whole pieces (finer levels, between kept pixels) single pixels hold together more.
-constexpr double coherence_without_limits = 0.75;
+// Between kept pixels nothing is said about whole pieces; single ones hold together more instead.
+constexpr double coherence_between_kept = 0.75;
 constexpr int finest_limited = 2;
 // Rare features are won or lost at the coarsest levels. There pieces hold together more, and what is used too little
 // is made much cheaper; finer levels would break features for it.
@@ -226,8 +226,8 @@ class LevelWork {
   bool limits_pieces() const { return level_ >= finest_limited && !fixed_.any(); }
   double coherence() const {
     const double full = shared_.options.coherence;
-    if (!limits_pieces()) return full * coherence_without_limits;
-    return shared_.places_landmarks(level_) ? full * landmark_coherence : full;
+    if (fixed_.any()) return full * coherence_between_kept;
+    return limits_pieces() && shared_.places_landmarks(level_) ? full * landmark_coherence : full;
   }
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
   bool moves_seams() const { return level_ == seam_level && regular() && !control_; }
