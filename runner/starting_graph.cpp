@@ -39,13 +39,6 @@ void comment(JsonValue& value, const std::string& text) {
   value.comments_before.push_back("// " + text);
 }
 
-/// In documents "$" and a leading "@" mean something.
-std::string escaped(const std::string& text) {
-  std::string out = text.starts_with("@") ? "@" : "";
-  for (const char c : text) out += c == '$' ? "$$" : std::string(1, c);
-  return out;
-}
-
 }  // namespace
 
 std::string starting_graph(const Material& exemplar, const std::filesystem::path& folder,
@@ -53,7 +46,8 @@ std::string starting_graph(const Material& exemplar, const std::filesystem::path
   ParsedJson parsed = parse_json(stock_graph("material"));
   if (!parsed.value) throw std::logic_error("the stock graph is no JSON");
   JsonValue& graph = *parsed.value;
-  put(member(member(graph, "parameters"), "material"), "default", JsonValue::of(escaped(folder.generic_string())));
+  // A default is taken as it is: "$" and "@" mean nothing in it.
+  put(member(member(graph, "parameters"), "material"), "default", JsonValue::of(folder.generic_string()));
 
   JsonValue& nodes = member(graph, "nodes");
   JsonValue& exemplar_node = member(nodes, "exemplar");

@@ -92,3 +92,14 @@ TEST_CASE("a damaged picture puts nothing but json objects on standard error; a 
   damaged[damaged.size() - 60] = char(damaged[damaged.size() - 60] ^ 0x55);
   CHECK(code_for(damaged) == 1);
 }
+
+TEST_CASE("new finds a folder again whose name holds what means something in documents") {
+  const Workplace w;
+  for (const std::string folder : {"a$b", "a$$b", "@maps", "@@maps", "${c}", "quoted \"x\" \\ y"}) {
+    CAPTURE(folder);
+    write_picture(w.path / folder / "stone_basecolor.png", 5);
+    CHECK(w.run({"new", folder, "-o", "graph.json", "--force"}).code == 0);
+    const ProgramRun r = w.run({"run", "graph.json", "--only", "exemplar"});
+    CHECK_MESSAGE(r.code == 0, r.err);
+  }
+}
