@@ -4,11 +4,15 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
+#include "core/file_io.h"
 #include "core/suggest.h"
 #include "graphs/document/problem.h"
 #include "runner/cli_commands.h"
@@ -25,7 +29,7 @@ constexpr const char* examples =
     "  terrazzo new bricks/ -o bricks.json                a graph to start from\n"
     "  terrazzo run bricks.json --set seed=7 --dry-run    what a run would do, and why\n"
     "  terrazzo nodes synthesize                          what a node type does and takes\n"
-    "Exit codes: 0 done, 1 a node failed, 2 bad usage or an invalid graph, 130 cancelled.";
+    "Exit codes: 0 done, 1 a node failed or something could not be written, 2 bad usage or an invalid graph, 130 cancelled.";
 
 /// Told from the words themselves, so that it is known even if they cannot be understood.
 ProgressMode mode_of(int argc, const char* const* argv) {
@@ -85,6 +89,22 @@ int usage_error(const CLI::App& app, ProgressMode mode, const std::string& what)
   return exit_usage;
 }
 
+/// A standard stream that was closed before the program began would become the first file that is opened, and messages
+/// would end up in it. One that is open for reading only takes none, as a closed one would.
+void keep_standard_streams_apart() {
+  for (int opened = 0; opened >= 0 && opened <= STDERR_FILENO;) {
+    opened = ::open("/dev/null", O_RDONLY);
+    if (opened > STDERR_FILENO) ::close(opened);
+  }
+}
+
+/// The exit code, given that a command that has ended with `code` may have lost part of its answer.
+int with_answer_written(int code, ProgressMode mode) {
+  if (answer_failure() == 0) return code;
+  write_error(mode, std::cerr, Error("cannot write to standard output: " + system_message(answer_failure())));
+  return code == exit_done ? exit_failed : code;
+}
+
 }  // namespace
 
 void check_writable(const char* option, const std::string& path) {
@@ -122,14 +142,16 @@ std::string shown_bytes(uint64_t bytes) {
   return fmt::format("{:.1f} {}", value, units[unit]);
 }
 
-int run_command_line(int argc, const char* const* argv) {
+namespace {
+
+/// Runs what the words ask for; returns the exit code.
+int obey(int argc, const char* const* argv, ProgressMode mode) {
   CLI::App app("terrazzo turns a small PBR material into as much new, non-repeating material as a scene needs.",
                "terrazzo");
   app.set_version_flag("--version", "terrazzo " TERRAZZO_VERSION);
   app.footer(examples);
   app.require_subcommand(0, 1);  // further words belong to the command, even if they are a command's name too
   app.get_formatter()->column_width(32);
-  const ProgressMode mode = mode_of(argc, argv);
   Chosen chosen;
   add_run_command(app, chosen);
   add_synth_command(app, chosen);
@@ -142,7 +164,10 @@ int run_command_line(int argc, const char* const* argv) {
     if (!chosen) throw CLI::RequiredError("A command");
     return chosen();
   } catch (const CLI::Success& e) {
-    return app.exit(e);
+    std::ostringstream help;
+    const int code = app.exit(e, help, help);
+    answer("{}", help.str());
+    return code;
   } catch (const CLI::ParseError& e) {
     return usage_error(app, mode, e.what());
   } catch (const GraphError& e) {
@@ -158,6 +183,14 @@ int run_command_line(int argc, const char* const* argv) {
     write_error(mode, std::cerr, e);
     return exit_failed;
   }
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  keep_standard_streams_apart();
+  const ProgressMode mode = mode_of(argc, argv);
+  return with_answer_written(obey(argc, argv, mode), mode);
 }
 
 }  // namespace terrazzo

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "runner/cli_commands.h"
+#include "runner/say.h"
 #include "runner/signals.h"
 
 namespace terrazzo {
@@ -21,8 +22,8 @@ struct CacheFlags {
 int show_status(const CacheFlags& flags) {
   Cache cache = flags.open();
   const CacheStatus s = cache.status();
-  fmt::print("folder  {}\nsize    {} of {}\nstages  {}\nvalues  {}\n", cache.folder().string(), shown_bytes(s.bytes),
-             shown_bytes(s.limit), s.stages, s.values);
+  answer("folder  {}\nsize    {} of {}\nstages  {}\nvalues  {}\n", cache.folder().string(), shown_bytes(s.bytes),
+         shown_bytes(s.limit), s.stages, s.values);
   return exit_done;
 }
 
@@ -30,9 +31,9 @@ int verify(const CacheFlags& flags) {
   const CancelOnSignal signals;
   Cache cache = flags.open();
   const std::vector<std::string> damaged = cache.verify(Task(&signals.flag(), {}));
-  for (const std::string& line : damaged) fmt::print("{}\n", line);
-  fmt::print("{}\n", damaged.empty() ? "every entry is sound"
-                                     : fmt::format("{} damaged, removed; they will be computed again", damaged.size()));
+  for (const std::string& line : damaged) answer("{}\n", line);
+  answer("{}\n", damaged.empty() ? "every entry is sound"
+                                 : fmt::format("{} damaged, removed; they will be computed again", damaged.size()));
   return damaged.empty() ? exit_done : exit_failed;
 }
 
@@ -52,13 +53,13 @@ void add_cache_command(CLI::App& app, Chosen& chosen) {
   add("verify", "Reads every entry and removes damaged ones; exit code 1 if there were any", verify);
   add("gc", "Makes room until the size limit holds",
       [](const CacheFlags& f) {
-        fmt::print("{} freed\n", shown_bytes(f.open().collect()));
+        answer("{} freed\n", shown_bytes(f.open().collect()));
         return exit_done;
       })
       ->add_option("--limit", flags->limit, "Another limit for this time, such as 500M or 2G")
       ->type_name("SIZE");
   add("clear", "Removes everything that no running process uses", [](const CacheFlags& f) {
-    fmt::print("{} freed\n", shown_bytes(f.open().clear()));
+    answer("{} freed\n", shown_bytes(f.open().clear()));
     return exit_done;
   });
   cache->footer(

@@ -92,7 +92,7 @@ int compare(const CompareFlags& flags) {
   if (!result.ok()) return exit_failed;
   const ReportPtr report = std::get<ReportPtr>(result.kept.at("figures").at("report"));
   if (is_page(flags.sheet)) write_report_page(*report, flags.sheet);
-  fmt::print("{}", flags.json ? as_json(*report) : as_table(*report));
+  answer("{}", flags.json ? as_json(*report) : as_table(*report));
   return exit_done;
 }
 

@@ -39,7 +39,7 @@ void check_what_is_set(const Graph& graph, const std::string& unset) {
 
 int check(const DocumentFlags& flags) {
   const LoadedGraph loaded = load_graph(flags.graph, flags.set, {.allow_unset = true, .look_ahead = foreseen_in_nodes});
-  for (const std::string& c : loaded.conversions) fmt::print("{}\n", c);
+  for (const std::string& c : loaded.conversions) answer("{}\n", c);
   for (const std::string& w : loaded.warnings) say("warning: {}\n", w);
   const auto unset = std::find_if(loaded.parameters.begin(), loaded.parameters.end(),
                                   [](const GraphParameter& p) { return !p.value.has_value(); });
@@ -48,8 +48,8 @@ int check(const DocumentFlags& flags) {
   else
     check_what_is_set(loaded.graph, unset->param.name);
   const auto counted = [](size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
-  fmt::print("{} is valid: {}, {}\n", flags.graph, counted(loaded.graph.nodes.size(), "node"),
-             counted(loaded.parameters.size(), "parameter"));
+  answer("{} is valid: {}, {}\n", flags.graph, counted(loaded.graph.nodes.size(), "node"),
+         counted(loaded.parameters.size(), "parameter"));
   return exit_done;
 }
 

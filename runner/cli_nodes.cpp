@@ -6,6 +6,7 @@
 #include "graphs/document/schema.h"
 #include "nodes/registry.h"
 #include "runner/cli_commands.h"
+#include "runner/say.h"
 
 namespace terrazzo {
 
@@ -20,11 +21,11 @@ const NodeType& known_type(const std::string& name) {
 
 int show_nodes(const std::string& name, bool json) {
   if (name.empty())
-    fmt::print("{}", json ? nodes_json() : node_list());
+    answer("{}", json ? nodes_json() : node_list());
   else if (json)
-    fmt::print("{}", nodes_json({known_type(name)}));
+    answer("{}", nodes_json({known_type(name)}));
   else
-    fmt::print("{}", node_reference(known_type(name)));
+    answer("{}", node_reference(known_type(name)));
   return exit_done;
 }
 
@@ -46,7 +47,7 @@ void add_node_commands(CLI::App& app, Chosen& chosen) {
   schema->footer("Example:\n  terrazzo schema > terrazzo.schema.json");
   schema->callback([&chosen] {
     chosen = [] {
-      fmt::print("{}", json_schema());
+      answer("{}", json_schema());
       return exit_done;
     };
   });

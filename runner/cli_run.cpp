@@ -82,7 +82,7 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
     }
   }();
   if (flags.dry_run) {
-    fmt::print("{}", plan.table());
+    answer("{}", plan.table());
     return exit_done;
   }
   const ProgressMode mode = *progress_mode_from(flags.progress);

@@ -1,4 +1,7 @@
+#include <cstdlib>
+
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/image_file.h"
@@ -103,4 +106,26 @@ TEST_CASE("the help of every command shows its own examples") {
     while (std::getline(lines, line))
       if (line.starts_with("  terrazzo")) CHECK_MESSAGE(line.starts_with("  terrazzo " + command), line);
   }
+}
+
+TEST_CASE("what cannot be written to standard output ends every command with code 1 and a message") {
+  const Workplace w;
+  REQUIRE(w.run({"run", "soft.json"}).code == 0);
+  for (const std::string command :
+       {"nodes", "nodes blur", "nodes --json", "schema", "check soft.json", "run soft.json --dry-run", "cache status",
+        "cache verify", "cache gc", "compare photo.png photo.png", "--help", "nodes --help", "--version"}) {
+    CAPTURE(command);
+    const auto code_of = [&](const std::string& target) {
+      const std::string line =
+          fmt::format("cd '{}' && {{ TERRAZZO_CACHE=cache '{}' {} >{} 2>messages; echo $? > code; }}", w.path.string(),
+                      TERRAZZO_PROGRAM, command, target);
+      REQUIRE(std::system(line.c_str()) == 0);
+      return read_text(w.path / "code");
+    };
+    CHECK(code_of("/dev/full") == "1\n");
+    CHECK(read_text(w.path / "messages") == "error: cannot write to standard output: No space left on device\n");
+    CHECK(code_of("&-") == "1\n");
+    CHECK(read_text(w.path / "messages") == "error: cannot write to standard output: Bad file descriptor\n");
+  }
+  REQUIRE(w.run({"run", "soft.json"}).code == 0);
 }
