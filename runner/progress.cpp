@@ -73,6 +73,10 @@ ProcessUsage process_usage() {
   return {seconds(used.ru_utime) + seconds(used.ru_stime), int64_t{used.ru_maxrss} * 1024};
 }
 
+void write_note(std::ostream& out, const Stage& s, const std::string& message) {
+  out << fmt::format("note: node \"{}\": {}", s.node->name, message) << std::endl;
+}
+
 class NoProgress : public Progress {
  public:
   explicit NoProgress(std::ostream& out) : out_(out) {}
@@ -172,7 +176,7 @@ class PlainProgress : public Progress {
   void noted(const Stage& s, const std::string& message) override {
     if (is_warning(message)) return;  // said at the end
     const std::lock_guard lock(mutex_);
-    out_ << fmt::format("{}: {}", s.node->name, message) << std::endl;
+    write_note(out_, s, message);
   }
   void finished(const Stage& s, double seconds) override {
     const std::lock_guard lock(mutex_);
@@ -226,7 +230,7 @@ class BarProgress : public Progress {
     if (is_warning(message)) return;  // said at the end
     const std::lock_guard lock(mutex_);
     erase();
-    out_ << s.node->name << ": " << message << '\n';
+    write_note(out_, s, message);
     draw(true);
   }
   void finished(const Stage& s, double) override { settle(s); }

@@ -35,6 +35,24 @@ TEST_CASE("check finds what the plan of a run would refuse, once all parameters 
   CHECK(w.run({"check", "open.json", "--set", "image=gone.png"}).code == 2);
 }
 
+TEST_CASE("check marks what is no mistake as a note or a warning") {
+  const Workplace w;
+  write_text(w.path / "notes.json", R"({"terrazzo": 1, "parameters": {"image": {"type": "path"}}, "nodes": {
+    "photo": {"type": "load_map", "path": "$image"},
+    "idle": {"type": "blur", "image": "@photo"},
+    "a": {"type": "export", "material": "@photo", "path": "out/a.png"}}})");
+  const ProgramRun r = w.run({"check", "notes.json"});
+  CHECK(r.code == 0);
+  CHECK_MESSAGE(r.out ==
+                    "note: notes.json:4:41: node \"a\", port \"material\": the image of \"@photo\" becomes a "
+                    "material of one map\nnotes.json is valid: 3 nodes, 1 parameter\n",
+                r.out);
+  CHECK_MESSAGE(r.err ==
+                    "warning: notes.json:3:5: node \"idle\": no sink reads it; it will not run\n"
+                    "note: what depends on a parameter that is not set was not looked at: --set image=VALUE\n",
+                r.err);
+}
+
 TEST_CASE("check tells what the document's text shows and what only its plan shows in one go") {
   const Workplace w;
   write_text(w.path / "wrong.json", R"({"terrazzo": 1, "nodes": {

@@ -255,7 +255,7 @@ TEST_CASE("check tells that a graph is valid and what it converts, without runni
   const ProgramRun r = w.run({"check", "soft.json"});
   CHECK(r.code == 0);
   CHECK(r.out.find("soft.json is valid: 3 nodes, 2 parameters\n") != std::string::npos);
-  CHECK(r.out.find("soft.json:8:") == 0);
+  CHECK(r.out.find("note: soft.json:8:") == 0);
   CHECK_FALSE(fs::exists(w.path / "out"));
 }
 

@@ -54,14 +54,14 @@ TEST_CASE("json progress tells every event in order") {
 TEST_CASE("plain progress is a line per stage, and notes") {
   const std::string text = progress_of(ProgressMode::plain, true, false);
   CHECK(has(text, "[1/2] read (file) "));
-  CHECK(has(text, "read: read a number\n"));
+  CHECK(has(text, "note: node \"read\": read a number\n"));
   CHECK(has(text, "[2/2] last (sum) "));
 }
 
 TEST_CASE("the bar erases itself, notes stay") {
   const std::string text = progress_of(ProgressMode::bar, true, false);
   CHECK(has(text, "\x1b[K"));
-  CHECK(has(text, "read: read a number\n"));
+  CHECK(has(text, "note: node \"read\": read a number\n"));
   const size_t last_line = text.rfind('\r');
   REQUIRE(last_line != std::string::npos);
   CHECK(text.substr(last_line) == "\r\x1b[K");
