@@ -13,13 +13,23 @@ constexpr double smallest_cell = 0.3;
 // Of pixels larger than two cells so few are in phase to half a pixel of the finest level that the same rows would come
 // back all over a large surface. There a whole one will do: finer levels bring pieces into place.
 constexpr double crowded_cell = 0.5;
-// Pixels by which a whole surface may be sheared to wrap around: rows of a woven or scanned exemplar are rarely exactly
-// level.
-constexpr double most_shear = 1;
+// By how much a surface may be sheared to wrap around, as a part of its side, and in pixels where it is small: rows of
+// a woven or scanned exemplar are rarely exactly level. Of pieces of 64 pixels this moves one end by a quarter of a
+// pixel against the other, however large the surface.
+constexpr double most_shear = 1.0 / 256;
+constexpr double least_shear = 1;
 // How far out of phase a position may be, in cells, and how much of that a certain lattice takes away: the surer the
 // lattice, the less its cells differ from one another.
 constexpr double looseness = 1.0 / 12;
 constexpr double certainty_counts = 2.0 / 3;
+
+/// Whether the exemplar comes back to itself `length` pixels further along x or y, to `precision` pixels along the
+/// axis.
+bool comes_back(const LatticePhase& phase, int length, bool along_x, double precision) {
+  const Vector2 e = phase.excess(along_x ? length : 0, along_x ? 0 : length, 0, 0);
+  const double along = std::abs(along_x ? e.x : e.y), across = std::abs(along_x ? e.y : e.x);
+  return along <= precision && across <= std::max(least_shear, most_shear * length);
+}
 
 }  // namespace
 
@@ -48,30 +58,24 @@ Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
 }
 
 bool Lattice::fits(Size size, bool wraps_x, bool wraps_y) const {
-  if (rank == 0) return true;
-  const Lattice to = fitted(size, wraps_x, wraps_y);
-  // How far a step of one cell is off, times the steps that cross the surface.
-  const auto drift = [&](const Vector2& a, const Vector2& b) {
-    const double length = std::max(std::abs(a.x), std::abs(a.y));
-    return length > 0 ? std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) * std::max(size.width, size.height) / length
-                      : 0.0;
-  };
-  return drift(first, to.first) <= most_shear && drift(second, to.second) <= most_shear;
+  const LatticePhase phase(*this, 0, size, false, false);
+  if (!phase.active()) return true;
+  return (!wraps_x || comes_back(phase, size.width, true, 1)) && (!wraps_y || comes_back(phase, size.height, false, 1));
 }
 
-Size Lattice::largest_fitting(Size size, bool wraps_x, bool wraps_y) const {
-  // How far (x, y) is from the next place at which the exemplar comes back to itself.
+std::optional<Size> Lattice::largest_fitting(Size size, bool wraps_x, bool wraps_y) const {
   const LatticePhase phase(*this, 0, size, false, false);
-  const auto largest = [&](int length, int dx, int dy) {
-    for (int n = length; 2 * n > length; n--) {
-      const Vector2 e = phase.excess(n * dx, n * dy, 0, 0);
-      const double along = std::abs(dx > 0 ? e.x : e.y), across = std::abs(dx > 0 ? e.y : e.x);
-      if (along <= 0.5 && across <= most_shear) return n;
-    }
-    return length;
+  const auto shorten = [&](int& side, bool along_x) {
+    for (int n = side; 2 * n > side; n--)
+      if (comes_back(phase, n, along_x, 0.5)) {
+        side = n;
+        return true;
+      }
+    return false;
   };
-  if (!phase.active()) return size;
-  return {wraps_x ? largest(size.width, 1, 0) : size.width, wraps_y ? largest(size.height, 0, 1) : size.height};
+  if (phase.active() && ((wraps_x && !shorten(size.width, true)) || (wraps_y && !shorten(size.height, false))))
+    return {};
+  return size;
 }
 
 LatticePhase::Matrix LatticePhase::to_cells(const Lattice& l, double scale) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/geometry.h"
@@ -33,12 +34,13 @@ struct Lattice {
   }
   /// The nearest lattice of which a surface of `size` holds a whole number of cells, along each axis in which it wraps.
   Lattice fitted(Size size, bool wraps_x, bool wraps_y) const;
-  /// Whether a surface of `size` holds, to a pixel, a whole number of cells along each axis in which it wraps.
+  /// Whether a surface of `size` holds a whole number of cells along each axis in which it wraps: to a pixel along the
+  /// axis, and across it with a shear too small to see.
   bool fits(Size size, bool wraps_x, bool wraps_y) const;
 
-  /// The largest size within `size`, and over half of it, that holds a whole number of cells along each axis in which
-  /// it wraps: to half a pixel along the axis, one across it. Along an axis on which there is none, that of `size`.
-  Size largest_fitting(Size size, bool wraps_x, bool wraps_y) const;
+  /// The largest size within `size`, and over half of it, that fits, to half a pixel along each axis in which it wraps;
+  /// none if there is no such size.
+  std::optional<Size> largest_fitting(Size size, bool wraps_x, bool wraps_y) const;
 
   void add_to(Hasher& h) const { h.add(rank).add(first.x).add(first.y).add(second.x).add(second.y).add(certainty); }
 };

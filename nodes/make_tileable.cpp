@@ -43,7 +43,7 @@ void compute(NodeContext& node) {
   options.tile_y = directions != "x";
   const Lattice& lattice = index->appearance()->lattice();
   if (node.text("fit") == "repeats")
-    options.size = lattice.largest_fitting(options.size, options.tile_x, options.tile_y);
+    options.size = lattice.largest_fitting(options.size, options.tile_x, options.tile_y).value_or(options.size);
   if (options.size != index->appearance()->size())
     node.note(fmt::format("the exemplar repeats: the result has {} pixels, so that it holds a whole number of repeats",
                           describe(options.size)));
@@ -61,7 +61,7 @@ void compute(NodeContext& node) {
 NodeType make_tileable_node() {
   NodeType t;
   t.name = "make_tileable";
-  t.version = 6;
+  t.version = 7;
   t.category = "synthesis";
   t.summary = "Keeps an exemplar's interior and makes its border wrap";
   t.help =
@@ -88,7 +88,8 @@ NodeType make_tileable_node() {
        .type = ParamType::choice,
        .fallback = "repeats",
        .help = "For exemplars that repeat: \"repeats\" makes the result the largest that holds a whole number of "
-               "repeats, \"size\" keeps the exemplar's size and cuts some repeats short.",
+               "repeats, if over half of the exemplar does, \"size\" keeps the exemplar's size and cuts some repeats "
+               "short.",
        .choices = {"repeats", "size"}},
   });
   t.check = check_synthesis_params;

@@ -161,9 +161,9 @@ void note_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
                              std::string_view consequence) {
   const Lattice& lattice = index.appearance()->lattice();
   if (lattice.fits(options.size, options.tile_x, options.tile_y)) return;
-  node.note(fmt::format("{} does not hold a whole number of the exemplar's repeats, so that {}; {} would",
-                        describe(options.size), consequence,
-                        describe(lattice.largest_fitting(options.size, options.tile_x, options.tile_y))));
+  const std::optional<Size> would = lattice.largest_fitting(options.size, options.tile_x, options.tile_y);
+  node.note(fmt::format("{} does not hold a whole number of the exemplar's repeats, so that {}{}",
+                        describe(options.size), consequence, would ? fmt::format("; {} would", describe(*would)) : ""));
 }
 
 size_t synthesis_memory(Size size) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <doctest/doctest.h>
 
@@ -90,4 +91,40 @@ TEST_CASE("on a surface that wraps around the lattice is stretched to whole cell
   // 310 pixels hold ten courses of 31.
   CHECK(phase.penalty(0, 300, 0, 310) == 1);
   CHECK(phase.penalty(0, 150, 0, 155) == 1);
+}
+
+TEST_CASE("the largest size that fits, fits, and is over half of what was asked for") {
+  // Those of a woven fabric scanned a little askew, bricks, courses, columns, and tiles turned by some degrees.
+  const Lattice fabric{2, {8.30, 12.24}, {-8.23, 12.27}, 0.77};
+  for (const Lattice& lattice :
+       {fabric, Lattice{2, {40.3, 0}, {20.15, 17.8}, 0.5}, courses(23.7), Lattice{1, {31.4, 0}, {}, 0.5},
+        Lattice{2, {19.8, 1.4}, {-1.4, 19.8}, 0.9}, Lattice{2, {19.8, 0.06}, {-0.06, 19.8}, 0.9}})
+    for (const Size size : {Size{1024, 1024}, Size{512, 700}, Size{4096, 333}})
+      for (const auto& [x, y] : {std::pair(true, true), std::pair(true, false), std::pair(false, true)}) {
+        CAPTURE(lattice.first.x);
+        CAPTURE(size.width);
+        const std::optional<Size> largest = lattice.largest_fitting(size, x, y);
+        REQUIRE(largest);
+        CHECK(lattice.fits(*largest, x, y));
+        CHECK(2 * largest->width > size.width);
+        CHECK(2 * largest->height > size.height);
+        CHECK(lattice.largest_fitting(*largest, x, y) == largest);
+        if (!x) CHECK(largest->width == size.width);
+        if (!y) CHECK(largest->height == size.height);
+        // The lattice that such a result has is hardly another.
+        const Lattice whole = lattice.fitted(*largest, x, y);
+        CHECK(std::abs(whole.first.x - lattice.first.x) + std::abs(whole.first.y - lattice.first.y) < 0.5);
+      }
+  CHECK(fabric.largest_fitting({1024, 1024}, true, true) == Size{1008, 1005});
+  CHECK(fabric.largest_fitting({512, 512}, true, true) == Size{512, 490});
+  CHECK_FALSE(fabric.fits({1024, 1024}, true, true));
+  CHECK(fabric.fits({1024, 1024}, false, false));
+}
+
+TEST_CASE("no size is offered where a cell is larger than the surface, and then along neither axis") {
+  const Lattice large{2, {16, 0}, {0, 300}, 0.5};
+  CHECK_FALSE(large.largest_fitting({250, 250}, true, true));
+  CHECK(large.largest_fitting({250, 250}, true, false) == Size{240, 250});
+  CHECK_FALSE(large.fits({240, 250}, true, true));
+  CHECK(Lattice{}.largest_fitting({250, 250}, true, true) == Size{250, 250});
 }

@@ -74,6 +74,12 @@ TEST_CASE("make_tileable holds a whole number of repeats unless the size must st
   CHECK(run.get<UvMap>("uv")->size() == Size{48, 48});
   CHECK(run.notes.size() == 1);
   CHECK(run_node("make_tileable", {{"fit", "size"}}, {{"index", {index}}}).get<UvMap>("uv")->size() == Size{61, 53});
+  // Where no such size is large enough, no other is taken either.
+  const IndexPtr high = index_of(plain->with(Lattice{2, {16, 0}, {0, 70}, 1}));
+  const NodeRun cut = run_node("make_tileable", {}, {{"index", {high}}});
+  CHECK(cut.get<UvMap>("uv")->size() == Size{61, 53});
+  REQUIRE(cut.notes.size() == 1);
+  CHECK(cut.notes[0].find("does not hold a whole number") != std::string::npos);
 }
 
 TEST_CASE("inpaint keeps what is there and takes nothing out of a masked hole") {

@@ -80,4 +80,9 @@ TEST_CASE("a result that wraps and holds no whole number of repeats names a size
   CHECK(stretched[0] ==
         "120x100 does not hold a whole number of the exemplar's repeats, so that they are stretched to wrap around and "
         "joints may jog; 112x96 would");
+  const FeaturesPtr high = features->with(Lattice{2, {16, 0}, {0, 300}, 0.5});
+  const IndexPtr none = make_index(make_appearance(*high, {}, {}, Task()), 3, Task());
+  CHECK(run_node("synthesize", {{"size", Size{112, 100}}, {"tileable", "xy"}}, {{"index", {none}}}).notes ==
+        std::vector<std::string>{"112x100 does not hold a whole number of the exemplar's repeats, so that they are "
+                                 "stretched to wrap around and joints may jog"});
 }
