@@ -29,7 +29,8 @@ constexpr const char* examples =
     "  terrazzo new bricks/ -o bricks.json                a graph to start from\n"
     "  terrazzo run bricks.json --set seed=7 --dry-run    what a run would do, and why\n"
     "  terrazzo nodes synthesize                          what a node type does and takes\n"
-    "Exit codes: 0 done, 1 a node failed or something could not be written, 2 bad usage or an invalid graph, 130 cancelled.";
+    "Exit codes: 0 done, 1 a node failed or something could not be written, 2 bad usage or an invalid graph,\n"
+    "130 cancelled.";
 
 /// Told from the words themselves, so that it is known even if they cannot be understood.
 ProgressMode mode_of(int argc, const char* const* argv) {

@@ -121,7 +121,7 @@ class Reader {
       int w = 0, h = 0;
       const char* const end = v.text.data() + v.text.size();
       const auto first = std::from_chars(v.text.data(), end, w);
-      if (first.ec != std::errc() || first.ptr == end || *first.ptr != 'x') return wrong(v);
+      if (first.ec != std::errc() || first.ptr == end || (*first.ptr != 'x' && *first.ptr != 'X')) return wrong(v);
       const auto second = std::from_chars(first.ptr + 1, end, h);
       if (second.ec != std::errc() || second.ptr != end) return wrong(v);
       width = side(w);

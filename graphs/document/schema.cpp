@@ -69,7 +69,7 @@ ordered_json value_schema(const Param& p) {
     case ParamType::size: {
       ordered_json pair = list_of(number_or_reference("integer", p));
       pair["minItems"] = pair["maxItems"] = 2;
-      return any_of({pair, {{"type", "string"}, {"pattern", "^[0-9]+x[0-9]+$"}}, number("integer", p)});
+      return any_of({pair, {{"type", "string"}, {"pattern", "^[0-9]+[xX][0-9]+$"}}, number("integer", p)});
     }
     case ParamType::numbers: {
       if (p.min_count > 1) return counted_list(p, number_or_reference("number", p));

@@ -113,6 +113,28 @@ TEST_CASE("formats go by all their names, in upper and lower case, and a wrong o
   CHECK_FALSE(fs::exists(w.path / "x"));
 }
 
+TEST_CASE("synth names the option, and what it takes, of a seed or size that no node would take") {
+  const Workplace w;
+  write_picture(w.path / "stone/base_color.png", 5);
+  const ProgramRun r = w.run({"synth", "stone", "-o", "x", "--seed", "-1", "--size", "40000"});
+  CHECK(r.code == 2);
+  CHECK_MESSAGE(
+      r.err ==
+          "error: --size 40000: expected a size such as [512, 256], \"512x256\" or 512, sides from 1 to 32768, "
+          "found the number 40000\nerror: --seed -1: expected an integer of at least 0, found the number -1\n",
+      r.err);
+  CHECK(says(w.run({"synth", "stone", "-o", "x", "--size", "64x40000"}).err, "--size 64x40000: expected a size"));
+  CHECK_FALSE(fs::exists(w.path / "x"));
+}
+
+TEST_CASE("sizes may have a capital X") {
+  const Workplace w;
+  write_picture(w.path / "stone/base_color.png", 5);
+  const ProgramRun r = w.run({"synth", "stone", "-o", "big", "--size", "48X40", "--quality", "draft"});
+  CHECK_MESSAGE(r.code == 0, r.err);
+  CHECK(read_image_info(w.path / "big/base_color.png").size == Size{48, 40});
+}
+
 TEST_CASE("the stock graphs that steer synthesis run") {
   const Workplace w;
   write_picture(w.path / "maps/stone_basecolor.png", 5);
