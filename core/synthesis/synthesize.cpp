@@ -232,6 +232,7 @@ class LevelWork {
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
   bool moves_seams() const { return level_ == seam_level && regular() && !control_; }
   bool mends(int passes_left) const {
+    if (shared_.options.quality == Quality::draft) return false;
     return level_ >= finest_whole_level(regular()) && level_ <= coarsest_mended && !control_ &&
            std::ranges::count(passes_after_mending, passes_left) > 0;
   }
