@@ -31,8 +31,9 @@ const std::vector<Param>& shared_params() {
       {.name = "quality",
        .type = ParamType::choice,
        .fallback = "normal",
-       .help = "How many passes and candidates every level gets. Of the time that normal takes, draft takes about 0.9, "
-               "and best 2.2, for more passes at the finest levels.",
+       .help = "How many passes and candidates every level gets. Of the time that normal takes, draft takes about "
+               "half, and "
+               "best nearly twice that, for more passes at the finest levels.",
        .choices = {quality_names.begin(), quality_names.end()}},
       {.name = "coherence",
        .type = ParamType::number,
