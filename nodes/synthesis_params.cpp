@@ -32,8 +32,7 @@ const std::vector<Param>& shared_params() {
        .type = ParamType::choice,
        .fallback = "normal",
        .help = "How many passes and candidates every level gets. Of the time that normal takes, draft takes about "
-               "half, and "
-               "best nearly twice that, for more passes at the finest levels.",
+               "half and best nearly twice as much, for more passes at the finest levels.",
        .choices = {quality_names.begin(), quality_names.end()}},
       {.name = "coherence",
        .type = ParamType::number,

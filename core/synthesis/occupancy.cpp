@@ -18,6 +18,7 @@ Occupancy::Occupancy(Size exemplar, double weight, double least_factor, const st
       factors_(size_t(columns_) * rows_, unit_factor) {
   for (int x = 0; x < exemplar.width; x++) columns_of_[x] = uint32_t(x / cell_);
   for (int y = 0; y < exemplar.height; y++) row_starts_[y] = uint32_t(y / cell_ * columns_);
+  if (!active()) return;
   areas_.assign(factors_.size(), 0.0);
   for (int y = 0; y < exemplar.height; y++)
     for (int x = 0; x < exemplar.width; x++)

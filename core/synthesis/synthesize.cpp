@@ -57,7 +57,7 @@ struct Effort {
 
 /// The budget belongs to the coarse levels, where pixels are few and decisions are large. Filling in between kept
 /// pixels is harder than going on freely, and there are fewer pixels to do it for.
-Effort effort_at(int level, Quality quality, bool between_kept) {
+Effort effort_at(int level, Quality quality, bool between_kept, bool coarsest) {
   if (quality == Quality::draft) {
     if (level <= 1) return {between_kept ? 3 : level + 1, 0, &sparse_window()};
     return {5, level >= 3 ? 16 : 4, &full_window()};
@@ -67,7 +67,7 @@ Effort effort_at(int level, Quality quality, bool between_kept) {
     if (level <= 1) return {level == 0 ? 4 : 6, level == 0 ? 0 : 4, &full_window()};
     return {16, level >= 3 ? 24 : 8, &full_window()};
   }
-  if (level == 0) return {1, 0, &sparse_window()};
+  if (level == 0) return {coarsest ? 2 : 1, 0, &sparse_window()};  // a tiny exemplar has no other level
   if (level == 1) return {2, 0, &full_window()};
   return {between_kept ? 10 : 7, level >= 3 ? 24 : 8, &full_window()};
 }
@@ -201,7 +201,7 @@ class LevelWork {
     const std::vector<ExemplarPixel> similar =
         similar_pixels(shared_.index.levels()[level_], shared_.exemplar(level_).size);
     const CorrectionLevel level = correction_level(window, similar, fixed_);
-    const Effort effort = effort_at(level_, shared_.options.quality, fixed_.any());
+    const Effort effort = this->effort();
     for (int pass = 0; pass < effort.passes; pass++) {
       CorrectionPass how{.window = effort.window,
                          .coherence = uint32_t(std::floor(coherence() * unit_factor)),
@@ -220,9 +220,12 @@ class LevelWork {
   }
 
   /// How far beyond what is wanted of this level a field must reach.
-  int reach() const { return reach_of(effort_at(level_, shared_.options.quality, fixed_.any()).passes); }
+  int reach() const { return reach_of(effort().passes); }
 
  private:
+  Effort effort() const {
+    return effort_at(level_, shared_.options.quality, fixed_.any(), level_ == shared_.levels - 1);
+  }
   bool limits_pieces() const { return level_ >= finest_limited && !fixed_.any(); }
   double coherence() const {
     const double full = shared_.options.coherence;

@@ -47,12 +47,12 @@ TEST_CASE("synth --tileable asks for a result that wraps, and synth never overwr
 
 TEST_CASE("synth takes a quality, and draft is another result than normal") {
   const Workplace w;
-  write_picture(w.path / "stone/base_color.png", 5, Semantic::base_color, {96, 72});
+  write_picture(w.path / "stone/base_color.png", 5);
   for (const std::string quality : {"draft", "normal"}) {
-    const ProgramRun r = w.run({"synth", "stone", "-o", quality, "--size", "96x96", "--quality", quality});
+    const ProgramRun r = w.run({"synth", "stone", "-o", quality, "--size", "48x48", "--quality", quality});
     CHECK_MESSAGE(r.code == 0, r.err);
   }
-  CHECK(w.run({"synth", "stone", "-o", "unset", "--size", "96x96"}).code == 0);
+  CHECK(w.run({"synth", "stone", "-o", "unset", "--size", "48x48"}).code == 0);
   CHECK(read_text(w.path / "unset/base_color.png") == read_text(w.path / "normal/base_color.png"));
   CHECK(read_text(w.path / "draft/base_color.png") != read_text(w.path / "normal/base_color.png"));
   CHECK(w.run({"synth", "stone", "-o", "x", "--quality", "great"}).code == 2);
