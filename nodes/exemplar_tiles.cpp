@@ -3,7 +3,7 @@
 #include <map>
 #include <mutex>
 
-#include "core/analysis/weighting.h"
+#include "core/analysis/tiling.h"
 
 namespace terrazzo {
 
@@ -29,14 +29,14 @@ Port mask_port() {
 namespace {
 
 /// Several nodes ask it of the same exemplar, often at once; the first finds out.
-bool found_to_tile(const Material& material) {
+bool found_to_tile(const Material& material, const Task& task) {
   constexpr size_t most_known = 64;
   static std::mutex mutex;
   static std::map<Digest, bool> known;
   const std::lock_guard lock(mutex);
   const auto at = known.find(material.digest());
   if (at != known.end()) return at->second;
-  const bool tiles = seems_to_tile(material);
+  const bool tiles = seems_to_tile(material, task);
   if (known.size() == most_known) known.clear();
   return known[material.digest()] = tiles;
 }
@@ -46,7 +46,7 @@ bool found_to_tile(const Material& material) {
 bool exemplar_tiles(NodeContext& node, const Material& material) {
   const std::string& tiles = node.text("tiles");
   if (tiles != "auto") return tiles == "yes";
-  const bool fits = found_to_tile(material);
+  const bool fits = found_to_tile(material, node.task());
   if (fits) node.note("the exemplar tiles: its opposite borders are treated as neighbours");
   return fits;
 }

@@ -1,10 +1,7 @@
 #include "core/analysis/weighting.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -38,101 +35,6 @@ ImagePtr unit_normals(const ImagePtr& map) {
       out[2] = std::sqrt(1.0f - squared);
     }
   });
-}
-
-/// How far a window is from the nearest of many windows elsewhere; a map at a border is judged by what it does inside.
-class WindowSearch {
- public:
-  static constexpr int side = 6;
-
-  explicit WindowSearch(const Image& map) : map_(map) {
-    for (int i = 0; i < places; i++) {
-      const uint64_t r = random_bits(11, i);
-      places_[i] = {int(below(uint32_t(r), map.width() - side)), int(below(uint32_t(r >> 32), map.height() - side))};
-      windows_[i] = window(places_[i][0], places_[i][1]);
-    }
-  }
-
-  /// The nearest window that does not overlap the one at (x, y), which may lie across a border.
-  double nearest(int x, int y) const {
-    const std::vector<float> wanted = window(x, y);
-    double best = std::numeric_limits<double>::max();
-    for (int i = 0; i < places; i++) {
-      if (std::abs(places_[i][0] - x) < side && std::abs(places_[i][1] - y) < side) continue;
-      double sum = 0;
-      for (size_t k = 0; k < wanted.size() && sum < best; k++)
-        sum += double(wanted[k] - windows_[i][k]) * (wanted[k] - windows_[i][k]);
-      best = std::min(best, sum);
-    }
-    return std::sqrt(best);
-  }
-
- private:
-  static constexpr int places = 3000;
-  std::vector<float> window(int x, int y) const { return read_padded(map_, {x, y, side, side}, Outside::wrap); }
-  const Image& map_;
-  std::array<std::array<int, 2>, places> places_;
-  std::array<std::vector<float>, places> windows_;
-};
-
-std::vector<float> border_line(const Image& map, bool rows, int i) {
-  const Size size = map.size();
-  const int at = wrap(i, rows ? size.height : size.width);
-  return map.read(rows ? Rect{0, at, size.width, 1} : Rect{at, 0, 1, size.height});
-}
-
-double distance(const std::vector<float>& a, const std::vector<float>& b) {
-  double sum = 0;
-  for (size_t k = 0; k < a.size(); k++) sum += std::abs(double(a[k]) - b[k]);
-  return sum;
-}
-
-/// Whether a line differs more from the map's means, by channel, than along itself.
-bool stands_out(const std::vector<float>& line, const std::vector<double>& means) {
-  const size_t channels = means.size();
-  const double pixels = double(line.size() / channels);
-  double between = 0, within = 0;
-  for (size_t c = 0; c < channels; c++) {
-    double mean = 0;
-    for (size_t k = c; k < line.size(); k += channels) mean += line[k] / pixels;
-    for (size_t k = c; k < line.size(); k += channels) within += (line[k] - mean) * (line[k] - mean) / pixels;
-    between += (mean - means[c]) * (mean - means[c]);
-  }
-  return between > within;
-}
-
-/// Whether a joint seems to run along one of the borders.
-bool has_joint_along_border(const Image& map) {
-  const std::vector<float> pixels = map.pixels();
-  std::vector<double> means(size_t(map.channels()), 0.0);
-  for (size_t i = 0; i < pixels.size(); i++) means[i % means.size()] += pixels[i] / double(map.size().area());
-  for (const bool rows : {true, false})
-    for (const int i : {-1, 0})
-      if (stands_out(border_line(map, rows, i), means)) return true;
-  return false;
-}
-
-/// Whether values go on from one border to the other about as they do from pixel to pixel beside them.
-bool goes_on(const Image& map, bool rows) {
-  constexpr double most = 1.5;
-  const auto line = [&](int i) { return border_line(map, rows, i); };
-  return distance(line(-1), line(0)) <= most * std::max(distance(line(-2), line(-1)), distance(line(0), line(1)));
-}
-
-/// Whether windows across the seam look as much like the rest of the map as windows inside it do.
-bool windows_fit(const Image& map, const WindowSearch& search, bool rows) {
-  constexpr int samples = 64;
-  constexpr double slack = 1.25;
-  double across = 0, inside = 0;
-  for (int i = 0; i < samples; i++) {
-    const uint64_t r = random_bits(12, rows, i);
-    const int x = int(below(uint32_t(r), map.width() - WindowSearch::side));
-    const int y = int(below(uint32_t(r >> 32), map.height() - WindowSearch::side));
-    inside += search.nearest(x, y);
-    across += rows ? search.nearest(x, map.height() - WindowSearch::side / 2)
-                   : search.nearest(map.width() - WindowSearch::side / 2, y);
-  }
-  return across <= slack * inside;
 }
 
 }  // namespace
@@ -205,29 +107,6 @@ NumberMap weights_of_chosen(const Material& material, const std::vector<std::str
   for (const Map& map : material.maps())
     weights[map.name] = {maps.empty() || std::find(maps.begin(), maps.end(), map.name) != maps.end() ? 1.0 : 0.0};
   return weights;
-}
-
-bool seems_to_tile(const Material& material) {
-  std::vector<ImagePtr> maps;
-  for (const Map& map : material.maps()) {
-    if (std::min(map.image->width(), map.image->height()) < 2 * WindowSearch::side) return false;
-    maps.push_back(materialized(map.image));
-  }
-  // What a joint along the border shows across the seam may come nowhere else: it is then judged by itself. Rarely
-  // asked for.
-  std::optional<bool> joint;
-  const auto has_joint = [&] {
-    if (!joint)
-      joint = std::any_of(maps.begin(), maps.end(), [](const ImagePtr& map) { return has_joint_along_border(*map); });
-    return *joint;
-  };
-  return std::all_of(maps.begin(), maps.end(), [&](const ImagePtr& map) {
-    const auto search = std::make_unique<WindowSearch>(*map);
-    const auto fits = [&](bool rows) {
-      return windows_fit(*map, *search, rows) || (goes_on(*map, rows) && has_joint());
-    };
-    return fits(true) && fits(false);
-  });
 }
 
 }  // namespace terrazzo

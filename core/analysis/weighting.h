@@ -23,8 +23,4 @@ FeaturesPtr weighted_features(const Material& material, const NumberMap& weights
 /// none is named, or 1 for all if those are all 0. Throws Error about "maps" if the material lacks one.
 NumberMap weights_of_chosen(const Material& material, const std::vector<std::string>& maps);
 
-/// Whether opposite borders of every map fit together: windows across them resemble the rest of the map about as much
-/// as windows inside it do.
-bool seems_to_tile(const Material& material);
-
 }  // namespace terrazzo

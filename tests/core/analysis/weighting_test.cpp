@@ -61,33 +61,3 @@ TEST_CASE("OpenGL and DirectX normals of one surface are the same features") {
   const std::vector<float> down = analysis_image(normals(NormalY::down))->pixels();
   for (size_t i = 0; i < up.size(); i++) REQUIRE(up[i] == doctest::Approx(down[i]).epsilon(1e-5));
 }
-
-TEST_CASE("tiling is seen from the borders") {
-  // Overlapping discs, cut at the borders or continued on the other side.
-  const auto discs = [](bool wraps) {
-    return Material::of(make_image({96, 96}, 1, [wraps](int x, int y, int) {
-      float value = 0;
-      for (int i = 0; i < 60; i++) {
-        const uint64_t r = random_bits(9, i);
-        int dx = std::abs(int(r % 96) - x), dy = std::abs(int(r / 96 % 96) - y);
-        if (wraps) dx = std::min(dx, 96 - dx), dy = std::min(dy, 96 - dy);
-        if (dx * dx + dy * dy < 60) value = float(i) / 60;
-      }
-      return value + (wraps ? 0.f : float(x + y) / 100);
-    }));
-  };
-  CHECK(seems_to_tile(*discs(true)));
-  CHECK_FALSE(seems_to_tile(*discs(false)));
-  CHECK_FALSE(seems_to_tile(*Material::of(make_image({64, 64}, 1, [](int x, int, int) { return float(x) / 64; }))));
-}
-
-TEST_CASE("one tile with its joint along the border tiles, unless the joint is cut off on one side") {
-  const auto tile = [](int left) {
-    return Material::of(make_image({96, 96}, 1, [left](int x, int y, int) {
-      const float grain = 0.1f * float(unit_double(random_bits(4, x, y)));
-      return (x < left || x >= 93 || y < 3 || y >= 93 ? 1.f : 0.3f) + grain;
-    }));
-  };
-  CHECK(seems_to_tile(*tile(3)));
-  CHECK_FALSE(seems_to_tile(*tile(0)));
-}
