@@ -7,20 +7,45 @@ namespace terrazzo {
 
 namespace {
 
-constexpr double fraction = 16;  // mismatches are integers of this part of a unit
+// What a joint differs from what lies beside it: about a deviation of the first component.
+constexpr double edge = appearance_limit / 5.0;
+
+double distance(const AppearanceVector* a, const AppearanceVector* b) {
+  return std::sqrt(double(squared_distance(*a, *b)));
+}
 
 }  // namespace
 
+bool ExpansionGround::continues(ExemplarPixel a, ExemplarPixel b, int side) const {
+  int u = a.x + sides[side][0] * block, v = a.y + sides[side][1] * block;
+  if (block == 1) level.exemplar.settle_inside(u, v);
+  return u == b.x && v == b.y;
+}
+
 int64_t ExpansionGround::mismatch(ExemplarPixel a, ExemplarPixel b, int side) const {
+  if (continues(a, b, side)) return 0;
   const PaddedLevel& e = level.exemplar;
   const int dx = sides[side][0], dy = sides[side][1];
-  int u = a.x + dx, v = a.y + dy;
-  e.settle_inside(u, v);
-  if (u == b.x && v == b.y) return 0;
-  const double here = squared_distance(*e.at(a.x, a.y), *e.at(b.x - dx, b.y - dy));
-  const double there = squared_distance(*e.at(a.x + dx, a.y + dy), *e.at(b.x, b.y));
-  // Roots make it a metric, without which a cut is not the best way to expand.
-  return int64_t((std::sqrt(here) + std::sqrt(there)) * fraction);
+  const ptrdiff_t step = dy * e.stride() + dx;
+  double sum = 0;
+  for (int k = 0; k < block; k++) {
+    const AppearanceVector* here = on_side(a, dx, dy, k);
+    const AppearanceVector* there = on_side(b, -dx, -dy, k);
+    // Roots make it a metric, without which a cut is not the best way to expand.
+    double shows = distance(here, there - step) + distance(here + step, there);
+    if (along_edges) {
+      const double edges = 1 + (distance(here, here + step) + distance(there - step, there)) / edge;
+      shows /= edges * std::sqrt(edges);
+    }
+    sum += shows;
+  }
+  return int64_t(sum * mismatch_unit);
+}
+
+const AppearanceVector* ExpansionGround::on_side(ExemplarPixel p, int dx, int dy, int k) const {
+  int u = p.x + (dx == 0 ? k : dx > 0 ? block - 1 : 0), v = p.y + (dy == 0 ? k : dy > 0 ? block - 1 : 0);
+  if (block > 1) level.exemplar.settle_inside(u, v);
+  return level.exemplar.at(u, v);
 }
 
 void Expansion::keep(int pixel) {
@@ -28,12 +53,12 @@ void Expansion::keep(int pixel) {
   kept_.push_back(pixel);
 }
 
-bool Expansion::offer(int pixel, ExemplarPixel shown) {
+bool Expansion::offer(int pixel, ExemplarPixel shown, int64_t pressure) {
   if (ground_.node[size_t(pixel)] != ExpansionGround::untouched || ground_.field.pixels[size_t(pixel)] == shown ||
       ground_.level.fixed.at(size_t(pixel)))
     return false;
   ground_.node[size_t(pixel)] = int(free_.size());
-  free_.push_back({pixel, shown});
+  free_.push_back({pixel, shown, pressure});
   return true;
 }
 
@@ -42,7 +67,10 @@ void Expansion::apply() {
   for (size_t n = 0; n < free_.size(); n++) connect(int(n));
   cut_.solve();
   for (size_t n = 0; n < free_.size(); n++) {
-    if (cut_.on_source_side(int(n))) ground_.field.pixels[free_[n].pixel] = free_[n].offered;
+    if (cut_.on_source_side(int(n))) {
+      ground_.field.pixels[free_[n].pixel] = free_[n].offered;
+      if (!ground_.pressure.empty()) ground_.pressure[free_[n].pixel] = free_[n].pressure;
+    }
     ground_.node[free_[n].pixel] = ExpansionGround::untouched;
   }
   for (const int i : kept_) ground_.node[size_t(i)] = ExpansionGround::untouched;
@@ -54,6 +82,7 @@ void Expansion::connect(int n) {
   const Free& f = free_[size_t(n)];
   const ExemplarPixel kept = ground_.field.pixels[f.pixel];
   const PlaneWindow& window = ground_.level.window;
+  if (!ground_.pressure.empty()) cut_.prefer_source(n, ground_.pressure[f.pixel] - f.pressure);
   for (int side = 0; side < 4; side++) {
     const int64_t m = pixel_beside(ground_.field.size, f.pixel, side, window.closed_x, window.closed_y);
     if (m < 0) continue;

@@ -8,11 +8,14 @@
 
 namespace terrazzo {
 
+inline constexpr int64_t mismatch_unit = 16;  ///< mismatches are integers of this part of a unit of appearance space
+
 /// What all expansions on one field share. Those whose pixels do not meet can work at the same time.
 struct ExpansionGround {
   static constexpr int untouched = -1, kept = -2;
 
-  ExpansionGround(Field& f, const CorrectionLevel& l) : field(f), level(l), node(f.pixels.size(), untouched) {}
+  ExpansionGround(Field& f, const CorrectionLevel& l, int b = 1, bool edges = false)
+      : field(f), level(l), block(b), along_edges(edges), node(f.pixels.size(), untouched) {}
 
   /// How much shows where a pixel shows a and its neighbour on that side (of field.h) b: 0 if b continues
   /// a, as the exemplar's last pixel is continued by itself.
@@ -20,7 +23,16 @@ struct ExpansionGround {
 
   Field& field;
   const CorrectionLevel& level;
+  int block;         ///< a pixel of the field stands for `block` x `block` pixels of the level
+  bool along_edges;  ///< whether what differs shows less along an edge
+  /// What it costs each pixel to show what it shows, whatever its neighbours do; empty: nothing.
+  std::vector<int64_t> pressure{};
   std::vector<int> node;  ///< of each pixel in its expansion's graph
+
+ private:
+  bool continues(ExemplarPixel a, ExemplarPixel b, int side) const;
+  /// The k-th of a block's pixels along one of its sides.
+  const AppearanceVector* on_side(ExemplarPixel p, int dx, int dy, int k) const;
 };
 
 /// One expansion move (Boykov, Veksler & Zabih 2001; for textures Kwatra et al. 2003): some pixels may come to show
@@ -32,8 +44,9 @@ class Expansion {
 
   /// Keeps a pixel from what is offered.
   void keep(int pixel);
-  /// Offers a pixel something else to show. False if it has been offered already, or stays as it is.
-  bool offer(int pixel, ExemplarPixel shown);
+  /// Offers a pixel something else to show, under that pressure. False if it has been offered already, or stays as it
+  /// is.
+  bool offer(int pixel, ExemplarPixel shown, int64_t pressure = 0);
   /// Makes the move and forgets what was offered.
   void apply();
 
@@ -41,6 +54,7 @@ class Expansion {
   struct Free {
     int pixel;
     ExemplarPixel offered;
+    int64_t pressure;
   };
   void connect(int n);
 

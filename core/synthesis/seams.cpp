@@ -15,14 +15,18 @@ namespace terrazzo {
 namespace {
 
 constexpr int smallest_piece = 2;  // pixels; smaller ones only give way
+// What it costs each of its pixels that a piece is of a fair size, in units of appearance space, and how many times as
+// much it can be.
+constexpr double fair_pressure = appearance_limit / 400.0;
+constexpr double most_pressure = 4;
 
 class SeamMover {
  public:
   SeamMover(ExpansionGround& ground, const Field& before, int reach)
       : ground_(ground), before_(before), reach_(reach), expansion_(ground) {}
 
-  /// Offers what is left of the piece to the pixels in its reach.
-  void spread(std::span<const int> piece) {
+  /// Offers what is left of the piece to the pixels in its reach, under that pressure.
+  void spread(std::span<const int> piece, int64_t pressure) {
     std::vector<Reached> rim, next;
     for (const int i : piece) {
       if (!(ground_.field.pixels[i] == before_.pixels[i])) continue;
@@ -36,7 +40,8 @@ class SeamMover {
           const int64_t n = beside(from.pixel, side);
           if (n < 0) continue;
           Reached reached{int(n), from.shown};
-          if (step(reached.shown, side) && expansion_.offer(reached.pixel, reached.shown)) next.push_back(reached);
+          if (step(reached.shown, side) && expansion_.offer(reached.pixel, reached.shown, pressure))
+            next.push_back(reached);
         }
       rim.swap(next);
     }
@@ -56,11 +61,14 @@ class SeamMover {
 
   /// Whether the exemplar goes on there; moves to it.
   bool step(ExemplarPixel& p, int side) const {
-    const int x = p.x + sides[side][0], y = p.y + sides[side][1];
-    int u = x, v = y;
-    if (!ground_.level.exemplar.settles(u, v) || u != x || v != y) return false;
-    p = {uint16_t(u), uint16_t(v)};
+    const int block = ground_.block, x = p.x + sides[side][0] * block, y = p.y + sides[side][1] * block;
+    if (!stays(x, y) || !stays(x + block - 1, y + block - 1)) return false;
+    p = {uint16_t(x), uint16_t(y)};
     return true;
+  }
+  bool stays(int x, int y) const {
+    int u = x, v = y;
+    return ground_.level.exemplar.settles(u, v) && u == x && v == y;
   }
 
   ExpansionGround& ground_;
@@ -69,24 +77,40 @@ class SeamMover {
   Expansion expansion_;
 };
 
-}  // namespace
+std::vector<int64_t> pressures(const Pieces& pieces, double fair) {
+  std::vector<int64_t> out(size_t(pieces.count()), 0);
+  if (fair <= 0) return out;
+  for (int piece = 0; piece < pieces.count(); piece++)
+    out[size_t(piece)] = int64_t(fair_pressure * mismatch_unit * std::min(most_pressure, pieces.area(piece) / fair));
+  return out;
+}
 
-void move_seams(Field& field, const CorrectionLevel& level, int reach, const Task& task) {
-  const Pieces pieces(field, 1, level.window.closed_x, level.window.closed_y);
+void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
+  const Pieces pieces(field, moves.block, level.window.closed_x, level.window.closed_y);
   std::vector<int> order(size_t(pieces.count()));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.area(a) > pieces.area(b); });
-  Rounds rounds(field, level.window, reach);
+  Rounds rounds(field, level.window, moves.reach);
   for (const int piece : order)
     if (pieces.area(piece) >= smallest_piece) rounds.add(piece, pieces.members(piece));
   const Field before = field;
-  ExpansionGround ground(field, level);
-  tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(ground, before, reach); });
+  const std::vector<int64_t> pressure = pressures(pieces, moves.fair_piece);
+  ExpansionGround ground(field, level, moves.block, moves.along_edges);
+  ground.pressure.resize(field.pixels.size());
+  for (size_t i = 0; i < field.pixels.size(); i++) ground.pressure[i] = pressure[size_t(pieces.of(int(i)))];
+  tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(ground, before, moves.reach); });
   for (const std::vector<int>& round : rounds.all())
     tbb::parallel_for(0, int(round.size()), [&](int i) {
       task.check();
-      movers.local().spread(pieces.members(round[size_t(i)]));
+      const int piece = round[size_t(i)];
+      movers.local().spread(pieces.members(piece), pressure[size_t(piece)]);
     });
+}
+
+}  // namespace
+
+void move_seams(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
+  for (int i = 0; i < moves.sweeps; i++) sweep(field, level, moves, task);
 }
 
 }  // namespace terrazzo

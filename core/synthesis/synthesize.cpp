@@ -73,9 +73,13 @@ Effort effort_at(int level, Quality quality, bool between_kept, bool coarsest) {
 }
 
 constexpr int alignment_reach = 2;
-constexpr int seam_level = 2;  // the finest on which pieces still change as wholes
-constexpr int seam_reach = 8;
+// Seams between bands move on the finest level on which pieces still change as wholes.
+constexpr int band_seam_level = 2;
+constexpr SeamMoves between_bands{.reach = 8};
 constexpr int passes_after_seams = 2;
+// Between cells they move last of all, when joints are seen: two bricks may differ, the halves of one may not.
+constexpr int cell_seam_level = 0;
+constexpr int cell_seam_reach = 16;
 constexpr int coarsest_mended = 3;  // at coarser ones it brings nothing
 constexpr int passes_after_mending[] = {2, 5};
 
@@ -179,8 +183,10 @@ class LevelWork {
         block_starts(parent, window, exemplar_, phase_, shared_.jitter(level_), shared_.options.seed, level_);
     const FixedPixels fixed = shared_.fixed(level_ + 1);
     if (fixed.any()) start_where_fixed(starts, fixed, window);
-    if (phase_.resolves_cells())
-      align_pieces(starts, 2, correction_level(window, {}, fixed), alignment_reach, shared_.task);
+    const std::vector<ExemplarPixel> none_similar;
+    const CorrectionLevel level = correction_level(window, none_similar, fixed);
+    if (phase_.resolves_cells()) align_pieces(starts, 2, level, alignment_reach, shared_.task);
+    if (moves_seams(2, cell_seam_level)) move_seams(starts, level, between_cells(), shared_.task);
     return starts;
   }
 
@@ -209,8 +215,8 @@ class LevelWork {
                          .seed = random_bits(shared_.options.seed, Purpose::correction),
                          .pass = pass,
                          .wanted = grown(wanted, reach_of(effort.passes - 1 - pass))};
-      if (moves_seams() && pass == effort.passes - passes_after_seams)
-        move_seams(field, level, seam_reach, shared_.task);
+      if (moves_seams(1, band_seam_level) && pass == effort.passes - passes_after_seams)
+        move_seams(field, level, between_bands, shared_.task);
       if (mends(effort.passes - pass))
         mend_seams(field, level, occupancy_, random_bits(shared_.options.seed, Purpose::mending), shared_.task);
       if (limits_pieces()) how.piece_coherence = piece_coherence(field, level, coherence(), regular());
@@ -233,7 +239,15 @@ class LevelWork {
     return limits_pieces() && shared_.places_landmarks(level_) ? full * landmark_coherence : full;
   }
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
-  bool moves_seams() const { return level_ == seam_level && regular() && !control_; }
+  bool moves_seams(int rank, int level) const { return shared_.lattice.rank == rank && level_ == level && !control_; }
+  /// Of blocks of two by two pixels.
+  SeamMoves between_cells() const {
+    return {.reach = cell_seam_reach,
+            .sweeps = 2,
+            .block = 2,
+            .along_edges = true,
+            .fair_piece = pieces_on_lattice.large * double(exemplar_.size().area()) / 4};
+  }
   bool mends(int passes_left) const {
     if (shared_.options.quality == Quality::draft) return false;
     return level_ >= finest_whole_level(regular()) && level_ <= coarsest_mended && !control_ &&

@@ -1,5 +1,7 @@
 #include "core/synthesis/seams.h"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include "core/hash.h"
@@ -52,7 +54,7 @@ TEST_CASE("a seam moves to where its two pieces agree, from either side") {
   for (const int seam : {9, 20}) {
     CAPTURE(seam);
     Field field = meeting_at(seam);
-    move_seams(field, level_of(exemplar, none), 8, Task());
+    move_seams(field, level_of(exemplar, none), {}, Task());
     for (int y = 0; y < field.size.height; y++) {
       // Output column x shows exemplar column 4 + x; the pieces agree over columns 16 to 20.
       CHECK(columns_of_first_piece(field, y) >= 16 - 4);
@@ -66,13 +68,95 @@ TEST_CASE("a seam stays where nothing better is in reach, and fixed pixels stay 
   const PaddedLevel exemplar = exemplar_with_repeat();
   Field best = meeting_at(14);
   const Field before = best;
-  move_seams(best, level_of(exemplar, none), 8, Task());
+  move_seams(best, level_of(exemplar, none), {}, Task());
   CHECK(best.pixels == before.pixels);
 
   Field field = meeting_at(9);
   KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 0)};
   for (int y = 0; y < field.size.height; y++) kept.keep[size_t(y) * field.size.width + 9] = 1;
   const Field fixed = field;
-  move_seams(field, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 8, Task());
+  move_seams(field, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), {}, Task());
   for (int y = 0; y < field.size.height; y++) CHECK(field.at(9, y) == fixed.at(9, y));
+}
+
+namespace {
+
+constexpr int tile = 12;
+
+/// Tiles, each of a shade of its own, with joints of two pixels; neighbourhoods are not blurred into one another.
+PaddedLevel tiled_exemplar() {
+  AppearanceLevel level;
+  level.size = {10 * tile, 6 * tile};
+  for (int y = 0; y < level.size.height; y++)
+    for (int x = 0; x < level.size.width; x++) {
+      AppearanceVector v{};
+      for (int d = 0; d < 3; d++) {
+        const uint64_t shade = random_bits(9, x / tile, y / tile, d), grain = random_bits(10, x, y, d);
+        v[d] = int16_t(x % tile < 2 || y % tile < 2 ? -1200 : int(below(uint32_t(shade), 1000)));
+        v[d] += int16_t(below(uint32_t(grain), 60));
+      }
+      level.vectors.push_back(v);
+    }
+  return {level, false};
+}
+
+constexpr Size blocks{4 * tile / 2, 3 * tile / 2};  // of two by two pixels
+
+/// Two pieces, the right one five tiles further on, that meet in the middle of tiles.
+Field meeting_in_tiles() {
+  Field field{blocks, {}};
+  for (int y = 0; y < blocks.height; y++)
+    for (int x = 0; x < blocks.width; x++)
+      field.pixels.push_back({uint16_t(tile + 2 * x + (x < 15 ? 0 : 5 * tile)), uint16_t(tile + 2 * y)});
+  return field;
+}
+
+/// The blocks, joints left out, that show another tile than most of their tile do.
+int blocks_of_other_tiles(const Field& field) {
+  int others = 0;
+  for (int column = 0; column < 4; column++)
+    for (int row = 0; row < 3; row++) {
+      int far = 0, all = 0;
+      for (int y = row * tile / 2 + 1; y < (row + 1) * tile / 2; y++)
+        for (int x = column * tile / 2 + 1; x < (column + 1) * tile / 2; x++, all++)
+          far += field.at(x, y).x - tile - 2 * x == 5 * tile;
+      others += std::min(far, all - far);
+    }
+  return others;
+}
+
+}  // namespace
+
+TEST_CASE("seams between cells leave the middles of tiles for their joints") {
+  const std::vector<ExemplarPixel> none;
+  const PaddedLevel exemplar = tiled_exemplar();
+  Field field = meeting_in_tiles();
+  REQUIRE(blocks_of_other_tiles(field) > 20);
+  move_seams(field, level_of(exemplar, none), {.reach = 8, .block = 2, .along_edges = true}, Task());
+  CHECK(blocks_of_other_tiles(field) == 0);
+  // Both pieces are still there, and each goes on as in the exemplar.
+  CHECK(Pieces(field, 2).count() == 2);
+}
+
+TEST_CASE("a large piece swallows a small one, unless to be large costs it") {
+  const std::vector<ExemplarPixel> none;
+  AppearanceLevel level;
+  level.size = {96, 64};
+  for (int i = 0; i < level.size.area(); i++) level.vectors.push_back({int16_t(below(uint32_t(random_bits(8, i)), 4))});
+  const PaddedLevel plain(level, false);
+  const auto left_of_small = [&](double fair) {
+    Field field{{30, 20}, {}};
+    for (int y = 0; y < 20; y++)
+      for (int x = 0; x < 30; x++) {
+        const bool small = x >= 12 && x < 18 && y >= 7 && y < 13;
+        field.pixels.push_back({uint16_t(4 + 2 * x + (small ? 25 : 0)), uint16_t(4 + 2 * y)});
+      }
+    move_seams(field, level_of(plain, none), {.reach = 8, .block = 2, .along_edges = true, .fair_piece = fair}, Task());
+    int left = 0;
+    for (int y = 0; y < 20; y++)
+      for (int x = 0; x < 30; x++) left += field.at(x, y).x != 4 + 2 * x;
+    return left;
+  };
+  CHECK(left_of_small(0) == 0);
+  CHECK(left_of_small(50) >= 36);
 }
