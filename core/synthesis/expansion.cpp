@@ -9,6 +9,8 @@ namespace {
 
 // What a joint differs from what lies beside it: about a deviation of the first component.
 constexpr double edge = appearance_limit / 5.0;
+// What of a mismatch no edge hides: between alike tiles a seam may as well be anywhere.
+constexpr double seen_on_edges = 0.1;
 
 double distance(const AppearanceVector* a, const AppearanceVector* b) {
   return std::sqrt(double(squared_distance(*a, *b)));
@@ -35,7 +37,7 @@ int64_t ExpansionGround::mismatch(ExemplarPixel a, ExemplarPixel b, int side) co
     double shows = distance(here, there - step) + distance(here + step, there);
     if (along_edges) {
       const double edges = 1 + (distance(here, here + step) + distance(there - step, there)) / edge;
-      shows /= edges * std::sqrt(edges);
+      shows *= seen_on_edges + (1 - seen_on_edges) / (edges * std::sqrt(edges));
     }
     sum += shows;
   }
