@@ -44,6 +44,22 @@ void FineLayout::offsets(int left, int y, int count, Offset* out) const {
   }
 }
 
+void FineLayout::shown(int x, int y, int count, Offset* out) const {
+  if (exemplar_ == uv_->exemplar()) {
+    const ExemplarPixel* pixels = &uv_->pixels()[size_t(y) * uv_->size().width + x];
+    for (int i = 0; i < count; i++) out[i] = {pixels[i].x, pixels[i].y};
+    return;
+  }
+  const int left = owner_x(x);
+  std::vector<Offset> owners(size_t(owner_x(x + count - 1) + 1 - left));
+  offsets(left, owner_y(y), int(owners.size()), owners.data());
+  for (int i = 0; i < count; i++) {
+    const Offset& offset = owners[size_t(owner_x(x + i) - left)];
+    out[i] = {x + i + offset.x, y + offset.y};
+    settle(out[i].x, out[i].y);
+  }
+}
+
 bool FineLayout::inside(int& x, int& y) const {
   if (!uv_->wraps().exemplar) return x >= 0 && y >= 0 && x < exemplar_.width && y < exemplar_.height;
   x = wrap(x, exemplar_.width);

@@ -42,6 +42,9 @@ class FineLayout {
   /// the output wraps, else the border pixels' pieces go on.
   void offsets(int left, int y, int count, Offset* out) const;
 
+  /// The exemplar pixels that part of a row of the output shows. The part lies inside.
+  void shown(int x, int y, int count, Offset* out) const;
+
   /// The exemplar pixel at coordinates that an offset led to: around the other side if it wraps; false if they lie
   /// outside.
   bool inside(int& x, int& y) const;

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/fine_layout.h"
 #include "core/image_ops.h"
+#include "core/joined_heights.h"
 #include "core/local_mean.h"
 #include "core/normal.h"
 #include "core/pixel_space.h"
@@ -220,15 +221,21 @@ bool can_blend(Semantic semantic) {
   return semantic != Semantic::mask && semantic != Semantic::data;
 }
 
-MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const ResolveOptions& options) {
+MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const ResolveOptions& options, const Task& task) {
   const Size size = exemplar.size();
   require_one_shape("material", exemplar);
   check_scale(size, uv->exemplar(), options.scale);
   const auto exact = std::make_shared<FineLayout>(uv, size, 0);
   const auto blended = options.blend > 0 ? std::make_shared<FineLayout>(uv, size, options.blend) : exact;
+  const Size analysed = uv->exemplar();
+  const double reach = options.join * (options.join < 1 ? std::min(analysed.width, analysed.height) : 1);
   std::vector<Map> maps;
-  for (const Map& map : exemplar.maps())
-    maps.push_back({map.name, resolved_map(map.image, can_blend(map.image->info().semantic) ? blended : exact)});
+  for (const Map& map : exemplar.maps()) {
+    const ImageInfo& info = map.image->info();
+    maps.push_back({map.name, reach > 0 && can_join(info)
+                                  ? joined_heights(map.image, exact, reach, task)
+                                  : resolved_map(map.image, can_blend(info.semantic) ? blended : exact)});
+  }
   return Material::make(exemplar.name(), std::move(maps));
 }
 

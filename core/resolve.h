@@ -8,11 +8,15 @@ namespace terrazzo {
 struct ResolveOptions {
   /// Radius of seam blending in pixels of the uv map, 0..largest_blend; 0: every pixel is exactly one exemplar pixel.
   double blend = 0;
+  /// How far heights give way so that pieces meet, see core/joined_heights.h: in pixels of the uv map, or below 1 as a
+  /// part of the analysed exemplar's shorter side; 0: not at all. Heights that are joined are not blended.
+  double join = 0;
   /// How much larger the exemplar is than the one that was analysed, and the maps than the uv map: 1..largest_scale,
   /// or 0 for whatever the exemplar's size says.
   double scale = 1;
 };
 inline constexpr double largest_blend = 8;
+inline constexpr double farthest_join = 1024;
 inline constexpr double largest_scale = 64;
 
 /// Whether seams of such a map are blended: not those of masks and data, whose values may be labels.
@@ -32,6 +36,7 @@ bool can_blend(Semantic semantic);
 ///
 /// `exemplar`'s size (that of its largest map) is the analysed exemplar's times `scale`; smaller maps of it are sampled
 /// at the same relative place. All maps get the size of the uv map times `scale`. Throws Error if sizes do not fit.
-MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const ResolveOptions& options = {});
+MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const ResolveOptions& options = {},
+                     const Task& task = {});
 
 }  // namespace terrazzo

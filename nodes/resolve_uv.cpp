@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/joined_heights.h"
 #include "core/node.h"
 #include "core/resolve.h"
 #include "nodes/image_work.h"
@@ -20,6 +21,12 @@ NodeType resolve_uv_node() {
       "become continuous, and details keep their contrast (Heitz & Neyret 2018); away from seams every pixel stays "
       "exactly the exemplar's. Maps that "
       "mean mask or data stay exact everywhere, since their values may be labels. "
+      "With `join`, pieces of height maps are raised and lowered so that they meet, which removes steps where "
+      "pieces of different height lie side by side: slopes stay those of the exemplar, within pieces and across seams, "
+      "and so do cliffs that the exemplar has at a seam itself; the difference is spread over the surroundings "
+      "(gradient-domain compositing, Perez, Gangnet & Blake 2003, with the screened Poisson equation of Bhat et al. "
+      "2008). Heights stay within the exemplar's. Normals fit such heights as well as the exemplar's own. All of the "
+      "result is seen at once: tiles of a larger surface, each resolved by itself, fit together only without it. "
       "With `scale`, an exemplar that is larger than the analysed one is shown: analyse and synthesize a copy made "
       "smaller by `resize`, which is quicker and sees larger features, and give resolve_uv the original.";
   t.inputs = {{.name = "uv", .type = ValueType::uv_map, .help = "which exemplar pixel each output pixel shows"},
@@ -34,6 +41,14 @@ NodeType resolve_uv_node() {
        .min = 0,
        .max = largest_blend,
        .unit = "pixels of the uv map"},
+      {.name = "join",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "How far from a seam height maps of one channel give way so that pieces meet: below 1 a part of the "
+               "analysed exemplar's shorter side, else pixels of the uv map. 0: not at all. Where they do, `blend` "
+               "does not count for them.",
+       .min = 0,
+       .max = farthest_join},
       {.name = "scale",
        .type = ParamType::number,
        .fallback = 1.0,
@@ -53,15 +68,22 @@ NodeType resolve_uv_node() {
     return problems;
   };
   t.memory_hint = [](const NodeContext& node) {
-    size_t values = 0;
-    for (const Map& m : node.input<Material>("material")->maps())
-      values += size_t(m.image->size().area()) * m.image->channels();
-    // The exemplar, and for blending its linear pixels and their local means.
-    return values * sizeof(float) * (node.number("blend") > 0 ? 3 : 1);
+    const auto material = node.input<Material>("material");
+    const auto uv = node.input<UvMap>("uv");
+    const double pixels = double(uv->size().area()) * double(material->size().area()) / double(uv->exemplar().area());
+    double values = 0;
+    for (const Map& m : material->maps()) {
+      // The exemplar, and for blending its linear pixels and their local means.
+      values += double(m.image->size().area()) * m.image->channels() * (node.number("blend") > 0 ? 3 : 1);
+      // The solution at half the result's size, twice, its forces, and coarser levels of all three.
+      if (node.number("join") > 0 && can_join(m.image->info())) values += pixels;
+    }
+    return size_t(values * sizeof(float));
   };
   t.compute = [](NodeContext& node) {
-    const ResolveOptions options{.blend = node.number("blend"), .scale = node.number("scale")};
-    node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv"), options));
+    const ResolveOptions options{
+        .blend = node.number("blend"), .join = node.number("join"), .scale = node.number("scale")};
+    node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv"), options, node.task()));
   };
   t.foresee = [](const Params& params, const InputForecasts& inputs) {
     foresee_one_shape("material", inputs);

@@ -221,7 +221,7 @@ bool same_folder(const std::string& a, const std::string& b) {
 void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
   struct Flags : RunFlags {
-    std::string folder, out, size, seed, quality, blend, format;
+    std::string folder, out, size, seed, quality, blend, join, format;
     bool tileable = false;
   };
   const auto flags = std::make_shared<Flags>();
@@ -235,6 +235,12 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       ->add_option("--blend", flags->blend,
                    "How far from a seam pixels are blended, 0 to 8; 2 to 3 hides most seams. None if not given")
       ->type_name("PIXELS");
+  synth
+      ->add_option(
+          "--join", flags->join,
+          "How far heights give way so that pieces meet: below 1 a part of the exemplar's side, else pixels; 0 "
+          "keeps them as they are. 0.125 if not given")
+      ->type_name("REACH");
   synth
       ->add_option("--format", flags->format,
                    "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
@@ -252,6 +258,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       set_if_given("--seed", "seed", flags->seed);
       set_if_given("--quality", "quality", flags->quality);
       set_if_given("--blend", "blend", flags->blend);
+      set_if_given("--join", "join", flags->join);
       set_if_given("--format", "format", flags->format);
       set_if_given("--tileable", "tileable", flags->tileable ? "xy" : "");
       std::vector<std::string> set;
