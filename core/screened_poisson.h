@@ -60,10 +60,10 @@ class ScreenedPoisson {
  public:
   ScreenedPoisson(CellAxis x, CellAxis y, double screen);
 
-  /// A row of forces, for adding what the values so far leave over: 0 at first, later those that the values have.
+  /// The forces that the values have, 0 at first. Whoever adds to them what they lack has them made good by `improve`.
   float* forces(int row);
   const float* values(int row) const { return levels_.front().row(row); }
-  /// One V-cycle: values, 0 at first, come nearer to the solution.
+  /// One V-cycle brings the values, 0 at first, nearer to those of the forces; these then become what the values have.
   void improve(const Task& task);
   /// Frees everything but the values.
   void finish();

@@ -55,3 +55,21 @@ TEST_CASE("every stock graph that resolves a uv map lets its user blend seams, a
   }
   CHECK(graphs == 6);
 }
+
+TEST_CASE("stock graphs join heights, but not where parts are to be kept, and let their user choose") {
+  for (const auto& [name, reach] : {std::pair("material", 0.125),
+                                    {"transfer", 0.125},
+                                    {"magnify", 0.125},
+                                    {"inpaint", 0.0},
+                                    {"make_tileable", 0.0}}) {
+    CAPTURE(name);
+    const auto join = [&, name = name](const std::vector<std::string>& overrides) {
+      const fs::path path = fs::path(TERRAZZO_SOURCE_DIR) / "graphs" / (std::string(name) + ".json");
+      for (const GraphNode& n : load_graph(path, overrides, {.allow_unset = true}).graph.nodes)
+        if (n.type->name == "resolve_uv") return std::get<double>(n.params.at("join"));
+      return -1.0;
+    };
+    CHECK(join({}) == reach);
+    CHECK(join({"join=32"}) == 32);
+  }
+}

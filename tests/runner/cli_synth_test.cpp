@@ -83,6 +83,29 @@ TEST_CASE("synth blends seams as far as it is told to, none unless told, and ref
   }
 }
 
+TEST_CASE("synth joins heights as far as it is told to, and leaves them as they are if told so") {
+  const Workplace w;
+  write_picture(w.path / "stone/base_color.png", 5);
+  write_picture(w.path / "stone/height.png", 6);
+  const auto result = [&](const std::string& name, const std::vector<std::string>& options) {
+    std::vector<std::string> args = {"synth", "stone", "-o", name, "--size", "48x48"};
+    args.insert(args.end(), options.begin(), options.end());
+    const ProgramRun r = w.run(args);
+    CHECK_MESSAGE(r.code == 0, r.err);
+    return read_text(w.path / name / "height.png");
+  };
+  const std::string joined = result("unset", {});
+  CHECK(result("eighth", {"--join", "0.125"}) == joined);
+  const std::string exact = result("exact", {"--join", "0"});
+  CHECK(exact != joined);
+  CHECK(read_text(w.path / "exact/base_color.png") == read_text(w.path / "unset/base_color.png"));
+  for (const std::string wrong : {"-1", "nan", "far"}) {
+    const ProgramRun r = w.run({"synth", "stone", "-o", "x", "--join", wrong});
+    CHECK(r.code == 2);
+    CHECK_MESSAGE(r.err.find("--join " + wrong + ": expected a number from 0 to 1024") != std::string::npos, r.err);
+  }
+}
+
 TEST_CASE("formats go by all their names, in upper and lower case, and a wrong one is told with the right ones") {
   const Workplace w;
   write_picture(w.path / "stone/base_color.png", 5);
