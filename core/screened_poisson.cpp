@@ -14,6 +14,7 @@ namespace {
 
 constexpr int sweeps = 3;  ///< of smoothing, before and after coarser levels
 constexpr int cells_a_task = 1 << 14;
+constexpr int rows_a_band = 64;
 
 template <typename Body>
 void for_rows(int rows, int columns, const Body& body) {
@@ -101,7 +102,6 @@ ScreenedPoisson::ScreenedPoisson(CellAxis x, CellAxis y, double screen)
     const size_t columns = level.x.widths.size(), rows = level.y.widths.size();
     level.forces.resize(columns * rows);
     level.values.resize(level.stride() * rows);
-    level.changed.resize(level.stride() * rows);
     x = level.x.coarser();
     y = level.y.coarser();
     level.x_shares = coarse_shares(level.x, x);
@@ -141,13 +141,35 @@ void ScreenedPoisson::Level::close(float* row) const {
 void ScreenedPoisson::smooth(Level& level, const Task& task) const {
   for (const float step : steps_) {
     task.check();
-    for_rows(level.y.count(), level.x.count(), [&](int y) {
-      float* out = &level.changed[size_t(y) * level.stride() + 1];
-      relaxed(level.cells(y, screen_), step, out);
-      level.close(out);
-    });
-    std::swap(level.values, level.changed);
+    smooth_once(level, step);
   }
+}
+
+/// Changes values where they lie: of what they were before, each band of rows keeps no more than it still has to see.
+void ScreenedPoisson::smooth_once(Level& level, float step) const {
+  const int rows = level.y.count(), bands = (rows + rows_a_band - 1) / rows_a_band;
+  const size_t stride = level.stride();
+  std::vector<float> around(size_t(bands) * 2 * stride);  // the row above each band, and the row below
+  const auto copy = [&](int y, float* out) { std::copy_n(level.row(y) - 1, stride, out); };
+  for (int i = 0; i < bands; i++) {
+    copy(wrap(i * rows_a_band - 1, rows), &around[size_t(i) * 2 * stride]);
+    copy(std::min((i + 1) * rows_a_band, rows) % rows, &around[(size_t(i) * 2 + 1) * stride]);
+  }
+  tbb::parallel_for(0, bands, [&](int i) {
+    const int first = i * rows_a_band, last = std::min(first + rows_a_band, rows) - 1;
+    const float* upper = &around[size_t(i) * 2 * stride];
+    std::vector<float> above(upper, upper + stride), here(stride);
+    for (int y = first; y <= last; y++) {
+      copy(y, here.data());
+      CellRow cells = level.cells(y, screen_);
+      cells.above = &above[1];
+      cells.here = &here[1];
+      if (y == last) cells.below = &around[(size_t(i) * 2 + 1) * stride + 1];
+      relaxed(cells, step, level.row(y));
+      level.close(level.row(y));
+      std::swap(above, here);
+    }
+  });
 }
 
 void ScreenedPoisson::restrict_from(const Level& fine, Level& coarse) const {
@@ -167,7 +189,7 @@ void ScreenedPoisson::prolong_to(Level& fine, const Level& coarse) const {
   for_rows(fine.y.count(), fine.x.count(), [&](int y) {
     const CoarseShare& v = fine.y_shares[size_t(y)];
     const float *near = coarse.row(v.near), *far = coarse.row(v.far);
-    float* out = &fine.values[size_t(y) * fine.stride() + 1];
+    float* out = fine.row(y);
     const auto along = [&](int x) { return near[x] + v.far_share * (far[x] - near[x]); };
     for (int x = 0; x < fine.x.count(); x++) {
       const CoarseShare& h = fine.x_shares[size_t(x)];
@@ -204,7 +226,6 @@ void ScreenedPoisson::improve(const Task& task) {
 void ScreenedPoisson::finish() {
   levels_.resize(1);
   levels_.front().forces = {};
-  levels_.front().changed = {};
 }
 
 }  // namespace terrazzo

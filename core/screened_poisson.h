@@ -73,13 +73,15 @@ class ScreenedPoisson {
     CellAxis x, y;
     std::vector<CoarseShare> x_shares, y_shares;  ///< of its cells in the next level
     std::vector<float> forces;
-    std::vector<float> values, changed;  ///< rows with one more cell at either end
+    std::vector<float> values;  ///< rows with one more cell at either end
     size_t stride() const { return x.widths.size() + 2; }
     const float* row(int y) const { return &values[size_t(y) * stride() + 1]; }
+    float* row(int y) { return &values[size_t(y) * stride() + 1]; }
     CellRow cells(int y, float screen) const;
     void close(float* row) const;
   };
   void smooth(Level& level, const Task& task) const;
+  void smooth_once(Level& level, float step) const;
   void restrict_from(const Level& fine, Level& coarse) const;
   void prolong_to(Level& fine, const Level& coarse) const;
   void cycle(size_t level, const Task& task);

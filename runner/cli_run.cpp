@@ -239,7 +239,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       ->add_option(
           "--join", flags->join,
           "How far heights give way so that pieces meet: below 1 a part of the exemplar's side, else pixels; 0 "
-          "keeps them as they are. 0.125 if not given")
+          "keeps them as they are. 0.03 if not given")
       ->type_name("REACH");
   synth
       ->add_option("--format", flags->format,

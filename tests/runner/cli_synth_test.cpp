@@ -95,7 +95,7 @@ TEST_CASE("synth joins heights as far as it is told to, and leaves them as they 
     return read_text(w.path / name / "height.png");
   };
   const std::string joined = result("unset", {});
-  CHECK(result("eighth", {"--join", "0.125"}) == joined);
+  CHECK(result("same", {"--join", "0.03"}) == joined);
   const std::string exact = result("exact", {"--join", "0"});
   CHECK(exact != joined);
   CHECK(read_text(w.path / "exact/base_color.png") == read_text(w.path / "unset/base_color.png"));
