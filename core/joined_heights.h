@@ -21,9 +21,9 @@ bool can_join(const ImageInfo& info);
 /// pull to the exemplar's own heights keeps them within what they were: a difference at a seam is made up for within
 /// about `reach` pixels of the uv map. Heights stay within those that the exemplar has.
 ///
-/// The coarse part of the solution is worked out at once, in 4 bytes per output pixel, of which 1 stays; the rest when
-/// pixels are pulled, the same bits whatever region is read. Wraps as the layout does; beyond other borders is nothing
-/// to be joined to. What is not finite in the exemplar stays as it is and moves nothing.
+/// The coarse part of the solution is worked out at once, in 2.7 bytes per output pixel, of which 1 stays; the rest
+/// when pixels are pulled, the same bits whatever region is read. Wraps as the layout does; beyond other borders is
+/// nothing to be joined to. What is not finite in the exemplar stays as it is and moves nothing.
 ImagePtr joined_heights(const ImagePtr& map, const std::shared_ptr<const FineLayout>& layout, double reach,
                         const Task& task);
 

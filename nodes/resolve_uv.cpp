@@ -75,8 +75,8 @@ NodeType resolve_uv_node() {
     for (const Map& m : material->maps()) {
       // The exemplar, and for blending its linear pixels and their local means.
       values += double(m.image->size().area()) * m.image->channels() * (node.number("blend") > 0 ? 3 : 1);
-      // The solution at half the result's size, twice, its forces, and coarser levels of all three.
-      if (node.number("join") > 0 && can_join(m.image->info())) values += pixels;
+      // The solution and its forces at half the result's size, and those of all coarser levels.
+      if (node.number("join") > 0 && can_join(m.image->info())) values += 2 * pixels / 3;
     }
     return size_t(values * sizeof(float));
   };

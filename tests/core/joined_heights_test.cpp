@@ -215,6 +215,7 @@ TEST_CASE("only height maps of one channel are joined") {
         exemplar_size, channels, [](int x, int y, int c) { return noise(x, y + 100 * c); }, semantic);
     CHECK(same_bits(*shown(map, uv, 8), *shown(map, uv, 0)));
   }
+  CHECK(shown(heights(noise), uv, 8)->info() == shown(heights(noise), uv, 0)->info());
   CHECK(!same_bits(*shown(heights(noise), uv, 8), *shown(heights(noise), uv, 0)));
 }
 
