@@ -87,9 +87,9 @@ void relaxed(const CellRow& row, float step, float* out) {
 }
 
 std::vector<float> smoothing_steps(int count) {
-  std::vector<float> steps;
+  std::vector<float> steps(size_t(count), 0.0f);
   for (int i = 0; i < count; i++)
-    steps.push_back(float(1 / (1.25 + 0.75 * exact::cos_turns((2 * i + 1) / (4.0 * count)))));
+    steps[size_t(i)] = float(1 / (1.25 + 0.75 * exact::cos_turns((2 * i + 1) / (4.0 * count))));
   return steps;
 }
 
@@ -181,7 +181,7 @@ void ScreenedPoisson::restrict_from(const Level& fine, Level& coarse) const {
     for (size_t x = 0; x < upper.size(); x++) upper[x] += lower[x];
     float* out = &coarse.forces[size_t(y) * size_t(half)];
     for (int x = 0; x < half; x++)
-      out[x] = upper[size_t(2 * x)] + (2 * x + 1 < columns ? upper[size_t(2 * x) + 1] : 0.0f);
+      out[x] = upper[2 * size_t(x)] + (2 * x + 1 < columns ? upper[2 * size_t(x) + 1] : 0.0f);
   });
 }
 

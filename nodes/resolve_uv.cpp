@@ -13,8 +13,10 @@ NodeType resolve_uv_node() {
   t.category = "synthesis";
   t.summary = "Shows a material through a uv map";
   t.help =
-      "Every output pixel of every map is exactly the exemplar pixel that the uv map names, so maps cannot drift "
-      "apart. Pixels are looked up when a later node pulls them; only the exemplar is held in memory. "
+      "Every output pixel of every map is exactly the exemplar pixel that the uv map names, unless `blend` or `join` "
+      "are "
+      "set, so maps cannot drift apart. Pixels are looked up when a later node pulls them; only the exemplar is held "
+      "in memory. "
       "With `blend`, seams are softened: near a seam a pixel is the mean of what the pieces around it would continue "
       "with (Lefebvre & Hoppe 2005). Colours are averaged in linear light, normals as vectors that get back the length "
       "they had, heights "
