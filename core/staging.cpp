@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <cstdlib>
 #include <optional>
 #include <vector>
 
@@ -71,20 +72,44 @@ bool is_abandoned(const fs::directory_entry& entry) {
   return !failure && fs::file_time_type::clock::now() - written > trusted_age;
 }
 
+/// The system's number of the error with which a file, or a folder, could not be made in a folder that is there; 0 if
+/// it could. Permissions do not tell: root has them all, and /proc takes nothing even so. A file without a name is as
+/// good as one and leaves the folder's time alone; not all file systems have them.
+int error_of_making(bool file, const fs::path& folder) {
+  const int nameless = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (nameless >= 0) {
+    ::close(nameless);
+    return 0;
+  }
+  std::string name = (folder / fmt::format(".{}-XXXXXX", mark)).string();
+  if (!file) return ::mkdtemp(name.data()) && ::rmdir(name.c_str()) == 0 ? 0 : errno;
+  const int made = ::mkstemp(name.data());
+  if (made < 0) return errno;
+  ::close(made);
+  ::unlink(name.c_str());
+  return 0;
+}
+
 }  // namespace
 
 std::string why_not_writable(const fs::path& folder, const std::string& name) {
   fs::path there = folder.empty() ? fs::path(".") : folder;
   std::error_code failure;
   fs::file_status status = fs::status(there, failure);
+  const bool is_there = fs::exists(status);
   while (status.type() == fs::file_type::not_found && there != there.parent_path()) {
+    if (fs::is_symlink(fs::symlink_status(there, failure)))
+      return fmt::format("the folder {} is a link to {}, which is not there", there.string(),
+                         fs::read_symlink(there, failure).string());
     there = there.has_parent_path() ? there.parent_path() : fs::path(".");
     status = fs::status(there, failure);
   }
   if (failure) return fmt::format("cannot look into {}: {}", there.string(), failure.message());
   if (!fs::is_directory(status)) return fmt::format("expected a folder to write to, found the file {}", there.string());
-  if (::faccessat(AT_FDCWD, there.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
-    return fmt::format("cannot write into the folder {}: {}", there.string(), system_message(errno));
+  const bool forbidden = ::faccessat(AT_FDCWD, there.c_str(), W_OK | X_OK, AT_EACCESS) != 0;
+  if (const int error = forbidden ? errno : error_of_making(is_there, there); error != 0)
+    return fmt::format("cannot write into the folder {}: {}; write to another folder", there.string(),
+                       error == ENOENT ? "nothing can be made there" : system_message(error));
   if (!name.empty() && fs::is_directory(folder / name, failure))
     return fmt::format("expected the name of a file to write, found the folder {}", (folder / name).string());
   return "";

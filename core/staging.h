@@ -7,7 +7,7 @@
 namespace terrazzo {
 
 /// Why `name` could not be written into `folder` (which need not exist yet), as a sentence; empty if nothing speaks
-/// against it. An empty name stands for one that is not known yet. Changes nothing.
+/// against it. An empty name stands for one that is not known yet. Tries it out, and leaves nothing behind.
 std::string why_not_writable(const std::filesystem::path& folder, const std::string& name);
 
 /// A name beside `target` that nobody else uses, with the target's extension: image libraries choose the format by it.

@@ -64,7 +64,22 @@ TEST_CASE("a folder that may not be written is named") {
   const std::string below = why_not_writable(locked / "below", "x.png");
   if (is_root) REQUIRE(::seteuid(0) == 0);
   fs::permissions(locked, fs::perms(0755));
-  CHECK(below == "cannot write into the folder " + locked.string() + ": Permission denied");
+  CHECK(below == "cannot write into the folder " + locked.string() + ": Permission denied; write to another folder");
+}
+
+TEST_CASE("a folder in which nothing can be made is named, also to root, who is forbidden nothing") {
+  const std::string reason = ::geteuid() == 0 ? "nothing can be made there" : "Permission denied";
+  const std::string expected = "cannot write into the folder /proc: " + reason + "; write to another folder";
+  CHECK(why_not_writable("/proc", "x.png") == expected);
+  CHECK(why_not_writable("/proc/x/y", "x.png") == expected);
+}
+
+TEST_CASE("a link to a folder that is not there is named") {
+  const TemporaryFolder folder;
+  const fs::path link = folder.path() / "link";
+  fs::create_directory_symlink("gone", link);
+  CHECK(why_not_writable(link / "below", "x.png") ==
+        "the folder " + link.string() + " is a link to gone, which is not there");
 }
 
 TEST_CASE("temporaries of long names have names that are not too long") {

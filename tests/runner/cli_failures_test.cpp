@@ -40,6 +40,7 @@ TEST_CASE("synth finds its mistakes before it runs, says which argument is wrong
       {"photo.png", "out", "error: FOLDER: expected a folder with the material's maps, found the file"},
       {"nothing", "out", "error: FOLDER: no maps recognised in"},
       {"maps", "file", "error: -o: expected a folder to write to, found the file " + (w.path / "file").string()},
+      {"maps", "/proc/x", "error: -o: cannot write into the folder /proc: "},
       {"maps", "file/deeper", "error: -o: expected a folder to write to, found the file " + (w.path / "file").string()},
   };
   for (const Wrong& wrong : all)
