@@ -8,6 +8,8 @@
 #include "core/color.h"
 #include "core/error.h"
 #include "core/image_ops.h"
+#include "core/map_names.h"
+#include "core/text.h"
 
 namespace terrazzo {
 
@@ -102,22 +104,6 @@ std::string nth(size_t i, const Material& m) {
   return m.name().empty() ? fmt::format("material {}", i + 1) : fmt::format("material {} (\"{}\")", i + 1, m.name());
 }
 
-void require_same_maps(const std::vector<Exemplar>& exemplars) {
-  const Material& first = *exemplars.front().material;
-  for (size_t i = 1; i < exemplars.size(); i++) {
-    const Material& other = *exemplars[i].material;
-    std::vector<std::string> differences;
-    for (const Map& m : first.maps())
-      if (!other.find(m.name)) differences.push_back(fmt::format("lacks \"{}\"", m.name));
-    for (const Map& m : other.maps())
-      if (!first.find(m.name)) differences.push_back(fmt::format("has \"{}\" besides", m.name));
-    if (!differences.empty())
-      throw Error("materials", fmt::format("expected the same maps in all materials, {} as in the first; {} {}; add or "
-                                           "leave out maps with \"get_map\" and \"make_material\"",
-                                           first.map_names(), nth(i, other), fmt::join(differences, ", ")));
-  }
-}
-
 ImagePtr with_green_reversed(const ImagePtr& normals) {
   ImageInfo info = normals->info();
   info.normal_y = info.normal_y == NormalY::up ? NormalY::down : NormalY::up;
@@ -133,10 +119,10 @@ ImagePtr adapted(ImagePtr map, const ImageInfo& first, const std::string& name, 
   const ImageInfo& own = map->info();
   if (own.semantic != first.semantic || own.channels != first.channels)
     throw Error("materials",
-                fmt::format("expected map \"{}\" to be the same in all materials, {} with {} channels in the first; "
+                fmt::format("expected map \"{}\" to be the same in all materials, {} with {} in the first; "
                             "in {} it is {} with {}",
-                            name, name_of(first.semantic), first.channels, nth(i, material), name_of(own.semantic),
-                            own.channels));
+                            name, name_of(first.semantic), counted(first.channels, "channel"), nth(i, material),
+                            name_of(own.semantic), own.channels));
   if (own.semantic == Semantic::normal && own.channels >= 2 && own.normal_y != first.normal_y)
     map = with_green_reversed(map);
   return map->info().color_space == first.color_space ? map : convert_color(map, first.color_space);
@@ -240,7 +226,10 @@ ImagePtr atlas_labels(const Layout& layout) {
 }  // namespace
 
 Atlas make_atlas(const std::vector<Exemplar>& exemplars, int gap, Outside outside) {
-  require_same_maps(exemplars);
+  std::vector<KnownMaps> maps_of_all;
+  for (const Exemplar& e : exemplars)
+    maps_of_all.push_back({e.material->name(), names_of(e.material->maps()), std::vector<std::string>{}});
+  require_same_maps("materials", maps_of_all);
   std::vector<Size> sizes;
   sizes.reserve(exemplars.size());
   for (const Exemplar& e : exemplars) sizes.push_back(e.material->size());

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace terrazzo {
 
@@ -60,9 +61,8 @@ class FunctionPixels : public PixelSource {
 
 void check(const ImageInfo& info) {
   if (info.size.width <= 0 || info.size.height <= 0 || info.channels < 1 || info.channels > 4)
-    throw Error(
-        fmt::format("an image of {}x{} pixels and {} channels cannot be; it needs at least 1x1 and 1 to 4 channels",
-                    info.size.width, info.size.height, info.channels));
+    throw Error(fmt::format("an image of {}x{} pixels and {} cannot be; it needs at least 1x1 and 1 to 4 channels",
+                            info.size.width, info.size.height, counted(info.channels, "channel")));
 }
 
 size_t value_count(const ImageInfo& info) {

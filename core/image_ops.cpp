@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace terrazzo {
 
 std::string describe(const Image& image) {
-  const int channels = image.channels();
-  return fmt::format("a {} map of {} pixels and {} channel{}", name_of(image.info().semantic), describe(image.size()),
-                     channels, channels == 1 ? "" : "s");
+  return fmt::format("a {} map of {} pixels and {}", name_of(image.info().semantic), describe(image.size()),
+                     counted(image.channels(), "channel"));
 }
 
 void require_one_channel(const std::string& port, const Image& image) {

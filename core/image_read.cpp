@@ -14,6 +14,7 @@
 #include "core/image_libraries.h"
 #include "core/png_codec.h"
 #include "core/suggest.h"
+#include "core/text.h"
 
 namespace terrazzo {
 
@@ -63,8 +64,8 @@ void refuse_absurd_sizes(const fs::path& path, const StoredImage& header) {
   if (stored.empty() || header.size.width <= 0 || header.size.height <= 0)
     fail(path, fmt::format("its header says {}x{} pixels", stored.width, stored.height));
   if (too_many(header.size.width, header.size.height) || too_many(stored.width, stored.height))
-    fail(path, fmt::format("its header says {}x{} pixels of {} channels; at most 2^31 values can be read", stored.width,
-                           stored.height, channels));
+    fail(path, fmt::format("its header says {}x{} pixels of {}; at most 2^31 values can be read", stored.width,
+                           stored.height, counted(channels, "channel")));
 }
 
 OpenFile open(const fs::path& path) {
@@ -147,8 +148,8 @@ using Warn = std::function<void(const std::string&)>;
 
 void warn_of_zeroed(const fs::path& path, size_t count, const Warn& warn) {
   if (count)
-    warn(fmt::format("{}: {} values are not finite numbers (NaN or infinite); they were set to 0",
-                     path.filename().string(), count));
+    warn(fmt::format("{}: {} not finite (NaN or infinite); set to 0", path.filename().string(),
+                     count == 1 ? "1 value is" : fmt::format("{} values are", count)));
 }
 
 size_t zero_unfinite(std::vector<float>& values) {
@@ -264,8 +265,8 @@ ImagePtr read_image(const fs::path& path, const ImageInfo& info, const Warn& war
   try {
     return read_opened(path, file, info, warn);
   } catch (const std::bad_alloc&) {
-    fail(path, fmt::format("{}x{} pixels of {} channels do not fit in memory", file.header().size.width,
-                           file.header().size.height, file.channels()));
+    fail(path, fmt::format("{}x{} pixels of {} do not fit in memory", file.header().size.width,
+                           file.header().size.height, counted(file.channels(), "channel")));
   }
 }
 

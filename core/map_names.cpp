@@ -14,13 +14,25 @@ namespace terrazzo {
 
 namespace {
 
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 /// By spelling, or by what the word would mean in a file's name: "ao" is "ambient_occlusion".
 std::string did_you_mean_map(const std::string& name, const std::vector<std::string>& known) {
   if (std::string question = did_you_mean(name, known); !question.empty()) return question;
   for (const RecognisedMap& m : recognise_map({.name = name + ".png", .size = {}}))
-    if (m.channels.empty() && std::find(known.begin(), known.end(), m.map) != known.end())
-      return fmt::format(" (did you mean \"{}\"?)", m.map);
+    if (m.channels.empty() && contains(known, m.map)) return fmt::format(" (did you mean \"{}\"?)", m.map);
   return "";
+}
+
+/// The maps of `from` that the other surely has not.
+std::vector<std::string> maps_missing(const KnownMaps& from, const KnownMaps& other) {
+  if (!other.possible_maps) return {};
+  std::vector<std::string> missing = from.maps;
+  std::erase_if(missing,
+                [&](const std::string& m) { return contains(other.maps, m) || contains(*other.possible_maps, m); });
+  return missing;
 }
 
 }  // namespace
@@ -35,7 +47,7 @@ void require_maps(const std::string& param, const std::vector<std::string>& want
                   const std::vector<std::string>& known, const std::string& whose) {
   std::vector<std::string> unknown;
   for (const std::string& name : wanted) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (contains(known, name)) continue;
     std::string text = fmt::format("\"{}\"{}", name, did_you_mean_map(name, known));
     if (std::find(unknown.begin(), unknown.end(), text) == unknown.end()) unknown.push_back(std::move(text));
   }
@@ -44,6 +56,25 @@ void require_maps(const std::string& param, const std::vector<std::string>& want
   for (size_t i = 1; i < unknown.size(); i++) all += (i + 1 == unknown.size() ? " and " : ", ") + unknown[i];
   throw Error(param, fmt::format("there {} {}; {} has {}", unknown.size() == 1 ? "is no map" : "are no maps", all,
                                  whose, fmt::join(known, ", ")));
+}
+
+void require_same_maps(const std::string& port, const std::vector<KnownMaps>& materials) {
+  const KnownMaps& first = materials.front();
+  for (size_t i = 1; i < materials.size(); i++) {
+    const KnownMaps& other = materials[i];
+    std::vector<std::string> differences;
+    if (const auto less = maps_missing(first, other); !less.empty())
+      differences.push_back(fmt::format("lacks \"{}\"", fmt::join(less, "\", \"")));
+    if (const auto more = maps_missing(other, first); !more.empty())
+      differences.push_back(fmt::format("has \"{}\" besides", fmt::join(more, "\", \"")));
+    if (differences.empty()) continue;
+    throw Error(
+        port,
+        fmt::format("expected the same maps in all materials, {} as in the first; material {}{} {}; add or "
+                    "leave out maps with \"get_map\" and \"make_material\"",
+                    fmt::join(first.maps, ", "), i + 1, other.name.empty() ? "" : fmt::format(" (\"{}\")", other.name),
+                    fmt::join(differences, ", ")));
+  }
 }
 
 std::string describe(Size size) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,17 @@ std::vector<std::string> names_of(const std::vector<Map>& maps);
 /// Throws Error about `param` if any of `wanted` is not among the `known` maps of `whose` material, naming them all.
 void require_maps(const std::string& param, const std::vector<std::string>& wanted,
                   const std::vector<std::string>& known, const std::string& whose = "the material");
+
+/// What is known of a material.
+struct KnownMaps {
+  std::string name{};
+  std::vector<std::string> maps{};  ///< that it has
+  /// Maps that it may have besides; none if there is no telling which.
+  std::optional<std::vector<std::string>> possible_maps{};
+};
+
+/// Throws Error about `port`, naming what is missing or too much, if materials surely have other maps than the first.
+void require_same_maps(const std::string& port, const std::vector<KnownMaps>& materials);
 
 /// "256x128"
 std::string describe(Size size);

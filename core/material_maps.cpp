@@ -7,6 +7,7 @@
 
 #include "core/color.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace terrazzo {
 
@@ -68,8 +69,8 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
 void require_channels(const RecognisedMap& source, int file_channels) {
   for (const char c : source.channels)
     if (index_of_channel(c) >= file_channels)
-      throw Error("maps", fmt::format("{} is to be channel {} of {}, which has only {} channel{}", source.map, c,
-                                      source.file, file_channels, file_channels == 1 ? "" : "s"));
+      throw Error("maps", fmt::format("{} is to be channel {} of {}, which has only {}", source.map, c, source.file,
+                                      counted(file_channels, "channel")));
 }
 
 ImagePtr map_of_file(const RecognisedMap& source, const ImagePtr& file, const std::string& color_space,

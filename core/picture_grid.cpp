@@ -11,6 +11,7 @@
 #include "core/pixel_font.h"
 #include "core/resample.h"
 #include "core/sheet_canvas.h"
+#include "core/text.h"
 
 namespace terrazzo {
 
@@ -95,8 +96,8 @@ Size grid_size(size_t pictures, const GridSpec& spec) {
 ImagePtr picture_grid(const std::vector<ImagePtr>& pictures, const GridSpec& spec, const Task& task) {
   if (pictures.empty()) throw Error("a contact sheet needs at least one picture");
   if (spec.captions.size() > pictures.size())
-    throw Error("captions", fmt::format("expected at most one for each of the {} pictures, found {}", pictures.size(),
-                                        spec.captions.size()));
+    throw Error("captions", fmt::format("expected at most {}, one for each picture; found {}",
+                                        counted(int64_t(pictures.size()), "caption"), spec.captions.size()));
   SheetCanvas sheet(grid_size(pictures.size(), spec));
   const Size place = place_size(spec);
   tbb::parallel_for(size_t{0}, pictures.size(), [&](size_t i) {

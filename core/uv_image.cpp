@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace terrazzo {
 
@@ -42,8 +43,8 @@ ImagePtr uv_as_integers(const UvMapPtr& uv) {
 UvMapPtr uv_from_image(const Image& image, Size exemplar, UvWraps wraps) {
   const bool fractions = image.info().depth == Depth::f32;
   if (image.channels() < 2 || (!fractions && image.info().depth != Depth::u16))
-    throw Error(fmt::format("a uv map is two float channels or 16-bit red and green; found {} channels of {}",
-                            image.channels(), name_of(image.info().depth)));
+    throw Error(fmt::format("a uv map is two float channels or 16-bit red and green; found {} of {}",
+                            counted(image.channels(), "channel"), name_of(image.info().depth)));
   const double width = fractions ? exemplar.width : 65535, height = fractions ? exemplar.height : 65535;
   std::vector<ExemplarPixel> pixels;
   pixels.reserve(size_t(image.size().area()));

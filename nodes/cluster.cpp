@@ -6,6 +6,7 @@
 #include "core/color.h"
 #include "core/error.h"
 #include "core/image_ops.h"
+#include "core/text.h"
 #include "nodes/image_work.h"
 
 namespace terrazzo {
@@ -46,7 +47,7 @@ ExemplarPlanes planes_of(const NodeContext& node) {
 std::string described(const Clusters& clusters) {
   std::vector<int64_t> counts(size_t(clusters.count), 0);
   for (const uint8_t label : clusters.labels) counts[label]++;
-  std::string text = fmt::format("{} clusters:", clusters.count);
+  std::string text = fmt::format("{}:", counted(clusters.count, "cluster"));
   for (const int64_t n : counts) text += fmt::format(" {:.1f} %", 100.0 * double(n) / double(clusters.labels.size()));
   return text;
 }

@@ -2,6 +2,8 @@
 
 #include "core/color.h"
 #include "core/error.h"
+#include "core/map_names.h"
+#include "core/text.h"
 #include "nodes/exemplar_atlas.h"
 #include "nodes/image_work.h"
 
@@ -13,12 +15,19 @@ void compute(NodeContext& node) {
   const auto materials = node.list<Material>("materials");
   const auto masks = node.list<Image>("masks");
   if (!masks.empty() && masks.size() != materials.size())
-    throw Error("masks", fmt::format("expected a mask for each of the {} materials, or none; found {}",
-                                     materials.size(), masks.size()));
+    throw Error("masks", fmt::format("expected {}, one for each material, or none; found {}",
+                                     counted(int64_t(materials.size()), "mask"), masks.size()));
   std::vector<Exemplar> exemplars;
   for (size_t i = 0; i < materials.size(); i++)
     exemplars.push_back(masked_exemplar(materials[i], "masks", masks.empty() ? nullptr : masks[i]));
-  output_atlas(node, exemplars);
+  output_atlas(node, exemplars, "fewer materials");
+}
+
+Forecast foresee(const Params& params, const InputForecasts& inputs) {
+  std::vector<KnownMaps> materials;
+  for (const Forecast& f : inputs.at("materials")) materials.push_back({"", f.maps, f.possible_maps});
+  require_same_maps("materials", materials);
+  return same_maps_as("materials")(params, inputs);
 }
 
 }  // namespace
@@ -48,7 +57,7 @@ NodeType combine_node() {
   t.persist = Persist::derived;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
-  t.foresee = same_maps_as("materials");
+  t.foresee = foresee;
   return t;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/image_ops.h"
+#include "core/text.h"
 #include "nodes/image_work.h"
 
 namespace terrazzo {
@@ -29,9 +30,16 @@ std::vector<Param> atlas_params() {
           edges};
 }
 
-void output_atlas(NodeContext& node, const std::vector<Exemplar>& exemplars) {
+void output_atlas(NodeContext& node, const std::vector<Exemplar>& exemplars, const std::string& how_to_shrink) {
+  constexpr int64_t quick = int64_t{2048} * 2048;
   const Atlas atlas = make_atlas(exemplars, int(node.integer("gap")), edges_of(node));
-  node.note(fmt::format("{} exemplars in {} pixels", exemplars.size(), describe(atlas.material->size())));
+  const Size size = atlas.material->size();
+  std::string note = fmt::format("{} in {} pixels", counted(int64_t(exemplars.size()), "exemplar"), describe(size));
+  if (size.area() > quick)
+    note +=
+        fmt::format("; analysis of so many takes long and much memory: {}, or \"resize\" before this, make it smaller",
+                    how_to_shrink);
+  node.note(note);
   node.output("material", atlas.material);
   node.output("mask", atlas.mask);
   node.output("labels", atlas.labels);

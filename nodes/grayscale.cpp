@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/image_ops.h"
 #include "core/pixel_space.h"
+#include "core/text.h"
 #include "nodes/image_work.h"
 
 namespace terrazzo {
@@ -17,10 +18,8 @@ std::vector<double> weights_of(const NodeContext& node, int channels) {
   if (method != "weights") return std::vector<double>(channels, 1.0 / channels);
   const Numbers& weights = node.numbers("weights");
   if (int(weights.size()) != channels)
-    throw Error("weights",
-                fmt::format("expected one weight for each of the image's {} channels without coverage, found "
-                            "{}",
-                            channels, weights.size()));
+    throw Error("weights", fmt::format("expected {}, one for each of the image's channels without coverage; found {}",
+                                       counted(channels, "weight"), weights.size()));
   return weights;
 }
 

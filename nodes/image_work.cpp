@@ -114,7 +114,7 @@ std::vector<double> per_channel(const NodeContext& node, const std::string& para
   const Numbers& given = node.numbers(param);
   if (given.size() == 1) return std::vector<double>(channels, given.front());
   if (int(given.size()) == channels) return given;
-  throw Error(param, fmt::format("expected one number, or one for each of the image's {} channels without coverage; "
+  throw Error(param, fmt::format("expected one number, or one for each of the image's channels without coverage, {}; "
                                  "found {}",
                                  channels, given.size()));
 }

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/suggest.h"
+#include "core/text.h"
 #include "nodes/image_work.h"
 
 namespace terrazzo {
@@ -12,8 +13,8 @@ namespace {
 
 void check_count(const std::string& param, const Texts& texts, size_t images) {
   if (texts.empty() || texts.size() == images) return;
-  throw Error(param,
-              fmt::format("expected one text for each of the {} images, or none; found {}", images, texts.size()));
+  throw Error(param, fmt::format("expected {}, one for each image, or none; found {}", counted(int64_t(images), "text"),
+                                 texts.size()));
 }
 
 ImagePtr with_semantic(const ImagePtr& image, const std::string& semantic) {

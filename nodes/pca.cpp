@@ -2,6 +2,7 @@
 
 #include "core/analysis/appearance_space.h"
 #include "core/node.h"
+#include "core/text.h"
 
 namespace terrazzo {
 
@@ -16,8 +17,8 @@ void compute(NodeContext& node) {
       make_appearance(*node.input<Features>("features"), node.list<Image>("guidance"), options, node.task());
   std::string text;
   for (const AppearanceLevel& l : appearance->levels())
-    text += fmt::format("{}{}x{}: {} dimensions keep {:.1f} %", text.empty() ? "" : "; ", l.size.width, l.size.height,
-                        l.dimensions, 100 * l.retained);
+    text += fmt::format("{}{}x{}: {} {} {:.1f} %", text.empty() ? "" : "; ", l.size.width, l.size.height,
+                        counted(l.dimensions, "dimension"), l.dimensions == 1 ? "keeps" : "keep", 100 * l.retained);
   node.note(text);
   node.output("appearance", appearance);
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "nodes/synthesis_params.h"
 
 namespace terrazzo {
@@ -14,7 +15,7 @@ std::vector<Control> controls_of(const NodeContext& node) {
                                       exemplars.size(), targets.size()));
   const Numbers& strength = node.numbers("strength");
   if (strength.size() != 1 && strength.size() != targets.size())
-    throw Error("strength", fmt::format("expected one number, or one for each of {} controls; found {}", targets.size(),
+    throw Error("strength", fmt::format("expected one number, or one for each control, {}; found {}", targets.size(),
                                         strength.size()));
   const std::string& match = node.text("match");
   std::vector<Control> controls;

@@ -51,7 +51,7 @@ void compute(NodeContext& node) {
       masked_exemplar(node.input<Material>("material"), "mask", node.optional_input<Image>("mask"));
   std::vector<Exemplar> exemplars;
   for (const Variant& v : asked_variants(node.params())) exemplars.push_back(varied(original, v, edges_of(node)));
-  output_atlas(node, exemplars);
+  output_atlas(node, exemplars, "fewer `rotations` or `scales`");
 }
 
 }  // namespace

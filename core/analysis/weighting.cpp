@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/image_ops.h"
 #include "core/map_names.h"
+#include "core/text.h"
 
 namespace terrazzo {
 
@@ -86,9 +87,9 @@ FeaturesPtr weighted_features(const Material& material, const NumberMap& weights
         given != weights.end() ? given->second : Numbers{default_weight(map.image->info().semantic)};
     if (channel_weights.size() == 1) channel_weights.assign(image->channels(), channel_weights[0]);
     if (int(channel_weights.size()) != image->channels())
-      throw Error("weights",
-                  fmt::format("\"{}\" has {} channels in analysis space, but {} weights were given; give one or {}",
-                              map.name, image->channels(), channel_weights.size(), image->channels()));
+      throw Error("weights", fmt::format("\"{}\" has {} in analysis space, but {} weights were given; give {}",
+                                         map.name, counted(image->channels(), "channel"), channel_weights.size(),
+                                         image->channels() == 1 ? "one" : fmt::format("one or {}", image->channels())));
     // The alpha of a colour map is coverage, not colour: it counts only if it is asked for.
     if (given == weights.end() && image->channels() == 4) channel_weights[3] = 0;
     if (std::any_of(channel_weights.begin(), channel_weights.end(), [](double w) { return w > 0; }))

@@ -104,8 +104,8 @@ TEST_CASE("a grid without pictures, with captions for none, or beyond all size i
   CHECK_THROWS_WITH_AS(picture_grid({}, {}, {}), doctest::Contains("at least one picture"), Error);
   GridSpec spec;
   spec.captions = {"a", "b"};
-  CHECK_THROWS_WITH_AS(picture_grid({dot}, spec, {}), doctest::Contains("at most one for each of the 1 pictures"),
-                       Error);
+  CHECK_THROWS_WITH_AS(picture_grid({dot}, spec, {}),
+                       doctest::Contains("at most 1 caption, one for each picture; found 2"), Error);
   CHECK_THROWS_WITH_AS(picture_grid(std::vector<ImagePtr>(5, dot), cells(5, {8192, 8}, 0), {}),
                        doctest::Contains("make the cells smaller"), Error);
 }

@@ -50,7 +50,7 @@ TEST_CASE("combine takes a mask for each material, or none") {
   for (const float v : mask->pixels()) marked += double(v);
   CHECK(marked == 64);
   CHECK_THROWS_WITH_AS(run_node("combine", no_gap, {{"materials", {a, a}}, {"masks", {all}}}),
-                       "expected a mask for each of the 2 materials, or none; found 1", Error);
+                       "expected 2 masks, one for each material, or none; found 1", Error);
   const ImagePtr wide = flat_image({8, 2}, {1}, Semantic::mask);
   CHECK_THROWS_WITH_AS(run_node("combine", no_gap, {{"materials", {a}}, {"masks", {wide}}}),
                        doctest::Contains("expected an image of the shape of its material, 8x8 pixels"), Error);

@@ -77,8 +77,8 @@ TEST_CASE("levels refuse normals, equal black and white, and counts that do not 
         std::string::npos);
   CHECK(error_of("levels", {{"in_white", Numbers{0.0}}}, {{"image", color}}, "in_white").find("found 0 for both") !=
         std::string::npos);
-  CHECK(error_of("levels", {{"gamma", Numbers{1.0, 2.0}}}, {{"image", color}}, "gamma").find("3 channels") !=
-        std::string::npos);
+  CHECK(error_of("levels", {{"gamma", Numbers{1.0, 2.0}}}, {{"image", color}}, "gamma")
+            .find("one for each of the image's channels without coverage, 3; found 2") != std::string::npos);
 }
 
 TEST_CASE("equal black and white, and values out of any reason, are found before anything runs") {

@@ -42,7 +42,8 @@ TEST_CASE("an image takes the place of a material's map of the same name") {
 TEST_CASE("make_material says what is wrong with names and semantics") {
   const ImagePtr data = noise_image({2, 2}, 1);
   CHECK_THROWS_WITH_AS(make({}, {data, data}), doctest::Contains("found \"data\" twice"), Error);
-  CHECK_THROWS_WITH_AS(make({{"names", Texts{"a"}}}, {data, data}), doctest::Contains("each of the 2 images"), Error);
+  CHECK_THROWS_WITH_AS(make({{"names", Texts{"a"}}}, {data, data}),
+                       doctest::Contains("expected 2 texts, one for each image, or none; found 1"), Error);
   CHECK_THROWS_WITH_AS(make({{"names", Texts{""}}}, {data}), doctest::Contains("an empty one"), Error);
   CHECK_THROWS_WITH_AS(make({{"semantics", Texts{"hight"}}}, {data}), doctest::Contains("found \"hight\""), Error);
 }

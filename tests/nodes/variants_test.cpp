@@ -186,6 +186,19 @@ TEST_CASE("variants holds the original first and every copy once") {
   check_tiles_agree(*atlas);
 }
 
+TEST_CASE("variants tells its size, and how to make it smaller if analysis of it would take long") {
+  const auto note_of = [](Size size) {
+    const NodeRun run = run_node("variants", params_of({90, 180, 270}, {}, "none"),
+                                 {{"material", {flat_image(size, {0.5f}, Semantic::roughness)}}});
+    REQUIRE(run.notes.size() == 1);
+    return run.notes.front();
+  };
+  CHECK(note_of({1020, 1020}) == "4 exemplars in 2048x2048 pixels");
+  CHECK(note_of({1021, 1021}) ==
+        "4 exemplars in 2050x2050 pixels; analysis of so many takes long and much memory: fewer `rotations` or "
+        "`scales`, or \"resize\" before this, make it smaller");
+}
+
 TEST_CASE("variants masks out what the exemplar's own mask leaves out") {
   const ImagePtr image = noise_image({10, 10}, 1, Semantic::roughness);
   const ImagePtr top = make_image({10, 10}, 1, [](int, int y, int) { return y < 4 ? 1.f : 0.f; });
