@@ -14,6 +14,7 @@
 
 #include "core/file_io.h"
 #include "core/suggest.h"
+#include "core/text.h"
 #include "graphs/document/problem.h"
 #include "runner/cli_commands.h"
 #include "runner/progress.h"
@@ -136,7 +137,7 @@ uint64_t parse_bytes(const std::string& text, const std::string& option) {
 
 std::string shown_bytes(uint64_t bytes) {
   constexpr std::array<std::string_view, 5> units = {"bytes", "KiB", "MiB", "GiB", "TiB"};
-  if (bytes < 1024) return fmt::format("{} bytes", bytes);
+  if (bytes < 1024) return counted(int64_t(bytes), "byte");
   double value = static_cast<double>(bytes);
   size_t unit = 0;
   for (; value >= 1024 && unit + 1 < units.size(); unit++) value /= 1024;

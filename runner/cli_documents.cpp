@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "core/text.h"
 #include "graphs/document/draw.h"
 #include "graphs/document/load.h"
 #include "graphs/document/migrate.h"
@@ -47,9 +48,8 @@ int check(const DocumentFlags& flags) {
     make_plan(loaded.graph, nullptr);
   else
     check_what_is_set(loaded.graph, unset->param.name);
-  const auto counted = [](size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
-  answer("{} is valid: {}, {}\n", flags.graph, counted(loaded.graph.nodes.size(), "node"),
-         counted(loaded.parameters.size(), "parameter"));
+  answer("{} is valid: {}, {}\n", flags.graph, counted(int64_t(loaded.graph.nodes.size()), "node"),
+         counted(int64_t(loaded.parameters.size()), "parameter"));
   return exit_done;
 }
 

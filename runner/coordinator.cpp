@@ -1,6 +1,7 @@
 #include "runner/coordinator.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "runner/history.h"
 
@@ -62,16 +63,24 @@ void Coordinator::resolved(int stage) {
   if (s.known->record) {
     outcome.kind = StageOutcome::Kind::reused;
     if (options_.history) options_.history->remember(s.node->name, s.known->ingredients);
-    if (options_.observer && s.state != StageState::run) {
-      options_.observer->reused(s);
-      for (const std::string& note : outcome.notes) options_.observer->noted(s, note);
-    }
   } else {
     outcome.kind = StageOutcome::Kind::idle;
   }
-  if (!may_be_asked(stage)) close(stage);
+  // A plan gives no reason for what nobody is going to ask for, unless a stored result turns out damaged.
+  const bool at_rest = !may_be_asked(stage), planned_to_rest = s.reason.empty();
+  if (at_rest || planned_to_rest) tell_not_run(stage);
+  if (at_rest) close(stage);
   named(stage);
   if (s.kept) want_values(stage);
+}
+
+/// It is certain by now that it will not be computed for a reader.
+void Coordinator::tell_not_run(int stage) {
+  if (std::exchange(live_[stage].told, true) || !options_.observer) return;
+  const Stage& s = plan_.stages[stage];
+  if (outcomes_[stage].kind != StageOutcome::Kind::reused) return options_.observer->spared(s);
+  options_.observer->reused(s);
+  for (const std::string& note : outcomes_[stage].notes) options_.observer->noted(s, note);
 }
 
 /// Its outputs have names: its readers may know all of theirs now.
@@ -144,17 +153,15 @@ void Coordinator::computed(Job& job) {
   const int stage = job.stage;
   Stage& s = plan_.stages[stage];
   StageOutcome& outcome = outcomes_[stage];
-  const bool first_time = outcome.kind != StageOutcome::Kind::reused || s.state == StageState::run;
   outcome.kind = job.made_elsewhere ? StageOutcome::Kind::reused : StageOutcome::Kind::run;
   if (!job.made_elsewhere) outcome.seconds += job.record->seconds;
   outcome.notes = job.record->notes;
   outcome.files = job.record->files;
-  if (options_.observer) {
-    if (job.made_elsewhere)
-      options_.observer->reused(s);
-    else
-      options_.observer->finished(s, job.record->seconds);
-    if (first_time)
+  if (job.made_elsewhere) {
+    tell_not_run(stage);
+  } else if (options_.observer) {
+    options_.observer->finished(s, job.record->seconds);
+    if (!std::exchange(live_[stage].told, true))
       for (const std::string& note : outcome.notes) options_.observer->noted(s, note);
   }
   if (options_.history) options_.history->remember(s.node->name, s.known->ingredients);
@@ -208,7 +215,9 @@ void Coordinator::release_if_unread(int stage) {
   if (l.open_readers > 0 || s.kept) return;
   l.values.clear();
   const bool at_rest = s.known && s.known->must_run.empty() && !l.wanted && !l.awaiting;
-  if (at_rest && l.settled) close(stage);
+  if (!at_rest || !l.settled) return;
+  tell_not_run(stage);
+  close(stage);
 }
 
 std::unique_ptr<NodeContext> Coordinator::make_context(int stage) {

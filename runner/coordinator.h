@@ -41,6 +41,7 @@ class Coordinator {
     bool wanted = false;      ///< its values have been asked for and are on their way
     bool awaiting = false;    ///< it waits for its sources' values
     bool closed = false;      ///< it will not ask for its sources' values any more
+    bool told = false;        ///< the observer knows what became of it
     std::map<std::string, Value> values;
   };
 
@@ -64,6 +65,7 @@ class Coordinator {
   void close(int stage);
   void reopen(int stage);
   void release_if_unread(int stage);
+  void tell_not_run(int stage);
   bool may_be_asked(int stage) const;
   bool has_values(int stage) const;
   std::unique_ptr<NodeContext> make_context(int stage);

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/suggest.h"
+#include "core/text.h"
 #include "runner/foresight.h"
 #include "runner/history.h"
 
@@ -255,7 +256,7 @@ std::string Plan::summary() const {
   add(StageState::derived, "derived");
   add(StageState::run, "to run");
   add(StageState::depends, "to run or not, depending on what comes before");
-  return fmt::format("{} stage{}: {}", needed(), needed() == 1 ? "" : "s", fmt::join(parts, ", "));
+  return fmt::format("{}: {}", counted(needed(), "stage"), fmt::join(parts, ", "));
 }
 
 std::string Plan::table() const {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include "core/text.h"
 #include "graphs/document/problem.h"
 
 namespace terrazzo {
@@ -36,24 +37,18 @@ class Throttle {
   std::map<const Stage*, Clock::time_point> last_;
 };
 
-/// How many stages there are to be settled, and how many have been. Stages that had looked cached, and lazy ones, may
-/// run after all; one may be reused, and then run for a reader.
+/// How many of the stages that are needed have been settled: run, reused, or found to be needed by nobody. A stage
+/// whose stored result turns out damaged is computed after all, and counts once.
 class StageCount {
  public:
-  void plan(const Plan& plan) {
-    for (const Stage& s : plan.stages)
-      if (s.expected()) expected_.insert(&s);
-  }
-  void begin(const Stage& s) { expected_.insert(&s); }
-  void settle(const Stage& s) {
-    expected_.insert(&s);
-    settled_.insert(&s);
-  }
+  void plan(const Plan& plan) { all_ = plan.needed(); }
+  void settle(const Stage& s) { settled_.insert(&s); }
   int settled() const { return static_cast<int>(settled_.size()); }
-  int all() const { return static_cast<int>(expected_.size()); }
+  int all() const { return all_; }
 
  private:
-  std::set<const Stage*> expected_, settled_;
+  int all_ = 0;
+  std::set<const Stage*> settled_;
 };
 
 void write_event(std::ostream& out, const Json& event) {
@@ -162,11 +157,9 @@ class PlainProgress : public Progress {
   void started(const Stage& s) override {
     const std::lock_guard lock(mutex_);
     throttle_.start(&s);
-    count_.begin(s);
   }
   void waits(const Stage& s) override {
     const std::lock_guard lock(mutex_);
-    count_.begin(s);
     line(s, "is being made by another process");
   }
   void progressed(const Stage& s, double fraction) override {
@@ -187,6 +180,10 @@ class PlainProgress : public Progress {
     const std::lock_guard lock(mutex_);
     count_.settle(s);
     line(s, s.type().is_sink() ? "up to date" : "cached");
+  }
+  void spared(const Stage& s) override {
+    const std::lock_guard lock(mutex_);
+    count_.settle(s);
   }
   void failed(const Stage& s, const std::string&) override {
     const std::lock_guard lock(mutex_);
@@ -217,7 +214,6 @@ class BarProgress : public Progress {
   void started(const Stage& s) override {
     const std::lock_guard lock(mutex_);
     running_[&s] = 0;
-    count_.begin(s);
     draw(false);
   }
   void waits(const Stage& s) override { started(s); }
@@ -235,6 +231,7 @@ class BarProgress : public Progress {
   }
   void finished(const Stage& s, double) override { settle(s); }
   void reused(const Stage& s) override { settle(s); }
+  void spared(const Stage& s) override { settle(s); }
   void failed(const Stage& s, const std::string&) override {
     const std::lock_guard lock(mutex_);
     running_.erase(&s);
@@ -333,7 +330,7 @@ void write_watching(ProgressMode mode, std::ostream& out, size_t files) {
   if (mode == ProgressMode::json)
     write_event(out, {{"event", "watching"}, {"files", files}});
   else
-    out << fmt::format("watching {} files; Ctrl-C ends it", files) << std::endl;
+    out << fmt::format("watching {}; Ctrl-C ends it", counted(int64_t(files), "file")) << std::endl;
 }
 
 std::unique_ptr<Progress> make_progress(ProgressMode mode, std::ostream& out, bool terminal) {

@@ -11,8 +11,10 @@
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
+#include "core/text.h"
 #include "runner/coordinator.h"
 #include "runner/history.h"
+#include "runner/left_over.h"
 
 namespace terrazzo {
 
@@ -81,7 +83,7 @@ std::string RunResult::summary() const {
   using Kind = StageOutcome::Kind;
   const int reused = count(Kind::reused), run = count(Kind::run), failed = count(Kind::failed),
             unfinished = count(Kind::unfinished), all = reused + run + failed + unfinished;
-  std::string out = fmt::format("{} stage{}: {} cached, {} run", all, all == 1 ? "" : "s", reused, run);
+  std::string out = fmt::format("{}: {} cached, {} run", counted(all, "stage"), reused, run);
   if (failed > 0) out += fmt::format(", {} failed", failed);
   if (unfinished > 0) out += fmt::format(", {} not run", unfinished);
   return out + fmt::format(", {:.2f} s", seconds);
@@ -104,6 +106,11 @@ RunResult run_plan(Plan plan, const RunOptions& options) {
   result.cancelled = coordinator.cancelled();
   result.failures = coordinator.take_failures();
   result.stages = coordinator.take_outcomes();
+  if (result.ok())
+    for (auto& [stage, note] : notes_on_left_over_maps(plan, result.stages)) {
+      if (options.observer) options.observer->noted(plan.stages[stage], note);
+      result.stages[stage].notes.push_back(std::move(note));
+    }
   result.kept = coordinator.take_kept();
   result.spans = coordinator.take_spans();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -10,7 +10,8 @@
 
 namespace terrazzo {
 
-/// Told what a run does. Calls come from any thread, several at once, and must be quick.
+/// Told what a run does. Calls come from any thread, several at once, and must be quick. Of a needed stage comes one of
+/// finished, reused, spared and failed, unless the run ends before.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
@@ -21,8 +22,10 @@ class RunObserver {
   virtual void progressed(const Stage&, double /*fraction*/) {}
   virtual void noted(const Stage&, const std::string& /*message*/) {}
   virtual void finished(const Stage&, double /*seconds*/) {}
-  /// It need not run: its result, or what its files hold, is what was computed before.
+  /// It did not have to run: its result, or what its files hold, is what was computed before.
   virtual void reused(const Stage&) {}
+  /// Nobody has asked for its result, and there is none.
+  virtual void spared(const Stage&) {}
   virtual void failed(const Stage&, const std::string& /*message*/) {}
 };
 

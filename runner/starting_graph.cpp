@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/analysis/weighting.h"
+#include "core/text.h"
 #include "graphs/document/convert.h"
 #include "graphs/document/format.h"
 #include "graphs/document/json.h"
@@ -53,8 +54,8 @@ std::string starting_graph(const Material& exemplar, const std::filesystem::path
   JsonValue& exemplar_node = member(nodes, "exemplar");
   comment(exemplar_node, "What was found in " + folder.generic_string() + ":");
   for (const Map& m : exemplar.maps())
-    comment(exemplar_node, fmt::format("  {}: {}x{}, {} channel{}", m.name, m.image->width(), m.image->height(),
-                                       m.image->channels(), m.image->channels() == 1 ? "" : "s"));
+    comment(exemplar_node, fmt::format("  {}: {}x{}, {}", m.name, m.image->width(), m.image->height(),
+                                       counted(m.image->channels(), "channel")));
   for (const std::string& note : notes) comment(exemplar_node, "  " + note);
 
   JsonValue& weighted = member(nodes, "weighted");

@@ -65,6 +65,58 @@ TEST_CASE("synth writes the format that is asked for, and float maps keep their 
   CHECK(listing(w.path / "out") == std::vector<std::string>{"base_color.exr", "height.exr"});
 }
 
+TEST_CASE("maps that another run has left in the folder are named, and stay") {
+  const Workplace w;
+  write_picture(w.path / "two/wall_basecolor.png", 5);
+  write_picture(w.path / "two/wall_height.png", 6, Semantic::height);
+  write_picture(w.path / "one/floor_basecolor.png", 7);
+  const auto synth = [&](const std::string& folder, const std::string& format, const std::string& mode = "plain") {
+    const ProgramRun r =
+        w.run({"synth", folder, "-o", "out", "--size", "32x32", "--format", format, "--progress", mode});
+    REQUIRE_MESSAGE(r.code == 0, r.err);
+    return r.err;
+  };
+  const auto note_on = [&](const std::string& files) {
+    return "note: node \"files\": " + (w.path / "out").string() + " also holds " + files +
+           ", which this graph does not write: remove what is left of another material, or write to another folder\n";
+  };
+  CHECK_FALSE(has(synth("two", "png"), "also holds"));
+  CHECK_FALSE(has(synth("two", "png"), "also holds"));
+  write_text(w.path / "out/old_height.png", "of another material, under its own name");
+  write_text(w.path / "out/height_2.png", "of another variation");
+  write_text(w.path / "out/notes.txt", "");
+  write_picture(w.path / "out/preview.png", 5);
+  CHECK(has(synth("one", "png"), note_on("height.png")));
+  CHECK_FALSE(has(synth("one", "png"), "also holds"));
+  CHECK(has(synth("two", "exr"), note_on("base_color.png, height.png")));
+  CHECK(has(synth("one", "jpg", "json"), "{\"event\":\"note\",\"node\":\"files\",\"message\":\""));
+  CHECK(listing(w.path / "out").size() == 9);
+}
+
+TEST_CASE("what other nodes of the graph write beside a material's maps is not left over") {
+  const Workplace w;
+  write_picture(w.path / "maps/wall_basecolor.png", 5);
+  write_picture(w.path / "maps/wall_height.png", 6, Semantic::height);
+  write_text(w.path / "apart.json", R"({
+  "terrazzo": 1,
+  "parameters": {"scale": {"type": "number", "default": 1}},
+  "nodes": {
+    "maps":   {"type": "load_material", "path": "maps"},
+    "small":  {"type": "resize", "material": "@maps", "scale": "$scale"},
+    "color":  {"type": "export", "material": "@small", "maps": ["base_color"], "path": "out/{map}.png"},
+    "height": {"type": "export", "material": "@maps", "maps": ["height"], "path": "out/{map}.png", "depth": "uint16"}
+  }
+})");
+  for (const std::vector<std::string>& args : {std::vector<std::string>{"run", "apart.json"},
+                                               {"run", "apart.json", "--set", "scale=0.5"},
+                                               {"run", "apart.json", "--set", "scale=0.25", "--only", "color"}}) {
+    const ProgramRun r = w.run(args);
+    CHECK_MESSAGE(r.code == 0, r.err);
+    CHECK(has(r.err, "wrote"));
+    CHECK_FALSE(has(r.err, "also holds"));
+  }
+}
+
 TEST_CASE("progress none writes nothing but warnings and errors") {
   const Workplace w;
   const ProgramRun quiet = w.run({"run", "soft.json", "--progress", "none"});
