@@ -226,7 +226,11 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
   };
   const auto flags = std::make_shared<Flags>();
   synth->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
-  synth->add_option("-o,--out", flags->out, "The folder to write to")->required()->type_name("DIR");
+  synth
+      ->add_option("-o,--out", flags->out,
+                   "The folder to write to. {material}, {width}, {height} and {map} in it stand for what they name")
+      ->required()
+      ->type_name("DIR");
   synth->add_option("--size", flags->size, "The size of the result")->type_name("WxH");
   synth->add_option("--seed", flags->seed, "Another number gives another variation")->type_name("N");
   synth->add_option("--quality", flags->quality, "draft, normal or best: draft is quick, best takes its time")

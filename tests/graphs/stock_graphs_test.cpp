@@ -53,7 +53,7 @@ TEST_CASE("every stock graph that resolves a uv map lets its user blend seams, a
     for (const GraphNode& n : soft.graph.nodes)
       if (resolves(n)) CHECK(std::get<double>(n.params.at("blend")) == 2.5);
   }
-  CHECK(graphs == 6);
+  CHECK(graphs == 7);
 }
 
 TEST_CASE("stock graphs join heights, but not where parts are to be kept, and let their user choose") {

@@ -182,3 +182,32 @@ TEST_CASE("magnify refuses an analysis larger than the exemplar before anything 
   CHECK(r.code == 2);
   CHECK_MESSAGE(r.err.find("analysed") != std::string::npos, r.err);
 }
+
+TEST_CASE("-o may name places that the material and the result fill in, and says which if it cannot") {
+  const Workplace w;
+  write_picture(w.path / "stone/base_color.png", 5);
+  const ProgramRun r = w.run({"synth", "stone", "-o", "{material} {width}/{map}", "--size", "48x40"});
+  CHECK_MESSAGE(r.code == 0, r.err);
+  CHECK(fs::exists(w.path / "stone 48/base_color/base_color.png"));
+  const ProgramRun wrong = w.run({"synth", "stone", "-o", "out {seed}"});
+  CHECK(wrong.code == 2);
+  CHECK_MESSAGE(says(wrong.err, "error: -o"), wrong.err);
+  CHECK_MESSAGE(says(wrong.err, "unknown place {seed}"), wrong.err);
+  CHECK(says(w.run({"synth", "--help"}).out, "{material}"));
+}
+
+TEST_CASE("the stock graph that extends keeps what synth has made, pixel by pixel") {
+  const Workplace w;
+  write_picture(w.path / "stone/base_color.png", 5);
+  const ProgramRun made = w.run({"synth", "stone", "-o", "made", "--size", "40x32", "--seed", "3"});
+  REQUIRE_MESSAGE(made.code == 0, made.err);
+  const ProgramRun grown =
+      w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/extend.json", "--set", "material=stone", "--set", "kept=40x32",
+             "--set", "size=72x48", "--set", "at=[20,10]", "--set", "seed=3", "--set", "out=grown"});
+  REQUIRE_MESSAGE(grown.code == 0, grown.err);
+  const auto picture = [&](const std::string& name) {
+    return read_image(w.path / name / "base_color.png", ImageInfo{}, [](const std::string&) {});
+  };
+  REQUIRE(picture("grown")->size() == Size{72, 48});
+  CHECK(picture("grown")->read({20, 10, 40, 32}) == picture("made")->pixels());
+}
