@@ -39,6 +39,7 @@ StartedProgram::StartedProgram(const std::filesystem::path& folder, const std::v
   environment.push_back(nullptr);
   pid_ = ::fork();
   if (pid_ != 0) return;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);  // nohup has tests ignore the last
   redirect(STDOUT_FILENO, out);
   redirect(STDERR_FILENO, err);
   if (::chdir(folder.c_str()) == 0) ::execve(TERRAZZO_PROGRAM, argv.data(), environment.data());

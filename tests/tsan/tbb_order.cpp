@@ -72,25 +72,42 @@ class OrderedDelegate final : public delegate_base {
  public:
   explicit OrderedDelegate(delegate_base& inner) : inner_(inner) { __tsan_release(&order_); }
 
+  // The caller waits for the function's end, or for its exception.
+  ~OrderedDelegate() { __tsan_acquire(&order_); }
+  OrderedDelegate(const OrderedDelegate&) = delete;
+  OrderedDelegate& operator=(const OrderedDelegate&) = delete;
+
   bool operator()() const override {
     __tsan_acquire(&order_);
-    const bool result = inner_();
-    __tsan_release(&order_);
-    return result;
+    const Release release{&order_};
+    return inner_();
   }
 
-  void finished() { __tsan_acquire(&order_); }
-
  private:
+  struct Release {
+    char* order;
+    ~Release() { __tsan_release(order); }
+  };
+
   delegate_base& inner_;
   mutable char order_ = 0;
 };
 
 /// Tasks count themselves off on the atomic number after a wait_context's first word; the library reads it unseen.
-void acquire_finished(wait_context& finished) {
-  static_assert(sizeof(wait_context) == 2 * sizeof(std::uint64_t));
-  __tsan_acquire(reinterpret_cast<std::uint64_t*>(&finished) + 1);
-}
+/// Waits end with a task's exception, too, which the waiting thread then reads.
+class AcquireFinished {
+ public:
+  explicit AcquireFinished(wait_context& finished) : finished_(finished) {}
+  AcquireFinished(const AcquireFinished&) = delete;
+  AcquireFinished& operator=(const AcquireFinished&) = delete;
+  ~AcquireFinished() {
+    static_assert(sizeof(wait_context) == 2 * sizeof(std::uint64_t));
+    __tsan_acquire(reinterpret_cast<std::uint64_t*>(&finished_) + 1);
+  }
+
+ private:
+  wait_context& finished_;
+};
 
 }  // namespace
 
@@ -130,15 +147,15 @@ void execute_and_wait(task& first, task_group_context& first_context, wait_conte
                       task_group_context& wait_group) {
   static const auto next = library_function<void(task&, task_group_context&, wait_context&, task_group_context&)>(
       "_ZN3tbb6detail2r116execute_and_waitERNS0_2d14taskERNS2_18task_group_contextERNS2_12wait_contextES6_");
+  const AcquireFinished acquire(finished);
   next(first, first_context, finished, wait_group);
-  acquire_finished(finished);
 }
 
 void wait(wait_context& finished, task_group_context& context) {
   static const auto next = library_function<void(wait_context&, task_group_context&)>(
       "_ZN3tbb6detail2r14waitERNS0_2d112wait_contextERNS2_18task_group_contextE");
+  const AcquireFinished acquire(finished);
   next(finished, context);
-  acquire_finished(finished);
 }
 
 void execute(task_arena_base& where, delegate_base& work) {
@@ -146,7 +163,6 @@ void execute(task_arena_base& where, delegate_base& work) {
       "_ZN3tbb6detail2r17executeERNS0_2d115task_arena_baseERNS2_13delegate_baseE");
   OrderedDelegate ordered(work);
   next(where, ordered);
-  ordered.finished();
 }
 
 void* allocate(small_object_pool*& pool, std::size_t bytes, const execution_data& data) {
