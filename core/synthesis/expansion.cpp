@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+
+#include <tbb/parallel_for.h>
 
 namespace terrazzo {
 
@@ -17,6 +20,19 @@ double distance(const AppearanceVector* a, const AppearanceVector* b) {
 }
 
 }  // namespace
+
+void ExpansionGround::find_edges() {
+  const PaddedLevel& e = level.exemplar;
+  const AppearanceVector* first = e.at(-1, -1);
+  for (std::vector<float>& edges : edges_) edges.resize(size_t(e.at(e.size().width, e.size().height) - first) + 1);
+  tbb::parallel_for(-1, e.size().height + 1, [&](int y) {
+    for (int x = -1; x <= e.size().width; x++) {
+      const AppearanceVector* v = e.at(x, y);
+      edges_[0][size_t(v - first)] = float(distance(v, v + 1));
+      edges_[1][size_t(v - first)] = float(distance(v, v + e.stride()));
+    }
+  });
+}
 
 bool ExpansionGround::continues(ExemplarPixel a, ExemplarPixel b, int side) const {
   int u = a.x + sides[side][0] * block, v = a.y + sides[side][1] * block;
@@ -36,12 +52,17 @@ int64_t ExpansionGround::mismatch(ExemplarPixel a, ExemplarPixel b, int side) co
     // Roots make it a metric, without which a cut is not the best way to expand.
     double shows = distance(here, there - step) + distance(here + step, there);
     if (along_edges) {
-      const double edges = 1 + (distance(here, here + step) + distance(there - step, there)) / edge;
-      shows *= seen_on_edges + (1 - seen_on_edges) / (edges * std::sqrt(edges));
+      const double hiding = 1 + (edge_at(here, step) + edge_at(there - step, step)) / edge;
+      shows *= seen_on_edges + (1 - seen_on_edges) / (hiding * std::sqrt(hiding));
     }
     sum += shows;
   }
   return int64_t(sum * mismatch_unit);
+}
+
+double ExpansionGround::edge_at(const AppearanceVector* v, ptrdiff_t step) const {
+  const bool along_row = std::abs(step) == 1;
+  return edges_[along_row ? 0 : 1][size_t((step < 0 ? v + step : v) - level.exemplar.at(-1, -1))];
 }
 
 const AppearanceVector* ExpansionGround::on_side(ExemplarPixel p, int dx, int dy, int k) const {

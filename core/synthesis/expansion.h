@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,8 +16,10 @@ inline constexpr int64_t mismatch_unit = 16;  ///< mismatches are integers of th
 struct ExpansionGround {
   static constexpr int untouched = -1, kept = -2;
 
-  ExpansionGround(Field& f, const CorrectionLevel& l, int b = 1, bool edges = false)
-      : field(f), level(l), block(b), along_edges(edges), node(f.pixels.size(), untouched) {}
+  ExpansionGround(Field& f, const CorrectionLevel& l, int b = 1, bool edges_hide = false)
+      : field(f), level(l), block(b), along_edges(edges_hide), node(f.pixels.size(), untouched) {
+    if (along_edges) find_edges();
+  }
 
   /// How much shows where a pixel shows a and its neighbour on that side (of field.h) b: 0 if b continues
   /// a, as the exemplar's last pixel is continued by itself.
@@ -30,9 +34,14 @@ struct ExpansionGround {
   std::vector<int> node;  ///< of each pixel in its expansion's graph
 
  private:
+  void find_edges();
+  /// How much an exemplar pixel differs from the one a step away.
+  double edge_at(const AppearanceVector* v, ptrdiff_t step) const;
   bool continues(ExemplarPixel a, ExemplarPixel b, int side) const;
   /// The k-th of a block's pixels along one of its sides.
   const AppearanceVector* on_side(ExemplarPixel p, int dx, int dy, int k) const;
+
+  std::array<std::vector<float>, 2> edges_;  // to the right and downwards, as the exemplar's pixels lie in memory
 };
 
 /// One expansion move (Boykov, Veksler & Zabih 2001; for textures Kwatra et al. 2003): some pixels may come to show

@@ -73,14 +73,10 @@ Effort effort_at(int level, Quality quality, bool between_kept, bool coarsest) {
 }
 
 constexpr int alignment_reach = 2;
-// Seams between bands move on the finest level on which pieces still change as wholes.
-constexpr int band_seam_level = 2;
-constexpr SeamMoves between_bands{.reach = 8};
-constexpr int passes_after_seams = 2;
-// Between cells they move last of all, when joints are seen: two bricks may differ, the halves of one may not.
-constexpr int cell_seam_level = 0;
-constexpr int cell_seam_reach = 16;
-constexpr int coarsest_mended = 3;  // at coarser ones it brings nothing
+// Seams move from the finest level on which pieces still change as wholes down to the one that sees joints best.
+constexpr int seam_level = 1;
+constexpr int seam_reaches[] = {8, 10};  // pixels of the next coarser level, by level
+constexpr int coarsest_mended = 3;       // at coarser ones it brings nothing
 constexpr int passes_after_mending[] = {2, 5};
 
 /// What is too large and too small for a piece.
@@ -186,7 +182,7 @@ class LevelWork {
     const std::vector<ExemplarPixel> none_similar;
     const CorrectionLevel level = correction_level(window, none_similar, fixed);
     if (phase_.resolves_cells()) align_pieces(starts, 2, level, alignment_reach, shared_.task);
-    if (moves_seams(2, cell_seam_level)) move_seams(starts, level, between_cells(), shared_.task);
+    if (moves_seams()) move_seams(starts, level, along_joints(), shared_.task);
     return starts;
   }
 
@@ -215,8 +211,6 @@ class LevelWork {
                          .seed = random_bits(shared_.options.seed, Purpose::correction),
                          .pass = pass,
                          .wanted = grown(wanted, reach_of(effort.passes - 1 - pass))};
-      if (moves_seams(1, band_seam_level) && pass == effort.passes - passes_after_seams)
-        move_seams(field, level, between_bands, shared_.task);
       if (mends(effort.passes - pass))
         mend_seams(field, level, occupancy_, random_bits(shared_.options.seed, Purpose::mending), shared_.task);
       if (limits_pieces()) how.piece_coherence = piece_coherence(field, level, coherence(), regular());
@@ -239,10 +233,10 @@ class LevelWork {
     return limits_pieces() && shared_.places_landmarks(level_) ? full * landmark_coherence : full;
   }
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
-  bool moves_seams(int rank, int level) const { return shared_.lattice.rank == rank && level_ == level && !control_; }
+  bool moves_seams() const { return level_ <= seam_level && regular() && !control_; }
   /// Of blocks of two by two pixels.
-  SeamMoves between_cells() const {
-    return {.reach = cell_seam_reach,
+  SeamMoves along_joints() const {
+    return {.reach = seam_reaches[level_],
             .sweeps = 2,
             .block = 2,
             .along_edges = true,

@@ -127,7 +127,7 @@ int blocks_of_other_tiles(const Field& field) {
 
 }  // namespace
 
-TEST_CASE("seams between cells leave the middles of tiles for their joints") {
+TEST_CASE("seams leave the middles of tiles for their joints") {
   const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = tiled_exemplar();
   Field field = meeting_in_tiles();
