@@ -76,7 +76,7 @@ void Expansion::keep(int pixel) {
   kept_.push_back(pixel);
 }
 
-bool Expansion::offer(int pixel, ExemplarPixel shown, int64_t pressure) {
+bool Expansion::offer(int pixel, ExemplarPixel shown, int32_t pressure) {
   if (ground_.node[size_t(pixel)] != ExpansionGround::untouched || ground_.field.pixels[size_t(pixel)] == shown ||
       ground_.level.fixed.at(size_t(pixel)))
     return false;

@@ -30,7 +30,7 @@ struct ExpansionGround {
   int block;         ///< a pixel of the field stands for `block` x `block` pixels of the level
   bool along_edges;  ///< whether what differs shows less along an edge
   /// What it costs each pixel to show what it shows, whatever its neighbours do; empty: nothing.
-  std::vector<int64_t> pressure{};
+  std::vector<int32_t> pressure{};
   std::vector<int> node;  ///< of each pixel in its expansion's graph
 
  private:
@@ -55,7 +55,7 @@ class Expansion {
   void keep(int pixel);
   /// Offers a pixel something else to show, under that pressure. False if it has been offered already, or stays as it
   /// is.
-  bool offer(int pixel, ExemplarPixel shown, int64_t pressure = 0);
+  bool offer(int pixel, ExemplarPixel shown, int32_t pressure = 0);
   /// Makes the move and forgets what was offered.
   void apply();
 
@@ -63,7 +63,7 @@ class Expansion {
   struct Free {
     int pixel;
     ExemplarPixel offered;
-    int64_t pressure;
+    int32_t pressure;
   };
   void connect(int n);
 

@@ -26,7 +26,7 @@ class SeamMover {
       : ground_(ground), before_(before), reach_(reach), expansion_(ground) {}
 
   /// Offers what is left of the piece to the pixels in its reach, under that pressure.
-  void spread(std::span<const int> piece, int64_t pressure) {
+  void spread(std::span<const int> piece, int32_t pressure) {
     std::vector<Reached> rim, next;
     for (const int i : piece) {
       if (!(ground_.field.pixels[i] == before_.pixels[i])) continue;
@@ -77,11 +77,11 @@ class SeamMover {
   Expansion expansion_;
 };
 
-std::vector<int64_t> pressures(const Pieces& pieces, double fair) {
-  std::vector<int64_t> out(size_t(pieces.count()), 0);
+std::vector<int32_t> pressures(const Pieces& pieces, double fair) {
+  std::vector<int32_t> out(size_t(pieces.count()), 0);
   if (fair <= 0) return out;
   for (int piece = 0; piece < pieces.count(); piece++)
-    out[size_t(piece)] = int64_t(fair_pressure * mismatch_unit * std::min(most_pressure, pieces.area(piece) / fair));
+    out[size_t(piece)] = int32_t(fair_pressure * mismatch_unit * std::min(most_pressure, pieces.area(piece) / fair));
   return out;
 }
 
@@ -94,7 +94,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
   for (const int piece : order)
     if (pieces.area(piece) >= smallest_piece) rounds.add(piece, pieces.members(piece));
   const Field before = field;
-  const std::vector<int64_t> pressure = pressures(pieces, moves.fair_piece);
+  const std::vector<int32_t> pressure = pressures(pieces, moves.fair_piece);
   ExpansionGround ground(field, level, moves.block, moves.along_edges);
   ground.pressure.resize(field.pixels.size());
   for (size_t i = 0; i < field.pixels.size(); i++) ground.pressure[i] = pressure[size_t(pieces.of(int(i)))];

@@ -233,7 +233,9 @@ class LevelWork {
     return limits_pieces() && shared_.places_landmarks(level_) ? full * landmark_coherence : full;
   }
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
-  bool moves_seams() const { return level_ <= seam_level && regular() && !control_; }
+  bool moves_seams() const {
+    return level_ <= seam_level && regular() && !control_ && shared_.options.quality != Quality::draft;
+  }
   /// Of blocks of two by two pixels.
   SeamMoves along_joints() const {
     return {.reach = seam_reaches[level_],
