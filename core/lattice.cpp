@@ -57,10 +57,11 @@ Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
   return out;
 }
 
-bool Lattice::fits(Size size, bool wraps_x, bool wraps_y) const {
+bool Lattice::fits(Size size, bool wraps_x, bool wraps_y, double precision) const {
   const LatticePhase phase(*this, 0, size, false, false);
   if (!phase.active()) return true;
-  return (!wraps_x || comes_back(phase, size.width, true, 1)) && (!wraps_y || comes_back(phase, size.height, false, 1));
+  return (!wraps_x || comes_back(phase, size.width, true, precision)) &&
+         (!wraps_y || comes_back(phase, size.height, false, precision));
 }
 
 std::optional<Size> Lattice::largest_fitting(Size size, bool wraps_x, bool wraps_y) const {

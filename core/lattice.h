@@ -34,9 +34,9 @@ struct Lattice {
   }
   /// The nearest lattice of which a surface of `size` holds a whole number of cells, along each axis in which it wraps.
   Lattice fitted(Size size, bool wraps_x, bool wraps_y) const;
-  /// Whether a surface of `size` holds a whole number of cells along each axis in which it wraps: to a pixel along the
-  /// axis, and across it with a shear too small to see.
-  bool fits(Size size, bool wraps_x, bool wraps_y) const;
+  /// Whether a surface of `size` holds a whole number of cells along each axis in which it wraps: to `precision` pixels
+  /// along the axis, and across it with a shear too small to see.
+  bool fits(Size size, bool wraps_x, bool wraps_y, double precision = 1) const;
 
   /// The largest size within `size`, and over half of it, that fits, to half a pixel along each axis in which it wraps;
   /// none if there is no such size.

@@ -12,6 +12,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/file_io.h"
@@ -81,9 +82,9 @@ int error_of_making(bool file, const fs::path& folder) {
     ::close(nameless);
     return 0;
   }
-  std::string name = (folder / fmt::format(".{}-XXXXXX", mark)).string();
-  if (!file) return ::mkdtemp(name.data()) && ::rmdir(name.c_str()) == 0 ? 0 : errno;
-  const int made = ::mkstemp(name.data());
+  const fs::path name = temporary_beside(folder / "trial");
+  if (!file) return ::mkdir(name.c_str(), 0700) == 0 && ::rmdir(name.c_str()) == 0 ? 0 : errno;
+  const int made = ::open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
   if (made < 0) return errno;
   ::close(made);
   ::unlink(name.c_str());

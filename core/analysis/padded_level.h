@@ -51,6 +51,11 @@ class PaddedLevel {
     settle_inside(x, y);
     return is_usable(x, y);
   }
+  /// Whether synthesis may take a position, which may lie outside, just as it is.
+  bool holds(int x, int y) const {
+    int u = x, v = y;
+    return settles(u, v) && u == x && v == y;
+  }
   /// A usable position for 64 random bits, all equally likely.
   std::array<int, 2> place(uint64_t bits) const {
     if (masked_) return usable_place(bits);

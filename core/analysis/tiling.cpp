@@ -142,14 +142,9 @@ bool cells_deny(const Material& material, const Task& task) {
   constexpr double most_excess = 1.0 / 120;  // of a side
   const FeaturesPtr features = weighted_features(material, weights_of_chosen(material, {}), false);
   const Lattice lattice = find_lattice(*features, least_certainty, task).lattice;
-  if (lattice.rank < 2) return false;
   const Size size = material.size();
-  const LatticePhase phase(lattice, 0, size, false, false);
-  const auto goes_round = [&](int width, int height) {
-    const Vector2 e = phase.excess(width, height, 0, 0);
-    return std::max(std::abs(e.x), std::abs(e.y)) <= most_excess * std::max(width, height);
-  };
-  return !goes_round(size.width, 0) || !goes_round(0, size.height);
+  return lattice.rank == 2 && !(lattice.fits(size, true, false, most_excess * size.width) &&
+                                lattice.fits(size, false, true, most_excess * size.height));
 }
 
 }  // namespace

@@ -149,18 +149,13 @@ class PieceAligner {
     return seams;
   }
 
-  bool stays(ExemplarPixel p, int dx, int dy) const {
-    int u = p.x + dx, v = p.y + dy;
-    if (!level_.exemplar.settles(u, v)) return false;
-    return u == p.x + dx && v == p.y + dy;
-  }
-
   /// Whether the exemplar has usable pixels for the whole piece where a move would take it.
   bool has_room(int piece, int dx, int dy) const {
     const std::span<const int> members = pieces_.members(piece);
     return std::all_of(members.begin(), members.end(), [&](int i) {
       const ExemplarPixel p = field_.pixels[i];
-      return stays(p, dx, dy) && stays(p, dx + block_ - 1, dy + block_ - 1);
+      const int x = p.x + dx, y = p.y + dy, far = block_ - 1;
+      return level_.exemplar.holds(x, y) && level_.exemplar.holds(x + far, y + far);
     });
   }
 

@@ -15,6 +15,7 @@ namespace terrazzo {
 namespace {
 
 constexpr int smallest_piece = 2;  // pixels; smaller ones only give way
+constexpr int sweeps = 2;
 // What it costs each of its pixels that a piece is of a fair size, in units of appearance space, and how many times as
 // much it can be.
 constexpr double fair_pressure = appearance_limit / 55.0;
@@ -62,13 +63,10 @@ class SeamMover {
   /// Whether the exemplar goes on there; moves to it.
   bool step(ExemplarPixel& p, int side) const {
     const int block = ground_.block, x = p.x + sides[side][0] * block, y = p.y + sides[side][1] * block;
-    if (!stays(x, y) || !stays(x + block - 1, y + block - 1)) return false;
+    const PaddedLevel& e = ground_.level.exemplar;
+    if (!e.holds(x, y) || !e.holds(x + block - 1, y + block - 1)) return false;
     p = {uint16_t(x), uint16_t(y)};
     return true;
-  }
-  bool stays(int x, int y) const {
-    int u = x, v = y;
-    return ground_.level.exemplar.settles(u, v) && u == x && v == y;
   }
 
   ExpansionGround& ground_;
@@ -95,7 +93,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
     if (pieces.area(piece) >= smallest_piece) rounds.add(piece, pieces.members(piece));
   const Field before = field;
   const std::vector<int32_t> pressure = pressures(pieces, moves.fair_piece);
-  ExpansionGround ground(field, level, moves.block, moves.along_edges);
+  ExpansionGround ground(field, level, moves.block, true);
   ground.pressure.resize(field.pixels.size());
   for (size_t i = 0; i < field.pixels.size(); i++) ground.pressure[i] = pressure[size_t(pieces.of(int(i)))];
   tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(ground, before, moves.reach); });
@@ -110,7 +108,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
 }  // namespace
 
 void move_seams(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
-  for (int i = 0; i < moves.sweeps; i++) sweep(field, level, moves, task);
+  for (int i = 0; i < sweeps; i++) sweep(field, level, moves, task);
 }
 
 }  // namespace terrazzo

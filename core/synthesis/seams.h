@@ -7,17 +7,15 @@ namespace terrazzo {
 /// How seams move.
 struct SeamMoves {
   int reach = 8;  ///< by how many pixels of the field a piece may spread
-  int sweeps = 1;
   /// A pixel of the field stands for `block` x `block` pixels of the level, which continue the exemplar pixel it names.
   int block = 1;
-  /// Seams are drawn to edges: on the two sides of a joint anything goes, across the middle of a brick it does not.
-  bool along_edges = false;
   /// If above 0, to be of a piece costs each of its pixels the more the larger the piece is, so that large pieces do
   /// not swallow small ones. This many pixels of the field are a fair size.
   double fair_piece = 0;
 };
 
-/// Moves the seams between pieces to where they show least: each piece in turn, the largest first, spreads over its
+/// Moves the seams between pieces to where they show least. Edges hide them: on the two sides of a joint anything goes,
+/// across the middle of a brick it does not. Each piece in turn, the largest first, spreads over its
 /// neighbours' pixels as far as that lowers the mismatch summed along all seams. The best way to spread is a minimum
 /// cut (expansion moves: Boykov, Veksler & Zabih 2001; for textures Kwatra et al. 2003, also for dearer seams where
 /// there is no edge), so seams move where no single pixel would gain. `level.fixed` tells which pixels of the field

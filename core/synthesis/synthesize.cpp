@@ -239,9 +239,7 @@ class LevelWork {
   /// Of blocks of two by two pixels.
   SeamMoves along_joints() const {
     return {.reach = seam_reaches[level_],
-            .sweeps = 2,
             .block = 2,
-            .along_edges = true,
             .fair_piece = pieces_on_lattice.large * double(exemplar_.size().area()) / 4};
   }
   bool mends(int passes_left) const {

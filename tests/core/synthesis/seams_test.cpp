@@ -132,7 +132,7 @@ TEST_CASE("seams leave the middles of tiles for their joints") {
   const PaddedLevel exemplar = tiled_exemplar();
   Field field = meeting_in_tiles();
   REQUIRE(blocks_of_other_tiles(field) > 20);
-  move_seams(field, level_of(exemplar, none), {.reach = 8, .block = 2, .along_edges = true}, Task());
+  move_seams(field, level_of(exemplar, none), {.reach = 8, .block = 2}, Task());
   CHECK(blocks_of_other_tiles(field) == 0);
   // Both pieces are still there, and each goes on as in the exemplar.
   CHECK(Pieces(field, 2).count() == 2);
@@ -151,7 +151,7 @@ TEST_CASE("a large piece swallows a small one, unless to be large costs it") {
         const bool small = x >= 12 && x < 18 && y >= 7 && y < 13;
         field.pixels.push_back({uint16_t(4 + 2 * x + (small ? 25 : 0)), uint16_t(4 + 2 * y)});
       }
-    move_seams(field, level_of(plain, none), {.reach = 8, .block = 2, .along_edges = true, .fair_piece = fair}, Task());
+    move_seams(field, level_of(plain, none), {.reach = 8, .block = 2, .fair_piece = fair}, Task());
     int left = 0;
     for (int y = 0; y < 20; y++)
       for (int x = 0; x < 30; x++) left += field.at(x, y).x != 4 + 2 * x;
