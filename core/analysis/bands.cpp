@@ -9,11 +9,36 @@ namespace terrazzo {
 namespace {
 
 constexpr int most_repeats = 24;
-constexpr double least_of_one = 0.25;  // certainty from which lines that come again only once count
+constexpr double least_of_one = 0.25;  // by how much lines that come again only once must be more alike
+// How much repeats are expected to vary, of their mean, and for how many repeats that counts.
+constexpr double expected_deviation = 0.5, expected_counts = 2;
 constexpr double often = 5, often_counts = 0.5;
 constexpr double multiple = 1.5;  // of a period found before, which a longer one must beat clearly
 constexpr double clearly_better = 1.15;
 constexpr double better = 0.005;
+constexpr double near_best = 0.03;  // of a period, within which the most certain one is looked for
+
+/// How far lines that repeat stand out.
+struct Repeats {
+  int count = 0;
+  double mean = 0, variance = 0;
+  double alike = 0;  ///< their correlation with what they repeat
+
+  /// What nearly all exceed.
+  double certainty() const { return exceeded(variance); }
+  /// The same for choosing among periods: few repeats that happen to agree say less than many that nearly do. The more
+  /// alike they are, the less it is chance.
+  double evidence() const {
+    const double expected = expected_deviation * mean, chance = 1 - alike * alike;
+    return exceeded((count * variance + expected_counts * chance * expected * expected) / (count + expected_counts));
+  }
+
+ private:
+  double exceeded(double of_variance) const {
+    if (count == 0 || (count == 1 && mean < least_of_one)) return -1;
+    return mean - (0.3 + 1.4 / count) * std::sqrt(of_variance);
+  }
+};
 
 /// How whole lines correlate with one another.
 class LineCorrelation {
@@ -39,19 +64,19 @@ class LineCorrelation {
     return values_[i] + (d - double(i)) * (values_[std::min(values_.size() - 1, i + 1)] - values_[i]);
   }
 
-  /// How far lines a period apart are more alike than lines half a period apart; nearly all must be.
-  double certainty(double period) const {
-    double sum = 0, squares = 0;
+  /// How far lines a period apart are more alike than lines half a period apart.
+  Repeats repeats(double period) const {
+    double sum = 0, squares = 0, alike = 0;
     int count = 0;
     for (double d = period; d < size() - 1 && count < most_repeats; d += period, count++) {
       const double v = at(d) - at(d - period / 2);
       sum += v;
       squares += v * v;
+      alike += at(d) / std::max(1e-12, at(0));
     }
-    if (count == 0) return -1;
-    const double mean = sum / count, deviation = std::sqrt(std::max(0.0, squares / count - mean * mean));
-    const double low = mean - (0.3 + 1.4 / count) * deviation;
-    return count > 1 || low >= least_of_one ? low : -1;
+    const int n = std::max(1, count);
+    const double mean = sum / n, variance = squares / n - mean * mean;
+    return {count, mean, std::max(0.0, variance), std::clamp(alike / n, 0.0, 1.0)};
   }
 
   /// Of what lines a period apart have in common; what nearly all exceed.
@@ -75,12 +100,12 @@ class LineCorrelation {
 
 Bands bands_of(const Correlation& r, bool courses) {
   const LineCorrelation lines(r, courses);
-  double best = 0, certainty = 0;
+  double best = 0, evidence = 0;
   const auto consider = [&](double period) {
-    const double needed = best > 0 && period > multiple * best ? clearly_better * certainty : certainty;
-    if (const double c = lines.certainty(period); c > needed + better) {
+    const double needed = best > 0 && period > multiple * best ? clearly_better * evidence : evidence;
+    if (const double e = lines.repeats(period).evidence(); e > needed + better) {
       best = period;
-      certainty = c;
+      evidence = e;
     }
   };
   if (r.wraps()) {
@@ -88,19 +113,24 @@ Bands bands_of(const Correlation& r, bool courses) {
     for (int n = int(length / shortest_repeat); n >= 2; n--) consider(double(length) / n);
   } else {
     for (double period = shortest_repeat; period <= lines.size() / 1.3; period += 0.1) consider(period);
-    for (int step = -20; step <= 20 && best > 0; step++)
-      if (const double c = lines.certainty(best + 0.005 * step); c > certainty) {
-        certainty = c;
-        best += 0.005 * step;
-        step = -20;
+    Repeats most = best > 0 ? lines.repeats(best) : Repeats{};
+    const double last = best * (1 + near_best);
+    for (double period = best * (1 - near_best); period < last; period += 0.005)
+      if (const Repeats r = lines.repeats(period); r.count == most.count && r.certainty() > most.certainty()) {
+        most = r;
+        best = period;
       }
   }
   if (best == 0) return {};
-  const double distinct = certainty / std::sqrt(std::max(certainty, lines.at(0)));
+  const auto distinct = [&](double v) { return v / std::sqrt(std::max(v, lines.at(0))); };
+  const Repeats found = lines.repeats(best);
+  double certainty = found.certainty();
   // Thin joints are little of all there is, but what comes again so often is no chance.
-  if (lines.size() >= (r.wraps() ? 2 : 1) * often * best) certainty = std::max(certainty, often_counts * distinct);
-  return {
-      {1, courses ? Vector2{0, best} : Vector2{best, 0}, {}, std::min(1.0, certainty)}, distinct, lines.alike(best)};
+  if (lines.size() >= (r.wraps() ? 2 : 1) * often * best)
+    certainty = std::max(certainty, often_counts * distinct(certainty));
+  return {{1, courses ? Vector2{0, best} : Vector2{best, 0}, {}, std::min(1.0, certainty)},
+          distinct(found.evidence()),
+          lines.alike(best)};
 }
 
 }  // namespace terrazzo

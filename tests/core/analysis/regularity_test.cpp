@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -183,6 +184,34 @@ TEST_CASE("boards with thin joints are courses, few of them too") {
     REQUIRE(l.rank == 1);
     CHECK(l.first.y == doctest::Approx(height).epsilon(0.02));
   }
+}
+
+TEST_CASE("fine courses are kept in twos, wide ones are not") {
+  for (const int height : {7, 11, 17}) {
+    CAPTURE(height);
+    const Lattice l = lattice_of(plain_features(make_image({192, 192}, 1, [&](int x, int y, int) {
+      const int row = y / height, end = int(below(uint32_t(random_bits(8, row, x / 30)), 30));
+      return y % height < 2 || x % 30 == end ? 1.f : 0.4f * float(unit_double(random_bits(7, row, x / 30)));
+    })));
+    REQUIRE(l.rank == 1);
+    CHECK(l.parts == (height < 14 ? 2 : 1));
+    CHECK(l.first.y / l.parts == doctest::Approx(height).epsilon(0.02));
+  }
+}
+
+TEST_CASE("many courses say more than a few whose shades happen to agree") {
+  for (const auto& [height, joint] : {std::pair{8, 0.0}, std::pair{16, 0.2}})
+    for (int seed = 0; seed < 40; seed++) {
+      CAPTURE(height);
+      CAPTURE(seed);
+      const Lattice l = lattice_of(plain_features(make_image({160, 160}, 1, [&](int x, int y, int) {
+        const double shade = 0.3 + 0.5 * unit_double(random_bits(5, (y + 5) / height, seed));
+        const double grain = 0.15 * unit_double(random_bits(6, x, y, seed));
+        return float((y + 5) % height < 2 ? joint : shade + grain);
+      })));
+      REQUIRE(l.rank == 1);
+      CHECK(l.first.y / l.parts == doctest::Approx(height).epsilon(0.02));
+    }
 }
 
 TEST_CASE("joints that cross without a second tile to measure are told of, stones are not") {
