@@ -97,7 +97,7 @@ LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool 
       rank_ == 1 ? std::abs(first_.x + first_.y) : std::sqrt(std::abs(first_.x * second_.y - first_.y * second_.x));
   resolves_cells_ = cell >= smallest_resolved;
   if (cell < smallest_cell) rank_ = 0;
-  const double loose = cell / lattice.parts * looseness * (1 - lattice.certainty * certainty_counts);
+  const double loose = cell * looseness * (1 - lattice.certainty * certainty_counts);
   // Whole pixels of the finest level are out of phase by up to half a pixel along each axis that the lattice speaks of.
   const double rounding = (rank_ == 1 ? 0.501 : 0.708) * scale * (cell < crowded_cell ? 2 : 1);
   const double tolerance = std::clamp(loose, rounding, 1.0);

@@ -26,12 +26,9 @@ struct Lattice {
   Vector2 first;
   Vector2 second;
   double certainty = 0;  ///< how much repeats exceed chance, 0..1
-  /// Like cells, or bands, within one along each of its sides, kept together since they are so fine.
-  int parts = 1;
 
   /// Whether the vectors can carry a lattice of this rank.
   bool is_valid() const {
-    if (parts < 1) return false;
     if (rank == 1) return (first.x == 0) != (first.y == 0);
     return rank == 0 || (rank == 2 && std::abs(first.x * second.y - first.y * second.x) >= 1);
   }
@@ -45,10 +42,7 @@ struct Lattice {
   /// none if there is no such size.
   std::optional<Size> largest_fitting(Size size, bool wraps_x, bool wraps_y) const;
 
-  void add_to(Hasher& h) const {
-    h.add(rank).add(first.x).add(first.y).add(second.x).add(second.y).add(certainty);
-    if (parts != 1) h.add(parts);
-  }
+  void add_to(Hasher& h) const { h.add(rank).add(first.x).add(first.y).add(second.x).add(second.y).add(certainty); }
 };
 
 /// Tells whether exemplar positions are in phase with output positions, at the scale of one pyramid level: whether both

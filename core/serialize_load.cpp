@@ -112,7 +112,6 @@ class ValueReader {
       *v = in_.get<double>();
       require(std::isfinite(*v), "a lattice has a component that is not a number");
     }
-    l.parts = in_.get<uint8_t>();
     require(l.is_valid(), "a lattice has no extent");
     return l;
   }

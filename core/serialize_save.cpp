@@ -136,7 +136,6 @@ class ValueWriter {
     out_.put(uint8_t(lattice.rank));
     for (const double v : {lattice.first.x, lattice.first.y, lattice.second.x, lattice.second.y, lattice.certainty})
       out_.put(v);
-    out_.put(uint8_t(lattice.parts));
   }
 
   void put(Size size) {

@@ -16,8 +16,8 @@ std::string described(const Lattice& l) {
     return fmt::format("repeats by ({:.2f}, {:.2f}) and ({:.2f}, {:.2f}) pixels, certainty {:.2f}", l.first.x,
                        l.first.y, l.second.x, l.second.y, l.certainty);
   const bool columns = l.first.x != 0;
-  return fmt::format("{} of {:.2f} pixels{}, certainty {:.2f}", columns ? "columns" : "courses",
-                     (columns ? l.first.x : l.first.y) / l.parts, l.parts > 1 ? ", kept in twos" : "", l.certainty);
+  return fmt::format("{} of {:.2f} pixels, certainty {:.2f}", columns ? "columns" : "courses",
+                     columns ? l.first.x : l.first.y, l.certainty);
 }
 
 Lattice manual_lattice(const Numbers& first, const Numbers& second) {

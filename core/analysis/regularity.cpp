@@ -17,24 +17,19 @@ constexpr int most_side = 256;     // periods are found to a fraction of a pixel
 constexpr int smallest_side = 16;  // less has no room for repeats
 // Pixels. Coarse levels see nothing of finer cells and would mix what they show; they keep pieces of two by two apart.
 constexpr double smallest_cell = 7.5;
-// The same for bands, of which courses of stretchers and of headers may come in turn; pixels of the reduced exemplar.
-constexpr double smallest_band = 14;
 constexpr double least_distinct = 0.15;  // from here on cells say more than the bands they lie in
 
 double area(const Lattice& l) {
   return std::abs(l.first.x * l.second.y - l.second.x * l.first.y);
 }
 
-/// The lattice of cells, or bands, two by two.
-Lattice doubled(const Lattice& l, Size exemplar, bool wraps) {
+Lattice two_by_two(const Lattice& l, const Features& features) {
   Lattice out = l;
   for (Vector2 Lattice::*v : {&Lattice::first, &Lattice::second}) {
     Lattice twice = out;
     twice.*v = {2 * (out.*v).x, 2 * (out.*v).y};
     // Of an odd number of cells no two by two fit into an exemplar that tiles.
-    if ((l.rank == 1 && v == &Lattice::second) || !twice.fits(exemplar, wraps, wraps)) continue;
-    out = twice;
-    out.parts = 2;
+    if (twice.fits(features.size(), features.wraps(), features.wraps())) out = twice;
   }
   return out;
 }
@@ -88,11 +83,9 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
     best.certainty = std::max(best.certainty, found.alike);
   const bool too_few = best.rank < 2 && !planes.wraps && lines_cross(edges);
   if (best.rank == 0) return {best, too_few};
-  if (best.rank == 1 && best.first.x + best.first.y < smallest_band) best = doubled(best, planes.size, planes.wraps);
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
   best = best.fitted(features.size(), features.wraps(), features.wraps());
-  if (best.rank == 2 && area(best) < smallest_cell * smallest_cell)
-    best = doubled(best, features.size(), features.wraps());
+  if (best.rank == 2 && area(best) < smallest_cell * smallest_cell) best = two_by_two(best, features);
   return {best, too_few};
 }
 

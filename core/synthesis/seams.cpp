@@ -18,7 +18,7 @@ constexpr int smallest_piece = 2;  // pixels; smaller ones only give way
 constexpr int sweeps = 2;
 // What it costs each of its pixels that a piece is of a fair size, in units of appearance space, and how many times as
 // much it can be.
-constexpr double fair_pressure = appearance_limit / 50.0;
+constexpr double fair_pressure = appearance_limit / 55.0;
 constexpr double most_pressure = 3;
 
 class SeamMover {

@@ -34,13 +34,6 @@ TEST_CASE("in phase is what lies a whole number of cells apart") {
   CHECK(std::abs(v - 30) <= 4);
 }
 
-TEST_CASE("cells kept together leave no more open than each would") {
-  Lattice pairs = courses(12.75, 0);  // 12 rows further, a position is out of phase by three quarters of a pixel
-  CHECK(LatticePhase(pairs, 0, output, false, false).penalty(0, 12, 0, 0) == 1);
-  pairs.parts = 2;
-  CHECK(LatticePhase(pairs, 0, output, false, false).penalty(0, 12, 0, 0) > 1);
-}
-
 TEST_CASE("levels that are too coarse to see a cell still know positions that are in phase at the finest level") {
   // Three pixels of level 4 are 48 of the finest, eight courses; a fourth of them is none.
   const LatticePhase phase(courses(6), 4, output, false, false);

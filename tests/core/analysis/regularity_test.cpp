@@ -186,19 +186,6 @@ TEST_CASE("boards with thin joints are courses, few of them too") {
   }
 }
 
-TEST_CASE("fine courses are kept in twos, wide ones are not") {
-  for (const int height : {7, 11, 17}) {
-    CAPTURE(height);
-    const Lattice l = lattice_of(plain_features(make_image({192, 192}, 1, [&](int x, int y, int) {
-      const int row = y / height, end = int(below(uint32_t(random_bits(8, row, x / 30)), 30));
-      return y % height < 2 || x % 30 == end ? 1.f : 0.4f * float(unit_double(random_bits(7, row, x / 30)));
-    })));
-    REQUIRE(l.rank == 1);
-    CHECK(l.parts == (height < 14 ? 2 : 1));
-    CHECK(l.first.y / l.parts == doctest::Approx(height).epsilon(0.02));
-  }
-}
-
 TEST_CASE("many courses say more than a few whose shades happen to agree") {
   for (const auto& [height, joint] : {std::pair{8, 0.0}, std::pair{16, 0.2}})
     for (int seed = 0; seed < 40; seed++) {
@@ -210,7 +197,7 @@ TEST_CASE("many courses say more than a few whose shades happen to agree") {
         return float((y + 5) % height < 2 ? joint : shade + grain);
       })));
       REQUIRE(l.rank == 1);
-      CHECK(l.first.y / l.parts == doctest::Approx(height).epsilon(0.02));
+      CHECK(l.first.y == doctest::Approx(height).epsilon(0.02));
     }
 }
 
