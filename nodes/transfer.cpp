@@ -42,7 +42,7 @@ void compute(NodeContext& node) {
 NodeType transfer_node() {
   NodeType t;
   t.name = "transfer";
-  t.version = 6;
+  t.version = 7;
   t.category = "synthesis";
   t.summary = "Synthesis steered by a target image";
   t.help =
@@ -71,8 +71,10 @@ NodeType transfer_node() {
        .type = ParamType::numbers,
        .fallback = Numbers{1},
        .help = "How much the target counts against the texture's own structure; 0 not at all. One number for all "
-               "controls, or one for each. Where the exemplar differs little from place to place, 4 and more may be "
-               "needed, or a control that spreads its values, such as that of progression.",
+               "controls, or one for each. At 1 values may differ at no cost by as much as they do within a feature "
+               "(a sixteenth of the exemplar's longer side), so that features stay whole; 4 makes a picture plain "
+               "and takes features apart for it. Where the exemplar differs little from place to place, 4 and more "
+               "may be needed, or a control that spreads its values, such as that of progression.",
        .min = 0,
        .max = 100,
        .min_count = 1},
@@ -86,7 +88,8 @@ NodeType transfer_node() {
        .type = ParamType::choice,
        .fallback = "histogram",
        .help = "How values of the target are brought to those of the exemplar's control, channel by channel. "
-               "histogram: by rank, so that any grey image works and all of the exemplar is used. range: darkest and "
+               "histogram: by rank, so that any grey image works and all of the exemplar is used; its darkest "
+               "twentieth counts as one, and its lightest. range: darkest and "
                "lightest become the same. none: values mean the same already.",
        .choices = {"histogram", "range", "none"}},
   });

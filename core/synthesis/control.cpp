@@ -22,6 +22,10 @@ namespace {
 constexpr size_t most_labels = 32;
 // What the largest difference of values costs, relative to missing a label.
 constexpr double values_factor = 8;
+// Of the exemplar's longer side: features that are not to be taken apart for the sake of their values.
+constexpr double feature_side = 1.0 / 16;
+// Ranks of the exemplar's values beyond which all are alike: of the few pixels of the extremes no surface can be made.
+constexpr double extreme_ranks = 0.05;
 
 using Plane = std::vector<float>;
 
@@ -52,9 +56,10 @@ void put(const Image& image, ControlPlanes& planes, int first, const Encode& enc
 
 /// How a channel's values become bytes.
 struct ByteScale {
-  double low, high;
+  double low, high;    ///< become 0 and 255
+  double least, most;  ///< what lies beyond them is taken for them
   uint8_t operator()(double v) const {
-    return uint8_t(std::floor(255 * std::clamp((v - low) / (high - low), 0.0, 1.0) + 0.5));
+    return uint8_t(std::floor(255 * std::clamp((std::clamp(v, least, most) - low) / (high - low), 0.0, 1.0) + 0.5));
   }
 };
 
@@ -72,8 +77,11 @@ void put_values(const Control& control, ControlPlanes& exemplar, ControlPlanes& 
       low = std::min<double>(low, wanted[c].min());
       high = std::max<double>(high, wanted[c].max());
     }
-    scales.push_back({low, std::max(high, low + least_range)});
-    if (control.match == Control::Match::histogram)
+    const bool by_rank = control.match == Control::Match::histogram;
+    high = std::max(high, low + least_range);
+    scales.push_back({low, high, by_rank ? own[c].quantile(extreme_ranks) : low,
+                      by_rank ? own[c].quantile(1 - extreme_ranks) : high});
+    if (by_rank)
       curves.push_back(matching_curve(wanted[c], own[c]));
     else if (control.match == Control::Match::range)
       curves.push_back(
@@ -160,6 +168,32 @@ void check(const Control& control, Size exemplar) {
                                       describe(*control.exemplar), describe(*control.target)));
 }
 
+/// How much the channels [first, end) vary within a feature: their mean deviation in windows of its size.
+double deviation_within_features(const ControlPlanes& planes, int first, int end) {
+  constexpr int windows = 512;
+  const Size size = planes.size;
+  const int reach = std::max(1, int(std::max(size.width, size.height) * feature_side / 2));
+  double total = 0;
+  for (int i = 0; i < windows; i++) {
+    const int x = int(below(uint32_t(random_bits(33, i)), uint32_t(size.width)));
+    const int y = int(below(uint32_t(random_bits(34, i)), uint32_t(size.height)));
+    const int left = std::max(0, x - reach), right = std::min(size.width - 1, x + reach);
+    const int top = std::max(0, y - reach), bottom = std::min(size.height - 1, y + reach);
+    const double count = double(right - left + 1) * (bottom - top + 1);
+    for (int c = first; c < end; c++) {
+      double sum = 0, squares = 0;
+      for (int v = top; v <= bottom; v++)
+        for (int u = left; u <= right; u++) {
+          const double value = planes.at(int64_t{v} * size.width + u)[c];
+          sum += value;
+          squares += value * value;
+        }
+      total += std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)));
+    }
+  }
+  return total / windows / (end - first);
+}
+
 /// The mean distance of appearance vectors that have nothing to do with each other.
 double typical_distance(const PaddedLevel& level) {
   constexpr int pairs = 1024;
@@ -215,8 +249,13 @@ LevelControl::LevelControl(const ControlPyramid& pyramid, int level, const Padde
     const double whole = 255.0 * 255 * (part.labels ? 2 : part.count);
     const double factor = part.strength * typical * (part.labels ? 1 : values_factor) / whole;
     const double weight = std::min(factor * (1 << weight_bits), 1e9);
-    parts_.push_back({part.first, part.first + part.count, uint64_t(std::floor(weight + 0.5)), part.labels,
-                      part.count == 1 ? 4 : 2});
+    const int end = part.first + part.count;
+    // Else the few places that have the wanted value all around them would be shown again and again.
+    const double slack =
+        part.labels ? 0
+                    : deviation_within_features(exemplar_, part.first, end) / std::sqrt(std::max(1.0, part.strength));
+    parts_.push_back(
+        {part.first, end, uint64_t(std::floor(weight + 0.5)), part.labels, int(slack), part.count == 1 ? 4 : 2});
     influence_ = std::max(influence_, std::min(1.0, part.strength));
   }
 }

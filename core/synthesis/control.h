@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -68,13 +70,17 @@ class LevelControl {
 
   const uint8_t* target(int64_t pixel) const { return target_.at(pixel); }
   /// The cost of showing an exemplar pixel where `target` is wanted, on the scale of one compared vector: at strength
-  /// 1, to miss a label costs as much as a random place's surroundings would.
+  /// 1, to miss a label costs as much as a random place's surroundings would. Values may differ at no cost by as much
+  /// as they do within the exemplar's features.
   uint64_t cost(int x, int y, const uint8_t* target) const {
     const uint8_t* has = exemplar_.at(int64_t{y} * exemplar_.size.width + x);
     uint64_t sum = 0;
     for (const Part& part : parts_) {
       uint32_t squares = 0;
-      for (int c = part.first; c < part.end; c++) squares += uint32_t((has[c] - target[c]) * (has[c] - target[c]));
+      for (int c = part.first; c < part.end; c++) {
+        const int off = std::max(0, std::abs(has[c] - target[c]) - part.slack);
+        squares += uint32_t(off * off);
+      }
       sum += squares * part.weight;
     }
     return std::min<uint64_t>(sum >> weight_bits, most);
@@ -88,6 +94,7 @@ class LevelControl {
     int end;
     uint64_t weight;
     bool labels;
+    int slack;     ///< by how much values may differ at no cost
     int bin_bits;  ///< leading bits of a value that tell it from others when demand is counted
   };
   uint64_t key(const uint8_t* values) const;

@@ -99,6 +99,31 @@ TEST_CASE("without matching, values mean the same in exemplar and target") {
   CHECK(sum / 3600 == doctest::Approx(16).epsilon(0.25));
 }
 
+TEST_CASE("features are not taken apart for the sake of their values, unless the strength is great") {
+  // Light and dark blobs; what is wanted everywhere is what only their edges have.
+  const Size size{96, 96};
+  const ImagePtr blobs = grey(size, [](int x, int y) {
+    const double u = x / 2.3 + 0.8 * std::sin(y / 9.0), v = y / 2.3 + 0.8 * std::sin(x / 8.0);
+    return float(0.5 + 0.5 * std::sin(u) * std::sin(v) + 0.03 * unit_double(random_bits(2, x, y)));
+  });
+  const IndexPtr index = make_index(make_appearance(*plain_features(blobs), {}, {}, Task()), 3, Task());
+  const auto contrast = [&](double strength) {
+    SynthesisOptions options{.size = {128, 128}};
+    options.controls = {{.exemplar = blobs,
+                         .target = grey({8, 8}, [](int, int) { return 0.5f; }),
+                         .strength = strength,
+                         .match = Control::Match::none}};
+    const auto uv = synthesize(*index, options, Task());
+    const float* values = blobs->in_memory();
+    const auto has = [&](int u, int v) { return double(values[v * size.width + u]); };
+    return mean_square(*uv, has, [](int, int) { return 0.5; });
+  };
+  double own = 0;
+  for (int64_t i = 0; i < size.area(); i++) own += std::pow(blobs->in_memory()[i] - 0.5, 2) / double(size.area());
+  CHECK(contrast(1) > 0.5 * own);
+  CHECK(contrast(50) < 0.25 * own);
+}
+
 TEST_CASE("a steered synthesis is the same on any number of threads, and controls count in their result") {
   SynthesisOptions options{.size = {60, 52}};
   std::set<Digest> digests = {synthesize(two_sorts(), options, Task())->digest()};
