@@ -116,8 +116,8 @@ Bands bands_of(const Correlation& r, bool courses) {
     Repeats most = best > 0 ? lines.repeats(best) : Repeats{};
     const double last = best * (1 + near_best);
     for (double period = best * (1 - near_best); period < last; period += 0.005)
-      if (const Repeats r = lines.repeats(period); r.count == most.count && r.certainty() > most.certainty()) {
-        most = r;
+      if (const Repeats n = lines.repeats(period); n.count == most.count && n.certainty() > most.certainty()) {
+        most = n;
         best = period;
       }
   }

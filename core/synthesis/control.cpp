@@ -78,8 +78,7 @@ void put_values(const Control& control, ControlPlanes& exemplar, ControlPlanes& 
       high = std::max<double>(high, wanted[c].max());
     }
     const bool by_rank = control.match == Control::Match::histogram;
-    high = std::max(high, low + least_range);
-    scales.push_back({low, high, by_rank ? own[c].quantile(extreme_ranks) : low,
+    scales.push_back({low, std::max(high, low + least_range), by_rank ? own[c].quantile(extreme_ranks) : low,
                       by_rank ? own[c].quantile(1 - extreme_ranks) : high});
     if (by_rank)
       curves.push_back(matching_curve(wanted[c], own[c]));
