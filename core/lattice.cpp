@@ -9,10 +9,9 @@ namespace terrazzo {
 namespace {
 
 constexpr double smallest_resolved = 3;  // pixels of the level
-constexpr double smallest_cell = 0.3;
-// Of pixels larger than two cells so few are in phase to half a pixel of the finest level that the same rows would come
-// back all over a large surface. There a whole one will do: finer levels bring pieces into place.
-constexpr double crowded_cell = 0.5;
+// Pixels larger than two cells show nothing of them, and of so few in phase the same rows would come back all over a
+// large surface. There anything goes: finer levels bring pieces into place.
+constexpr double smallest_cell = 0.5;
 // By how much a surface may be sheared to wrap around, as a part of its side, and in pixels where it is small: rows of
 // a woven or scanned exemplar are rarely exactly level. Of pieces of 64 pixels this moves one end by a quarter of a
 // pixel against the other, however large the surface.
@@ -99,7 +98,7 @@ LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool 
   if (cell < smallest_cell) rank_ = 0;
   const double loose = cell * looseness * (1 - lattice.certainty * certainty_counts);
   // Whole pixels of the finest level are out of phase by up to half a pixel along each axis that the lattice speaks of.
-  const double rounding = (rank_ == 1 ? 0.501 : 0.708) * scale * (cell < crowded_cell ? 2 : 1);
+  const double rounding = (rank_ == 1 ? 0.501 : 0.708) * scale;
   const double tolerance = std::clamp(loose, rounding, 1.0);
   stiffness_ = 1 / (tolerance * tolerance);
   to_exemplar_ = to_cells(lattice, scale);

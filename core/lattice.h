@@ -52,7 +52,7 @@ class LatticePhase {
   LatticePhase() = default;
   /// `level`: 0 = the finest. `output`: the result's size at the finest level. A result that wraps around must hold a
   /// whole number of cells: its lattice is stretched until it does. Inactive where a pixel has become larger than
-  /// several cells. `origin`: the output position, at the finest level, at which the exemplar's (0, 0) is in
+  /// two cells. `origin`: the output position, at the finest level, at which the exemplar's (0, 0) is in
   /// phase.
   LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y, const Vector2& origin = {});
 

@@ -6,7 +6,7 @@ namespace terrazzo {
 NodeType index_node() {
   NodeType t;
   t.name = "index";
-  t.version = 5;
+  t.version = 6;
   t.category = "analysis";
   t.summary = "Finds each exemplar pixel's similar pixels";
   t.help =

@@ -35,8 +35,8 @@ TEST_CASE("in phase is what lies a whole number of cells apart") {
 }
 
 TEST_CASE("levels that are too coarse to see a cell still know positions that are in phase at the finest level") {
-  // Three pixels of level 4 are 48 of the finest, eight courses; a fourth of them is none.
-  const LatticePhase phase(courses(6), 4, output, false, false);
+  // Three pixels of level 3 are 24 of the finest, four courses; a third of them is none.
+  const LatticePhase phase(courses(6), 3, output, false, false);
   CHECK(phase.active());
   CHECK_FALSE(phase.resolves_cells());
   CHECK(phase.penalty(0, 3, 0, 0) == 1);
@@ -49,7 +49,8 @@ TEST_CASE("levels that are too coarse to see a cell still know positions that ar
     CHECK(v % 3 == 0);
     CHECK(std::abs(v - from) <= 1);
   }
-  CHECK_FALSE(LatticePhase(courses(6), 8, output, false, false).active());
+  // Those of level 4 are larger than two courses.
+  CHECK_FALSE(LatticePhase(courses(6), 4, output, false, false).active());
 }
 
 TEST_CASE("where cells are not resolved, snapping finds the best of all places in reach") {
