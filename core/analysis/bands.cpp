@@ -12,7 +12,7 @@ constexpr int most_repeats = 24;
 constexpr double least_of_one = 0.25;  // by how much lines that come again only once must be more alike
 // How much repeats are expected to vary, of their mean, and for how many repeats that counts.
 constexpr double expected_deviation = 0.5, expected_counts = 2;
-constexpr double often = 5, often_counts = 0.5;
+constexpr double often = 5, often_counts = 0.55;
 constexpr double multiple = 1.5;  // of a period found before, which a longer one must beat clearly
 constexpr double clearly_better = 1.15;
 constexpr double better = 0.005;
