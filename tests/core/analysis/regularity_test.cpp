@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "core/procedural/pattern.h"
 #include "tests/exemplars.h"
 
 using namespace terrazzo;
@@ -219,6 +220,24 @@ TEST_CASE("joints that cross without a second tile to measure are told of, stone
   const FoundLattice none = find_lattice(*stones, 0.08, Task());
   CHECK(none.lattice.rank == 0);
   CHECK(!none.too_few);
+}
+
+TEST_CASE("an exemplar of half the size has a lattice half as large") {
+  for (const PatternType& type : pattern_types()) {
+    CAPTURE(type.name);
+    const ImagePtr large = make_pattern({.type = type.name, .size = {512, 512}}, Task())->find("base_color");
+    const std::vector<float> pixels = large->pixels();
+    const ImagePtr small = make_image({256, 256}, 3, [&](int x, int y, int c) {
+      const auto row = [&](int j) { return &pixels[(size_t(2 * y + j) * 512 + 2 * x) * 3 + c]; };
+      return (row(0)[0] + row(0)[3] + row(1)[0] + row(1)[3]) / 4;
+    });
+    const Lattice a = lattice_of(plain_features(large, true)), b = lattice_of(plain_features(small, true));
+    REQUIRE(a.rank == b.rank);
+    for (Vector2 Lattice::*v : {&Lattice::first, &Lattice::second}) {
+      CHECK(std::abs((a.*v).x - 2 * (b.*v).x) < 0.5);
+      CHECK(std::abs((a.*v).y - 2 * (b.*v).y) < 0.5);
+    }
+  }
 }
 
 TEST_CASE("long narrow strips hold no lattice that could be seen") {
