@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/analysis/bands.h"
+#include "core/analysis/bonds.h"
 #include "core/analysis/cell_search.h"
 #include "core/analysis/lag_correlation.h"
 #include "core/analysis/planes.h"
@@ -81,6 +82,7 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
     best = lines;
   else if (best.rank > 0)
     best.certainty = std::max(best.certainty, found.alike);
+  if (best.rank == 1) best = bond_of(planes, best, task);
   const bool too_few = best.rank < 2 && !planes.wraps && lines_cross(edges);
   if (best.rank == 0) return {best, too_few};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};

@@ -14,8 +14,8 @@ struct FoundLattice {
 
 /// Finds how an exemplar repeats from the autocorrelation of all its weighted channels, or of their outlines where
 /// those repeat more surely: the cell whose repeats correlate most and places between them least (Liu, Collins & Tsin
-/// 2004 judge lattices alike), or else the period of its courses or columns. Rank 0 if the certainty stays under
-/// `least_certainty`.
+/// 2004 judge lattices alike), or else the period of its courses or columns, and their bond. Rank 0 if the certainty
+/// stays under `least_certainty`.
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task);
 
 }  // namespace terrazzo

@@ -134,6 +134,33 @@ TEST_CASE("of few bricks, whole ones are found and not halves") {
   }
 }
 
+/// Blocks of which each has a shade of its own, with a grain louder than what joints differ from them.
+FeaturesPtr grainy_blocks(int seed, bool of_all_widths) {
+  return plain_features(make_image({256, 256}, 1, [&](int x, int y, int) {
+    const int row = (y + 17) / 48, start = row & 1 ? 9 : 57;
+    int column = (x + start) / 96, left = column * 96 - start;
+    if (of_all_widths)
+      for (column = 0, left = -int(below(uint32_t(random_bits(8, row, seed)), 96));; column++) {
+        const int width = 48 + int(below(uint32_t(random_bits(9, row, column, seed)), 96));
+        if (x < left + width) break;
+        left += width;
+      }
+    const bool joint = (y + 17) % 48 < 3 || x - left < 3;
+    const double shade = 0.4 + 0.1 * unit_double(random_bits(5, column, row, seed));
+    return float(joint ? 0.62 : shade + 0.5 * (unit_double(random_bits(6, x, y, seed)) - 0.5));
+  }));
+}
+
+TEST_CASE("blocks in a bond are told from blocks of all widths by joints fainter than their grain") {
+  for (int seed = 0; seed < 5; seed++) {
+    CAPTURE(seed);
+    check_cell(lattice_of(grainy_blocks(seed, false)), 96, 0, 48, 48);
+    const Lattice courses = lattice_of(grainy_blocks(seed, true));
+    CHECK(courses.rank == 1);
+    CHECK(courses.first.y == doctest::Approx(48).epsilon(0.02));
+  }
+}
+
 TEST_CASE("tiles of which an exemplar that does not tile shows hardly two are found") {
   check_cell(lattice_of(picture(squares, 105, 0.35, 0.45, 3)), 105, 0, 0, 105);
 }
