@@ -20,6 +20,8 @@ constexpr int apron = 2 * sweeps;     ///< how far a pixel sees at that level
 constexpr int rounds = 3;             ///< in which the coarse part is found; each leaves about a third of the error
 constexpr double least_reach = 0.01;  ///< in pixels; nearer is not at all
 constexpr Size block{256, 64};
+/// What a pixel is held by: so much that all its neighbours together move it by a few thousandths of what they differ.
+constexpr float firm = 1000;
 
 /// The parts of a region that are worked on one by one.
 template <typename Body>
@@ -59,13 +61,15 @@ std::array<float, 2> range_of(const Image& map) {
 
 class JoinedPixels : public PixelSource {
  public:
-  JoinedPixels(const ImagePtr& map, std::shared_ptr<const FineLayout> layout, double reach, const Task& task)
+  JoinedPixels(const ImagePtr& map, std::shared_ptr<const FineLayout> layout, double reach, const KeptHeights& kept,
+               const Task& task)
       : map_(materialized(map)),
         layout_(std::move(layout)),
         same_(map_->size() == layout_->exemplar()),
         heights_(map_->in_memory()),
         steps_(smoothing_steps(sweeps)),
         size_(layout_->size()),
+        kept_(kept, size_),
         x_(CellAxis::of_pixels(size_.width, layout_->uv().wraps().x)),
         y_(CellAxis::of_pixels(size_.height, layout_->uv().wraps().y)) {
     const double fine = std::max(least_reach, reach * size_.width / layout_->uv().size().width);
@@ -77,6 +81,7 @@ class JoinedPixels : public PixelSource {
     x_shares_ = coarse_shares(x_, x);
     y_shares_ = coarse_shares(y_, y);
     coarse_.emplace(x, y, screen_);
+    if (kept_.any()) coarse_->hold(coarse_holds());
     find_coarse(task);
     coarse_->finish();
   }
@@ -86,7 +91,10 @@ class JoinedPixels : public PixelSource {
       Window window(*this, part);
       for (int y = 0; y < part.height; y++) {
         float* row = out + size_t(part.y + y - region.y) * region.width + (part.x - region.x);
-        for (int x = 0; x < part.width; x++) row[x] = moved(window.source(x, y), window.value(x, y));
+        for (int x = 0; x < part.width; x++) {
+          const float* kept = kept_.at(part.x + x, part.y + y);
+          row[x] = kept ? *kept : moved(window.source(x, y), window.value(x, y));
+        }
       }
     });
   }
@@ -101,10 +109,12 @@ class JoinedPixels : public PixelSource {
       sources_.assign(pixels, outside);
       forces_.assign(pixels, 0.0f);
       values_.assign(pixels, 0.0f);
+      none_held_.assign(size_t(area_.width), 0.0f);
       for (int x = 0; x <= area_.width; x++) links_.push_back(link(of.x_, area_.x + x));
       find_sources();
       if (!of.coarse_) return;
       find_forces();
+      if (of.kept_.any()) hold_kept();
       smooth(0);
       add_coarse();
       smooth(sweeps);
@@ -128,6 +138,7 @@ class JoinedPixels : public PixelSource {
               .here = &values_[at(x, y)],
               .below = &values_[at(x, y + 1)],
               .forces = &forces_[at(x, y)],
+              .holds = of_.kept_.any() ? &holds_[at(x, y)] : none_held_.data(),
               .screen = of_.screen_};
     }
 
@@ -159,6 +170,21 @@ class JoinedPixels : public PixelSource {
       }
     }
 
+    void hold_kept() {
+      holds_.assign(forces_.size(), 0.0f);
+      for (int y = 0; y < area_.height; y++)
+        for (int x = 0; x < area_.width; x++) {
+          const size_t i = at(x, y);
+          float by;
+          if (sources_[i].x < 0 ||
+              !of_.holds(placed(of_.x_, area_.x + x), placed(of_.y_, area_.y + y), sources_[i], by))
+            continue;
+          holds_[i] = firm;
+          forces_[i] += firm * by;
+          values_[i] = by;
+        }
+    }
+
     void add_coarse() {
       for (int y = 0; y < area_.height; y++) {
         const int v = placed(of_.y_, area_.y + y);
@@ -169,6 +195,7 @@ class JoinedPixels : public PixelSource {
         for (int x = 0; x < area_.width; x++) {
           const int u = placed(of_.x_, area_.x + x);
           if (u < 0) continue;
+          if (of_.kept_.any() && holds_[at(x, y)] > 0) continue;
           const CoarseShare& h = of_.x_shares_[size_t(u)];
           const float value = along(h.near);
           values_[at(x, y)] += value + h.far_share * (along(h.far) - value);
@@ -193,6 +220,7 @@ class JoinedPixels : public PixelSource {
     std::vector<float> widths_, links_;
     std::vector<Offset> sources_;
     std::vector<float> forces_, values_, changed_;
+    std::vector<float> holds_, none_held_;  ///< of all pixels if any is kept; else of a row
   };
 
   float height(const Offset& place) const {
@@ -233,6 +261,29 @@ class JoinedPixels : public PixelSource {
     return float((std::clamp(is, std::min(first, second), std::max(first, second)) - is) / unit_);
   }
 
+  /// Whether what is kept says by how much the height shown at a pixel is to be moved.
+  bool holds(int x, int y, const Offset& source, float& by) const {
+    const float* kept = kept_.at(x, y);
+    if (!kept) return false;
+    by = float((double(*kept) - height(source)) / unit_);
+    return std::isfinite(by);
+  }
+
+  /// What of each coarse cell is held.
+  std::vector<float> coarse_holds() const {
+    const int columns = (size_.width + 1) / 2;
+    std::vector<float> out(size_t(columns) * size_t((size_.height + 1) / 2), 0.0f);
+    tbb::parallel_for(0, (size_.height + 1) / 2, [&](int row) {
+      std::vector<Offset> sources(size_t(size_.width), Offset{});
+      for (int y = 2 * row; y < std::min(2 * row + 2, size_.height); y++) {
+        layout_->shown(0, y, size_.width, sources.data());
+        for (int x = 0; x < size_.width; x++)
+          if (float by; holds(x, y, sources[size_t(x)], by)) out[size_t(row) * size_t(columns) + size_t(x / 2)] += firm;
+      }
+    });
+    return out;
+  }
+
   void find_coarse(const Task& task) {
     const int64_t blocks = (size_.area() / block.area() + 1) * rounds;
     std::atomic<int64_t> done{0};
@@ -257,6 +308,7 @@ class JoinedPixels : public PixelSource {
   const float* heights_;  ///< of the map
   std::vector<float> steps_;
   Size size_;
+  KeptLookup kept_;
   CellAxis x_, y_;  ///< of the output's pixels
   std::vector<CoarseShare> x_shares_, y_shares_;
   std::optional<ScreenedPoisson> coarse_;  ///< part of the solution; none if there is nothing to be joined
@@ -272,13 +324,15 @@ bool can_join(const ImageInfo& info) {
 }
 
 ImagePtr joined_heights(const ImagePtr& map, const std::shared_ptr<const FineLayout>& layout, double reach,
-                        const Task& task) {
+                        const KeptHeights& kept, const Task& task) {
   ImageInfo info = map->info();
   info.size = layout->size();
   Hasher recipe;
   recipe.add("joined heights").add(map->digest()).add(layout->uv().digest());
   recipe.add(layout->exemplar().width).add(layout->exemplar().height).add(reach);
-  return Image::computed(info, recipe.digest(), std::make_shared<JoinedPixels>(map, layout, reach, task));
+  if (kept.heights) recipe.add(kept.heights->digest()).add(kept.x).add(kept.y);
+  if (kept.heights && kept.holes) recipe.add(kept.holes->digest());
+  return Image::computed(info, recipe.digest(), std::make_shared<JoinedPixels>(map, layout, reach, kept, task));
 }
 
 }  // namespace terrazzo

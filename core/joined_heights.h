@@ -4,6 +4,7 @@
 
 #include "core/fine_layout.h"
 #include "core/image.h"
+#include "core/kept_heights.h"
 #include "core/task.h"
 
 namespace terrazzo {
@@ -23,8 +24,9 @@ bool can_join(const ImageInfo& info);
 ///
 /// The coarse part of the solution is worked out at once, in 2.7 bytes per output pixel, of which 1 stays; the rest
 /// when pixels are pulled, the same bits whatever region is read. Wraps as the layout does; beyond other borders is
-/// nothing to be joined to. What is not finite in the exemplar stays as it is and moves nothing.
+/// nothing to be joined to. What is not finite in the exemplar stays as it is and moves nothing. What is kept is shown
+/// bit for bit, and all else gives way to it.
 ImagePtr joined_heights(const ImagePtr& map, const std::shared_ptr<const FineLayout>& layout, double reach,
-                        const Task& task);
+                        const KeptHeights& kept, const Task& task);
 
 }  // namespace terrazzo

@@ -215,6 +215,21 @@ void check_scale(Size exemplar, Size analysed, double scale) {
                                       analysed.height * scale, exemplar.width, exemplar.height, hint));
 }
 
+/// What is kept of a map of heights.
+KeptHeights kept_heights(const ResolveOptions& options, const std::string& map, const FineLayout& layout) {
+  if (!options.kept) return {};
+  const ImagePtr heights = options.kept->find(map);
+  if (!heights || !can_join(heights->info()))
+    throw Error("kept", fmt::format("it lacks the material's heights, \"{}\"; its maps are {}", map,
+                                    options.kept->map_names()));
+  const double scale_x = double(layout.size().width) / layout.uv().size().width;
+  const double scale_y = double(layout.size().height) / layout.uv().size().height;
+  return {.heights = nearest_at_size(heights, options.kept->size()),
+          .x = int(std::floor(options.kept_at[0] * scale_x + 0.5)),
+          .y = int(std::floor(options.kept_at[1] * scale_y + 0.5)),
+          .holes = options.holes};
+}
+
 }  // namespace
 
 bool can_blend(Semantic semantic) {
@@ -232,9 +247,10 @@ MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const Resolve
   std::vector<Map> maps;
   for (const Map& map : exemplar.maps()) {
     const ImageInfo& info = map.image->info();
-    maps.push_back({map.name, reach > 0 && can_join(info)
-                                  ? joined_heights(map.image, exact, reach, task)
-                                  : resolved_map(map.image, can_blend(info.semantic) ? blended : exact)});
+    maps.push_back(
+        {map.name, reach > 0 && can_join(info)
+                       ? joined_heights(map.image, exact, reach, kept_heights(options, map.name, *exact), task)
+                       : resolved_map(map.image, can_blend(info.semantic) ? blended : exact)});
   }
   return Material::make(exemplar.name(), std::move(maps));
 }

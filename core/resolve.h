@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "core/material.h"
 #include "core/uv_map.h"
 
@@ -14,6 +16,12 @@ struct ResolveOptions {
   /// How much larger the exemplar is than the one that was analysed, and the maps than the uv map: 1..largest_scale,
   /// or 0 for whatever the exemplar's size says.
   double scale = 1;
+  /// A result whose heights stay as they are where `join` would move them, null if there is none; where its top left
+  /// pixel lies, in pixels of the uv map; and an image that is above 0.5 where it does not count, null if it does
+  /// everywhere. See core/kept_heights.h.
+  MaterialPtr kept{};
+  std::array<int, 2> kept_at{};
+  ImagePtr holes{};
 };
 inline constexpr double largest_blend = 8;
 inline constexpr double farthest_join = 1024;
@@ -35,7 +43,8 @@ bool can_blend(Semantic semantic);
 /// back the length the exemplar's have.
 ///
 /// `exemplar`'s size (that of its largest map) is the analysed exemplar's times `scale`; smaller maps of it are sampled
-/// at the same relative place. All maps get the size of the uv map times `scale`. Throws Error if sizes do not fit.
+/// at the same relative place. All maps get the size of the uv map times `scale`. Throws Error if sizes do not fit, or
+/// what is kept lacks a map of heights.
 MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const ResolveOptions& options = {},
                      const Task& task = {});
 

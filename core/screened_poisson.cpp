@@ -1,6 +1,7 @@
 #include "core/screened_poisson.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -32,7 +33,7 @@ struct Balance {
 inline Balance balance(const CellRow& r, int x) {
   const float left = r.height * r.links[x], right = r.height * r.links[x + 1];
   const float above = r.widths[x] * r.link_above, below = r.widths[x] * r.link_below;
-  const float own = r.widths[x] * r.height * r.screen, v = r.here[x];
+  const float own = r.widths[x] * r.height * r.screen + r.holds[x], v = r.here[x];
   const float flow = (left * (v - r.here[x - 1]) + right * (v - r.here[x + 1])) +
                      (above * (v - r.above[x]) + below * (v - r.below[x]));
   return {r.forces[x] - (flow + own * v), ((left + right) + (above + below)) + own};
@@ -101,6 +102,7 @@ ScreenedPoisson::ScreenedPoisson(CellAxis x, CellAxis y, double screen)
     level.y = std::move(y);
     const size_t columns = level.x.widths.size(), rows = level.y.widths.size();
     level.forces.resize(columns * rows);
+    level.holds.resize(columns);
     level.values.resize(level.stride() * rows);
     x = level.x.coarser();
     y = level.y.coarser();
@@ -108,6 +110,18 @@ ScreenedPoisson::ScreenedPoisson(CellAxis x, CellAxis y, double screen)
     level.y_shares = coarse_shares(level.y, y);
     levels_.push_back(std::move(level));
     if (columns == 1 && rows == 1) return;
+  }
+}
+
+void ScreenedPoisson::hold(std::vector<float> holds) {
+  levels_.front().holds = std::move(holds);
+  for (size_t l = 1; l < levels_.size(); l++) {
+    const Level& fine = levels_[l - 1];
+    Level& coarse = levels_[l];
+    const size_t columns = fine.x.widths.size(), half = coarse.x.widths.size();
+    coarse.holds.assign(half * coarse.y.widths.size(), 0.0f);
+    for (size_t i = 0; i < fine.holds.size(); i++)
+      coarse.holds[i / columns / 2 * half + i % columns / 2] += fine.holds[i];
   }
 }
 
@@ -128,6 +142,7 @@ CellRow ScreenedPoisson::Level::cells(int at, float screen) const {
           .here = row(at),
           .below = row(wrap(at + 1, rows)),
           .forces = &forces[size_t(at) * x.widths.size()],
+          .holds = holds.size() > x.widths.size() ? &holds[size_t(at) * x.widths.size()] : holds.data(),
           .screen = screen};
 }
 
@@ -226,6 +241,7 @@ void ScreenedPoisson::improve(const Task& task) {
 void ScreenedPoisson::finish() {
   levels_.resize(1);
   levels_.front().forces = {};
+  levels_.front().holds = {};
 }
 
 }  // namespace terrazzo

@@ -6,9 +6,9 @@
 #include "core/task.h"
 
 /// The screened Poisson equation on a grid of cells: in every cell, the sum over its neighbours of (v - v there) *
-/// length of the common side / distance, plus v * area * screen, is the cell's force. A single force fades out within
-/// about 1 / sqrt(screen). Cells are as wide as their column and as high as their row says, so that grids of any size,
-/// wrapping or not, have a coarser one.
+/// length of the common side / distance, plus v * (area * screen + hold), is the cell's force. A single force fades out
+/// within about 1 / sqrt(screen); a large hold with a force as much larger gives a cell its value. Cells are as wide as
+/// their column and as high as their row says, so that grids of any size, wrapping or not, have a coarser one.
 ///
 /// All arithmetic is in floats in a fixed order, and no cell sees what the same step made of another: the same bits
 /// with any number of threads, and whatever part of a grid is looked at.
@@ -44,6 +44,7 @@ struct CellRow {
   float height, link_above, link_below;  ///< of the row
   const float *above, *here, *below;     ///< values; also here[-1] and here[count]. Finite even where no link leads
   const float* forces;
+  const float* holds;  ///< what a cell's value weighs in its equation beyond its area times screen
   float screen;
 };
 /// What the cells' forces are beyond those that would give them their values.
@@ -60,6 +61,8 @@ class ScreenedPoisson {
  public:
   ScreenedPoisson(CellAxis x, CellAxis y, double screen);
 
+  /// Holds cells, by so much each, row by row; none if it is not called. To be called before `improve`.
+  void hold(std::vector<float> holds);
   /// The forces that the values have, 0 at first. Whoever adds to them what they lack has them made good by `improve`.
   float* forces(int row);
   const float* values(int row) const { return levels_.front().row(row); }
@@ -73,6 +76,7 @@ class ScreenedPoisson {
     CellAxis x, y;
     std::vector<CoarseShare> x_shares, y_shares;  ///< of its cells in the next level
     std::vector<float> forces;
+    std::vector<float> holds;   ///< of one row, if they are the same in all
     std::vector<float> values;  ///< rows with one more cell at either end
     size_t stride() const { return x.widths.size() + 2; }
     const float* row(int y) const { return &values[size_t(y) * stride() + 1]; }

@@ -35,6 +35,13 @@ KeptPixels interior(Size size, int border_x, int border_y) {
   return kept;
 }
 
+/// White where pixels are made anew.
+ImagePtr border_mask(const KeptPixels& kept, Size size) {
+  std::vector<float> mask;
+  for (const uint8_t keep : kept.keep) mask.push_back(keep ? 0.0f : 1.0f);
+  return Image::from_floats({.size = size, .semantic = Semantic::mask, .depth = Depth::u8}, std::move(mask));
+}
+
 void compute(NodeContext& node) {
   const auto index = node.input<Index>("index");
   SynthesisOptions options = synthesis_options(node, *index);
@@ -53,6 +60,7 @@ void compute(NodeContext& node) {
   if (!lattice.fits(options.size, options.tile_x, options.tile_y))
     node.note(
         "the result does not hold a whole number of the exemplar's repeats: some will be cut short in the border");
+  node.output("border", border_mask(options.kept, options.size));
   node.output("uv", synthesize(*index, options, node.task()));
 }
 
@@ -61,7 +69,7 @@ void compute(NodeContext& node) {
 NodeType make_tileable_node() {
   NodeType t;
   t.name = "make_tileable";
-  t.version = 9;
+  t.version = 10;
   t.category = "synthesis";
   t.summary = "Keeps an exemplar's interior and makes its border wrap";
   t.help =
@@ -69,7 +77,8 @@ NodeType make_tileable_node() {
       "it is; a border is made anew from the "
       "exemplar so that opposite sides, and all four corners, fit together in every map. resolve_uv shows it.";
   t.inputs = {index_port()};
-  t.outputs = {uv_output()};
+  t.outputs = {uv_output(),
+               {.name = "border", .type = ValueType::image, .help = "a mask: white where pixels are made anew"}};
   t.params = with_synthesis_params({
       {.name = "border",
        .type = ParamType::number,

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/joined_heights.h"
@@ -32,7 +34,16 @@ NodeType resolve_uv_node() {
       "With `scale`, an exemplar that is larger than the analysed one is shown: analyse and synthesize a copy made "
       "smaller by `resize`, which is quicker and sees larger features, and give resolve_uv the original.";
   t.inputs = {{.name = "uv", .type = ValueType::uv_map, .help = "which exemplar pixel each output pixel shows"},
-              {.name = "material", .type = ValueType::material, .help = "the exemplar, with all maps that are wanted"}};
+              {.name = "material", .type = ValueType::material, .help = "the exemplar, with all maps that are wanted"},
+              {.name = "kept",
+               .type = ValueType::material,
+               .help = "a result that the uv map keeps pixels of, resolved before: `join` leaves its heights as they "
+                       "are",
+               .optional = true},
+              {.name = "holes",
+               .type = ValueType::image,
+               .help = "a mask, stretched over the result: where it is white, nothing of `kept` is kept",
+               .optional = true}};
   t.outputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps in the uv map's size, times `scale`"}};
   t.params = {
@@ -51,6 +62,14 @@ NodeType resolve_uv_node() {
                "does not count for them.",
        .min = 0,
        .max = farthest_join},
+      {.name = "kept_at",
+       .type = ParamType::numbers,
+       .fallback = Numbers{0, 0},
+       .help = "Where the top left pixel of `kept` lies in the result: [x, y].",
+       .min = 0,
+       .max = 32768,
+       .unit = "pixels of the uv map",
+       .max_count = 2},
       {.name = "scale",
        .type = ParamType::number,
        .fallback = 1.0,
@@ -67,24 +86,36 @@ NodeType resolve_uv_node() {
           fmt::format("\"scale\": expected 1 or more, or 0 for whatever the material's size says; found "
                       "{}",
                       scale));
+    const auto& at = std::get<Numbers>(params.at("kept_at"));
+    if (at.size() != 2 || at[0] != std::floor(at[0]) || at[1] != std::floor(at[1]))
+      problems.push_back("\"kept_at\": expected [x, y] in whole pixels");
     return problems;
   };
   t.memory_hint = [](const NodeContext& node) {
     const auto material = node.input<Material>("material");
     const auto uv = node.input<UvMap>("uv");
+    const auto kept = node.optional_input<Material>("kept");
     const double pixels = double(uv->size().area()) * double(material->size().area()) / double(uv->exemplar().area());
     double values = 0;
     for (const Map& m : material->maps()) {
       // The exemplar, and for blending its linear pixels and their local means.
       values += double(m.image->size().area()) * m.image->channels() * (node.number("blend") > 0 ? 3 : 1);
       // The solution and its forces at half the result's size, and those of all coarser levels.
-      if (node.number("join") > 0 && can_join(m.image->info())) values += 2 * pixels / 3;
+      if (node.number("join") > 0 && can_join(m.image->info())) {
+        values += 2 * pixels / 3;
+        if (kept) values += double(kept->size().area()) + pixels / 3;
+      }
     }
     return size_t(values * sizeof(float));
   };
   t.compute = [](NodeContext& node) {
-    const ResolveOptions options{
-        .blend = node.number("blend"), .join = node.number("join"), .scale = node.number("scale")};
+    const Numbers& at = node.numbers("kept_at");
+    const ResolveOptions options{.blend = node.number("blend"),
+                                 .join = node.number("join"),
+                                 .scale = node.number("scale"),
+                                 .kept = node.optional_input<Material>("kept"),
+                                 .kept_at = {int(at[0]), int(at[1])},
+                                 .holes = node.optional_input<Image>("holes")};
     node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv"), options, node.task()));
   };
   t.foresee = [](const Params& params, const InputForecasts& inputs) {

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
+#include "core/error.h"
 #include "core/hash.h"
 #include "core/resolve.h"
 #include "tests/run_node.h"
@@ -145,16 +146,55 @@ TEST_CASE("pieces that go on around an exemplar that tiles have no seam there") 
 
 TEST_CASE("any window of joined heights is that window of the whole, bit for bit") {
   for (const UvWraps wraps : {UvWraps{}, {.x = true}, {.x = true, .y = true, .exemplar = true}}) {
-    const ImagePtr out = shown(heights(noise), patchwork({301, 147}, wraps), 20);
-    const std::vector<float> all = out->pixels();
-    for (const Rect& part :
-         {Rect{0, 0, 1, 1}, {300, 146, 1, 1}, {0, 60, 301, 3}, {250, 60, 31, 87}, {7, 5, 260, 100}}) {
-      const std::vector<float> window = out->read(part);
-      for (int y = 0; y < part.height; y++)
-        for (int x = 0; x < part.width; x++)
-          REQUIRE(window[size_t(y * part.width + x)] == all[size_t((y + part.y) * 301 + x + part.x)]);
+    for (const MaterialPtr& kept : {MaterialPtr(), Material::of(heights([](int, int) { return 0.5f; }))}) {
+      const ResolveOptions options{.join = 20, .kept = kept, .kept_at = {250, 40}};
+      const ImagePtr out =
+          resolved(*Material::of(heights(noise)), patchwork({301, 147}, wraps), options)->maps().front().image;
+      const std::vector<float> all = out->pixels();
+      for (const Rect& part :
+           {Rect{0, 0, 1, 1}, {300, 146, 1, 1}, {0, 60, 301, 3}, {250, 60, 31, 87}, {7, 5, 260, 100}}) {
+        const std::vector<float> window = out->read(part);
+        for (int y = 0; y < part.height; y++)
+          for (int x = 0; x < part.width; x++)
+            REQUIRE(window[size_t(y * part.width + x)] == all[size_t((y + part.y) * 301 + x + part.x)]);
+      }
     }
   }
+}
+
+TEST_CASE("what is kept stays bit for bit, and what lies beside it gives way to it all") {
+  const auto detail = [](int x, int y) { return 0.05f * noise(x % 20, y); };
+  const ImagePtr map = heights([&](int x, int y) { return detail(x, y) + (x < 100 ? 0.2f : 0.6f); }, {200, 60});
+  const UvMapPtr uv = two_pieces({90, 60}, 40, 100, {}, {200, 60});
+  // The left piece is kept, lifted by as much as no slope asks for; but for a hole in it.
+  const ImagePtr kept = heights([&](int x, int y) { return 0.15f + detail(x, y) + 0.2f; }, {40, 60});
+  const ImagePtr hole =
+      make_image({90, 60}, 1, [](int x, int y, int) { return x >= 10 && x < 20 && y >= 10 && y < 20 ? 1.0f : 0.0f; });
+  const ImagePtr out =
+      resolved(*Material::of(map), uv, {.join = 10, .kept = Material::of(kept), .holes = hole})->maps().front().image;
+  const std::vector<float> found = out->pixels(), exact = kept->pixels();
+  const auto at = [&](int x, int y) { return found[size_t(y * 90 + x)]; };
+  for (int y = 0; y < 60; y++) {
+    CAPTURE(y);
+    for (int x = 0; x < 40; x++)
+      if (hole->pixels()[size_t(y * 90 + x)] == 0) REQUIRE(at(x, y) == exact[size_t(y * 40 + x)]);
+    // Of the 0.25 that the right piece is higher nothing is seen at the seam, and all of it far away.
+    CHECK(at(40, y) - detail(40, y) == doctest::Approx(0.35).epsilon(0.08));
+    CHECK(at(89, y) - detail(89, y) == doctest::Approx(0.6).epsilon(0.05));
+  }
+  for (int i = 10; i < 20; i++) CHECK(at(i, 15) - detail(i, 15) == doctest::Approx(0.35).epsilon(0.05));
+}
+
+TEST_CASE("what is kept may lie anywhere, reach beyond the result, and lack the map only where nothing is joined") {
+  const UvMapPtr uv = patchwork({90, 70}, {.x = true});
+  const MaterialPtr map = Material::of(heights(noise)), kept = Material::of(heights([](int, int) { return 0.5f; }));
+  const ImagePtr out = resolved(*map, uv, {.join = 9, .kept = kept, .kept_at = {60, 50}})->maps().front().image;
+  for (const float v : out->read({60, 50, 30, 20})) REQUIRE(v == 0.5f);
+  CHECK(out->read({0, 0, 60, 50}) != resolved(*map, uv, {.join = 9})->maps().front().image->read({0, 0, 60, 50}));
+  CHECK(same_bits(*resolved(*map, uv, {.kept = kept})->maps().front().image, *shown(map->maps().front().image, uv, 0)));
+  const MaterialPtr other = Material::make("m", {{"roughness", heights(noise)}});
+  CHECK_THROWS_WITH_AS(resolved(*map, uv, {.join = 9, .kept = other}),
+                       doctest::Contains("it lacks the material's heights"), Error);
 }
 
 TEST_CASE("joined heights are the same bits with any number of threads") {

@@ -56,17 +56,13 @@ TEST_CASE("every stock graph that resolves a uv map lets its user blend seams, a
   CHECK(graphs == 7);
 }
 
-TEST_CASE("stock graphs join heights, but not where parts are to be kept, and let their user choose") {
-  for (const auto& [name, reach] :
-       {std::pair("material", 0.03), {"transfer", 0.03}, {"magnify", 0.03}, {"inpaint", 0.0}, {"make_tileable", 0.0}}) {
+TEST_CASE("stock graphs join heights and let their user choose how far") {
+  for (const char* name : {"material", "transfer", "magnify", "extend", "inpaint", "make_tileable"}) {
     CAPTURE(name);
-    const auto join = [&, name = name](const std::vector<std::string>& overrides) {
-      const fs::path path = fs::path(TERRAZZO_SOURCE_DIR) / "graphs" / (std::string(name) + ".json");
+    const fs::path path = fs::path(TERRAZZO_SOURCE_DIR) / "graphs" / (std::string(name) + ".json");
+    for (const auto& [overrides, reach] :
+         {std::pair(std::vector<std::string>(), 0.03), {std::vector<std::string>{"join=32"}, 32.0}})
       for (const GraphNode& n : load_graph(path, overrides, {.allow_unset = true}).graph.nodes)
-        if (n.type->name == "resolve_uv") return std::get<double>(n.params.at("join"));
-      return -1.0;
-    };
-    CHECK(join({}) == reach);
-    CHECK(join({"join=32"}) == 32);
+        if (n.type->name == "resolve_uv") CHECK(std::get<double>(n.params.at("join")) == reach);
   }
 }

@@ -211,3 +211,49 @@ TEST_CASE("the stock graph that extends keeps what synth has made, pixel by pixe
   REQUIRE(picture("grown")->size() == Size{72, 48});
   CHECK(picture("grown")->read({20, 10, 40, 32}) == picture("made")->pixels());
 }
+
+TEST_CASE("what extend, inpaint and make_tileable keep stays bit for bit in every map, heights that are joined too") {
+  const Workplace w;
+  const auto run = [&](const std::string& graph, std::vector<std::string> args) {
+    args.insert(args.begin(), {"run", TERRAZZO_SOURCE_DIR "/graphs/" + graph + ".json", "--set", "material=stone",
+                               "--set", "out=" + graph});
+    const ProgramRun r = w.run(args);
+    REQUIRE_MESSAGE(r.code == 0, r.err);
+  };
+  write_text(w.path / "stone.json", R"({"terrazzo": 1, "nodes": {
+    "stone": {"type": "pattern", "kind": "gravel", "size": 64, "scale": 6, "tileable": false},
+    "files": {"type": "export", "material": "@stone", "path": "stone/{map}.png"}}})");
+  REQUIRE(w.run({"run", "stone.json"}).code == 0);
+  write_text(w.path / "hole.json", R"({"terrazzo": 1, "nodes": {
+    "spots": {"type": "noise", "size": 64, "scale": 3},
+    "hole":  {"type": "threshold", "image": "@spots", "value": 0.6},
+    "file":  {"type": "export", "material": "@hole", "path": "hole.png"}}})");
+  const ProgramRun hole = w.run({"run", "hole.json"});
+  REQUIRE_MESSAGE(hole.code == 0, hole.err);
+  run("material", {"--set", "size=80x70"});
+  run("extend", {"--set", "kept=80x70", "--set", "size=120x110", "--set", "at=[30,20]"});
+  run("inpaint", {"--set", "mask=hole.png"});
+  run("make_tileable", {"--set", "border=10"});
+  const auto pixels = [&](const std::string& file, const Rect& part) {
+    return read_image(w.path / file, ImageInfo{}, [](const std::string&) {})->read(part);
+  };
+  const std::vector<float> holes = pixels("hole.png", {0, 0, 64, 64});
+  for (const std::string map : {"base_color", "normal", "height", "roughness"}) {
+    CAPTURE(map);
+    const std::string file = "/" + map + ".png";
+    CHECK(pixels("material" + file, {0, 0, 80, 70}) == pixels("extend" + file, {30, 20, 80, 70}));
+    CHECK(pixels("stone" + file, {10, 10, 44, 44}) == pixels("make_tileable" + file, {10, 10, 44, 44}));
+    const std::vector<float> was = pixels("stone" + file, {0, 0, 64, 64}),
+                             is = pixels("inpaint" + file, {0, 0, 64, 64});
+    const size_t channels = was.size() / holes.size();
+    int kept = 0, filled = 0;
+    for (size_t i = 0; i < holes.size(); i++) {
+      const bool same = std::equal(&was[i * channels], &was[i * channels] + channels, &is[i * channels]);
+      if (holes[i] < 0.5f) REQUIRE(same);
+      kept += holes[i] < 0.5f;
+      filled += !same;
+    }
+    CHECK(kept > 1000);
+    CHECK(filled > 100);
+  }
+}
