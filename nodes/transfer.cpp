@@ -42,7 +42,7 @@ void compute(NodeContext& node) {
 NodeType transfer_node() {
   NodeType t;
   t.name = "transfer";
-  t.version = 7;
+  t.version = 8;
   t.category = "synthesis";
   t.summary = "Synthesis steered by a target image";
   t.help =

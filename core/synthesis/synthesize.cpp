@@ -90,6 +90,9 @@ constexpr PieceLimits pieces_on_lattice{0.055, 0.1};
 constexpr double most_coherence = 3;
 // Between kept pixels nothing is said about whole pieces; single ones hold together more instead.
 constexpr double coherence_between_kept = 0.75;
+// Nor where a target says what goes where: limited pieces fall apart into ever the same scrap that misses nothing of
+// it.
+constexpr double coherence_where_steered = 0.85;
 constexpr int finest_limited = 2;
 // Rare features are won or lost at the coarsest levels. There pieces hold together more, and what is used too little
 // is made much cheaper; finer levels would break features for it.
@@ -226,10 +229,11 @@ class LevelWork {
   Effort effort() const {
     return effort_at(level_, shared_.options.quality, fixed_.any(), level_ == shared_.levels - 1);
   }
-  bool limits_pieces() const { return level_ >= finest_limited && !fixed_.any(); }
+  bool limits_pieces() const { return level_ >= finest_limited && !fixed_.any() && !control_; }
   double coherence() const {
     const double full = shared_.options.coherence;
     if (fixed_.any()) return full * coherence_between_kept;
+    if (control_) return full * coherence_where_steered;
     return limits_pieces() && shared_.places_landmarks(level_) ? full * landmark_coherence : full;
   }
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.

@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
+#include "core/procedural/pattern.h"
 #include "core/synthesis/synthesize.h"
 #include "tests/exemplars.h"
 
@@ -122,6 +123,23 @@ TEST_CASE("features are not taken apart for the sake of their values, unless the
   for (int64_t i = 0; i < size.area(); i++) own += std::pow(blobs->in_memory()[i] - 0.5, 2) / double(size.area());
   CHECK(contrast(1) > 0.5 * own);
   CHECK(contrast(50) < 0.25 * own);
+}
+
+TEST_CASE("where a target is smooth, pieces are whole and not one scrap over and over") {
+  const MaterialPtr gravel = make_pattern({.type = "gravel", .size = {256, 256}, .tileable = false}, Task());
+  const ImagePtr colors = gravel->find("base_color");
+  const IndexPtr index = make_index(make_appearance(*plain_features(colors), {}, {}, Task()), 3, Task());
+  SynthesisOptions options{.size = {320, 320}};
+  options.controls = {{.exemplar = gravel->find("roughness"),
+                       .target = grey({16, 16}, [](int x, int y) { return float(-std::hypot(x - 7.5, y - 7.5)); })}};
+  const UvMapPtr uv = synthesize(*index, options, Task());
+  int seams = 0;
+  for (int y = 1; y < 320; y++)
+    for (int x = 1; x < 320; x++) {
+      const ExemplarPixel p = uv->at(x, y), left = uv->at(x - 1, y), above = uv->at(x, y - 1);
+      seams += left.x + 1 != p.x || left.y != p.y || above.x != p.x || above.y + 1 != p.y;
+    }
+  CHECK(double(seams) / (319 * 319) < 0.25);
 }
 
 TEST_CASE("a steered synthesis is the same on any number of threads, and controls count in their result") {
