@@ -56,7 +56,9 @@ void compute(NodeContext& node) {
       same->image = image;
   }
   const std::string& name = node.text("name");
-  node.output("material", Material::make(name.empty() && base ? base->name() : name, std::move(maps)));
+  const MaterialPtr material = Material::make(name.empty() && base ? base->name() : name, std::move(maps));
+  warn_of_smaller_maps(node, *material, base.get());
+  node.output("material", material);
 }
 
 Forecast foresee(const Params& params, const InputForecasts& inputs) {
