@@ -211,3 +211,23 @@ TEST_CASE("the stock graph that extends keeps what synth has made, pixel by pixe
   REQUIRE(picture("grown")->size() == Size{72, 48});
   CHECK(picture("grown")->read({20, 10, 40, 32}) == picture("made")->pixels());
 }
+
+TEST_CASE("the stock graph make_tileable keeps the exemplar's size if it is told to, and says how when it does not") {
+  const Workplace w;
+  write_text(w.path / "tiles.json", R"({"terrazzo": 1, "nodes": {
+    "tiles": {"type": "pattern", "kind": "tiles", "size": [64, 64]},
+    "cut": {"type": "crop", "material": "@tiles", "size": [61, 53]},
+    "files": {"type": "export", "material": "@cut", "path": "tiles/{map}.png"}}})");
+  REQUIRE_MESSAGE(w.run({"run", "tiles.json"}).code == 0, w.run({"run", "tiles.json"}).err);
+  const auto run = [&](const std::string& fit) {
+    return w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/make_tileable.json", "--set", "material=tiles", "--set",
+                  "quality=draft", "--set", "fit=" + fit, "--set", "out=" + fit});
+  };
+  const ProgramRun less = run("repeats"), same = run("size");
+  REQUIRE_MESSAGE(less.code == 0, less.err);
+  REQUIRE_MESSAGE(same.code == 0, same.err);
+  CHECK(read_image_info(w.path / "repeats/base_color.png").size != Size{61, 53});
+  CHECK_MESSAGE(says(less.err, "the exemplar of 61x53 pixels repeats: the result has"), less.err);
+  CHECK(says(less.err, "set `fit` to \"size\" to keep 61x53"));
+  CHECK(read_image_info(w.path / "size/base_color.png").size == Size{61, 53});
+}
