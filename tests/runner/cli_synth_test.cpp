@@ -212,6 +212,30 @@ TEST_CASE("the stock graph that extends keeps what synth has made, pixel by pixe
   CHECK(picture("grown")->read({20, 10, 40, 32}) == picture("made")->pixels());
 }
 
+TEST_CASE("synth and new advise what can be typed when a folder holds no maps or is a single picture") {
+  const Workplace w;
+  write_picture(w.path / "odd/one.png", 5);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"synth", "odd", "-o", "x"}, {"new", "odd", "-o", "x.json"}}) {
+    const ProgramRun r = w.run(command);
+    CHECK_MESSAGE(says(r.err,
+                       "; rename the files, or name them outright: `terrazzo run graphs/material.json --set "
+                       "material=odd --set 'exemplar.maps={\"base_color\": \"FILE\"}'`"),
+                  r.err);
+    CHECK_FALSE(says(r.err, "the parameter `maps`"));
+  }
+  const ProgramRun named = w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/material.json", "--set", "material=odd", "--set",
+                                  R"(exemplar.maps={"base_color": "one.png"})", "--set", "size=40x40"});
+  CHECK_MESSAGE(named.code == 0, named.err);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"synth", "photo.png", "-o", "x"}, {"new", "photo.png", "-o", "x.json"}}) {
+    const ProgramRun r = w.run(command);
+    CHECK_MESSAGE(
+        says(r.err, "photo.png; for a single picture: `terrazzo run graphs/texture.json --set image=photo.png`"),
+        r.err);
+  }
+}
+
 TEST_CASE("the stock graph make_tileable keeps the exemplar's size if it is told to, and says how when it does not") {
   const Workplace w;
   write_text(w.path / "tiles.json", R"({"terrazzo": 1, "nodes": {
