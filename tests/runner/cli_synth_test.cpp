@@ -147,6 +147,9 @@ TEST_CASE("synth names the option, and what it takes, of a seed or size that no 
           "found the number 40000\nerror: --seed -1: expected an integer of at least 0, found the number -1\n",
       r.err);
   CHECK(says(w.run({"synth", "stone", "-o", "x", "--size", "64x40000"}).err, "--size 64x40000: expected a size"));
+  CHECK(says(w.run({"synth", "stone", "-o", "x", "--seed", "99999999999999999999"}).err,
+             "--seed 99999999999999999999: expected an integer from 0 to 9223372036854775807, found the number "
+             "99999999999999999999"));
   CHECK_FALSE(fs::exists(w.path / "x"));
 }
 
