@@ -13,10 +13,10 @@ std::string for_command_line(std::string message, const std::string& folder) {
   };
   replace(advice_on_map_names,
           fmt::format("rename the files, or name them outright: `terrazzo run graphs/material.json --set material={} "
-                      "--set 'exemplar.maps={{\"base_color\": \"FILE\"}}'`",
+                      "--set 'exemplar.maps={{\"base_color\": \"FILE\"}}' --set out=OUT`",
                       folder));
   replace(advice_on_one_file,
-          fmt::format("for a single picture: `terrazzo run graphs/texture.json --set image={}`", folder));
+          fmt::format("for a single picture: `terrazzo run graphs/texture.json --set image={} --set out=OUT`", folder));
   return message;
 }
 

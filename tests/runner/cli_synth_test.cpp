@@ -223,18 +223,20 @@ TEST_CASE("synth and new advise what can be typed when a folder holds no maps or
     const ProgramRun r = w.run(command);
     CHECK_MESSAGE(says(r.err,
                        "; rename the files, or name them outright: `terrazzo run graphs/material.json --set "
-                       "material=odd --set 'exemplar.maps={\"base_color\": \"FILE\"}'`"),
+                       "material=odd --set 'exemplar.maps={\"base_color\": \"FILE\"}' --set out=OUT`"),
                   r.err);
     CHECK_FALSE(says(r.err, "the parameter `maps`"));
   }
-  const ProgramRun named = w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/material.json", "--set", "material=odd", "--set",
-                                  R"(exemplar.maps={"base_color": "one.png"})", "--set", "size=40x40"});
+  const ProgramRun named =
+      w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/material.json", "--set", "material=odd", "--set",
+             R"(exemplar.maps={"base_color": "one.png"})", "--set", "size=40x40", "--set", "out=named"});
   CHECK_MESSAGE(named.code == 0, named.err);
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"synth", "photo.png", "-o", "x"}, {"new", "photo.png", "-o", "x.json"}}) {
     const ProgramRun r = w.run(command);
     CHECK_MESSAGE(
-        says(r.err, "photo.png; for a single picture: `terrazzo run graphs/texture.json --set image=photo.png`"),
+        says(r.err,
+             "photo.png; for a single picture: `terrazzo run graphs/texture.json --set image=photo.png --set out=OUT`"),
         r.err);
   }
 }
