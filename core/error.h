@@ -3,6 +3,8 @@
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace terrazzo {
 
@@ -18,6 +20,33 @@ class Error : public std::runtime_error {
  private:
   std::string about_;
 };
+
+/// Several things to mend at once, for those who can say them one by one; to all others it is the first of them.
+class Errors : public Error {
+ public:
+  explicit Errors(std::vector<Error> all) : Error(all.front()), all_(std::move(all)) {}
+  const std::vector<Error>& all() const { return all_; }
+
+ private:
+  std::vector<Error> all_;
+};
+
+/// Calls every check, whatever the others throw; throws Errors with all that they threw.
+template <typename... Checks>
+void check_all(const Checks&... checks) {
+  std::vector<Error> found;
+  const auto call = [&found](const auto& check) {
+    try {
+      check();
+    } catch (const Errors& e) {
+      found.insert(found.end(), e.all().begin(), e.all().end());
+    } catch (const Error& e) {
+      found.push_back(e);
+    }
+  };
+  (call(checks), ...);
+  if (!found.empty()) throw Errors(std::move(found));
+}
 
 /// Thrown by Task::check() once the run has been cancelled; never caught by nodes.
 class Cancelled : public std::exception {

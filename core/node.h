@@ -114,9 +114,9 @@ struct NodeType {
   /// Checks that involve several parameters; returns one message per problem, each starting with the parameter's name
   /// in quotes. Called when a document is checked, before anything runs.
   std::function<std::vector<std::string>(const Params&)> check;
-  /// Looks ahead while a plan is made, so that mistakes are found before hours of work: throws Error for what compute
-  /// would refuse (a folder that is not there), and says what is known of the results. Quick; may look at files that
-  /// `files_read` names. What it says must be true whatever runs; nothing need be said.
+  /// Looks ahead while a plan is made, so that mistakes are found before hours of work: throws Error, or Errors, for
+  /// what compute would refuse (a folder that is not there), and says what is known of the results. Quick; may look at
+  /// files that `files_read` names. What it says must be true whatever runs; nothing need be said.
   std::function<Forecast(const Params&, const InputForecasts&)> foresee;
 
   const Port* find_input(std::string_view port) const;

@@ -93,11 +93,19 @@ Size grid_size(size_t pictures, const GridSpec& spec) {
   return {int(width), int(height)};
 }
 
+void require_grid(size_t pictures, const GridSpec& spec) {
+  if (pictures == 0) throw Error("a contact sheet needs at least one picture");
+  check_all(
+      [&] {
+        if (spec.captions.size() > pictures)
+          throw Error("captions", fmt::format("expected at most {}, one for each picture; found {}",
+                                              counted(int64_t(pictures), "caption"), spec.captions.size()));
+      },
+      [&] { grid_size(pictures, spec); });
+}
+
 ImagePtr picture_grid(const std::vector<ImagePtr>& pictures, const GridSpec& spec, const Task& task) {
-  if (pictures.empty()) throw Error("a contact sheet needs at least one picture");
-  if (spec.captions.size() > pictures.size())
-    throw Error("captions", fmt::format("expected at most {}, one for each picture; found {}",
-                                        counted(int64_t(pictures.size()), "caption"), spec.captions.size()));
+  require_grid(pictures.size(), spec);
   SheetCanvas sheet(grid_size(pictures.size(), spec));
   const Size place = place_size(spec);
   tbb::parallel_for(size_t{0}, pictures.size(), [&](size_t i) {

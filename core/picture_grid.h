@@ -17,6 +17,9 @@ struct GridSpec {
   std::vector<std::string> captions;  ///< below the pictures, in their order; may be fewer, and empty
 };
 
+/// Throws Error unless a sheet of that many pictures can be made.
+void require_grid(size_t pictures, const GridSpec& spec);
+
 /// The size of the sheet for that many pictures.
 Size grid_size(size_t pictures, const GridSpec& spec);
 

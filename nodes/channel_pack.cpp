@@ -35,17 +35,26 @@ int source_channel(const NodeContext& node, const std::string& name, const Image
                   fmt::join(channel_names.begin(), channel_names.begin() + image.channels(), ", "), given->second));
 }
 
+void require_one_number_each(const NumberMap& fill) {
+  for (const auto& [name, numbers] : fill)
+    if (numbers.size() != 1)
+      throw Error("fill", fmt::format("expected one number for {}, found {}", name, numbers.size()));
+}
+
+void require_any(bool connected) {
+  if (!connected) throw Error("r", "expected an image on at least one of r, g, b and a, found none");
+}
+
 /// One per channel of the result, which ends with the last that is connected or filled.
 std::vector<Source> sources_of(const NodeContext& node) {
   const NumberMap& fill = node.number_map("fill");
+  require_one_number_each(fill);
   std::vector<Source> sources;
   size_t used = 0;
   for (const std::string& name : channel_names) {
     Source source;
     source.image = node.optional_input<Image>(name);
     const auto constant = fill.find(name);
-    if (constant != fill.end() && constant->second.size() != 1)
-      throw Error("fill", fmt::format("expected one number for {}, found {}", name, constant->second.size()));
     if (source.image) source.channel = source_channel(node, name, *source.image);
     if (constant != fill.end()) source.constant = float(constant->second.front());
     sources.push_back(source);
@@ -68,7 +77,7 @@ ImageInfo packed_info(const NodeContext& node, const std::vector<Source>& source
     if (!first) first = image;
     info.depth = std::max(info.depth, image->info().depth);
   }
-  if (!first) throw Error("r", "expected an image on at least one of r, g, b and a, found none");
+  require_any(first != nullptr);
   info.channels = int(sources.size());
   info.semantic = *semantic_from(node.text("semantic"));
   info.color_space = color_space_of(node, "color_space");
@@ -136,6 +145,11 @@ NodeType channel_pack_node() {
   t.files_read = [](const Params&) { return color_config_files(); };
   t.check = [](const Params& p) { return color_space_problems(p, "color_space"); };
   t.compute = compute;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    check_all([&] { require_one_number_each(std::get<NumberMap>(params.at("fill"))); },
+              [&] { require_any(!inputs.empty()); });
+    return Forecast{};
+  };
   return t;
 }
 

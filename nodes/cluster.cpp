@@ -25,12 +25,16 @@ ExemplarPlanes joined(const ExemplarPlanes& a, const ExemplarPlanes& b) {
   return out;
 }
 
+void require_any(bool features, bool images) {
+  if (!features && !images)
+    throw Error("features", "expected something to sort pixels by: connect \"features\" or \"images\", or both");
+}
+
 ExemplarPlanes planes_of(const NodeContext& node) {
   const auto features = node.optional_input<Features>("features");
   std::vector<ImagePtr> images;
   for (const ImagePtr& image : node.list<Image>("images")) images.push_back(analysis_image(image));
-  if (!features && images.empty())
-    throw Error("features", "expected something to sort pixels by: connect \"features\" or \"images\", or both");
+  require_any(features != nullptr, !images.empty());
   const Size size = features ? features->size() : images.front()->size();
   for (const ImagePtr& image : images)
     if (image->size() != size)
@@ -114,6 +118,10 @@ NodeType cluster_node() {
                .min = 0}};
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
+  t.foresee = [](const Params&, const InputForecasts& inputs) {
+    require_any(inputs.contains("features"), inputs.contains("images"));
+    return Forecast{};
+  };
   return t;
 }
 

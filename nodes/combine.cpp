@@ -11,12 +11,16 @@ namespace terrazzo {
 
 namespace {
 
+void require_masks(size_t masks, size_t materials) {
+  if (masks == 0 || masks == materials) return;
+  throw Error("masks", fmt::format("expected {}, one for each material, or none; found {}",
+                                   counted(int64_t(materials), "mask"), masks));
+}
+
 void compute(NodeContext& node) {
   const auto materials = node.list<Material>("materials");
   const auto masks = node.list<Image>("masks");
-  if (!masks.empty() && masks.size() != materials.size())
-    throw Error("masks", fmt::format("expected {}, one for each material, or none; found {}",
-                                     counted(int64_t(materials.size()), "mask"), masks.size()));
+  require_masks(masks.size(), materials.size());
   std::vector<Exemplar> exemplars;
   for (size_t i = 0; i < materials.size(); i++)
     exemplars.push_back(masked_exemplar(materials[i], "masks", masks.empty() ? nullptr : masks[i]));
@@ -26,7 +30,9 @@ void compute(NodeContext& node) {
 Forecast foresee(const Params& params, const InputForecasts& inputs) {
   std::vector<KnownMaps> materials;
   for (const Forecast& f : inputs.at("materials")) materials.push_back({"", f.maps, f.possible_maps});
-  require_same_maps("materials", materials);
+  const auto masks = inputs.find("masks");
+  check_all([&] { require_same_maps("materials", materials); },
+            [&] { require_masks(masks == inputs.end() ? 0 : masks->second.size(), materials.size()); });
   return same_maps_as("materials")(params, inputs);
 }
 

@@ -6,13 +6,14 @@ namespace terrazzo {
 
 namespace {
 
-GridSpec spec_of(const NodeContext& node) {
-  return {int(node.integer("columns")), node.size("cell"), int(node.integer("gap")), node.flag("enlarge"),
-          node.texts("captions")};
+GridSpec spec_of(const Params& params) {
+  return {int(std::get<int64_t>(params.at("columns"))), std::get<Size>(params.at("cell")),
+          int(std::get<int64_t>(params.at("gap"))), std::get<bool>(params.at("enlarge")),
+          std::get<Texts>(params.at("captions"))};
 }
 
 void compute(NodeContext& node) {
-  node.output("image", picture_grid(node.list<Image>("images"), spec_of(node), node.task()));
+  node.output("image", picture_grid(node.list<Image>("images"), spec_of(node.params()), node.task()));
 }
 
 }  // namespace
@@ -62,9 +63,13 @@ NodeType contact_sheet_node() {
   t.files_read = [](const Params&) { return color_config_files(); };
   t.memory_hint = [](const NodeContext& node) {
     const size_t pictures = node.list<Image>("images").size();
-    return size_t(grid_size(pictures, spec_of(node)).area()) * 3 * sizeof(float);
+    return size_t(grid_size(pictures, spec_of(node.params())).area()) * 3 * sizeof(float);
   };
   t.compute = compute;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    require_grid(inputs.at("images").size(), spec_of(params));
+    return Forecast{};
+  };
   return t;
 }
 

@@ -77,8 +77,9 @@ NodeType filter_bank_node() {
   t.compute = compute;
   t.foresee = [](const Params& params, const InputForecasts& inputs) {
     const std::string& map = std::get<std::string>(params.at("map"));
-    if (!map.empty()) foresee_maps("map", {map}, inputs.at("material").front());
-    foresee_one_shape("material", inputs);
+    const Texts wanted = map.empty() ? Texts{} : Texts{map};
+    check_all([&] { foresee_maps("map", wanted, inputs.at("material").front()); },
+              [&] { foresee_one_shape("material", inputs); });
     return Forecast{};
   };
   return t;

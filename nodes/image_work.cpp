@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.h"
 #include "core/map_names.h"
@@ -94,6 +95,21 @@ Digest map_recipe(const NodeContext& node, const Image& map) {
   add_to(h, node.params());
   h.add(map.digest());
   return h.digest();
+}
+
+void warn_of_smaller_maps(NodeContext& node, const Material& material, const Material* known) {
+  const Size size = material.size();
+  std::vector<std::string> smaller;
+  for (const Map& m : material.maps()) {
+    const bool is_old = known && known->size() == size && known->find(m.name) == m.image;
+    if (m.image->size() != size && !is_old)
+      smaller.push_back(fmt::format("{} ({})", m.name, describe(m.image->size())));
+  }
+  if (smaller.empty()) return;
+  node.warn(
+      fmt::format("the material has {} pixels, the size of its largest map; {} {} scaled up to that. Bring the "
+                  "maps to one size if this is not meant",
+                  describe(size), fmt::join(smaller, ", "), smaller.size() == 1 ? "is" : "are"));
 }
 
 ImagePtr require_map(const std::string& param, const Material& material, const std::string& map) {

@@ -43,6 +43,10 @@ Digest map_recipe(const NodeContext& node, const Image& map);
 MaterialPtr with_maps_changed(const MaterialPtr& material, const Texts& maps,
                               const std::function<ImagePtr(const Map&)>& change);
 
+/// Warns of maps that are smaller than the material and so will be scaled up: likely a file of the wrong size. Those
+/// that `known`, if there is one, held beside maps of that size have been spoken of before.
+void warn_of_smaller_maps(NodeContext& node, const Material& material, const Material* known = nullptr);
+
 /// Throws Error about `param` unless the material has a map of that name.
 ImagePtr require_map(const std::string& param, const Material& material, const std::string& map);
 

@@ -13,6 +13,7 @@
 #include "core/node.h"
 #include "core/normal_convention.h"
 #include "nodes/color_space.h"
+#include "nodes/image_work.h"
 #include "nodes/material_folder.h"
 
 namespace terrazzo {
@@ -154,7 +155,9 @@ void compute(NodeContext& node) {
   for (const RecognisedMap& m : found) add_alpha(m, sources.at(m.file).image, maps, notes);
   for (std::string& n : notes) node.note(std::move(n));
   settle_conventions(node, found, maps);
-  node.output("material", Material::make(folder.filename().string(), std::move(maps)));
+  const MaterialPtr material = Material::make(folder.filename().string(), std::move(maps));
+  warn_of_smaller_maps(node, *material);
+  node.output("material", material);
 }
 
 std::vector<fs::path> files_read(const Params& params) {
@@ -193,7 +196,7 @@ Forecast foresee(const Params& params, const InputForecasts&) {
 NodeType load_material_node() {
   NodeType t;
   t.name = "load_material";
-  t.version = 2;
+  t.version = 3;
   t.category = "source";
   t.summary = "Reads a folder of maps as one material";
   t.help =
@@ -203,7 +206,8 @@ NodeType load_material_node() {
       "smoothness maps inverted into roughness, grey maps stored in colour reduced to one channel, and a base colour's "
       "alpha becomes the opacity map. Of several files for one map the OpenGL normal, the larger and the lossless one "
       "is "
-      "taken. The notes say what was recognised and what was left out.";
+      "taken. Maps may differ in size as long as they show the same area; a warning names those that are smaller than "
+      "the largest and so will be scaled up. The notes say what was recognised and what was left out.";
   t.outputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps found, named after their semantics"}};
   t.params = {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/map_names.h"
 #include "core/suggest.h"
 #include "core/text.h"
 #include "nodes/image_work.h"
@@ -11,57 +12,73 @@ namespace terrazzo {
 
 namespace {
 
-void check_count(const std::string& param, const Texts& texts, size_t images) {
+void require_one_each(const std::string& param, const Texts& texts, size_t images) {
   if (texts.empty() || texts.size() == images) return;
   throw Error(param, fmt::format("expected {}, one for each image, or none; found {}", counted(int64_t(images), "text"),
                                  texts.size()));
 }
 
+void require_known(const Texts& semantics) {
+  for (const std::string& s : semantics)
+    if (s != "keep" && !semantic_from(s))
+      throw Error("semantics",
+                  fmt::format("expected keep or one of {}; found \"{}\"{}", fmt::join(semantic_names, ", "), s,
+                              did_you_mean(s, {semantic_names.begin(), semantic_names.end()})));
+}
+
+void require_different(const Texts& names) {
+  for (size_t i = 0; i < names.size(); i++) {
+    if (names[i].empty()) throw Error("names", "expected a name for each map, found an empty one");
+    if (std::find(names.begin(), names.begin() + i, names[i]) != names.begin() + i)
+      throw Error("names",
+                  fmt::format("expected a different name for each map, found \"{0}\" twice; give \"names\", such "
+                              "as \"{0}\" and \"{0}_2\"",
+                              names[i]));
+  }
+}
+
+void require_right_texts(const Params& params, size_t images) {
+  const Texts &names = std::get<Texts>(params.at("names")), &semantics = std::get<Texts>(params.at("semantics"));
+  check_all([&] { require_one_each("names", names, images); }, [&] { require_different(names); },
+            [&] { require_one_each("semantics", semantics, images); }, [&] { require_known(semantics); });
+}
+
 ImagePtr with_semantic(const ImagePtr& image, const std::string& semantic) {
   if (semantic == "keep") return image;
   ImageInfo info = image->info();
-  const std::optional<Semantic> known = semantic_from(semantic);
-  if (!known)
-    throw Error("semantics",
-                fmt::format("expected keep or one of {}; found \"{}\"{}", fmt::join(semantic_names, ", "), semantic,
-                            did_you_mean(semantic, {semantic_names.begin(), semantic_names.end()})));
-  info.semantic = *known;
+  info.semantic = *semantic_from(semantic);
   return Image::redescribed(image, info);
 }
 
 void compute(NodeContext& node) {
   const auto images = node.list<Image>("images");
-  const Texts& names = node.texts("names");
+  require_right_texts(node.params(), images.size());
   const Texts& semantics = node.texts("semantics");
-  check_count("names", names, images.size());
-  check_count("semantics", semantics, images.size());
+  std::vector<Map> added;
+  for (size_t i = 0; i < images.size(); i++) {
+    const ImagePtr image = with_semantic(images[i], semantics.empty() ? "keep" : semantics[i]);
+    const Texts& names = node.texts("names");
+    added.push_back({names.empty() ? std::string(name_of(image->info().semantic)) : names[i], image});
+  }
+  require_different(names_of(added));
 
   const MaterialPtr base = node.optional_input<Material>("material");
   std::vector<Map> maps = base ? base->maps() : std::vector<Map>{};
-  std::vector<std::string> added;
-  for (size_t i = 0; i < images.size(); i++) {
-    const ImagePtr image = with_semantic(images[i], semantics.empty() ? "keep" : semantics[i]);
-    const std::string name = names.empty() ? std::string(name_of(image->info().semantic)) : names[i];
-    if (name.empty()) throw Error("names", "expected a name for each map, found an empty one");
-    if (std::find(added.begin(), added.end(), name) != added.end())
-      throw Error("names",
-                  fmt::format("expected a different name for each map, found \"{}\" twice; give \"names\", such "
-                              "as \"{}\" and \"{}_2\"",
-                              name, name, name));
-    added.push_back(name);
-    const auto same = std::find_if(maps.begin(), maps.end(), [&](const Map& m) { return m.name == name; });
+  for (Map& m : added) {
+    const auto same = std::find_if(maps.begin(), maps.end(), [&](const Map& old) { return old.name == m.name; });
     if (same == maps.end())
-      maps.push_back({name, image});
+      maps.push_back(std::move(m));
     else
-      same->image = image;
+      same->image = m.image;
   }
   const std::string& name = node.text("name");
-  node.output("material", Material::make(name.empty() && base ? base->name() : name, std::move(maps)));
+  const MaterialPtr material = Material::make(name.empty() && base ? base->name() : name, std::move(maps));
+  warn_of_smaller_maps(node, *material, base.get());
+  node.output("material", material);
 }
 
 Forecast foresee(const Params& params, const InputForecasts& inputs) {
-  const size_t images = inputs.at("images").size();
-  for (const char* param : {"names", "semantics"}) check_count(param, std::get<Texts>(params.at(param)), images);
+  require_right_texts(params, inputs.at("images").size());
   const Texts& names = std::get<Texts>(params.at("names"));
   Forecast out{.possible_maps = Texts{}};
   if (const auto base = inputs.find("material"); base != inputs.end())

@@ -51,9 +51,11 @@ void compute(NodeContext& node) {
   const Lattice& lattice = index->appearance()->lattice();
   if (node.text("fit") == "repeats")
     options.size = lattice.largest_fitting(options.size, options.tile_x, options.tile_y).value_or(options.size);
-  if (options.size != index->appearance()->size())
-    node.note(fmt::format("the exemplar repeats: the result has {} pixels, so that it holds a whole number of repeats",
-                          describe(options.size)));
+  if (const Size exemplar = index->appearance()->size(); options.size != exemplar)
+    node.note(
+        fmt::format("the exemplar of {} pixels repeats: the result has {}, so that it holds a whole number of "
+                    "repeats; set `fit` to \"size\" to keep {} and cut some repeats short",
+                    describe(exemplar), describe(options.size), describe(exemplar)));
   const double border = node.number("border");
   options.kept = interior(options.size, border_pixels(border, options.size.width, options.tile_x),
                           border_pixels(border, options.size.height, options.tile_y));

@@ -74,9 +74,8 @@ void require_folder(const fs::path& folder) {
     throw Error("path", fmt::format("cannot read the folder {}: {}", folder.string(), failure.message()));
   if (fs::is_directory(status)) return;
   if (fs::exists(status))
-    throw Error("path", fmt::format("expected a folder with the material's maps, found the file {}; "
-                                    "load_map reads a single file",
-                                    folder.string()));
+    throw Error("path", fmt::format("expected a folder with the material's maps, found the file {}; {}",
+                                    folder.string(), advice_on_one_file));
   std::vector<std::string> siblings;
   for (const fs::directory_entry& e : fs::directory_iterator(folder.parent_path(), failure))
     if (e.is_directory(failure)) siblings.push_back(e.path().filename().string());
@@ -108,9 +107,8 @@ std::string all_words() {
   if (more) found += fmt::format(" and {} more", more);
   for (const std::string& note : recognition.notes) found += "; " + note;
   throw Error("path",
-              fmt::format("no maps recognised in {}: {}. File names say what a map is by a word at their end ({}); the "
-                          "parameter `maps` names files outright",
-                          folder.string(), found, all_words()));
+              fmt::format("no maps recognised in {}: {}. File names say what a map is by a word at their end ({}); {}",
+                          folder.string(), found, all_words(), advice_on_map_names));
 }
 
 /// Names the folder's files, the ignored ones taken out.

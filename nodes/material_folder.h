@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/material_files.h"
@@ -9,6 +10,10 @@
 
 /// Which files the node `load_material` reads, by its parameters `path`, `maps` and `ignore`.
 namespace terrazzo {
+
+/// What messages of find_maps advise those who write a graph.
+inline constexpr std::string_view advice_on_map_names = "the parameter `maps` names files outright";
+inline constexpr std::string_view advice_on_one_file = "load_map reads a single file";
 
 std::filesystem::path folder_of(const Params& params);
 

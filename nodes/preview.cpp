@@ -1,13 +1,30 @@
 #include "core/render/preview.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "core/color.h"
+#include "core/map_names.h"
 #include "core/node.h"
 
 namespace terrazzo {
 
 namespace {
+
+/// Seen from above, a picture of another shape than the material shows some of it twice or leaves some out, which is
+/// surprising unless the number of repeats has been chosen.
+void note_other_shape(NodeContext& node, const PreviewSpec& spec, Size material) {
+  if (spec.shape != PreviewShape::plane || spec.tilt != 0 || spec.tile != 1) return;
+  const int whole = std::max(1, int(std::lround(double(spec.size.width) * material.height / material.width)));
+  if (std::abs(whole - spec.size.height) <= 1) return;
+  node.note(
+      fmt::format("the material has the shape of {}, the picture that of {}: its width is filled once, its height "
+                  "{:.2f} times; a size of {} shows the material once and whole",
+                  describe(material), describe(spec.size), double(spec.size.height) / whole,
+                  describe(Size{spec.size.width, whole})));
+}
 
 void compute(NodeContext& node) {
   PreviewSpec s;
@@ -25,6 +42,7 @@ void compute(NodeContext& node) {
   s.distance = node.number("distance");
   std::copy_n(node.numbers("background").begin(), 3, s.background);
   const MaterialPtr material = node.input<Material>("material");
+  note_other_shape(node, s, material->size());
   node.output("image", render_preview(*material, s, node.task()));
 }
 
@@ -62,7 +80,8 @@ NodeType preview_node() {
       {.name = "size",
        .type = ParamType::size,
        .fallback = Size{512, 512},
-       .help = "Size of the picture; with several lights, of each picture on the sheet.",
+       .help = "Size of the picture; with several lights, of each picture on the sheet. Seen from above, the material "
+               "fills the picture's width, and repeats or is cut off below if their shapes differ; a note says so.",
        .min = 1,
        .max = 8192,
        .unit = "pixels"},

@@ -59,8 +59,8 @@ NodeType progression_node() {
   };
   t.compute = compute;
   t.foresee = [](const Params& params, const InputForecasts& inputs) {
-    foresee_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front());
-    foresee_one_shape("material", inputs);
+    check_all([&] { foresee_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front()); },
+              [&] { foresee_one_shape("material", inputs); });
     return Forecast{};
   };
   return t;

@@ -8,15 +8,24 @@ namespace terrazzo {
 
 namespace {
 
+void require_pairs(size_t exemplars, size_t targets, size_t strengths) {
+  check_all(
+      [&] {
+        if (targets != exemplars)
+          throw Error("target", fmt::format("expected as many images as \"exemplar_control\" has, {}; found {}",
+                                            exemplars, targets));
+      },
+      [&] {
+        if (strengths != 1 && strengths != exemplars)
+          throw Error("strength",
+                      fmt::format("expected one number, or one for each control, {}; found {}", exemplars, strengths));
+      });
+}
+
 std::vector<Control> controls_of(const NodeContext& node) {
   const auto exemplars = node.list<Image>("exemplar_control"), targets = node.list<Image>("target");
-  if (exemplars.size() != targets.size())
-    throw Error("target", fmt::format("expected as many images as \"exemplar_control\" has, {}; found {}",
-                                      exemplars.size(), targets.size()));
   const Numbers& strength = node.numbers("strength");
-  if (strength.size() != 1 && strength.size() != targets.size())
-    throw Error("strength", fmt::format("expected one number, or one for each control, {}; found {}", targets.size(),
-                                        strength.size()));
+  require_pairs(exemplars.size(), targets.size(), strength.size());
   const std::string& match = node.text("match");
   std::vector<Control> controls;
   for (size_t i = 0; i < targets.size(); i++) {
@@ -35,6 +44,12 @@ void compute(NodeContext& node) {
   SynthesisOptions options = synthesis_options(node, *index);
   options.controls = controls_of(node);
   node.output("uv", synthesize(*index, options, node.task()));
+}
+
+Forecast foresee(const Params& params, const InputForecasts& inputs) {
+  require_pairs(inputs.at("exemplar_control").size(), inputs.at("target").size(),
+                std::get<Numbers>(params.at("strength")).size());
+  return {};
 }
 
 }  // namespace
@@ -95,6 +110,7 @@ NodeType transfer_node() {
   });
   t.check = check_synthesis_params;
   t.compute = compute;
+  t.foresee = foresee;
   t.memory_hint = [](const NodeContext& node) {
     const auto channels = int64_t(4 * node.list<Image>("target").size());
     return synthesis_memory(node.size("size")) + size_t(node.size("size").area() * channels * 5);

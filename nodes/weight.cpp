@@ -48,8 +48,8 @@ NodeType weight_node() {
   t.foresee = [](const Params& params, const InputForecasts& inputs) {
     std::vector<std::string> weighted;
     for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) weighted.push_back(name);
-    foresee_maps("weights", weighted, inputs.at("material").front());
-    foresee_one_shape("material", inputs);
+    check_all([&] { foresee_maps("weights", weighted, inputs.at("material").front()); },
+              [&] { foresee_one_shape("material", inputs); });
     return Forecast{};
   };
   return t;

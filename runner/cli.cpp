@@ -1,5 +1,6 @@
 #include "runner/cli.h"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -146,6 +147,31 @@ std::string shown_bytes(uint64_t bytes) {
 
 namespace {
 
+int obey(int argc, const char* const* argv, ProgressMode mode);
+
+/// What `--help` behind the words says.
+int help_on(const CLI::App& app, const std::vector<std::string>& words, ProgressMode mode) {
+  const CLI::App* command = &app;
+  std::vector<const char*> argv = {"terrazzo"};
+  for (const std::string& word : words) {
+    const std::vector<std::string> known = command_names(command);
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      throw UsageError(fmt::format("unknown command {}{}", word, suggestion(word, known)));
+    command = command->get_subcommand(word);
+    argv.push_back(word.c_str());
+  }
+  argv.push_back("--help");
+  return obey(int(argv.size()), argv.data(), mode);
+}
+
+void add_help_command(CLI::App& app, Chosen& chosen, ProgressMode mode) {
+  CLI::App* help = app.add_subcommand("help", "Says what a command does and takes, as its --help does");
+  const auto words = std::make_shared<std::vector<std::string>>();
+  help->add_option("COMMAND", *words, "The command; if none is given, what there is")->type_name("");
+  help->footer("Example:\n  terrazzo help synth");
+  help->callback([&app, &chosen, words, mode] { chosen = [&app, words, mode] { return help_on(app, *words, mode); }; });
+}
+
 /// Runs what the words ask for; returns the exit code.
 int obey(int argc, const char* const* argv, ProgressMode mode) {
   CLI::App app("terrazzo turns a small PBR material into as much new, non-repeating material as a scene needs.",
@@ -161,6 +187,7 @@ int obey(int argc, const char* const* argv, ProgressMode mode) {
   add_node_commands(app, chosen);
   add_cache_command(app, chosen);
   add_compare_command(app, chosen);
+  add_help_command(app, chosen, mode);
   try {
     app.parse(argc, argv);
     if (!chosen) throw CLI::RequiredError("A command");

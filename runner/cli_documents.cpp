@@ -8,6 +8,7 @@
 #include "graphs/document/load.h"
 #include "graphs/document/migrate.h"
 #include "runner/cli_commands.h"
+#include "runner/folder_advice.h"
 #include "runner/foresight.h"
 #include "runner/memory_graph.h"
 #include "runner/say.h"
@@ -89,6 +90,16 @@ fs::path seen_from(const fs::path& beside, const fs::path& folder) {
   return relative.empty() ? fs::absolute(folder) : relative;
 }
 
+RunResult run_on_folder(const Graph& graph, const RunOptions& options, const std::string& folder) {
+  try {
+    return run_graph(graph, options);
+  } catch (const GraphError& e) {
+    std::vector<Problem> problems;
+    for (const Problem& p : e.problems()) problems.push_back({{}, "FOLDER", for_command_line(p.message, folder)});
+    throw GraphError("", std::move(problems));
+  }
+}
+
 int make_new(const NewFlags& flags) {
   if (!flags.force && fs::exists(flags.out))
     throw UsageError(fmt::format("{} exists; --force overwrites it", flags.out));
@@ -98,7 +109,7 @@ int make_new(const NewFlags& flags) {
   RunOptions options;
   options.targets.keep = {"exemplar"};
   options.cancelled = &signals.flag();
-  const RunResult result = run_graph(graph, options);
+  const RunResult result = run_on_folder(graph, options, flags.folder);
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
   if (!result.ok()) return result.cancelled ? exit_cancelled : exit_failed;
   const MaterialPtr exemplar = std::get<MaterialPtr>(result.kept.at("exemplar").at("material"));

@@ -11,6 +11,7 @@
 #include "graphs/document/load.h"
 #include "graphs/document/override.h"
 #include "runner/cli_commands.h"
+#include "runner/folder_advice.h"
 #include "runner/foresight.h"
 #include "runner/history.h"
 #include "runner/html_report.h"
@@ -195,7 +196,7 @@ struct Argument {
   std::string override_text() const { return parameter + "=" + value; }
 };
 
-/// What is wrong, said of the arguments of `synth` instead of the graph that they stand for.
+/// What is wrong, said of the arguments of `synth`, the folder first, instead of the graph that they stand for.
 GraphError about_arguments(const GraphError& error, const std::vector<Argument>& arguments) {
   std::vector<Problem> problems;
   for (const Problem& p : error.problems()) {
@@ -206,7 +207,7 @@ GraphError about_arguments(const GraphError& error, const std::vector<Argument>&
     if (argument != arguments.end())
       problems.push_back({{}, argument->name + " " + argument->value, p.message});
     else if (is_source || p.node == "files")
-      problems.push_back({{}, is_source ? "FOLDER" : "-o", p.message});
+      problems.push_back({{}, is_source ? "FOLDER" : "-o", for_command_line(p.message, arguments.front().value)});
     else
       return error;
   }

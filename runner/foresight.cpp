@@ -48,11 +48,18 @@ class Foresight {
       // An image that becomes a material of one map is none of the material beside it.
       for (const Port& p : node.type->outputs)
         if (p.type == ValueType::material) forecasts_[{node.name, p.name}] = forecast;
+    } catch (const Errors& all) {
+      for (const Error& e : all.all()) complain(node, e);
     } catch (const Error& e) {
-      // What is wrong with an input may be so for all that read it.
-      if (!node.type->find_input(e.about()) || said_.insert(e.what()).second)
-        problems_.push_back(problem_of(node, e.about(), e.what()));
+      complain(node, e);
     }
+  }
+
+  void complain(const GraphNode& node, const Error& e) {
+    // What is wrong with what comes through a wire may be so for all that read it.
+    const auto wires = node.inputs.find(e.about());
+    if (wires == node.inputs.end() || said_.emplace(wires->second, e.what()).second)
+      problems_.push_back(problem_of(node, e.about(), e.what()));
   }
 
   InputForecasts inputs_of(const GraphNode& node) const {
@@ -92,7 +99,7 @@ class Foresight {
   std::map<std::pair<std::string, std::string>, Forecast> forecasts_;  ///< by node and port
   std::map<fs::path, std::string> readers_;
   std::map<fs::path, Writer> writers_;  ///< by place_of_file
-  std::set<std::string> said_;
+  std::set<std::pair<std::vector<Wire>, std::string>> said_;
   std::vector<Problem> problems_;
 };
 

@@ -94,8 +94,19 @@ class Reader {
     constexpr double exact = 9007199254740992;  // Doubles hold every integer up to here.
     if (!v.is_number()) return wrong(v);
     const bool is_whole = v.kind == Kind::integer || (std::trunc(v.number) == v.number && std::abs(v.number) <= exact);
-    if (!is_whole || !in_range(v.number)) return wrong(v);
-    return v.kind == Kind::integer ? v.integer : static_cast<int64_t>(v.number);
+    if (is_whole && in_range(v.number)) return v.kind == Kind::integer ? v.integer : static_cast<int64_t>(v.number);
+    constexpr double beyond = 9223372036854775808.0;
+    return std::abs(v.number) < beyond ? wrong(v) : complain(v, "an integer" + full_range());
+  }
+
+  /// With the bounds that every integer has, where the parameter sets none.
+  std::string full_range() const {
+    using Limits = std::numeric_limits<int64_t>;
+    const auto bound = [](const std::optional<double>& own, int64_t limit) {
+      return own ? fmt::format("{}", *own) : fmt::format("{}", limit);
+    };
+    return fmt::format(" from {} to {}{}{}", bound(param_.min, Limits::min()), bound(param_.max, Limits::max()),
+                       param_.unit.empty() ? "" : " ", param_.unit);
   }
 
   std::optional<double> number(const JsonValue& v, const std::string& expected) {
@@ -297,6 +308,24 @@ bool has_kind_of(const JsonValue& v, ParamType type) {
   }
 }
 
+/// ".5", "5." and "+5" as JSON spells them; anything else as it is.
+std::string json_spelling(const std::string& number) {
+  const auto digit_at = [](const std::string& text, size_t i) {
+    return i < text.size() && text[i] >= '0' && text[i] <= '9';
+  };
+  std::string out = number.starts_with('+') && !number.starts_with("+-") ? number.substr(1) : number;
+  const size_t first = out.starts_with('-') ? 1 : 0;
+  if (first < out.size() && out[first] == '.' && digit_at(out, first + 1)) out.insert(first, "0");
+  const size_t dot = out.find('.');
+  if (dot != out.npos && dot > 0 && digit_at(out, dot - 1) && !digit_at(out, dot + 1)) out.insert(dot + 1, "0");
+  return out;
+}
+
+bool may_be_number(ParamType type) {
+  return type == ParamType::integer || type == ParamType::number || type == ParamType::size ||
+         type == ParamType::numbers;
+}
+
 }  // namespace
 
 std::optional<ParamValue> read_param(const JsonValue& json, const Param& param, const fs::path& base,
@@ -322,7 +351,7 @@ std::string text_of(const ParamValue& value) {
 }
 
 JsonValue read_command_line(const std::string& text, const Param& param) {
-  ParsedJson parsed = parse_json(text);
+  ParsedJson parsed = parse_json(may_be_number(param.type) ? json_spelling(text) : text);
   const bool means_json = parsed.problems.empty() && has_kind_of(*parsed.value, param.type);
   JsonValue value = means_json ? std::move(*parsed.value) : JsonValue::of(text);
   if (param.type != ParamType::choice) return value;

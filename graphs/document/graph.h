@@ -20,6 +20,7 @@ struct Place {
 struct Wire {
   std::string node;
   std::string port;
+  auto operator<=>(const Wire&) const = default;
 };
 
 struct GraphNode {

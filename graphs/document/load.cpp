@@ -58,11 +58,11 @@ class Loader {
 
     const JsonValue& nodes = nodes_section();
     const std::vector<Override> overrides = read_overrides(override_texts, problems_);
-    set_all(out.parameters, overrides, nodes, options.allow_unset);
-    Substitution substitution(out.parameters);
     NodeReading reading(options.types);
     reading.graph_folder = folder_;
     reading.working_folder = working_folder();
+    set_all(out.parameters, overrides, node_types(nodes, reading), options.allow_unset);
+    Substitution substitution(out.parameters);
     std::vector<NodeDraft> drafts = read_nodes(nodes, overrides, reading, substitution, problems_);
     std::vector<Problem> conversions;
     connect(drafts, problems_, conversions);
@@ -102,11 +102,19 @@ class Loader {
     return nodes ? *nodes : none;
   }
 
-  void set_all(std::vector<GraphParameter>& parameters, const std::vector<Override>& overrides, const JsonValue& nodes,
+  static NodeTypes node_types(const JsonValue& nodes, const NodeReading& reading) {
+    NodeTypes out;
+    for (const JsonMember& m : nodes.members) {
+      const JsonValue* type = m.value.find("type");
+      const auto known = type ? reading.types.find(type->text) : reading.types.end();
+      out.emplace_back(m.name, known == reading.types.end() ? nullptr : known->second);
+    }
+    return out;
+  }
+
+  void set_all(std::vector<GraphParameter>& parameters, const std::vector<Override>& overrides, const NodeTypes& nodes,
                bool allow_unset) {
-    std::vector<std::string> node_names;
-    for (const JsonMember& m : nodes.members) node_names.push_back(m.name);
-    set_parameters(parameters, overrides, working_folder(), node_names, problems_);
+    set_parameters(parameters, overrides, working_folder(), nodes, problems_);
     if (allow_unset) return;
     for (const GraphParameter& p : parameters)
       if (!p.value && !p.is_wrong)

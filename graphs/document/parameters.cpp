@@ -176,6 +176,19 @@ class Declaration {
   GraphParameter out_;
 };
 
+/// The end of a message about a graph parameter that is not there.
+std::string hint_for(const std::string& wrong, const std::vector<std::string>& names, const NodeTypes& nodes) {
+  std::vector<std::string> of_nodes;
+  for (const auto& [node, type] : nodes) {
+    if (node == wrong) return fmt::format("; \"{0}\" is a node: write {0}.parameter=value", wrong);
+    if (type && type->find_param(wrong)) of_nodes.push_back(node + "." + wrong);
+  }
+  const std::string own = names.empty()      ? "; it has none"
+                          : of_nodes.empty() ? suggestion(wrong, names)
+                                             : fmt::format(" (valid: {})", listed(names));
+  return of_nodes.empty() ? own : fmt::format("{}; did you mean {}?", own, listed(of_nodes));
+}
+
 }  // namespace
 
 const std::vector<std::string>& parameter_type_names() {
@@ -203,8 +216,7 @@ std::vector<GraphParameter> read_parameters(const JsonValue& section, const fs::
 }
 
 void set_parameters(std::vector<GraphParameter>& parameters, const std::vector<Override>& overrides,
-                    const fs::path& folder, const std::vector<std::string>& node_names,
-                    std::vector<Problem>& problems) {
+                    const fs::path& folder, const NodeTypes& nodes, std::vector<Problem>& problems) {
   std::vector<std::string> names;
   for (const GraphParameter& p : parameters) names.push_back(p.param.name);
   for (const Override& o : overrides) {
@@ -212,11 +224,8 @@ void set_parameters(std::vector<GraphParameter>& parameters, const std::vector<O
     Complaints complaints = o.complaints(problems);
     const auto at = std::find(names.begin(), names.end(), o.name);
     if (at == names.end()) {
-      const bool is_node = std::find(node_names.begin(), node_names.end(), o.name) != node_names.end();
-      const std::string hint = is_node         ? fmt::format("; \"{0}\" is a node: write {0}.parameter=value", o.name)
-                               : names.empty() ? "; it has none"
-                                               : suggestion(o.name, names);
-      complaints.add({}, fmt::format("the graph has no parameter {}{}", in_quotes(o.name), hint));
+      complaints.add({},
+                     fmt::format("the graph has no parameter {}{}", in_quotes(o.name), hint_for(o.name, names, nodes)));
       continue;
     }
     GraphParameter& p = parameters[at - names.begin()];

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/node.h"
@@ -35,10 +36,13 @@ bool is_node_name(const std::string& name);
 std::vector<GraphParameter> read_parameters(const JsonValue& section, const std::filesystem::path& folder,
                                             std::vector<Problem>& problems);
 
-/// Sets what the overrides without a node say. Relative paths lie in `folder`, which is absolute.
+/// The nodes of a graph by name, in its order; the type is null if it is unknown.
+using NodeTypes = std::vector<std::pair<std::string, const NodeType*>>;
+
+/// Sets what the overrides without a node say. Relative paths lie in `folder`, which is absolute. `nodes` are for
+/// hints.
 void set_parameters(std::vector<GraphParameter>& parameters, const std::vector<Override>& overrides,
-                    const std::filesystem::path& folder, const std::vector<std::string>& node_names,
-                    std::vector<Problem>& problems);
+                    const std::filesystem::path& folder, const NodeTypes& nodes, std::vector<Problem>& problems);
 
 /// Puts the parameters' values where a node says `$name`.
 class Substitution {

@@ -80,6 +80,21 @@ TEST_CASE("a folder of maps becomes a material with the folder's name") {
   CHECK_FALSE(says(run, "SOURCE"));
 }
 
+TEST_CASE("maps smaller than the material are a warning that names them and both sizes, maps of one size are none") {
+  const TemporaryFolder folder;
+  write(folder.path() / "wall_color.png", 3, ramp, {48, 32});
+  write(folder.path() / "wall_roughness.png", 1, ramp, {48, 32});
+  const Params params = {{"path", folder.path().string()}};
+  CHECK_FALSE(says(run_node("load_material", params), "warning"));
+  write(folder.path() / "wall_height.png", 1, ramp, {24, 16});
+  CHECK(
+      says(run_node("load_material", params),
+           "warning: the material has 48x32 pixels, the size of its largest map; height (24x16) is scaled up to that. "
+           "Bring the maps to one size if this is not meant\n"));
+  write(folder.path() / "wall_roughness.png", 1, ramp, {30, 20});
+  CHECK(says(run_node("load_material", params), "height (24x16), roughness (30x20) are scaled up to that."));
+}
+
 TEST_CASE("packed files are split, smoothness is inverted") {
   const TemporaryFolder folder;
   write(folder.path() / "wall_ORM.png", 3, ramp);

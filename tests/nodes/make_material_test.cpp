@@ -39,6 +39,22 @@ TEST_CASE("an image takes the place of a material's map of the same name") {
   CHECK(changed->find("normal") == normal);
 }
 
+TEST_CASE("make_material warns of maps that it makes the smaller ones, and of no others") {
+  const auto map = [](int side, Semantic semantic) { return noise_image({side, side}, 1, semantic); };
+  const auto notes = [](std::vector<Value> images, const MaterialPtr& base) {
+    return run_node("make_material", {}, {{"images", std::move(images)}, {"material", {base}}}).notes;
+  };
+  const MaterialPtr mixed =
+      Material::make("m", {{"base_color", map(8, Semantic::base_color)}, {"roughness", map(4, Semantic::roughness)}});
+  CHECK(notes({map(8, Semantic::height)}, mixed).empty());
+  CHECK(notes({map(2, Semantic::height)}, mixed) ==
+        std::vector<std::string>{"warning: the material has 8x8 pixels, the size of its largest map; height (2x2) is "
+                                 "scaled up to that. Bring the maps to one size if this is not meant"});
+  const std::vector<std::string> larger = notes({map(16, Semantic::height)}, mixed);
+  REQUIRE(larger.size() == 1);
+  CHECK(larger.front().find("; base_color (8x8), roughness (4x4) are scaled up") != std::string::npos);
+}
+
 TEST_CASE("make_material says what is wrong with names and semantics") {
   const ImagePtr data = noise_image({2, 2}, 1);
   CHECK_THROWS_WITH_AS(make({}, {data, data}), doctest::Contains("found \"data\" twice"), Error);

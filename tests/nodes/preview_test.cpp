@@ -155,3 +155,20 @@ TEST_CASE("maps of other sizes, odd shapes and tilted planes render") {
       CHECK(p->digest() == preview(m, {{"shape", shape}, {"size", size}, {"tilt", 50.0}, {"repeats", 2.5}})->digest());
     }
 }
+
+TEST_CASE("a picture from above of another shape than the material is a note that names the size to show it whole") {
+  const MaterialPtr material = Material::of(white({60, 40}));
+  const auto notes = [&](const Params& params) {
+    return run_node("preview", params, {{"material", {material}}}).notes;
+  };
+  const std::vector<std::string> square = notes({{"size", Size{30, 30}}});
+  REQUIRE(square.size() == 1);
+  CHECK(square.front() ==
+        "the material has the shape of 60x40, the picture that of 30x30: its width is filled once, its height 1.50 "
+        "times; a size of 30x20 shows the material once and whole");
+  CHECK(notes({{"size", Size{30, 10}}}).front().find("its height 0.50 times") != std::string::npos);
+  CHECK(notes({{"size", Size{31, 20}}}).empty());
+  CHECK(notes({{"size", Size{30, 30}}, {"repeats", 2.0}}).empty());
+  CHECK(notes({{"size", Size{30, 30}}, {"tilt", 30.0}}).empty());
+  CHECK(notes({{"size", Size{30, 30}}, {"shape", "sphere"}}).empty());
+}

@@ -147,7 +147,7 @@ TEST_CASE("synth says of its folder that the maps differ in shape, once, before 
 TEST_CASE("the help of every command shows its own examples") {
   const Workplace w;
   for (const std::string command :
-       {"run", "synth", "new", "check", "upgrade", "draw", "nodes", "schema", "cache", "compare"}) {
+       {"run", "synth", "new", "check", "upgrade", "draw", "nodes", "schema", "cache", "compare", "help"}) {
     const ProgramRun r = w.run({command, "--help"});
     CHECK(r.code == 0);
     const size_t at = r.out.find("Example");
@@ -158,6 +158,17 @@ TEST_CASE("the help of every command shows its own examples") {
     while (std::getline(lines, line))
       if (line.starts_with("  terrazzo")) CHECK_MESSAGE(line.starts_with("  terrazzo " + command), line);
   }
+}
+
+TEST_CASE("help, with or without a command, says what --help says, and knows no others") {
+  const Workplace w;
+  CHECK(w.run({"help"}).out == w.run({"--help"}).out);
+  CHECK(w.run({"help", "run"}).out == w.run({"run", "--help"}).out);
+  CHECK(w.run({"help", "cache", "gc"}).out == w.run({"cache", "gc", "--help"}).out);
+  CHECK(w.run({"help", "run"}).code == 0);
+  const ProgramRun wrong = w.run({"help", "rum"});
+  CHECK(wrong.code == 2);
+  CHECK_MESSAGE(wrong.err == "error: unknown command rum (did you mean \"run\"?)\n", wrong.err);
 }
 
 TEST_CASE("what cannot be written to standard output ends every command with code 1 and a message") {

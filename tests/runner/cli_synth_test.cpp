@@ -147,6 +147,9 @@ TEST_CASE("synth names the option, and what it takes, of a seed or size that no 
           "found the number 40000\nerror: --seed -1: expected an integer of at least 0, found the number -1\n",
       r.err);
   CHECK(says(w.run({"synth", "stone", "-o", "x", "--size", "64x40000"}).err, "--size 64x40000: expected a size"));
+  CHECK(says(w.run({"synth", "stone", "-o", "x", "--seed", "99999999999999999999"}).err,
+             "--seed 99999999999999999999: expected an integer from 0 to 9223372036854775807, found the number "
+             "99999999999999999999"));
   CHECK_FALSE(fs::exists(w.path / "x"));
 }
 
@@ -256,4 +259,50 @@ TEST_CASE("what extend, inpaint and make_tileable keep stays bit for bit in ever
     CHECK(kept > 1000);
     CHECK(filled > 100);
   }
+}
+
+TEST_CASE("synth and new advise what can be typed when a folder holds no maps or is a single picture") {
+  const Workplace w;
+  write_picture(w.path / "odd/one.png", 5);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"synth", "odd", "-o", "x"}, {"new", "odd", "-o", "x.json"}}) {
+    const ProgramRun r = w.run(command);
+    CHECK_MESSAGE(says(r.err,
+                       "; rename the files, or name them outright: `terrazzo run graphs/material.json --set "
+                       "material=odd --set 'exemplar.maps={\"base_color\": \"FILE\"}' --set out=OUT`"),
+                  r.err);
+    CHECK_FALSE(says(r.err, "the parameter `maps`"));
+  }
+  const ProgramRun named =
+      w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/material.json", "--set", "material=odd", "--set",
+             R"(exemplar.maps={"base_color": "one.png"})", "--set", "size=40x40", "--set", "out=named"});
+  CHECK_MESSAGE(named.code == 0, named.err);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"synth", "photo.png", "-o", "x"}, {"new", "photo.png", "-o", "x.json"}}) {
+    const ProgramRun r = w.run(command);
+    CHECK_MESSAGE(
+        says(r.err,
+             "photo.png; for a single picture: `terrazzo run graphs/texture.json --set image=photo.png --set out=OUT`"),
+        r.err);
+  }
+}
+
+TEST_CASE("the stock graph make_tileable keeps the exemplar's size if it is told to, and says how when it does not") {
+  const Workplace w;
+  write_text(w.path / "tiles.json", R"({"terrazzo": 1, "nodes": {
+    "tiles": {"type": "pattern", "kind": "tiles", "size": [64, 64]},
+    "cut": {"type": "crop", "material": "@tiles", "size": [61, 53]},
+    "files": {"type": "export", "material": "@cut", "path": "tiles/{map}.png"}}})");
+  REQUIRE_MESSAGE(w.run({"run", "tiles.json"}).code == 0, w.run({"run", "tiles.json"}).err);
+  const auto run = [&](const std::string& fit) {
+    return w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/make_tileable.json", "--set", "material=tiles", "--set",
+                  "quality=draft", "--set", "fit=" + fit, "--set", "out=" + fit});
+  };
+  const ProgramRun less = run("repeats"), same = run("size");
+  REQUIRE_MESSAGE(less.code == 0, less.err);
+  REQUIRE_MESSAGE(same.code == 0, same.err);
+  CHECK(read_image_info(w.path / "repeats/base_color.png").size != Size{61, 53});
+  CHECK_MESSAGE(says(less.err, "the exemplar of 61x53 pixels repeats: the result has"), less.err);
+  CHECK(says(less.err, "set `fit` to \"size\" to keep 61x53"));
+  CHECK(read_image_info(w.path / "size/base_color.png").size == Size{61, 53});
 }

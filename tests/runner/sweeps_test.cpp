@@ -44,3 +44,18 @@ TEST_CASE("every picture of a sweep has a caption") {
   }
   CHECK(sheets == 5);
 }
+
+TEST_CASE("the captions of the guidance sweep name the weights that its graph sets") {
+  const nlohmann::json nodes = nlohmann::json::parse(read_text(root + "examples/sweeps/guidance.json"))["nodes"];
+  int weights = 0;
+  for (size_t i = 0; i < nodes["sheet"]["images"].size(); i++) {
+    const std::string picture = nodes["sheet"]["images"][i], caption = nodes["sheet"]["captions"][i];
+    const size_t comma = caption.rfind(", ");
+    if (comma == caption.npos) continue;
+    CHECK_MESSAGE(
+        nodes[picture.substr(1) + "_space"].value("guidance_weight", -1.0) == std::stod(caption.substr(comma + 2)),
+        caption);
+    weights++;
+  }
+  CHECK(weights == 5);
+}

@@ -154,6 +154,16 @@ TEST_CASE("a parameter's value from the command line is taken as it is") {
   CHECK(adjusted<std::string>("label", "\"$t\"", {"t=a=b"}, parameters) == "a=b");
 }
 
+TEST_CASE("numbers on the command line may leave out the zero beside the point and may have a plus sign") {
+  for (const auto& [written, meant] : {std::pair(".07", 0.07), {"+.5", 0.5}, {"1.", 1.0}, {"+1", 1.0}, {".5e0", 0.5}})
+    CHECK(adjusted<double>("amount", "0", {fmt::format("b.amount={}", written)}) == meant);
+  CHECK(adjusted<double>("low", "0", {"b.low=-.25"}) == -0.25);
+  CHECK(adjusted<int64_t>("steps", "1", {"b.steps=+7"}) == 7);
+  CHECK(adjusted<std::string>("label", "\"\"", {"b.label=.07"}) == ".07");
+  for (const std::string wrong : {".", "-.", "+-1", "++1", "1..", ".x", "0x1", "+"})
+    CHECK_THROWS_AS(adjusted<double>("amount", "0", {"b.amount=" + wrong}), GraphError);
+}
+
 TEST_CASE("an override mends what is wrong in the document") {
   const std::string text = document(R"("a": {"type": "photo", "file": 3}, "b": {"type": "adjust", "amount": 7})");
   CHECK(problems_of(text, {"a.file=x.png", "b.amount=0.5", "b.image=@a"}) == "");
