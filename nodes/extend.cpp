@@ -62,7 +62,8 @@ NodeType extend_node() {
   t.summary = "Grows an existing result, keeping its pixels";
   t.help =
       "Places a uv map made earlier, from the same index, inside a larger one and synthesizes what surrounds it. The "
-      "pixels that were there stay bit for bit, in every map.";
+      "pixels that were there stay bit for bit, in every map; of heights that resolve_uv joins, if it is given the "
+      "result that was there as `kept`.";
   t.inputs = {index_port(), {.name = "uv", .type = ValueType::uv_map, .help = "the result to grow"}};
   t.outputs = {uv_output()};
   t.params = with_synthesis_params({result_size_param(),

@@ -77,7 +77,9 @@ NodeType make_tileable_node() {
   t.help =
       "The result has the exemplar's size, or a little less where the exemplar repeats. Its interior stays exactly as "
       "it is; a border is made anew from the "
-      "exemplar so that opposite sides, and all four corners, fit together in every map. resolve_uv shows it.";
+      "exemplar so that opposite sides, and all four corners, fit together in every map. resolve_uv shows it; where "
+      "that joins heights, those of the interior stay if it "
+      "is given the exemplar as `kept` and `border` as `holes`.";
   t.inputs = {index_port()};
   t.outputs = {uv_output(),
                {.name = "border", .type = ValueType::image, .help = "a mask: white where pixels are made anew"}};
