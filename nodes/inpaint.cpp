@@ -59,7 +59,8 @@ NodeType inpaint_node() {
       "Every map is filled at once, through one uv map: pixels outside the holes stay exactly as they are, those "
       "inside continue them with material from elsewhere in the exemplar. Without \"uv\" the exemplar itself is what "
       "is there; give weight the inverted mask then, so that nothing is taken out of the holes. With \"uv\" parts of "
-      "an earlier result are made anew, and it wraps as before. Where resolve_uv joins heights, those outside the holes "
+      "an earlier result are made anew, and it wraps as before. Where resolve_uv joins heights, those outside the "
+      "holes "
       "stay if it is given what is there as `kept` and the mask as `holes`.";
   t.inputs = {index_port(),
               {.name = "mask",
