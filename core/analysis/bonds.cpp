@@ -16,7 +16,8 @@ namespace {
 constexpr double averaged = 0.6;         // of a band's breadth: most of it, but little of the next
 constexpr double least_distinct = 0.15;  // bricks of all widths have half of that
 constexpr double most_off = 0.1;         // of a band, that a step may be off a whole number of them
-constexpr double most_bands = 4;         // of a step; more are alike by chance
+// Fewer cells of an exemplar, and steps over more bands, are alike by chance.
+constexpr double fewest_cells = 6, most_bands = 4;
 
 /// How much lines across the bands differ from the next, all channels together, as one channel. Grain differs at random
 /// and cancels out.
@@ -55,7 +56,8 @@ Lattice bond_of(const ExemplarPlanes& planes, const Lattice& bands, const Task& 
     if (std::abs(across / breadth - steps) > most_off || std::abs(steps) > most_bands) return bands;
     across = steps * breadth;
   }
-  return out.is_valid() ? out : bands;
+  const double area = std::abs(out.first.x * out.second.y - out.first.y * out.second.x);
+  return area * fewest_cells <= double(planes.size.area()) && out.is_valid() ? out : bands;
 }
 
 }  // namespace terrazzo

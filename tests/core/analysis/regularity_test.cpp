@@ -161,6 +161,15 @@ TEST_CASE("blocks in a bond are told from blocks of all widths by joints fainter
   }
 }
 
+TEST_CASE("boards of all lengths have no bond, however few they are") {
+  for (uint64_t seed = 1; seed <= 4; seed++) {
+    CAPTURE(seed);
+    const PatternSpec spec{.type = "planks", .size = {256, 256}, .seed = seed, .tileable = false};
+    const ImagePtr boards = make_pattern(spec, Task())->find("base_color");
+    CHECK(lattice_of(plain_features(boards)).rank == 1);
+  }
+}
+
 TEST_CASE("tiles of which an exemplar that does not tile shows hardly two are found") {
   check_cell(lattice_of(picture(squares, 105, 0.35, 0.45, 3)), 105, 0, 0, 105);
 }
