@@ -32,6 +32,19 @@ bool comes_back(const LatticePhase& phase, int length, bool along_x, double prec
 
 }  // namespace
 
+double Lattice::longest_step() const {
+  if (rank != 2) return 0;
+  // Next to nothing is what measuring leaves of nothing.
+  constexpr double least = 2;
+  const auto nearer = [](double a, double b) {
+    a = std::abs(a);
+    b = std::abs(b);
+    return std::min(a, b) >= least ? std::min(a, b) : std::max(a, b);
+  };
+  const double area = std::abs(first.x * second.y - first.y * second.x);
+  return area / std::max(least, std::min(nearer(first.x, second.x), nearer(first.y, second.y)));
+}
+
 Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
   const auto whole = [](double cells, bool wraps) { return wraps ? std::floor(cells + 0.5) : cells; };
   const double w = size.width, h = size.height;

@@ -32,6 +32,8 @@ struct Lattice {
     if (rank == 1) return (first.x == 0) != (first.y == 0);
     return rank == 0 || (rank == 2 && std::abs(first.x * second.y - first.y * second.x) >= 1);
   }
+  /// Of rank 2: how far along x or y, the farther of the two, it comes back: the length of a brick in its course.
+  double longest_step() const;
   /// The nearest lattice of which a surface of `size` holds a whole number of cells, along each axis in which it wraps.
   Lattice fitted(Size size, bool wraps_x, bool wraps_y) const;
   /// Whether a surface of `size` holds a whole number of cells along each axis in which it wraps: to `precision` pixels

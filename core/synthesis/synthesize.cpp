@@ -76,6 +76,7 @@ constexpr int alignment_reach = 2;
 // Seams move from the finest level on which pieces still change as wholes down to the one that sees joints best.
 constexpr int seam_level = 1;
 constexpr int seam_reaches[] = {8, 10};  // pixels of the next coarser level, by level
+constexpr int farthest_seam = 24;        // where bricks are longer than that
 constexpr int coarsest_mended = 3;       // at coarser ones it brings nothing
 constexpr int passes_after_mending[] = {2, 5};
 
@@ -242,7 +243,9 @@ class LevelWork {
   }
   /// Of blocks of two by two pixels.
   SeamMoves along_joints() const {
-    return {.reach = seam_reaches[level_],
+    const double half = shared_.lattice.longest_step() / 2 / double(int64_t{2} << level_);
+    return {.reach = level_ == seam_level ? std::clamp(int(half), seam_reaches[level_], farthest_seam)
+                                          : seam_reaches[level_],
             .block = 2,
             .fair_piece = pieces_on_lattice.large * double(exemplar_.size().area()) / 4};
   }

@@ -94,6 +94,14 @@ TEST_CASE("on a surface that wraps around the lattice is stretched to whole cell
   CHECK(phase.penalty(0, 150, 0, 155) == 1);
 }
 
+TEST_CASE("a lattice knows the length of its bricks, lying and standing") {
+  CHECK(Lattice{2, {128, 0}, {64, 43}, 1}.longest_step() == doctest::Approx(128));
+  CHECK(Lattice{2, {64, -43}, {64, 43}, 1}.longest_step() == doctest::Approx(128));
+  CHECK(Lattice{2, {43, 64}, {43, -64}, 1}.longest_step() == doctest::Approx(128));
+  CHECK(Lattice{2, {43.1, 0.3}, {-0.1, 47.8}, 1}.longest_step() == doctest::Approx(47.8).epsilon(0.01));
+  CHECK(courses(6).longest_step() == 0);
+}
+
 TEST_CASE("the largest size that fits, fits, and is over half of what was asked for") {
   // Those of a woven fabric scanned a little askew, bricks, courses, columns, and tiles turned by some degrees.
   const Lattice fabric{2, {8.30, 12.24}, {-8.23, 12.27}, 0.77};
