@@ -82,7 +82,8 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
     best = lines;
   else if (best.rank > 0)
     best.certainty = std::max(best.certainty, found.alike);
-  if (best.rank == 1) best = bond_of(planes, best, task);
+  if (best.rank == 1)
+    if (const Lattice bond = bond_of(planes, best, task); bond.certainty >= least_certainty) best = bond;
   const bool too_few = best.rank < 2 && !planes.wraps && lines_cross(edges);
   if (best.rank == 0) return {best, too_few};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
