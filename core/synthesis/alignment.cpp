@@ -6,7 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/synthesis/pieces.h"
+#include "core/synthesis/piece_seams.h"
 
 namespace terrazzo {
 
@@ -26,7 +26,8 @@ class PieceAligner {
         level_(level),
         reach_(reach),
         task_(task),
-        pieces_(field, block, level.window.closed_x, level.window.closed_y),
+        ground_(field, block, level),
+        pieces_(ground_.pieces()),
         moved_(size_t(pieces_.count()), -1) {
     find_borders();
     find_rounds();
@@ -44,28 +45,8 @@ class PieceAligner {
   }
 
  private:
-  struct Seam {
-    ExemplarPixel inside;  ///< what the piece shows on its side
-    ExemplarPixel beyond;  ///< what the neighbour shows
-    int dx, dy;            ///< from inside to beyond
-  };
-  using Seams = std::vector<Seam>;
-
-  bool can_move(int piece) const { return pieces_.area(piece) * block_ * block_ >= smallest_piece && !is_fixed(piece); }
-
-  /// The pixel beyond a side; -1 if there is none.
-  int64_t beyond(int pixel, int side) const {
-    return pixel_beside(field_.size, pixel, side, level_.window.closed_x, level_.window.closed_y);
-  }
-
-  /// Calls `visit(pixel, side)` for each side of a piece's pixels that is a border with another piece.
-  template <typename Visit>
-  void for_each_border(int piece, const Visit& visit) const {
-    for (const int i : pieces_.members(piece))
-      for (int side = 0; side < 4; side++) {
-        const int64_t n = beyond(i, side);
-        if (n >= 0 && pieces_.of(int(n)) != piece) visit(uint32_t(i), uint32_t(side));
-      }
+  bool can_move(int piece) const {
+    return pieces_.area(piece) * block_ * block_ >= smallest_piece && !ground_.is_fixed(piece);
   }
 
   /// Where the pieces that can move meet others. That stays, since a move changes what pixels show, not whose they are.
@@ -79,7 +60,7 @@ class PieceAligner {
     };
     for_each_movable([&](int piece) {
       uint32_t sum = 0;
-      for_each_border(piece, [&](uint32_t, uint32_t) { sum++; });
+      ground_.for_each_border(piece, [&](uint32_t, uint32_t) { sum++; });
       border_begin_[size_t(piece) + 1] = sum;
     });
     task_.check();
@@ -87,7 +68,7 @@ class PieceAligner {
     borders_.resize(border_begin_.back());
     for_each_movable([&](int piece) {
       uint32_t at = border_begin_[piece];
-      for_each_border(piece, [&](uint32_t pixel, uint32_t side) { borders_[at++] = pixel << 2 | side; });
+      ground_.for_each_border(piece, [&](uint32_t pixel, uint32_t side) { borders_[at++] = pixel << 2 | side; });
     });
     task_.check();
   }
@@ -107,7 +88,8 @@ class PieceAligner {
     std::vector<int> sizes;
     for (const int piece : order) {
       int last = 0;
-      for (const uint32_t b : borders(piece)) last = std::max(last, turn[pieces_.of(int(beyond(int(b >> 2), b & 3)))]);
+      for (const uint32_t b : borders(piece))
+        last = std::max(last, turn[pieces_.of(int(ground_.beyond(int(b >> 2), b & 3)))]);
       turn[piece] = last + 1;
       if (last == int(sizes.size())) sizes.push_back(0);
       sizes[last]++;
@@ -125,71 +107,25 @@ class PieceAligner {
   bool changed_since(int piece, int turn) const {
     if (moved_[size_t(piece)] >= turn) return true;
     return std::ranges::any_of(borders(piece), [&](uint32_t b) {
-      return moved_[size_t(pieces_.of(int(beyond(int(b >> 2), int(b & 3)))))] >= turn;
+      return moved_[size_t(pieces_.of(int(ground_.beyond(int(b >> 2), int(b & 3)))))] >= turn;
     });
   }
 
-  /// The k-th pixel along one of the sides of the block that begins with p.
-  ExemplarPixel on_side(ExemplarPixel p, int dx, int dy, int k) const {
-    const int far = block_ - 1;
-    int u = p.x + (dx > 0 ? far : dx < 0 ? 0 : k), v = p.y + (dy > 0 ? far : dy < 0 ? 0 : k);
-    level_.exemplar.settle(u, v);
-    return {uint16_t(u), uint16_t(v)};
-  }
-
-  Seams seams_of(int piece) const {
-    Seams seams;
-    seams.reserve(borders(piece).size() * block_);
-    for (const uint32_t b : borders(piece)) {
-      const int i = int(b >> 2), side = int(b & 3);
-      const auto [dx, dy] = sides[side];
-      const ExemplarPixel p = field_.pixels[i], q = field_.pixels[size_t(beyond(i, side))];
-      for (int k = 0; k < block_; k++) seams.push_back({on_side(p, dx, dy, k), on_side(q, -dx, -dy, k), dx, dy});
-    }
+  PieceSeams seams_of(int piece) const {
+    PieceSeams seams;
+    seams.reserve(borders(piece).size() * size_t(block_));
+    for (const uint32_t b : borders(piece)) ground_.add_seams(int(b >> 2), int(b & 3), seams);
     return seams;
   }
 
-  /// Whether the exemplar has usable pixels for the whole piece where a move would take it.
-  bool has_room(int piece, int dx, int dy) const {
-    const std::span<const int> members = pieces_.members(piece);
-    return std::all_of(members.begin(), members.end(), [&](int i) {
-      const ExemplarPixel p = field_.pixels[i];
-      const int x = p.x + dx, y = p.y + dy, far = block_ - 1;
-      return level_.exemplar.holds(x, y) && level_.exemplar.holds(x + far, y + far);
-    });
-  }
-
-  bool is_fixed(int piece) const {
-    if (!level_.fixed.any()) return false;
-    const std::span<const int> members = pieces_.members(piece);
-    return std::any_of(members.begin(), members.end(), [&](int i) { return level_.fixed.at(size_t(i)); });
-  }
-
-  int64_t mismatch(const Seams& seams, int dx, int dy, int64_t limit) const {
-    const PaddedLevel& e = level_.exemplar;
-    int64_t sum = 0;
-    for (const Seam& s : seams) {
-      int u = s.inside.x + dx, v = s.inside.y + dy;
-      e.settle(u, v);
-      sum += squared_distance(*e.at(u, v), *e.at(s.beyond.x - s.dx, s.beyond.y - s.dy));
-      sum += squared_distance(*e.at(u + s.dx, v + s.dy), *e.at(s.beyond.x, s.beyond.y));
-      if (sum >= limit) break;
-    }
-    return sum;
-  }
-
-  int64_t cost(int piece, const Seams& seams, int dx, int dy, int64_t limit) const {
-    int64_t c = mismatch(seams, dx, dy, limit);
-    if (!level_.phase.active() || c >= limit) return c;
-    const int i = pieces_.members(piece)[0];
-    const ExemplarPixel p = field_.pixels[i];
-    return int64_t(double(c) * level_.phase.penalty(p.x + dx, p.y + dy, i % field_.size.width * block_,
-                                                    i / field_.size.width * block_));
+  int64_t cost(int piece, const PieceSeams& seams, int dx, int dy, int64_t limit) const {
+    const int64_t c = ground_.mismatch(seams, dx, dy, limit);
+    return c >= limit ? c : int64_t(double(c) * ground_.penalty(piece, dx, dy));
   }
 
   /// Whether the piece has moved.
   bool move(int piece) {
-    const Seams seams = seams_of(piece);
+    const PieceSeams seams = seams_of(piece);
     const int64_t stay = cost(piece, seams, 0, 0, std::numeric_limits<int64_t>::max()) * worthwhile / 64;
     const int across = 2 * reach_ + 1, moves = across * across;
     const auto cost_of = [&](int m, int64_t limit) {
@@ -207,7 +143,7 @@ class PieceAligner {
       const int dx = m % across - reach_, dy = m / across - reach_;
       if (dx == 0 && dy == 0) continue;
       const int64_t c = costs.empty() ? cost_of(m, least) : costs[size_t(m)];
-      if (c >= least || !has_room(piece, dx, dy)) continue;
+      if (c >= least || !ground_.has_room(piece, dx, dy)) continue;
       least = c;
       best_x = dx;
       best_y = dy;
@@ -227,7 +163,8 @@ class PieceAligner {
   const CorrectionLevel& level_;
   int reach_;
   const Task& task_;
-  Pieces pieces_;
+  PieceGround ground_;
+  const Pieces& pieces_;
   std::vector<uint32_t> border_begin_;  // of every piece in borders_
   std::vector<uint32_t> borders_;       // pixel * 4 + side, piece by piece
   std::vector<int> round_begin_;        // of every round in movable_

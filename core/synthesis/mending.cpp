@@ -9,6 +9,7 @@
 #include "core/hash.h"
 #include "core/synthesis/expansion.h"
 #include "core/synthesis/rounds.h"
+#include "core/synthesis/suggestions.h"
 
 namespace terrazzo {
 
@@ -56,7 +57,7 @@ class Fitter {
     constexpr int64_t none = std::numeric_limits<int64_t>::max();
     int64_t least = none;
     uint32_t best = 0;
-    for (const auto& [place, votes] : by_votes_) {
+    for (const auto& [place, votes] : places_.by_votes()) {
       const int64_t misfit = misfit_at(place, least);
       if (misfit > least || (misfit == least && place >= best) || shows_near(x, y, place)) continue;
       least = misfit;
@@ -73,11 +74,6 @@ class Fitter {
   }
 
  private:
-  struct Suggested {
-    uint32_t place;
-    int votes;
-  };
-
   // Places pack the exemplar position that a window's middle would show.
   static uint32_t packed(int u, int v) { return uint32_t(v) << 16 | uint32_t(u); }
   static int column(uint32_t place) { return int(place & 0xffff); }
@@ -88,7 +84,6 @@ class Fitter {
   }
   ExemplarPixel pixel(int x, int y) const { return ground_.field.pixels[size_t(index(x, y))]; }
 
-  /// Those that most pixels suggest come first: they fit best more often than not, and tell the others off sooner.
   void collect_places(int x, int y) {
     const CorrectionLevel& level = ground_.level;
     places_.clear();
@@ -107,14 +102,6 @@ class Fitter {
       level.phase.snap(x, y, u, v);
       add_place(x, y, u, v);
     }
-    std::sort(places_.begin(), places_.end());
-    by_votes_.clear();
-    for (const uint32_t place : places_) {
-      if (by_votes_.empty() || by_votes_.back().place != place) by_votes_.push_back({place, 0});
-      by_votes_.back().votes++;
-    }
-    std::stable_sort(by_votes_.begin(), by_votes_.end(),
-                     [](const Suggested& a, const Suggested& b) { return a.votes > b.votes; });
   }
 
   /// Unless the window would hang over the exemplar's border or be out of phase.
@@ -123,7 +110,7 @@ class Fitter {
     const int least = half + e.keep_off();
     if (u < least || v < least || u >= e.size().width - least || v >= e.size().height - least) return;
     if (ground_.level.phase.active() && ground_.level.phase.penalty(u, v, x, y) > 1) return;
-    places_.push_back(packed(u, v));
+    places_.add(packed(u, v));
   }
 
   /// How much the rim of a place differs from what the window's shows, dearer the more often the place is in use;
@@ -158,8 +145,7 @@ class Fitter {
   uint64_t seed_;
   std::vector<Offset> rim_;
   std::vector<const AppearanceVector*> shown_;  // by the rim
-  std::vector<uint32_t> places_;                // as often as they are suggested
-  std::vector<Suggested> by_votes_;
+  Suggestions places_;
   Expansion expansion_;
 };
 

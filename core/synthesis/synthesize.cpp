@@ -11,8 +11,9 @@
 #include "core/synthesis/alignment.h"
 #include "core/synthesis/correction.h"
 #include "core/synthesis/mending.h"
-#include "core/synthesis/pieces.h"
+#include "core/synthesis/piece_limits.h"
 #include "core/synthesis/placing.h"
+#include "core/synthesis/refilling.h"
 #include "core/synthesis/seams.h"
 
 namespace terrazzo {
@@ -80,21 +81,12 @@ constexpr int farthest_seam = 24;        // where bricks are longer than that
 constexpr int coarsest_mended = 3;       // at coarser ones it brings nothing
 constexpr int passes_after_mending[] = {2, 5};
 
-/// What is too large and too small for a piece.
-struct PieceLimits {
-  double large;     ///< of the exemplar
-  double fragment;  ///< of a large piece
-};
-constexpr PieceLimits irregular_pieces{0.12, 0.3};
-// With a lattice less is out of phase, so pieces grow more readily.
-constexpr PieceLimits pieces_on_lattice{0.055, 0.1};
-constexpr double most_coherence = 3;
 // Between kept pixels nothing is said about whole pieces; single ones hold together more instead.
 constexpr double coherence_between_kept = 0.75;
 // Nor where a target says what goes where: limited pieces fall apart into ever the same scrap that misses nothing of
 // it.
 constexpr double coherence_where_steered = 0.85;
-constexpr int finest_limited = 2;
+constexpr int finest_limited = 2;  // at finer levels pieces hardly grow
 // Rare features are won or lost at the coarsest levels. There pieces hold together more, and what is used too little
 // is made much cheaper; finer levels would break features for it.
 constexpr int landmark_levels = 2;
@@ -103,23 +95,6 @@ constexpr double least_landmark_factor = 0.5;
 constexpr double least_occupancy_factor = 0.75;
 constexpr int finest_even = 1;       // evenness has no say below this level,
 constexpr int finest_recounted = 2;  // and below this one it goes by what the level began with
-
-/// The larger a piece has become beyond a fair size, the less it pays to continue it, so that none comes back as a
-/// landmark. Fragments are dear as well: they give way to their neighbours, for there are fewer seams between a few
-/// pieces of a size than among many. Finer levels are left out: there pieces hardly grow.
-std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence,
-                                      bool regular) {
-  const Pieces pieces(field, 1, level.window.closed_x, level.window.closed_y);
-  const PieceLimits& limits = regular ? pieces_on_lattice : irregular_pieces;
-  const double fair = limits.large * double(level.exemplar.size().area());
-  std::vector<uint32_t> factors(field.pixels.size());
-  for (size_t i = 0; i < factors.size(); i++) {
-    const double size = pieces.area(pieces.of(int(i))) / fair;
-    const double dearness = size < limits.fragment ? 2 - size / limits.fragment : std::max(1.0, size);
-    factors[i] = uint32_t(std::min(most_coherence, coherence * dearness) * unit_factor);
-  }
-  return factors;
-}
 
 /// What all levels of a synthesis share.
 struct Shared {
@@ -178,13 +153,17 @@ class LevelWork {
   }
 
   /// Where the pixels of the next coarser level lead on this one.
-  Field starts(const Field& parent, const PlaneWindow& window) const {
+  Field starts(const Field& parent, const PlaneWindow& window) {
     Field starts =
         block_starts(parent, window, exemplar_, phase_, shared_.jitter(level_), shared_.options.seed, level_);
     const FixedPixels fixed = shared_.fixed(level_ + 1);
     if (fixed.any()) start_where_fixed(starts, fixed, window);
-    const std::vector<ExemplarPixel> none_similar;
-    const CorrectionLevel level = correction_level(window, none_similar, fixed);
+    const std::vector<ExemplarPixel> similar = refills() ? this->similar() : std::vector<ExemplarPixel>{};
+    const CorrectionLevel level = correction_level(window, similar, fixed);
+    if (refills()) {
+      occupancy_.recount(starts, fixed);
+      refill_pieces(starts, 2, level, occupancy_, random_bits(shared_.options.seed, Purpose::refilling), shared_.task);
+    }
     if (phase_.resolves_cells()) align_pieces(starts, 2, level, alignment_reach, shared_.task);
     if (moves_seams()) move_seams(starts, level, along_joints(), shared_.task);
     return starts;
@@ -204,8 +183,7 @@ class LevelWork {
 
   /// Makes the wanted columns and rows right.
   void correct(Field& field, const PlaneWindow& window, const Rect& wanted) {
-    const std::vector<ExemplarPixel> similar =
-        similar_pixels(shared_.index.levels()[level_], shared_.exemplar(level_).size);
+    const std::vector<ExemplarPixel> similar = this->similar();
     const CorrectionLevel level = correction_level(window, similar, fixed_);
     const Effort effort = this->effort();
     for (int pass = 0; pass < effort.passes; pass++) {
@@ -217,7 +195,7 @@ class LevelWork {
                          .wanted = grown(wanted, reach_of(effort.passes - 1 - pass))};
       if (mends(effort.passes - pass))
         mend_seams(field, level, occupancy_, random_bits(shared_.options.seed, Purpose::mending), shared_.task);
-      if (limits_pieces()) how.piece_coherence = piece_coherence(field, level, coherence(), regular());
+      if (limits_pieces()) how.piece_coherence = piece_coherence(field, level, coherence(), PieceLimits::of(regular()));
       terrazzo::correct(field, level, how, occupancy_, shared_.task);
       shared_.task.progress(std::pow(0.25, level_ - shared_.finest) * (pass + 1) / effort.passes);
     }
@@ -237,6 +215,10 @@ class LevelWork {
     if (control_) return full * coherence_where_steered;
     return limits_pieces() && shared_.places_landmarks(level_) ? full * landmark_coherence : full;
   }
+  /// Measured on exemplars without a lattice it brings nothing: pieces have other shapes by the time seams are done.
+  bool refills() const {
+    return level_ == seam_level && regular() && !control_ && shared_.options.quality != Quality::draft;
+  }
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
   bool moves_seams() const {
     return level_ <= seam_level && regular() && !control_ && shared_.options.quality != Quality::draft;
@@ -247,7 +229,7 @@ class LevelWork {
     return {.reach = level_ == seam_level ? std::clamp(int(half), seam_reaches[level_], farthest_seam)
                                           : seam_reaches[level_],
             .block = 2,
-            .fair_piece = pieces_on_lattice.large * double(exemplar_.size().area()) / 4};
+            .fair_piece = PieceLimits::of(true).large * double(exemplar_.size().area()) / 4};
   }
   bool mends(int passes_left) const {
     if (shared_.options.quality == Quality::draft) return false;
@@ -256,6 +238,9 @@ class LevelWork {
   }
   bool regular() const { return shared_.lattice.rank > 0; }
 
+  std::vector<ExemplarPixel> similar() const {
+    return similar_pixels(shared_.index.levels()[level_], shared_.exemplar(level_).size);
+  }
   static int reach_of(int passes) { return passes * sub_passes * correction_reach; }
 
   CorrectionLevel correction_level(const PlaneWindow& window, const std::vector<ExemplarPixel>& similar,
