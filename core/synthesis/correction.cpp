@@ -2,6 +2,8 @@
 #define HWY_TARGET_INCLUDE "core/synthesis/correction.cpp"
 #include "core/synthesis/correction.h"
 
+#include <array>
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 #include <tbb/parallel_for.h>
@@ -384,27 +386,7 @@ namespace {
 constexpr int tile_columns = 32;
 constexpr int tile_rows = 4;
 
-Window sorted_window(int radius) {
-  Window w;
-  for (int j = -radius; j <= radius; j++)
-    for (int i = -radius; i <= radius; i++)
-      if (i || j) w.push_back({i, j});
-  std::stable_sort(w.begin(), w.end(),
-                   [](const auto& a, const auto& b) { return a[0] * a[0] + a[1] * a[1] < b[0] * b[0] + b[1] * b[1]; });
-  return w;
-}
-
 }  // namespace
-
-const Window& full_window() {
-  static const Window window = sorted_window(2);
-  return window;
-}
-
-const Window& sparse_window() {
-  static const Window window = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}, {0, -2}, {0, 2}, {-2, 0}, {2, 0}};
-  return window;
-}
 
 void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, Occupancy& occupancy,
              const Task& task) {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/analysis/padded_level.h"
 #include "core/lattice.h"
+#include "core/synthesis/comparison_window.h"
 #include "core/synthesis/control.h"
 #include "core/synthesis/field.h"
 #include "core/synthesis/kept.h"
@@ -17,14 +17,6 @@ namespace terrazzo {
 
 /// Costs are multiplied by factors of 1/4096 (integers, so that every machine decides alike).
 inline constexpr uint32_t unit_factor = 4096;
-
-/// A comparison window: offsets of the pixels around an output pixel that are held against a candidate's surroundings,
-/// the most telling first.
-using Window = std::vector<std::array<int, 2>>;
-/// All 24 pixels of the 5x5 neighbourhood, nearest first.
-const Window& full_window();
-/// Eight pixels: the diagonal neighbours and those two steps away along the axes.
-const Window& sparse_window();
 
 /// How often each cell of the exemplar (it is divided into 16x16) is in use, as a factor on the cost of using it once
 /// more: above 1 where use exceeds an even share, and once all of the cell, below 1 where it falls short of it.
