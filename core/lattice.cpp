@@ -41,8 +41,7 @@ double Lattice::longest_step() const {
     b = std::abs(b);
     return std::min(a, b) >= least ? std::min(a, b) : std::max(a, b);
   };
-  const double area = std::abs(first.x * second.y - first.y * second.x);
-  return area / std::max(least, std::min(nearer(first.x, second.x), nearer(first.y, second.y)));
+  return cell_area() / std::max(least, std::min(nearer(first.x, second.x), nearer(first.y, second.y)));
 }
 
 Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {

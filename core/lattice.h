@@ -27,10 +27,12 @@ struct Lattice {
   Vector2 second;
   double certainty = 0;  ///< how much repeats exceed chance, 0..1
 
+  /// Of a cell of rank 2, in square pixels.
+  double cell_area() const { return std::abs(first.x * second.y - first.y * second.x); }
   /// Whether the vectors can carry a lattice of this rank.
   bool is_valid() const {
     if (rank == 1) return (first.x == 0) != (first.y == 0);
-    return rank == 0 || (rank == 2 && std::abs(first.x * second.y - first.y * second.x) >= 1);
+    return rank == 0 || (rank == 2 && cell_area() >= 1);
   }
   /// Of rank 2: how far along x or y, the farther of the two, it comes back: the length of a brick in its course.
   double longest_step() const;

@@ -56,8 +56,7 @@ Lattice bond_of(const ExemplarPlanes& planes, const Lattice& bands, const Task& 
     if (std::abs(across / breadth - steps) > most_off || std::abs(steps) > most_bands) return bands;
     across = steps * breadth;
   }
-  const double area = std::abs(out.first.x * out.second.y - out.first.y * out.second.x);
-  return area * fewest_cells <= double(planes.size.area()) && out.is_valid() ? out : bands;
+  return out.cell_area() * fewest_cells <= double(planes.size.area()) && out.is_valid() ? out : bands;
 }
 
 }  // namespace terrazzo

@@ -20,10 +20,6 @@ constexpr int smallest_side = 16;  // less has no room for repeats
 constexpr double smallest_cell = 7.5;
 constexpr double least_distinct = 0.15;  // from here on cells say more than the bands they lie in
 
-double area(const Lattice& l) {
-  return std::abs(l.first.x * l.second.y - l.second.x * l.first.y);
-}
-
 Lattice two_by_two(const Lattice& l, const Features& features) {
   Lattice out = l;
   for (Vector2 Lattice::*v : {&Lattice::first, &Lattice::second}) {
@@ -88,7 +84,7 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
   if (best.rank == 0) return {best, too_few};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
   best = best.fitted(features.size(), features.wraps(), features.wraps());
-  if (best.rank == 2 && area(best) < smallest_cell * smallest_cell) best = two_by_two(best, features);
+  if (best.rank == 2 && best.cell_area() < smallest_cell * smallest_cell) best = two_by_two(best, features);
   return {best, too_few};
 }
 
