@@ -1,5 +1,7 @@
 #include "core/synthesis/piece_seams.h"
 
+#include <algorithm>
+
 namespace terrazzo {
 
 bool PieceGround::is_fixed(int piece) const {

@@ -158,8 +158,8 @@ class LevelWork {
         block_starts(parent, window, exemplar_, phase_, shared_.jitter(level_), shared_.options.seed, level_);
     const FixedPixels fixed = shared_.fixed(level_ + 1);
     if (fixed.any()) start_where_fixed(starts, fixed, window);
-    const std::vector<ExemplarPixel> similar = refills() ? this->similar() : std::vector<ExemplarPixel>{};
-    const CorrectionLevel level = correction_level(window, similar, fixed);
+    if (refills()) find_similar();
+    const CorrectionLevel level = correction_level(window, similar_, fixed);
     if (refills()) {
       occupancy_.recount(starts, fixed);
       refill_pieces(starts, 2, level, occupancy_, random_bits(shared_.options.seed, Purpose::refilling), shared_.task);
@@ -183,8 +183,8 @@ class LevelWork {
 
   /// Makes the wanted columns and rows right.
   void correct(Field& field, const PlaneWindow& window, const Rect& wanted) {
-    const std::vector<ExemplarPixel> similar = this->similar();
-    const CorrectionLevel level = correction_level(window, similar, fixed_);
+    find_similar();
+    const CorrectionLevel level = correction_level(window, similar_, fixed_);
     const Effort effort = this->effort();
     for (int pass = 0; pass < effort.passes; pass++) {
       CorrectionPass how{.window = effort.window,
@@ -215,14 +215,12 @@ class LevelWork {
     if (control_) return full * coherence_where_steered;
     return limits_pieces() && shared_.places_landmarks(level_) ? full * landmark_coherence : full;
   }
-  /// Measured on exemplars without a lattice it brings nothing: pieces have other shapes by the time seams are done.
-  bool refills() const {
-    return level_ == seam_level && regular() && !control_ && shared_.options.quality != Quality::draft;
-  }
   /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
   bool moves_seams() const {
     return level_ <= seam_level && regular() && !control_ && shared_.options.quality != Quality::draft;
   }
+  /// The first time that seams move. Measured on exemplars without a lattice this brings nothing either.
+  bool refills() const { return level_ == seam_level && moves_seams(); }
   /// Of blocks of two by two pixels.
   SeamMoves along_joints() const {
     const double half = shared_.lattice.longest_step() / 2 / double(int64_t{2} << level_);
@@ -238,8 +236,9 @@ class LevelWork {
   }
   bool regular() const { return shared_.lattice.rank > 0; }
 
-  std::vector<ExemplarPixel> similar() const {
-    return similar_pixels(shared_.index.levels()[level_], shared_.exemplar(level_).size);
+  /// Not of a level that only begins: it may be large.
+  void find_similar() {
+    if (similar_.empty()) similar_ = similar_pixels(shared_.index.levels()[level_], shared_.exemplar(level_).size);
   }
   static int reach_of(int passes) { return passes * sub_passes * correction_reach; }
 
@@ -264,6 +263,7 @@ class LevelWork {
   FixedPixels fixed_;
   std::unique_ptr<const LevelControl> control_;
   Occupancy occupancy_;
+  std::vector<ExemplarPixel> similar_;  // once it is asked for
 };
 
 /// The finest level that is worked out for the plane as a whole.

@@ -7,19 +7,15 @@
 
 #include "core/hash.h"
 #include "core/synthesis/pieces.h"
+#include "tests/core/synthesis/noise.h"
 
 using namespace terrazzo;
+using test::noise;
 
 namespace {
 
 constexpr Size side{64, 48};
 constexpr int again = 32;  // columns: the exemplar's right half is the left one again, but for every eighth pixel
-
-AppearanceVector noise(int x, int y) {
-  AppearanceVector v{};
-  for (int d = 0; d < appearance_dimensions; d++) v[d] = int16_t(below(uint32_t(random_bits(7, x, y, d)), 2000)) - 1000;
-  return v;
-}
 
 PaddedLevel exemplar_seen_twice() {
   AppearanceLevel level;

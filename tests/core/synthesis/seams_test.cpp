@@ -6,19 +6,15 @@
 
 #include "core/hash.h"
 #include "core/synthesis/pieces.h"
+#include "tests/core/synthesis/noise.h"
 
 using namespace terrazzo;
+using test::noise;
 
 namespace {
 
 constexpr Size side{64, 32};
 constexpr int agree = 20;  // the exemplar's columns 16 to 20 come again 12 columns further on
-
-AppearanceVector noise(int x, int y) {
-  AppearanceVector v{};
-  for (int d = 0; d < appearance_dimensions; d++) v[d] = int16_t(below(uint32_t(random_bits(7, x, y, d)), 2000)) - 1000;
-  return v;
-}
 
 PaddedLevel exemplar_with_repeat() {
   AppearanceLevel level;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/appearance.h"
+#include "core/hash.h"
+
+namespace terrazzo::test {
+
+/// What an exemplar shows of which no two pixels are alike.
+inline AppearanceVector noise(int x, int y) {
+  AppearanceVector v{};
+  for (int d = 0; d < appearance_dimensions; d++) v[d] = int16_t(below(uint32_t(random_bits(7, x, y, d)), 2000)) - 1000;
+  return v;
+}
+
+}  // namespace terrazzo::test
