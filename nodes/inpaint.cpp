@@ -52,7 +52,7 @@ void compute(NodeContext& node) {
 NodeType inpaint_node() {
   NodeType t;
   t.name = "inpaint";
-  t.version = 10;
+  t.version = 11;
   t.category = "synthesis";
   t.summary = "Fills holes and keeps the rest pixel by pixel";
   t.help =

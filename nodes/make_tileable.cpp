@@ -71,7 +71,7 @@ void compute(NodeContext& node) {
 NodeType make_tileable_node() {
   NodeType t;
   t.name = "make_tileable";
-  t.version = 11;
+  t.version = 12;
   t.category = "synthesis";
   t.summary = "Keeps an exemplar's interior and makes its border wrap";
   t.help =

@@ -23,8 +23,12 @@ constexpr double most_pressure = 3;
 
 class SeamMover {
  public:
-  SeamMover(ExpansionGround& ground, const Field& before, int reach)
-      : ground_(ground), before_(before), reach_(reach), expansion_(ground) {}
+  SeamMover(ExpansionGround& ground, const Field& before, const SeamMoves& moves)
+      : ground_(ground),
+        before_(before),
+        reach_(moves.reach),
+        stay_(int32_t(moves.stay * mismatch_unit)),
+        expansion_(ground) {}
 
   /// Offers what is left of the piece to the pixels in its reach, under that pressure.
   void spread(std::span<const int> piece, int32_t pressure) {
@@ -41,7 +45,7 @@ class SeamMover {
           const int64_t n = beside(from.pixel, side);
           if (n < 0) continue;
           Reached reached{int(n), from.shown};
-          if (step(reached.shown, side) && expansion_.offer(reached.pixel, reached.shown, pressure))
+          if (step(reached.shown, side) && expansion_.offer(reached.pixel, reached.shown, pressure + (r + 1) * stay_))
             next.push_back(reached);
         }
       rim.swap(next);
@@ -72,6 +76,7 @@ class SeamMover {
   ExpansionGround& ground_;
   const Field& before_;
   int reach_;
+  int32_t stay_;
   Expansion expansion_;
 };
 
@@ -96,7 +101,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
   ExpansionGround ground(field, level, moves.block, true);
   ground.pressure.resize(field.pixels.size());
   for (size_t i = 0; i < field.pixels.size(); i++) ground.pressure[i] = pressure[size_t(pieces.of(int(i)))];
-  tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(ground, before, moves.reach); });
+  tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(ground, before, moves); });
   for (const std::vector<int>& round : rounds.all())
     tbb::parallel_for(0, int(round.size()), [&](int i) {
       task.check();

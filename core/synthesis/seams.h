@@ -7,6 +7,9 @@ namespace terrazzo {
 /// How seams move.
 struct SeamMoves {
   int reach = 8;  ///< by how many pixels of the field a piece may spread
+  /// What it costs a pixel to go over to a piece, for each pixel between it and that piece, in units of appearance
+  /// space. Seams go far only to a joint, and to either side alike, so that pieces do not grow by it.
+  double stay = 0;
   /// A pixel of the field stands for `block` x `block` pixels of the level, which continue the exemplar pixel it names.
   int block = 1;
   /// If above 0, to be of a piece costs each of its pixels the more the larger the piece is, so that large pieces do

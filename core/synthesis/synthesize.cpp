@@ -76,9 +76,12 @@ Effort effort_at(int level, Quality quality, bool between_kept, bool coarsest) {
 constexpr int alignment_reach = 2;
 // Seams move from the finest level on which pieces still change as wholes down to the one that sees joints best.
 constexpr int seam_level = 1;
-constexpr int seam_reaches[] = {8, 10};  // pixels of the next coarser level, by level
-constexpr int farthest_seam = 24;        // where bricks are longer than that
-constexpr int coarsest_mended = 3;       // at coarser ones it brings nothing
+// By level, in pixels of the next coarser one: seams reach half a brick. Courses do not tell how long bricks are.
+constexpr int seam_reaches[] = {4, 10};
+constexpr int farthest_seam = 24;
+constexpr int seam_along_courses = 20;
+constexpr double seam_stays[] = {32, 8};
+constexpr int coarsest_mended = 3;  // at coarser ones it brings nothing
 constexpr int passes_after_mending[] = {2, 5};
 
 // Between kept pixels nothing is said about whole pieces; single ones hold together more instead.
@@ -224,8 +227,10 @@ class LevelWork {
   /// Of blocks of two by two pixels.
   SeamMoves along_joints() const {
     const double half = shared_.lattice.longest_step() / 2 / double(int64_t{2} << level_);
-    return {.reach = level_ == seam_level ? std::clamp(int(half), seam_reaches[level_], farthest_seam)
-                                          : seam_reaches[level_],
+    const int to_joints =
+        shared_.lattice.rank == 1 ? seam_along_courses : std::clamp(int(half), seam_reaches[level_], farthest_seam);
+    return {.reach = level_ == seam_level ? to_joints : seam_reaches[level_],
+            .stay = seam_stays[level_],
             .block = 2,
             .fair_piece = PieceLimits::of(true).large * double(exemplar_.size().area()) / 4};
   }

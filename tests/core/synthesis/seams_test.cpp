@@ -134,25 +134,39 @@ TEST_CASE("seams leave the middles of tiles for their joints") {
   CHECK(Pieces(field, 2).count() == 2);
 }
 
-TEST_CASE("a large piece swallows a small one, unless to be large costs it") {
+TEST_CASE("to be far from its piece costs a pixel: seams go to a joint all the same, but stay if that costs too much") {
+  const std::vector<ExemplarPixel> none;
+  const PaddedLevel exemplar = tiled_exemplar();
+  Field field = meeting_in_tiles();
+  const Field before = field;
+  move_seams(field, level_of(exemplar, none), {.reach = 8, .stay = 8, .block = 2}, Task());
+  CHECK(blocks_of_other_tiles(field) == 0);
+
+  field = before;
+  move_seams(field, level_of(exemplar, none), {.reach = 8, .stay = 4000, .block = 2}, Task());
+  CHECK(field.pixels == before.pixels);
+}
+
+TEST_CASE("a large piece swallows a small one, unless to be large or far from it costs that") {
   const std::vector<ExemplarPixel> none;
   AppearanceLevel level;
   level.size = {96, 64};
   for (int i = 0; i < level.size.area(); i++) level.vectors.push_back({int16_t(below(uint32_t(random_bits(8, i)), 4))});
   const PaddedLevel plain(level, false);
-  const auto left_of_small = [&](double fair) {
+  const auto left_of_small = [&](double fair, double stay) {
     Field field{{30, 20}, {}};
     for (int y = 0; y < 20; y++)
       for (int x = 0; x < 30; x++) {
         const bool small = x >= 12 && x < 18 && y >= 7 && y < 13;
         field.pixels.push_back({uint16_t(4 + 2 * x + (small ? 25 : 0)), uint16_t(4 + 2 * y)});
       }
-    move_seams(field, level_of(plain, none), {.reach = 8, .block = 2, .fair_piece = fair}, Task());
+    move_seams(field, level_of(plain, none), {.reach = 8, .stay = stay, .block = 2, .fair_piece = fair}, Task());
     int left = 0;
     for (int y = 0; y < 20; y++)
       for (int x = 0; x < 30; x++) left += field.at(x, y).x != 4 + 2 * x;
     return left;
   };
-  CHECK(left_of_small(0) == 0);
-  CHECK(left_of_small(50) >= 36);
+  CHECK(left_of_small(0, 0) == 0);
+  CHECK(left_of_small(50, 0) >= 36);
+  CHECK(left_of_small(0, 8) == 36);
 }
