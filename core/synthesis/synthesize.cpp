@@ -76,12 +76,13 @@ Effort effort_at(int level, Quality quality, bool between_kept, bool coarsest) {
 constexpr int alignment_reach = 2;
 // Seams move from the finest level on which pieces still change as wholes down to the one that sees joints best.
 constexpr int seam_level = 1;
-// By level, in pixels of the next coarser one: seams reach half a brick. Courses do not tell how long bricks are.
-constexpr int seam_reaches[] = {4, 10};
-constexpr int farthest_seam = 24;
-constexpr int seam_along_courses = 20;
-constexpr double seam_stays[] = {32, 8};
-constexpr int coarsest_mended = 3;  // at coarser ones it brings nothing
+// At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
+// brick away. Courses do not tell how long bricks are.
+constexpr SeamMoves to_the_pixel{.reach = 4, .stay = 32};
+constexpr SeamMoves along_courses{.reach = 20, .stay = 8};
+constexpr int nearest_joint = 10, farthest_joint = 24;
+constexpr double stay_by_joint = 4;  // where the joint is as near as that, less where it is farther
+constexpr int coarsest_mended = 3;   // at coarser ones it brings nothing
 constexpr int passes_after_mending[] = {2, 5};
 
 // Between kept pixels nothing is said about whole pieces; single ones hold together more instead.
@@ -168,7 +169,7 @@ class LevelWork {
       refill_pieces(starts, 2, level, occupancy_, random_bits(shared_.options.seed, Purpose::refilling), shared_.task);
     }
     if (phase_.resolves_cells()) align_pieces(starts, 2, level, alignment_reach, shared_.task);
-    if (moves_seams()) move_seams(starts, level, along_joints(), shared_.task);
+    if (moves_seams()) move_seams(starts, level, to_joints(), shared_.task);
     return starts;
   }
 
@@ -225,14 +226,16 @@ class LevelWork {
   /// The first time that seams move. Measured on exemplars without a lattice this brings nothing either.
   bool refills() const { return level_ == seam_level && moves_seams(); }
   /// Of blocks of two by two pixels.
-  SeamMoves along_joints() const {
-    const double half = shared_.lattice.longest_step() / 2 / double(int64_t{2} << level_);
-    const int to_joints =
-        shared_.lattice.rank == 1 ? seam_along_courses : std::clamp(int(half), seam_reaches[level_], farthest_seam);
-    return {.reach = level_ == seam_level ? to_joints : seam_reaches[level_],
-            .stay = seam_stays[level_],
-            .block = 2,
-            .fair_piece = PieceLimits::of(true).large * double(exemplar_.size().area()) / 4};
+  SeamMoves to_joints() const {
+    SeamMoves moves = level_ < seam_level ? to_the_pixel : along_courses;
+    if (level_ == seam_level && shared_.lattice.rank > 1) {
+      const double half = shared_.lattice.longest_step() / 2 / double(int64_t{2} << level_);
+      moves.reach = std::clamp(int(half), nearest_joint, farthest_joint);
+      moves.stay = stay_by_joint * nearest_joint / moves.reach;
+    }
+    moves.block = 2;
+    moves.fair_piece = PieceLimits::of(true).large * double(exemplar_.size().area()) / 4;
+    return moves;
   }
   bool mends(int passes_left) const {
     if (shared_.options.quality == Quality::draft) return false;
