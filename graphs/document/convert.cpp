@@ -168,8 +168,14 @@ class Reader {
 
   std::optional<Numbers> numbers(const JsonValue& v) {
     if (v.is_list() && !count_is_right(v)) return std::nullopt;
-    if (!v.is_list() && param_.min_count > 1) return wrong(v);
+    if (!v.is_list() && (v.is_text() || param_.min_count > 1)) return wrong(v, brackets(v));
     return number_list(v, expectation(param_));
+  }
+  /// What is typed as 200,300 lacks but its brackets.
+  static std::string brackets(const JsonValue& v) {
+    const bool lacks_them = v.is_text() && v.text.find(',') != std::string::npos &&
+                            v.text.find_first_not_of("0123456789.,-+ ") == std::string::npos;
+    return lacks_them ? fmt::format("; write [{}]", v.text) : "";
   }
 
   std::optional<Texts> texts(const JsonValue& v) {
