@@ -30,7 +30,7 @@ class SeamMover {
         stay_(int32_t(moves.stay * mismatch_unit)),
         expansion_(ground) {}
 
-  /// Offers what is left of the piece to the pixels in its reach, under that pressure.
+  /// Offers what is left of the piece to the pixels in its reach, under that pressure and more with every pixel away.
   void spread(std::span<const int> piece, int32_t pressure) {
     std::vector<Reached> rim, next;
     for (const int i : piece) {

@@ -244,7 +244,7 @@ class LevelWork {
   }
   bool regular() const { return shared_.lattice.rank > 0; }
 
-  /// Not of a level that only begins: it may be large.
+  /// Only when asked for: where a level merely begins none are needed, and they may be many.
   void find_similar() {
     if (similar_.empty()) similar_ = similar_pixels(shared_.index.levels()[level_], shared_.exemplar(level_).size);
   }
