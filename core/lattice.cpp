@@ -22,12 +22,27 @@ constexpr double least_shear = 1;
 constexpr double looseness = 1.0 / 12;
 constexpr double certainty_counts = 2.0 / 3;
 
-/// Whether the exemplar comes back to itself `length` pixels further along x or y, to `precision` pixels along the
-/// axis.
-bool comes_back(const LatticePhase& phase, int length, bool along_x, double precision) {
-  const Vector2 e = phase.excess(along_x ? length : 0, along_x ? 0 : length, 0, 0);
-  const double along = std::abs(along_x ? e.x : e.y), across = std::abs(along_x ? e.y : e.x);
-  return along <= precision && across <= std::max(least_shear, most_shear * length);
+// Of sizes that wrap: a side that is half as long again is as bad as cells bent by a quarter.
+constexpr double bending_weight = 2;
+constexpr double most_bent = 0.15;
+
+double length_of(const Vector2& v) {
+  return std::sqrt(v.x * v.x + v.y * v.y);
+}
+
+/// The length of a side, near `length`, that wraps best.
+int best_side(const Lattice& lattice, int length, bool along_x, int give) {
+  int best = length;
+  double least = std::numeric_limits<double>::max();
+  for (int n = length / 2 + 1; n <= length + length / 8; n++) {
+    const double bent = length_of(lattice.misfit(n, along_x)) / (give + std::max(0, n - length));
+    if (bent > most_bent && n != length) continue;
+    const double badness = std::abs(std::log(double(n) / length)) + bending_weight * bent;
+    if (badness >= least) continue;
+    least = badness;
+    best = n;
+  }
+  return best;
 }
 
 }  // namespace
@@ -69,25 +84,39 @@ Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
 }
 
 bool Lattice::fits(Size size, bool wraps_x, bool wraps_y, double precision) const {
-  const LatticePhase phase(*this, 0, size, false, false);
-  if (!phase.active()) return true;
-  return (!wraps_x || comes_back(phase, size.width, true, precision)) &&
-         (!wraps_y || comes_back(phase, size.height, false, precision));
+  const auto comes_back = [&](int length, bool along_x) {
+    const Vector2 e = misfit(length, along_x);
+    const double along = std::abs(along_x ? e.x : e.y), across = std::abs(along_x ? e.y : e.x);
+    return along <= precision && across <= std::max(least_shear, most_shear * length);
+  };
+  return (!wraps_x || comes_back(size.width, true)) && (!wraps_y || comes_back(size.height, false));
 }
 
-std::optional<Size> Lattice::largest_fitting(Size size, bool wraps_x, bool wraps_y) const {
-  const LatticePhase phase(*this, 0, size, false, false);
-  const auto shorten = [&](int& side, bool along_x) {
-    for (int n = side; 2 * n > side; n--)
-      if (comes_back(phase, n, along_x, 0.5)) {
-        side = n;
-        return true;
-      }
-    return false;
-  };
-  if (phase.active() && ((wraps_x && !shorten(size.width, true)) || (wraps_y && !shorten(size.height, false))))
-    return {};
-  return size;
+Vector2 Lattice::misfit(int length, bool along_x) const {
+  if (rank == 0) return {};
+  const double x = along_x ? length : 0, y = along_x ? 0 : length;
+  const auto part = [](double cells) { return cells - std::floor(cells + 0.5); };
+  if (rank == 1)
+    return first.x != 0 ? Vector2{first.x * part(x / first.x), 0} : Vector2{0, first.y * part(y / first.y)};
+  const double d = 1.0 / (first.x * second.y - first.y * second.x);
+  const double i = part((second.y * x - second.x * y) * d), j = part((first.x * y - first.y * x) * d);
+  // In a skewed cell the nearest corner need not be the one that both parts round to.
+  Vector2 least{};
+  double shortest = std::numeric_limits<double>::max();
+  for (const double p : {i, i - std::copysign(1, i)})
+    for (const double q : {j, j - std::copysign(1, j)}) {
+      const Vector2 v{first.x * p + second.x * q, first.y * p + second.y * q};
+      if (length_of(v) >= shortest) continue;
+      shortest = length_of(v);
+      least = v;
+    }
+  return least;
+}
+
+Size Lattice::best_fitting(Size size, bool wraps_x, bool wraps_y, Size give) const {
+  if (rank == 0) return size;
+  return {wraps_x ? best_side(*this, size.width, true, give.width) : size.width,
+          wraps_y ? best_side(*this, size.height, false, give.height) : size.height};
 }
 
 LatticePhase::Matrix LatticePhase::to_cells(const Lattice& l, double scale) {
@@ -98,7 +127,7 @@ LatticePhase::Matrix LatticePhase::to_cells(const Lattice& l, double scale) {
 }
 
 LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y,
-                           const Vector2& origin)
+                           const Vector2& origin, const LatticeGaps& gaps)
     : rank_(lattice.rank) {
   if (rank_ == 0) return;
   const double scale = 1.0 / double(int64_t{1} << level);
@@ -114,10 +143,32 @@ LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool 
   const double tolerance = std::clamp(loose, rounding, 1.0);
   stiffness_ = 1 / (tolerance * tolerance);
   to_exemplar_ = to_cells(lattice, scale);
-  to_output_ = to_cells(lattice.fitted(output, tile_x, tile_y), scale);
+  const bool bends_x = tile_x && gaps.x.length > 0, bends_y = tile_y && gaps.y.length > 0;
+  to_output_ = to_cells(lattice.fitted(output, tile_x && !bends_x, tile_y && !bends_y), scale);
   const double x = origin.x * scale, y = origin.y * scale;
   origin_ = {to_output_.xx * x + to_output_.xy * y, to_output_.yx * x + to_output_.yy * y};
+  if (bends_x || bends_y) {
+    bent_x_ = bent(output.width, lattice.misfit(output.width, true), level, bends_x ? gaps.x : LatticeGap{});
+    bent_y_ = bent(output.height, lattice.misfit(output.height, false), level, bends_y ? gaps.y : LatticeGap{});
+  }
   if (active() && !resolves_cells_) find_promising_steps();
+}
+
+std::vector<Vector2> LatticePhase::bent(int length, const Vector2& misfit, int level, const LatticeGap& gap) const {
+  const double scale = double(int64_t{1} << level);
+  std::vector<Vector2> out(size_t(length / scale) + 2);
+  if (gap.length <= 0) return out;
+  const Vector2 missing{to_output_.xx * misfit.x / scale + to_output_.xy * misfit.y / scale,
+                        to_output_.yx * misfit.x / scale + to_output_.yy * misfit.y / scale};
+  for (size_t at = 0; at < out.size(); at++) {
+    const double x = double(at) * scale;
+    const double before = gap.begin + gap.length - length;  // the part of the gap that lies on the far side
+    const double part = x < before       ? 1 - (x + length - gap.begin) / gap.length
+                        : x >= gap.begin ? -std::min(1.0, (x - gap.begin) / gap.length)
+                                         : 0;
+    out[at] = {-missing.x * part, -missing.y * part};
+  }
+  return out;
 }
 
 /// How much the end of a step is out of phase, at least and at most, is known of all starts in a bin at once: it is

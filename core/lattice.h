@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "core/geometry.h"
@@ -42,11 +41,25 @@ struct Lattice {
   /// along the axis, and across it with a shear too small to see.
   bool fits(Size size, bool wraps_x, bool wraps_y, double precision = 1) const;
 
-  /// The largest size within `size`, and over half of it, that fits, to half a pixel along each axis in which it wraps;
-  /// none if there is no such size.
-  std::optional<Size> largest_fitting(Size size, bool wraps_x, bool wraps_y) const;
+  /// By how many pixels a surface that wraps after `length` pixels along x or y misses a whole number of cells. Rank 1
+  /// misses nothing along its bands.
+  Vector2 misfit(int length, bool along_x) const;
+  /// The size near `size`, over half of it and at most an eighth larger, which wraps best along those axes: a size far
+  /// off is weighed against cells that must be bent. They are bent within `give`, pixels along each side, and what a
+  /// side grows by.
+  Size best_fitting(Size size, bool wraps_x, bool wraps_y, Size give) const;
 
   void add_to(Hasher& h) const { h.add(rank).add(first.x).add(first.y).add(second.x).add(second.y).add(certainty); }
+};
+
+/// Where along an axis in which a surface wraps around a lattice bends until the surface holds a whole number of cells:
+/// `length` pixels of the finest level from `begin` on, around the border. Elsewhere it stays as it is.
+struct LatticeGap {
+  double begin = 0;
+  double length = 0;  ///< 0: it does not bend
+};
+struct LatticeGaps {
+  LatticeGap x, y;
 };
 
 /// Tells whether exemplar positions are in phase with output positions, at the scale of one pyramid level: whether both
@@ -57,8 +70,9 @@ class LatticePhase {
   /// `level`: 0 = the finest. `output`: the result's size at the finest level. A result that wraps around must hold a
   /// whole number of cells: its lattice is stretched until it does. Inactive where a pixel has become larger than
   /// two cells. `origin`: the output position, at the finest level, at which the exemplar's (0, 0) is in
-  /// phase.
-  LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y, const Vector2& origin = {});
+  /// phase. `gaps`: along which of the axes in which it wraps the lattice is bent instead, and where.
+  LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y, const Vector2& origin = {},
+               const LatticeGaps& gaps = {});
 
   bool active() const { return rank_ > 0; }
   /// Whether a cell is large enough to tell places within it apart. Where it is not, positions can still be in phase:
@@ -100,9 +114,16 @@ class LatticePhase {
 
   /// By how many cells, in each direction, the exemplar position (u, v) is too far on for the output position (x, y).
   Vector2 cells(int u, int v, int x, int y) const {
-    return {to_exemplar_.xx * u + to_exemplar_.xy * v - to_output_.xx * x - to_output_.xy * y + origin_.x,
-            to_exemplar_.yx * u + to_exemplar_.yy * v - to_output_.yx * x - to_output_.yy * y + origin_.y};
+    const Vector2 straight{
+        to_exemplar_.xx * u + to_exemplar_.xy * v - to_output_.xx * x - to_output_.xy * y + origin_.x,
+        to_exemplar_.yx * u + to_exemplar_.yy * v - to_output_.yx * x - to_output_.yy * y + origin_.y};
+    if (bent_x_.empty()) return straight;
+    const Vector2 &bx = bent_x_[size_t(x)], &by = bent_y_[size_t(y)];
+    return {straight.x + bx.x + by.x, straight.y + bx.y + by.y};
   }
+  /// What bending adds to cells() at each of the level's pixels along x or y, an axis of `length` pixels of the finest
+  /// level on which the lattice misses whole cells by `misfit`.
+  std::vector<Vector2> bent(int length, const Vector2& misfit, int level, const LatticeGap& gap) const;
   /// What it costs to take a step: of several positions in phase the nearest is the best.
   static double cost(double penalty, int dx, int dy) { return penalty + 0.001 * (dx * dx + dy * dy); }
 
@@ -140,7 +161,8 @@ class LatticePhase {
   Vector2 first_, second_;
   Matrix to_exemplar_;  // pixels to cells; for rank 1 its second row is 0
   Matrix to_output_;
-  Vector2 origin_;  // in cells of the output
+  Vector2 origin_;                        // in cells of the output
+  std::vector<Vector2> bent_x_, bent_y_;  // both empty where nothing bends
   // Where cells are not resolved, which steps may be the cheapest, by where in a cell they start: `bins` to a row.
   std::vector<uint64_t> promising_;
 };

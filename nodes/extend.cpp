@@ -18,7 +18,7 @@ KeptPixels placed(const UvMap& uv, Size size, std::array<int, 2> at) {
   for (int y = 0; y < uv.size().height; y++)
     for (int x = 0; x < uv.size().width; x++) {
       const size_t to = size_t(y + at[1]) * size.width + size_t(x + at[0]);
-      kept.keep[to] = 1;
+      kept.keep[to] = Keep::always;
       kept.pixels[to] = uv.at(x, y);
     }
   return kept;
@@ -57,7 +57,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType extend_node() {
   NodeType t;
   t.name = "extend";
-  t.version = 11;
+  t.version = 12;
   t.category = "synthesis";
   t.summary = "Grows an existing result, keeping its pixels";
   t.help =

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/analysis/distance_transform.h"
 #include "core/error.h"
 #include "core/image_ops.h"
 #include "core/synthesis/kept.h"
@@ -10,13 +11,18 @@ namespace terrazzo {
 namespace {
 
 /// What is there: the pixels of `uv`, or the exemplar itself, outside the holes.
-KeptPixels outside_holes(const UvMap* uv, const ImagePtr& holes, Size size) {
-  KeptPixels kept;
-  kept.keep.reserve(size_t(size.area()));
-  kept.pixels.reserve(size_t(size.area()));
+KeptPixels outside_holes(const UvMap* uv, const ImagePtr& holes, Size size, double margin) {
+  std::vector<uint8_t> hole;
+  hole.reserve(size_t(size.area()));
   for_each_strip(*nearest_at_size(holes, size), [&](const Rect& r, const float* v) {
-    for (int64_t i = 0; i < r.area(); i++) kept.keep.push_back(!(v[i * holes->channels()] > 0.5f));
+    for (int64_t i = 0; i < r.area(); i++) hole.push_back(v[i * holes->channels()] > 0.5f);
   });
+  const std::vector<int64_t> squared = squared_distances(hole, size, false);
+  KeptPixels kept;
+  kept.keep.reserve(hole.size());
+  kept.pixels.reserve(hole.size());
+  for (size_t i = 0; i < hole.size(); i++)
+    kept.keep.push_back(hole[i] ? Keep::never : double(squared[i]) <= margin * margin ? Keep::at_first : Keep::always);
   if (uv) {
     kept.pixels = uv->pixels();
     return kept;
@@ -38,13 +44,17 @@ void compute(NodeContext& node) {
     options.tile_y |= uv->wraps().y;
   }
   require_shape("mask", *holes, uv ? "the uv map" : "the exemplar", options.size);
-  options.kept = outside_holes(uv.get(), holes, options.size);
-  const std::vector<uint8_t>& keep = options.kept.keep;
-  if (std::find(keep.begin(), keep.end(), 1) == keep.end())
+  const double margin = node.number("margin");
+  options.kept = outside_holes(uv.get(), holes, options.size,
+                               margin < 1 ? margin * std::min(options.size.width, options.size.height) : margin);
+  const std::vector<Keep>& keep = options.kept.keep;
+  if (std::ranges::all_of(keep, [](Keep k) { return k == Keep::never; }))
     throw Error("mask",
                 "the holes cover everything, so that nothing is kept; white (above 0.5) is filled and black stays. "
                 "Invert the mask (levels) if it is the other way round; for wholly new material use \"synthesize\"");
-  node.output("uv", synthesize(*index, options, node.task()));
+  const UvMapPtr filled = synthesize(*index, options, node.task());
+  node.output("filled", made_anew(*filled, options.kept));
+  node.output("uv", filled);
 }
 
 }  // namespace
@@ -52,16 +62,16 @@ void compute(NodeContext& node) {
 NodeType inpaint_node() {
   NodeType t;
   t.name = "inpaint";
-  t.version = 11;
+  t.version = 12;
   t.category = "synthesis";
   t.summary = "Fills holes and keeps the rest pixel by pixel";
   t.help =
-      "Every map is filled at once, through one uv map: pixels outside the holes stay exactly as they are, those "
-      "inside continue them with material from elsewhere in the exemplar. Without \"uv\" the exemplar itself is what "
+      "Every map is filled at once, through one uv map: pixels outside the holes and a margin around them stay exactly "
+      "as they are, those inside continue them with material from elsewhere in the exemplar. In the margin the seam "
+      "between old and new looks for its place, along joints and cracks. Without \"uv\" the exemplar itself is what "
       "is there; give weight the inverted mask then, so that nothing is taken out of the holes. With \"uv\" parts of "
-      "an earlier result are made anew, and it wraps as before. Where resolve_uv joins heights, those outside the "
-      "holes "
-      "stay if it is given what is there as `kept` and the mask as `holes`.";
+      "an earlier result are made anew, and it wraps as before. Where resolve_uv joins heights, those that are there "
+      "stay if it is given what is there as `kept` and `filled` as `holes`.";
   t.inputs = {index_port(),
               {.name = "mask",
                .type = ValueType::image,
@@ -71,8 +81,19 @@ NodeType inpaint_node() {
                .type = ValueType::uv_map,
                .help = "what is there; if not given, the exemplar as it is",
                .optional = true}};
-  t.outputs = {uv_output()};
-  t.params = with_synthesis_params({tileable_param()});
+  t.outputs = {uv_output(),
+               {.name = "filled", .type = ValueType::image, .help = "a mask: white where pixels are made anew"}};
+  t.params = with_synthesis_params(
+      {{.name = "margin",
+        .type = ParamType::number,
+        .fallback = 0.0625,
+        .help = "How far from a hole pixels may give way, so that its outline does not show: below 1 a part of the "
+                "shorter side, else pixels. Half a brick or tile suits walls and floors; 0 keeps every pixel outside "
+                "the holes.",
+        .min = 0,
+        .max = 32768,
+        .unit = "pixels or part of the side"},
+       tileable_param()});
   t.check = check_synthesis_params;
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {

@@ -12,6 +12,9 @@ namespace terrazzo {
 
 namespace {
 
+// How much repeats can be bent without a note.
+constexpr double unseen_bend = 0.03;
+
 /// The width of the border along a side of that length; 0 where the result need not wrap.
 int border_pixels(double border, int side, bool wraps) {
   if (!wraps) return 0;
@@ -23,47 +26,76 @@ int border_pixels(double border, int side, bool wraps) {
   return pixels;
 }
 
-KeptPixels interior(Size size, int border_x, int border_y) {
+/// The exemplar within a result of that size. Most of the border is kept at first, so that the seam between old and new
+/// does not run straight.
+KeptPixels interior(Size exemplar, Size result, Size border) {
+  const auto keep = [](int x, int side, int border) {
+    const int inside = std::min(x, side - 1 - x);
+    return inside >= border ? Keep::always : inside >= border / 4 ? Keep::at_first : Keep::never;
+  };
+  const Size shown{std::min(exemplar.width, result.width), std::min(exemplar.height, result.height)};
   KeptPixels kept;
-  kept.keep.reserve(size_t(size.area()));
-  kept.pixels.reserve(size_t(size.area()));
-  for (int y = 0; y < size.height; y++)
-    for (int x = 0; x < size.width; x++) {
-      kept.pixels.push_back({uint16_t(x), uint16_t(y)});
-      kept.keep.push_back(x >= border_x && x < size.width - border_x && y >= border_y && y < size.height - border_y);
+  kept.keep.reserve(size_t(result.area()));
+  kept.pixels.reserve(size_t(result.area()));
+  for (int y = 0; y < result.height; y++)
+    for (int x = 0; x < result.width; x++) {
+      kept.pixels.push_back({uint16_t(std::min(x, shown.width - 1)), uint16_t(std::min(y, shown.height - 1))});
+      kept.keep.push_back(std::min(keep(x, shown.width, border.width), keep(y, shown.height, border.height)));
     }
   return kept;
 }
 
-/// White where pixels are made anew.
-ImagePtr border_mask(const KeptPixels& kept, Size size) {
-  std::vector<float> mask;
-  for (const uint8_t keep : kept.keep) mask.push_back(keep ? 0.0f : 1.0f);
-  return Image::from_floats({.size = size, .semantic = Semantic::mask, .depth = Depth::u8}, std::move(mask));
+/// By how much, as a part of their length, repeats are bent within the border.
+double bent(const Lattice& lattice, const SynthesisOptions& options, const LatticeGaps& gaps) {
+  const auto along = [&](bool x, int side, double gap) {
+    const Vector2 v = lattice.misfit(side, x);
+    return gap > 0 ? std::sqrt(v.x * v.x + v.y * v.y) / gap : 0;
+  };
+  return std::max(options.tile_x ? along(true, options.size.width, gaps.x.length) : 0,
+                  options.tile_y ? along(false, options.size.height, gaps.y.length) : 0);
+}
+
+/// An exemplar that wraps around as it is.
+void leave(NodeContext& node, const Index& index) {
+  const Size size = index.appearance()->size();
+  node.note(
+      "the exemplar wraps around already and stays as it is; if its border is to be made anew, tell the nodes that "
+      "analyse it that it does not tile (\"tiles\")");
+  const KeptPixels kept = interior(size, size, {0, 0});
+  const UvMapPtr uv = UvMap::make(size, size, kept.pixels, {true, true, true});
+  node.output("border", made_anew(*uv, kept));
+  node.output("uv", uv);
 }
 
 void compute(NodeContext& node) {
   const auto index = node.input<Index>("index");
+  if (index->appearance()->wraps()) return leave(node, *index);
   SynthesisOptions options = synthesis_options(node, *index);
   const std::string& directions = node.text("directions");
   options.tile_x = directions != "y";
   options.tile_y = directions != "x";
+  const Size exemplar = index->appearance()->size();
+  const Size border{border_pixels(node.number("border"), exemplar.width, options.tile_x),
+                    border_pixels(node.number("border"), exemplar.height, options.tile_y)};
   const Lattice& lattice = index->appearance()->lattice();
-  if (node.text("fit") == "repeats")
-    options.size = lattice.largest_fitting(options.size, options.tile_x, options.tile_y).value_or(options.size);
-  if (const Size exemplar = index->appearance()->size(); options.size != exemplar)
+  const Size fitting =
+      lattice.best_fitting(exemplar, options.tile_x, options.tile_y, {2 * border.width, 2 * border.height});
+  if (node.text("fit") == "repeats") options.size = fitting;
+  options.kept = interior(exemplar, options.size, border);
+  if (options.size != exemplar)
     node.note(
         fmt::format("the exemplar of {} pixels repeats: the result has {}, so that it holds a whole number of "
-                    "repeats; set `fit` to \"size\" to keep {} and cut some repeats short",
+                    "repeats; set \"fit\" to \"size\" to keep {} and bend repeats in the border instead",
                     describe(exemplar), describe(options.size), describe(exemplar)));
-  const double border = node.number("border");
-  options.kept = interior(options.size, border_pixels(border, options.size.width, options.tile_x),
-                          border_pixels(border, options.size.height, options.tile_y));
-  if (!lattice.fits(options.size, options.tile_x, options.tile_y))
-    node.note(
-        "the result does not hold a whole number of the exemplar's repeats: some will be cut short in the border");
-  node.output("border", border_mask(options.kept, options.size));
-  node.output("uv", synthesize(*index, options, node.task()));
+  if (const double much = bent(lattice, options, options.kept.gaps(options.size)); much > unseen_bend)
+    node.note(fmt::format(
+        "to wrap around, repeats are bent by {:.0f} % in the border; a wider border bends them less{}", 100 * much,
+        options.size == fitting
+            ? ""
+            : fmt::format(", and so does \"fit\": \"repeats\", which makes the result {}", describe(fitting))));
+  const UvMapPtr uv = synthesize(*index, options, node.task());
+  node.output("border", made_anew(*uv, options.kept));
+  node.output("uv", uv);
 }
 
 }  // namespace
@@ -71,15 +103,15 @@ void compute(NodeContext& node) {
 NodeType make_tileable_node() {
   NodeType t;
   t.name = "make_tileable";
-  t.version = 12;
+  t.version = 13;
   t.category = "synthesis";
   t.summary = "Keeps an exemplar's interior and makes its border wrap";
   t.help =
-      "The result has the exemplar's size, or a little less where the exemplar repeats. Its interior stays exactly as "
-      "it is; a border is made anew from the "
-      "exemplar so that opposite sides, and all four corners, fit together in every map. resolve_uv shows it; where "
-      "that joins heights, those of the interior stay if it "
-      "is given the exemplar as `kept` and `border` as `holes`.";
+      "The result has the exemplar's size, or nearly so where the exemplar repeats. Its interior stays exactly as it "
+      "is; a border is made anew from the exemplar so that opposite sides, and all four corners, fit together in every "
+      "map. In the border the seam between old and new looks for its place, along joints and cracks. "
+      "An exemplar that tiles already stays as it is. resolve_uv shows the result; where that joins heights, those of "
+      "the interior stay if it is given the exemplar as `kept` and `border` as `holes`.";
   t.inputs = {index_port()};
   t.outputs = {uv_output(),
                {.name = "border", .type = ValueType::image, .help = "a mask: white where pixels are made anew"}};
@@ -100,9 +132,8 @@ NodeType make_tileable_node() {
       {.name = "fit",
        .type = ParamType::choice,
        .fallback = "repeats",
-       .help = "For exemplars that repeat: \"repeats\" makes the result the largest that holds a whole number of "
-               "repeats, if over half of the exemplar does, \"size\" keeps the exemplar's size and cuts some repeats "
-               "short.",
+       .help = "For exemplars that repeat: \"repeats\" makes the result a little smaller or larger, so that it holds a "
+               "whole number of repeats; \"size\" keeps the exemplar's size and bends repeats within the border.",
        .choices = {"repeats", "size"}},
   });
   t.check = check_synthesis_params;

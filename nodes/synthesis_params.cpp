@@ -161,9 +161,18 @@ void note_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
                              std::string_view consequence) {
   const Lattice& lattice = index.appearance()->lattice();
   if (lattice.fits(options.size, options.tile_x, options.tile_y)) return;
-  const std::optional<Size> would = lattice.largest_fitting(options.size, options.tile_x, options.tile_y);
-  node.note(fmt::format("{} does not hold a whole number of the exemplar's repeats, so that {}{}",
-                        describe(options.size), consequence, would ? fmt::format("; {} would", describe(*would)) : ""));
+  const Size would = lattice.best_fitting(options.size, options.tile_x, options.tile_y, options.size);
+  node.note(fmt::format(
+      "{} does not hold a whole number of the exemplar's repeats, so that {}{}", describe(options.size), consequence,
+      would != options.size ? fmt::format("; {} fits better", describe(would)) : "; no size near it fits better"));
+}
+
+ImagePtr made_anew(const UvMap& result, const KeptPixels& kept) {
+  std::vector<float> mask;
+  mask.reserve(kept.keep.size());
+  for (size_t i = 0; i < kept.keep.size(); i++)
+    mask.push_back(kept.keep[i] == Keep::never || result.pixels()[i] != kept.pixels[i] ? 1.0f : 0.0f);
+  return Image::from_floats({.size = result.size(), .semantic = Semantic::mask, .depth = Depth::u8}, std::move(mask));
 }
 
 size_t synthesis_memory(Size size) {

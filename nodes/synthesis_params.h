@@ -30,10 +30,13 @@ SynthesisOptions synthesis_options(const NodeContext& node, const Index& index);
 /// Throws Error about port "uv" unless the uv map was made for the exemplar of the index.
 void require_same_exemplar(const UvMap& uv, const Index& index);
 
-/// Unless a result that wraps holds a whole number of the exemplar's repeats, notes what becomes of them and a size
-/// that does hold them.
+/// Unless a result that wraps holds a whole number of the exemplar's repeats, notes what becomes of them and the
+/// size near it that fits best.
 void note_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
                              std::string_view consequence);
+
+/// A mask of a result: white where it no longer shows what was kept.
+ImagePtr made_anew(const UvMap& result, const KeptPixels& kept);
 
 /// What synthesis of so many output pixels needs.
 size_t synthesis_memory(Size size);

@@ -95,6 +95,24 @@ bool goes_on(const Image& map, bool rows) {
   return distance(line(-1), line(0)) <= most * std::max(distance(line(-2), line(-1)), distance(line(0), line(1)));
 }
 
+/// Whether values change across the seam about as much as they do from line to line inside. Of gravel that was cut out
+/// anywhere, windows fit as well as any others, but no pixel fits its neighbour.
+bool steps_alike(const Image& map, bool rows) {
+  constexpr double most = 1.35;
+  const int lines = rows ? map.height() : map.width();
+  double sum = 0, most_inside = 0;
+  std::vector<float> last = border_line(map, rows, 0);
+  const std::vector<float> first = last;
+  for (int i = 1; i < lines; i++) {
+    std::vector<float> line = border_line(map, rows, i);
+    const double step = distance(last, line);
+    sum += step;
+    most_inside = std::max(most_inside, step);
+    last = std::move(line);
+  }
+  return distance(last, first) <= std::max(most_inside, most * sum / (lines - 1));
+}
+
 /// Whether windows across the seam look as much like the rest of the map as windows inside it do.
 bool windows_fit(const Image& map, const WindowSearch& search, bool rows) {
   constexpr int samples = 64;
@@ -129,7 +147,8 @@ bool borders_fit(const Material& material) {
   return std::all_of(maps.begin(), maps.end(), [&](const ImagePtr& map) {
     const auto search = std::make_unique<WindowSearch>(*map);
     const auto fits = [&](bool rows) {
-      return windows_fit(*map, *search, rows) || (goes_on(*map, rows) && has_joint());
+      return (windows_fit(*map, *search, rows) && (steps_alike(*map, rows) || has_joint())) ||
+             (goes_on(*map, rows) && has_joint());
     };
     return fits(true) && fits(false);
   });

@@ -77,8 +77,10 @@ void Expansion::keep(int pixel) {
 }
 
 bool Expansion::offer(int pixel, ExemplarPixel shown, int32_t pressure) {
+  const FixedPixels& fixed = ground_.level.fixed;
+  const ExemplarPixel above{uint16_t(shown.x / ground_.block), uint16_t(shown.y / ground_.block)};
   if (ground_.node[size_t(pixel)] != ExpansionGround::untouched || ground_.field.pixels[size_t(pixel)] == shown ||
-      ground_.level.fixed.at(size_t(pixel)))
+      fixed.at(size_t(pixel)) || fixed.is_past(size_t(pixel), above))
     return false;
   ground_.node[size_t(pixel)] = int(free_.size());
   free_.push_back({pixel, shown, pressure});

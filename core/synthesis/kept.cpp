@@ -4,32 +4,60 @@
 
 namespace terrazzo {
 
+LatticeGaps KeptPixels::gaps(Size output) const {
+  int left = output.width, right = 0, top = output.height, bottom = 0;
+  for (int y = 0; y < output.height && !empty(); y++)
+    for (int x = 0; x < output.width; x++)
+      if (keep[size_t(y) * output.width + x] == Keep::always) {
+        left = std::min(left, x);
+        right = std::max(right, x + 1);
+        top = std::min(top, y);
+        bottom = y + 1;
+      }
+  if (right == 0) return {};
+  return {{double(right), double(output.width - (right - left))},
+          {double(bottom), double(output.height - (bottom - top))}};
+}
+
 FixedPixels::FixedPixels(const KeptPixels& kept, Size output, int level, Size exemplar) {
   if (kept.empty()) return;
   const int block = 1 << level, middle = block / 2;
   const Size size{(output.width + block - 1) / block, (output.height + block - 1) / block};
   fixed_.assign(size_t(size.area()), 1);
   pixels_.resize(fixed_.size());
+  begin_.resize(fixed_.size());
   for (int y = 0; y < output.height; y++)
     for (int x = 0; x < output.width; x++)
-      if (!kept.keep[size_t(y) * output.width + x]) fixed_[size_t(y / block) * size.width + x / block] = 0;
+      if (kept.keep[size_t(y) * output.width + x] != Keep::always)
+        fixed_[size_t(y / block) * size.width + x / block] = 0;
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) {
       // The middle of what lies below tells best where in the exemplar the pixel is.
       const int u = std::min(x * block + middle, output.width - 1), v = std::min(y * block + middle, output.height - 1);
-      const ExemplarPixel p = kept.pixels[size_t(v) * output.width + u];
+      const size_t below = size_t(v) * output.width + u;
+      const ExemplarPixel p = kept.pixels[below];
+      begin_[size_t(y) * size.width + x] = kept.keep[below] != Keep::never;
       pixels_[size_t(y) * size.width + x] = {uint16_t(std::min(p.x / block, exemplar.width - 1)),
                                              uint16_t(std::min(p.y / block, exemplar.height - 1))};
     }
 }
 
-void FixedPixels::apply(Field& field, const PlaneWindow& window) const {
+void FixedPixels::put(const std::vector<uint8_t>& which, Field& field, const PlaneWindow& window) const {
   if (!any()) return;
   for (int row = 0; row < field.size.height; row++)
     for (int column = 0; column < field.size.width; column++) {
       const size_t pixel = window.index(column, row);
-      if (fixed_[pixel]) field.at(column, row) = pixels_[pixel];
+      if (which[pixel]) field.at(column, row) = pixels_[pixel];
     }
+}
+
+void FixedPixels::apply(Field& field, const PlaneWindow& window) const {
+  put(fixed_, field, window);
+}
+
+void FixedPixels::begin(Field& field, const PlaneWindow& window) const {
+  put(begin_, field, window);
+  put(fixed_, field, window);
 }
 
 }  // namespace terrazzo

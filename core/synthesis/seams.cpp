@@ -80,11 +80,16 @@ class SeamMover {
   Expansion expansion_;
 };
 
-std::vector<int32_t> pressures(const Pieces& pieces, double fair) {
+/// What is kept is as large as it is.
+std::vector<int32_t> pressures(const Pieces& pieces, double fair, const FixedPixels& fixed) {
   std::vector<int32_t> out(size_t(pieces.count()), 0);
   if (fair <= 0) return out;
-  for (int piece = 0; piece < pieces.count(); piece++)
-    out[size_t(piece)] = int32_t(fair_pressure * mismatch_unit * std::min(most_pressure, pieces.area(piece) / fair));
+  for (int piece = 0; piece < pieces.count(); piece++) {
+    const bool kept =
+        fixed.any() && std::ranges::any_of(pieces.members(piece), [&](int i) { return fixed.at(size_t(i)); });
+    out[size_t(piece)] =
+        int32_t(fair_pressure * mismatch_unit * (kept ? 1 : std::min(most_pressure, pieces.area(piece) / fair)));
+  }
   return out;
 }
 
@@ -97,7 +102,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
   for (const int piece : order)
     if (pieces.area(piece) >= smallest_piece) rounds.add(piece, pieces.members(piece));
   const Field before = field;
-  const std::vector<int32_t> pressure = pressures(pieces, moves.fair_piece);
+  const std::vector<int32_t> pressure = pressures(pieces, moves.fair_piece, level.fixed);
   ExpansionGround ground(field, level, moves.block, true);
   ground.pressure.resize(field.pixels.size());
   for (size_t i = 0; i < field.pixels.size(); i++) ground.pressure[i] = pressure[size_t(pieces.of(int(i)))];

@@ -38,16 +38,23 @@ std::vector<double> demand_of(const AppearanceLevel& level, const LevelControl* 
   return {level.usable.begin(), level.usable.end()};
 }
 
-/// Kept pixels have the exemplar's lattice as it is: if it would have to be stretched to wrap around, the others follow
-/// the kept ones, and it is cut where the result wraps.
-bool stretches_lattice(const Appearance& appearance, const SynthesisOptions& options) {
-  return options.kept.empty() || appearance.lattice().fits(options.size, options.tile_x, options.tile_y);
+/// The exemplar's lattice, made to wrap around with the result. Kept pixels have it as it is: it bends where none are
+/// kept or, where they leave no room and it does not fit, is cut where the result wraps.
+LatticePhase phase_of(const Lattice& lattice, int level, const SynthesisOptions& options, const LatticeGaps& gaps) {
+  const bool fits = options.kept.empty() || lattice.fits(options.size, options.tile_x, options.tile_y);
+  return {lattice,
+          level,
+          options.size,
+          options.tile_x && (fits || gaps.x.length > 0),
+          options.tile_y && (fits || gaps.y.length > 0),
+          {double(options.origin[0]), double(options.origin[1])},
+          gaps};
 }
 
-/// The finest level that can be worked out for the plane as a whole. Pieces of a regular exemplar are aligned as
-/// wholes, so that every level but the finest needs all of the plane.
-int finest_whole_level(bool regular) {
-  return regular ? 1 : 2;
+/// The finest level that can be worked out for the plane as a whole. Where pieces are aligned or their seams move as
+/// wholes, every level but the finest needs all of the plane.
+int finest_whole_level(bool whole_pieces) {
+  return whole_pieces ? 1 : 2;
 }
 
 struct Effort {
@@ -108,7 +115,7 @@ struct Shared {
         task(task),
         levels(int(index.levels().size())),
         lattice(index.appearance()->lattice()),
-        stretched(stretches_lattice(*index.appearance(), options)),
+        gaps(options.kept.gaps(options.size)),
         controls(options.controls, index.appearance()->size(), options.size, levels, task) {}
 
   const AppearanceLevel& exemplar(int level) const { return index.appearance()->levels()[level]; }
@@ -126,7 +133,7 @@ struct Shared {
   const Task& task;
   int levels;
   Lattice lattice;
-  bool stretched;  ///< the lattice, to wrap around with the result
+  LatticeGaps gaps;  ///< between kept pixels
   ControlPyramid controls;
   int finest = 0;  ///< the level that ends the work
 };
@@ -138,9 +145,7 @@ class LevelWork {
       : shared_(shared),
         level_(level),
         exemplar_(shared.exemplar(level), shared.index.appearance()->wraps()),
-        phase_(shared.lattice, level, shared.options.size, shared.stretched && shared.options.tile_x,
-               shared.stretched && shared.options.tile_y,
-               {double(shared.options.origin[0]), double(shared.options.origin[1])}),
+        phase_(phase_of(shared.lattice, level, shared.options, shared.gaps)),
         fixed_(shared.fixed(level)),
         control_(shared.controls.empty() ? nullptr : std::make_unique<LevelControl>(shared.controls, level, exemplar_)),
         occupancy_(shared.exemplar(level).size, level >= finest_even ? shared.options.evenness : 0,
@@ -152,7 +157,7 @@ class LevelWork {
     const uint64_t seed = shared_.options.seed;
     Field field = random_blocks(shared_.plane(level_).size, exemplar_, control_.get(), phase_, seed);
     scatter(field, exemplar_, shared_.jitter(level_), seed, level_);
-    fixed_.apply(field, PlaneWindow::all_of(shared_.plane(level_)));
+    fixed_.begin(field, PlaneWindow::all_of(shared_.plane(level_)));
     return field;
   }
 
@@ -219,12 +224,14 @@ class LevelWork {
     if (control_) return full * coherence_where_steered;
     return limits_pieces() && shared_.places_landmarks(level_) ? full * landmark_coherence : full;
   }
-  /// Seams between courses or tiles show more than others, and measured on other exemplars moving them brings nothing.
+  /// Seams between courses or tiles show more than others, and so do those along an outline that was drawn. Measured on
+  /// other exemplars moving seams brings nothing.
   bool moves_seams() const {
-    return level_ <= seam_level && regular() && !control_ && shared_.options.quality != Quality::draft;
+    return level_ <= seam_level && (regular() || fixed_.any()) && !control_ &&
+           shared_.options.quality != Quality::draft;
   }
   /// The first time that seams move. Measured on exemplars without a lattice this brings nothing either.
-  bool refills() const { return level_ == seam_level && moves_seams(); }
+  bool refills() const { return level_ == seam_level && moves_seams() && regular(); }
   /// Of blocks of two by two pixels.
   SeamMoves to_joints() const {
     SeamMoves moves = level_ < seam_level ? to_the_pixel : along_courses;
@@ -276,7 +283,7 @@ class LevelWork {
 
 /// The finest level that is worked out for the plane as a whole.
 int coarse_level(const Shared& s) {
-  return std::min(s.levels - 1, finest_whole_level(s.lattice.rank > 0));
+  return std::min(s.levels - 1, finest_whole_level(s.lattice.rank > 0 || !s.options.kept.empty()));
 }
 
 /// What coarse_uv() gives.

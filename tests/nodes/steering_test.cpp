@@ -34,6 +34,11 @@ ImagePtr hole() {
   return make_image({96, 80}, 1, [](int x, int y, int) { return x >= 30 && x < 60 && y >= 20 && y < 50 ? 1.f : 0.f; });
 }
 
+/// What is not a hole.
+ImagePtr sound() {
+  return make_image({96, 80}, 1, [](int x, int y, int) { return x >= 30 && x < 60 && y >= 20 && y < 50 ? 0.f : 1.f; });
+}
+
 ExemplarPixel here(int x, int y) {
   return {uint16_t(x), uint16_t(y)};
 }
@@ -71,24 +76,36 @@ TEST_CASE("make_tileable holds a whole number of repeats unless the size must st
   const FeaturesPtr plain = plain_features(wall({61, 53}));
   const IndexPtr index = index_of(plain->with(Lattice{2, {16, 0}, {8, 8}, 1}));
   const NodeRun run = run_node("make_tileable", {}, {{"index", {index}}});
-  CHECK(run.get<UvMap>("uv")->size() == Size{48, 48});
+  const UvMapPtr uv = run.get<UvMap>("uv");
+  CHECK(uv->size() == Size{64, 48});
+  for (int y = 7; y < 41; y++)
+    for (int x = 8; x < 53; x++) REQUIRE(uv->at(x, y) == here(x, y));
   CHECK(run.notes ==
-        Texts{"the exemplar of 61x53 pixels repeats: the result has 48x48, so that it holds a whole number "
-              "of repeats; set `fit` to \"size\" to keep 61x53 and cut some repeats short"});
-  CHECK(run_node("make_tileable", {{"fit", "size"}}, {{"index", {index}}}).get<UvMap>("uv")->size() == Size{61, 53});
-  // Where no such size is large enough, no other is taken either.
-  const IndexPtr high = index_of(plain->with(Lattice{2, {16, 0}, {0, 70}, 1}));
-  const NodeRun cut = run_node("make_tileable", {}, {{"index", {high}}});
-  CHECK(cut.get<UvMap>("uv")->size() == Size{61, 53});
-  REQUIRE(cut.notes.size() == 1);
-  CHECK(cut.notes[0].find("does not hold a whole number") != std::string::npos);
+        Texts{"the exemplar of 61x53 pixels repeats: the result has 64x48, so that it holds a whole number "
+              "of repeats; set \"fit\" to \"size\" to keep 61x53 and bend repeats in the border instead"});
+  const NodeRun kept = run_node("make_tileable", {{"fit", "size"}}, {{"index", {index}}});
+  CHECK(kept.get<UvMap>("uv")->size() == Size{61, 53});
+  CHECK(kept.notes ==
+        Texts{"to wrap around, repeats are bent by 36 % in the border; a wider border bends them less, and "
+              "so does \"fit\": \"repeats\", which makes the result 64x48"});
+}
+
+TEST_CASE("an exemplar that wraps already stays as it is, and a note says so") {
+  const FeaturesPtr plain = plain_features(wall({64, 64}), true);
+  const NodeRun run = run_node("make_tileable", {}, {{"index", {index_of(plain)}}});
+  const UvMapPtr uv = run.get<UvMap>("uv");
+  for (int y = 0; y < 64; y++)
+    for (int x = 0; x < 64; x++) REQUIRE(uv->at(x, y) == here(x, y));
+  CHECK(uv->wraps().x);
+  CHECK(uv->wraps().y);
+  REQUIRE(run.notes.size() == 1);
+  CHECK(run.notes[0].find("wraps around already") != std::string::npos);
+  for (const float v : run.get<Image>("border")->pixels()) REQUIRE(v == 0);
 }
 
 TEST_CASE("inpaint keeps what is there and takes nothing out of a masked hole") {
-  const ImagePtr sound =
-      make_image({96, 80}, 1, [](int x, int y, int) { return x >= 30 && x < 60 && y >= 20 && y < 50 ? 0.f : 1.f; });
-  const IndexPtr index = gravel_index(sound);
-  const UvMapPtr uv = run_node("inpaint", {}, {{"index", {index}}, {"mask", {hole()}}}).get<UvMap>("uv");
+  const IndexPtr index = gravel_index(sound());
+  const UvMapPtr uv = run_node("inpaint", {{"margin", 0.0}}, {{"index", {index}}, {"mask", {hole()}}}).get<UvMap>("uv");
   const auto in_hole = [](int x, int y) { return x >= 30 && x < 60 && y >= 20 && y < 50; };
   for (int y = 0; y < 80; y++)
     for (int x = 0; x < 96; x++) {
@@ -96,6 +113,27 @@ TEST_CASE("inpaint keeps what is there and takes nothing out of a masked hole") 
       REQUIRE(!in_hole(p.x, p.y));
       if (!in_hole(x, y)) REQUIRE(p == here(x, y));
     }
+}
+
+TEST_CASE("inpaint lets pixels give way up to the margin, and tells which did") {
+  const IndexPtr index = gravel_index(sound());
+  const NodeRun run = run_node("inpaint", {{"margin", 12.0}}, {{"index", {index}}, {"mask", {hole()}}});
+  const UvMapPtr uv = run.get<UvMap>("uv");
+  const std::vector<float> filled = run.get<Image>("filled")->pixels();
+  int in_margin = 0;
+  for (int y = 0; y < 80; y++)
+    for (int x = 0; x < 96; x++) {
+      const int dx = std::max({30 - x, x - 59, 0}), dy = std::max({20 - y, y - 49, 0});
+      const bool same = uv->at(x, y) == here(x, y), hole = dx == 0 && dy == 0;
+      CAPTURE(x);
+      CAPTURE(y);
+      if (dx * dx + dy * dy > 144) REQUIRE(same);
+      REQUIRE(filled[size_t(y) * 96 + x] == (hole || !same ? 1.0f : 0.0f));
+      in_margin += !hole && !same;
+    }
+  CHECK(in_margin > 0);
+  // Holes whose margins meet leave nothing that always stays, and are filled all the same.
+  CHECK_NOTHROW(run_node("inpaint", {{"margin", 60.0}}, {{"index", {index}}, {"mask", {hole()}}}));
 }
 
 TEST_CASE("holes that cover everything are refused with advice about holes") {
@@ -134,9 +172,9 @@ TEST_CASE("every quality is a result of its own, and normal is the default") {
 TEST_CASE("inpaint makes a part of an earlier result anew") {
   const IndexPtr index = gravel_index();
   const UvMapPtr first = run_node("synthesize", {{"size", Size{96, 80}}}, {{"index", {index}}}).get<UvMap>("uv");
-  const UvMapPtr second =
-      run_node("inpaint", {{"seed", int64_t{5}}}, {{"index", {index}}, {"mask", {hole()}}, {"uv", {first}}})
-          .get<UvMap>("uv");
+  const UvMapPtr second = run_node("inpaint", {{"seed", int64_t{5}}, {"margin", 0.0}},
+                                   {{"index", {index}}, {"mask", {hole()}}, {"uv", {first}}})
+                              .get<UvMap>("uv");
   int changed = 0;
   for (int y = 0; y < 80; y++)
     for (int x = 0; x < 96; x++) {

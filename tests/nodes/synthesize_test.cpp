@@ -65,7 +65,7 @@ TEST_CASE("a place off the surface is a problem of the document") {
   CHECK(first({{"size", Size{50, 50}}, {"surface", Size{40, 90}}}).starts_with("\"surface\""));
 }
 
-TEST_CASE("a result that wraps and holds no whole number of repeats names a size that does") {
+TEST_CASE("a result that wraps and holds no whole number of repeats names a size that does better") {
   const ImagePtr image = wall({64, 64});
   const Lattice lattice{2, {16, 0}, {0, 16}, 0.5};
   const FeaturesPtr features = Features::make(image->size(), {{image, {1, 1, 1}}}, true, lattice);
@@ -79,10 +79,10 @@ TEST_CASE("a result that wraps and holds no whole number of repeats names a size
   REQUIRE(stretched.size() == 1);
   CHECK(stretched[0] ==
         "120x100 does not hold a whole number of the exemplar's repeats, so that they are stretched to wrap around and "
-        "joints may jog; 112x96 would");
+        "joints may jog; 128x96 fits better");
   const FeaturesPtr high = features->with(Lattice{2, {16, 0}, {0, 300}, 0.5});
   const IndexPtr none = make_index(make_appearance(*high, {}, {}, Task()), 3, Task());
   CHECK(run_node("synthesize", {{"size", Size{112, 100}}, {"tileable", "xy"}}, {{"index", {none}}}).notes ==
         std::vector<std::string>{"112x100 does not hold a whole number of the exemplar's repeats, so that they are "
-                                 "stretched to wrap around and joints may jog"});
+                                 "stretched to wrap around and joints may jog; no size near it fits better"});
 }

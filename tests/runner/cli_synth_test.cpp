@@ -235,7 +235,7 @@ TEST_CASE("what extend, inpaint and make_tileable keep stays bit for bit in ever
   REQUIRE_MESSAGE(hole.code == 0, hole.err);
   run("material", {"--set", "size=80x70"});
   run("extend", {"--set", "kept=80x70", "--set", "size=120x110", "--set", "at=[30,20]"});
-  run("inpaint", {"--set", "mask=hole.png"});
+  run("inpaint", {"--set", "mask=hole.png", "--set", "margin=0"});
   run("make_tileable", {"--set", "border=10"});
   const auto pixels = [&](const std::string& file, const Rect& part) {
     return read_image(w.path / file, ImageInfo{}, [](const std::string&) {})->read(part);
@@ -303,6 +303,6 @@ TEST_CASE("the stock graph make_tileable keeps the exemplar's size if it is told
   REQUIRE_MESSAGE(same.code == 0, same.err);
   CHECK(read_image_info(w.path / "repeats/base_color.png").size != Size{61, 53});
   CHECK_MESSAGE(says(less.err, "the exemplar of 61x53 pixels repeats: the result has"), less.err);
-  CHECK(says(less.err, "set `fit` to \"size\" to keep 61x53"));
+  CHECK(says(less.err, "set \"fit\" to \"size\" to keep 61x53"));
   CHECK(read_image_info(w.path / "size/base_color.png").size == Size{61, 53});
 }

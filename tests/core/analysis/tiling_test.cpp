@@ -30,6 +30,20 @@ TEST_CASE("tiling is seen from the borders") {
       seems_to_tile(*Material::of(make_image({64, 64}, 1, [](int x, int, int) { return float(x) / 64; })), Task()));
 }
 
+TEST_CASE("gravel that was cut out anywhere does not tile, though what lies across its borders looks like gravel") {
+  const auto gravel = [](int period) {
+    return Material::of(make_image({96, 96}, 1, [period](int x, int y, int) {
+      float sum = 0;
+      for (int dy = 0; dy < 3; dy++)
+        for (int dx = 0; dx < 3; dx++)
+          sum += float(unit_double(random_bits(7, (x + dx) % period, (y + dy) % period))) / 9;
+      return sum;
+    }));
+  };
+  CHECK(seems_to_tile(*gravel(96), Task()));
+  CHECK_FALSE(seems_to_tile(*gravel(1000), Task()));
+}
+
 TEST_CASE("one tile with its joint along the border tiles, unless the joint is cut off on one side") {
   const auto tile = [](int left) {
     return Material::of(make_image({96, 96}, 1, [left](int x, int y, int) {

@@ -109,8 +109,8 @@ TEST_CASE("a piece with fixed pixels stays; its neighbour comes to it") {
   const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise(false);
   Field field = shifted(1, 2);
-  KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 0)};
-  kept.keep[0] = 1;
+  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
+  kept.keep[0] = Keep::always;
   const Field wanted = shifted(0, 0);
   align_pieces(field, 1, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 2, Task());
   CHECK(field.pixels == wanted.pixels);
@@ -123,8 +123,8 @@ TEST_CASE("no piece leaves an exemplar that does not tile") {
   Field field{{16, 8}, {}};
   for (int y = 0; y < 8; y++)
     for (int x = 0; x < 16; x++) field.pixels.push_back({uint16_t(24 + x - (x < 8 ? 0 : 1)), uint16_t(9 + y)});
-  KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 0)};
-  kept.keep[0] = 1;
+  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
+  kept.keep[0] = Keep::always;
   align_pieces(field, 1, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 2, Task());
   CHECK(Pieces(field).count() == 2);
   for (const ExemplarPixel p : field.pixels) CHECK(p.x < side.width - exemplar.keep_off());

@@ -158,7 +158,7 @@ TEST_CASE("controls and kept pixels work together") {
   for (int y = 0; y < 48; y++)
     for (int x = 0; x < 64; x++) {
       options.kept.pixels.push_back({uint16_t(x), uint16_t(y)});
-      options.kept.keep.push_back(y < 20);
+      options.kept.keep.push_back(y < 20 ? Keep::always : Keep::never);
     }
   options.controls = {two_labels(grey(exemplar_size, [](int x, int) { return x < 32 ? 0.8f : 0.2f; }))};
   const UvMapPtr uv = synthesize(two_sorts(), options, Task());

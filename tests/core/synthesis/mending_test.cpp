@@ -106,9 +106,9 @@ TEST_CASE("fixed pixels stay, whatever they show") {
   const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise();
   Field field = with_wrong_place();
-  KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 0)};
+  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   for (int y = wrong.y; y < wrong.bottom(); y++)
-    for (int x = wrong.x; x < wrong.right(); x++) kept.keep[size_t(y) * field_size.width + x] = 1;
+    for (int x = wrong.x; x < wrong.right(); x++) kept.keep[size_t(y) * field_size.width + x] = Keep::always;
   mend(field, level_of(exemplar, none, false, FixedPixels(kept, field_size, 0, exemplar_size)));
   CHECK(field.pixels == with_wrong_place().pixels);
 }

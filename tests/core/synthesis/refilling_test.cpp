@@ -63,9 +63,9 @@ const Occupancy all_alike(side, 0, 1);
 void refill_hole(Field& field, const Occupancy& occupancy) {
   const PaddedLevel exemplar = exemplar_seen_twice();
   const std::vector<ExemplarPixel> similar = other_halves();
-  KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 1)};
+  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size(), Keep::always)};
   for (int y = 0; y < 24; y++)
-    for (int x = 0; x < 24; x++) kept.keep[size_t(y) * 24 + x] = !in_hole(x, y);
+    for (int x = 0; x < 24; x++) kept.keep[size_t(y) * 24 + x] = in_hole(x, y) ? Keep::never : Keep::always;
   refill_pieces(field, 1, level_of(exemplar, similar, {kept, field.size, 0, side}), occupancy, 1, Task());
 }
 

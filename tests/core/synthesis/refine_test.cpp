@@ -98,14 +98,14 @@ TEST_CASE("an exemplar of one level has nothing to refine, and parts of it are r
   check_part(*index, options, *coarse, *all, {13, 9, 40, 30});
 }
 
-TEST_CASE("evenness, control and kept pixels are the same in parts") {
+TEST_CASE("evenness, control and kept pixels are the same in parts, and seams that move where nothing steers") {
   const IndexPtr index = index_with({}, false);
   SynthesisOptions options{.size = {460, 50}, .evenness = 2};
   options.kept = {std::vector<ExemplarPixel>(size_t(options.size.area())),
-                  std::vector<uint8_t>(size_t(options.size.area()), 0)};
+                  std::vector<Keep>(size_t(options.size.area()))};
   for (int y = 10; y < 30; y++)
     for (int x = 210; x < 250; x++) {
-      options.kept.keep[size_t(y) * 460 + x] = 1;
+      options.kept.keep[size_t(y) * 460 + x] = Keep::always;
       options.kept.pixels[size_t(y) * 460 + x] = {uint16_t(x - 200), uint16_t(y)};
     }
   const auto shade = [](Size size) { return make_image(size, 1, [](int x, int, int) { return float(x % 50) / 50; }); };
@@ -114,6 +114,9 @@ TEST_CASE("evenness, control and kept pixels are the same in parts") {
   const UvMapPtr coarse = coarse_uv(*index, options, Task());
   check_part(*index, options, *coarse, *all, {200, 5, 20, 40});
   CHECK(all->at(220, 20) == ExemplarPixel{20, 20});
+  options.controls.clear();
+  check_part(*index, options, *coarse_uv(*index, options, Task()), *synthesize(*index, options, Task()),
+             {200, 5, 20, 40});
 }
 
 TEST_CASE("coarse levels of another surface, exemplar or wrapping are refused") {

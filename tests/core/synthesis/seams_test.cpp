@@ -68,8 +68,8 @@ TEST_CASE("a seam stays where nothing better is in reach, and fixed pixels stay 
   CHECK(best.pixels == before.pixels);
 
   Field field = meeting_at(9);
-  KeptPixels kept{field.pixels, std::vector<uint8_t>(field.pixels.size(), 0)};
-  for (int y = 0; y < field.size.height; y++) kept.keep[size_t(y) * field.size.width + 9] = 1;
+  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
+  for (int y = 0; y < field.size.height; y++) kept.keep[size_t(y) * field.size.width + 9] = Keep::always;
   const Field fixed = field;
   move_seams(field, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), {}, Task());
   for (int y = 0; y < field.size.height; y++) CHECK(field.at(9, y) == fixed.at(9, y));
