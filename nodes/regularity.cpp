@@ -64,7 +64,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 7;
+  t.version = 8;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =

@@ -46,7 +46,7 @@ ExemplarPlanes joints_across(const ExemplarPlanes& in, const Lattice& bands) {
 }  // namespace
 
 Lattice bond_of(const ExemplarPlanes& planes, const Lattice& bands, const Task& task) {
-  const Cell cell = best_cell(correlate(joints_across(planes, bands), task), {});
+  const Cell cell = best_cell(correlate(joints_across(planes, bands), {}, task), {});
   if (cell.lattice.rank != 2 || cell.distinct < least_distinct) return bands;
   const double breadth = bands.first.x + bands.first.y;
   Lattice out = cell.lattice;

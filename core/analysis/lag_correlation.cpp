@@ -40,8 +40,10 @@ std::vector<double> around_borders(const Correlogram& r, Size size) {
 
 }  // namespace
 
-Correlation correlate(const ExemplarPlanes& planes, const Task& task) {
-  const Planes details = without_gradients(planes);
+Correlation correlate(const ExemplarPlanes& planes, const std::vector<float>& counts, const Task& task) {
+  Planes details = without_gradients(planes);
+  if (!counts.empty())
+    for (size_t i = 0; i < details.values.size(); i++) details.values[i] *= counts[i / planes.channels];
   const Size size = planes.size;
   const Size within = planes.wraps ? size : Size{size.width * 5 / 6, size.height * 5 / 6};
   std::vector<double> variance(planes.channels, 0.0);

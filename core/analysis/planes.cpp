@@ -115,6 +115,13 @@ ExemplarPlanes guidance_planes(const Features& features, const std::vector<Image
   return planes;
 }
 
+ExemplarPlanes cropped(const ExemplarPlanes& planes, const Rect& part) {
+  ExemplarPlanes out = empty({part.width, part.height}, planes.channels, planes.wraps && part == whole(planes.size));
+  for (int y = 0; y < part.height; y++)
+    std::copy_n(planes.at(part.x, part.y + y), size_t(part.width) * planes.channels, out.at(0, y));
+  return out;
+}
+
 ExemplarPlanes halved(const ExemplarPlanes& in) {
   const Size size{(in.size.width + 1) / 2, (in.size.height + 1) / 2};
   ExemplarPlanes out = empty(size, in.channels, in.wraps);

@@ -29,6 +29,9 @@ ExemplarPlanes weighted_planes(const Features& features, const Task& task);
 /// the features' size.
 ExemplarPlanes guidance_planes(const Features& features, const std::vector<ImagePtr>& guidance, const Task& task);
 
+/// A part of the planes, whose borders continue unless it is all of them.
+ExemplarPlanes cropped(const ExemplarPlanes& planes, const Rect& part);
+
 /// Half the size (rounded up), filtered with the binomial kernel 1 3 3 1 in each direction. Normals are averaged as
 /// vectors: their length then tells how much they agree.
 ExemplarPlanes halved(const ExemplarPlanes& planes);

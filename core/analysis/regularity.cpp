@@ -9,6 +9,7 @@
 #include "core/analysis/lag_correlation.h"
 #include "core/analysis/planes.h"
 #include "core/analysis/straight_lines.h"
+#include "core/analysis/usable.h"
 
 namespace terrazzo {
 
@@ -57,20 +58,54 @@ Found searched(const Correlation& values, const Correlation& joints, double leas
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }
 
+Rect bounds(const std::vector<uint8_t>& allowed, Size size) {
+  int left = size.width, right = 0, top = size.height, bottom = 0;
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++)
+      if (allowed[size_t(y) * size.width + x]) {
+        left = std::min(left, x);
+        right = std::max(right, x + 1);
+        top = std::min(top, y);
+        bottom = y + 1;
+      }
+  return {left, top, right - left, bottom - top};
+}
+
+/// What a mask leaves to be seen of an exemplar.
+struct View {
+  ExemplarPlanes planes;
+  ExemplarPlanes counts;  ///< one channel: 1 where pixels are allowed; without values if all are
+  double scale = 1;       ///< pixels of the finest level to one of these
+
+  bool empty() const { return std::min(planes.size.width, planes.size.height) < smallest_side; }
+};
+
+View view_of(const Features& features, const Task& task) {
+  View view{weighted_planes(features, task), {}};
+  const std::vector<uint8_t> allowed = allowed_pixels(features);
+  if (!allowed.empty()) {
+    const Rect seen = bounds(allowed, features.size());
+    view.planes = cropped(view.planes, seen);
+    view.counts = cropped({features.size(), 1, features.wraps(), {allowed.begin(), allowed.end()}}, seen);
+  }
+  while (!view.empty() && std::max(view.planes.size.width, view.planes.size.height) > most_side) {
+    view.planes = halved(view.planes);
+    if (!allowed.empty()) view.counts = halved(view.counts);
+    view.scale *= 2;
+  }
+  return view;
+}
+
 }  // namespace
 
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task) {
   if (std::min(features.size().width, features.size().height) < smallest_side) return {};
-  ExemplarPlanes planes = weighted_planes(features, task);
-  double scale = 1;
-  while (std::max(planes.size.width, planes.size.height) > most_side) {
-    // Of a narrow strip nothing would be left to see.
-    if (std::min(planes.size.width, planes.size.height) < 2 * smallest_side) return {};
-    planes = halved(planes);
-    scale *= 2;
-  }
+  const View view = view_of(features, task);
+  if (view.empty()) return {};  // of a narrow strip nothing is left to see
+  const ExemplarPlanes& planes = view.planes;
   const ExemplarPlanes edges = outlines(planes);
-  const Found found = searched(correlate(planes, task), correlate(edges, task), least_certainty);
+  const Found found = searched(correlate(planes, view.counts.values, task), correlate(edges, view.counts.values, task),
+                               least_certainty);
   Lattice best = found.lattice;
   if (best.certainty < least_certainty || !best.is_valid()) best = {0, {}, {}, best.certainty};
   const Lattice lines = planes.wraps ? lattice_of_lines(edges, best) : Lattice{};
@@ -82,7 +117,7 @@ FoundLattice find_lattice(const Features& features, double least_certainty, cons
     if (const Lattice bond = bond_of(planes, best, task); bond.certainty >= least_certainty) best = bond;
   const bool too_few = best.rank < 2 && !planes.wraps && lines_cross(edges);
   if (best.rank == 0) return {best, too_few};
-  for (Vector2* v : {&best.first, &best.second}) *v = {v->x * scale, v->y * scale};
+  for (Vector2* v : {&best.first, &best.second}) *v = {v->x * view.scale, v->y * view.scale};
   best = best.fitted(features.size(), features.wraps(), features.wraps());
   if (best.rank == 2 && best.cell_area() < smallest_cell * smallest_cell) best = two_by_two(best, features);
   return {best, too_few};

@@ -289,3 +289,21 @@ TEST_CASE("long narrow strips hold no lattice that could be seen") {
       CHECK(lattice_of(noise).rank == 0);
     }
 }
+
+TEST_CASE("of a masked exemplar the part that may be seen tells how it repeats") {
+  const auto masked = [](Pattern pattern, auto allowed) {
+    const FeaturesPtr all = picture(pattern, 24, 0.3, 0.4);
+    return Features::make(all->size(), all->images(), false, {},
+                          make_image({192, 192}, 1, [&](int x, int y, int) { return allowed(x, y) ? 1.f : 0.f; }));
+  };
+  const auto band = [](int, int y) { return y >= 50 && y < 130; };
+  const auto corner = [](int x, int y) { return x < 110 && y < 120; };
+  const auto around = [](int x, int y) { return (x - 90) * (x - 90) + (y - 80) * (y - 80) > 45 * 45; };
+  check_cell(lattice_of(masked(squares, band)), 24, 0, 0, 24);
+  check_cell(lattice_of(masked(squares, corner)), 24, 0, 0, 24);
+  check_cell(lattice_of(masked(squares, around)), 24, 0, 0, 24, 2);
+  check_cell(lattice_of(masked(running_bond, corner)), 24, 0, 12, 9.6, 2);
+  check_cell(lattice_of(masked(running_bond, around)), 24, 0, 12, 9.6, 2);
+  // Of too little nothing is told.
+  CHECK(lattice_of(masked(squares, [](int x, int) { return x < 12; })).rank == 0);
+}
