@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <functional>
+
+#include <doctest/doctest.h>
+
+#include "core/image_file.h"
+#include "tests/runner/program.h"
+#include "tests/runner/workplace.h"
+
+/// The stock graphs that steer synthesis do what they are for.
+using namespace terrazzo;
+using namespace terrazzo::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+void write_grey(const fs::path& path, Size size, const std::function<double(int, int)>& value) {
+  fs::create_directories(path.parent_path());
+  const ImagePtr image = make_image(
+      size, 3, [&](int x, int y, int) { return float(value(x, y)); }, Semantic::base_color, "srgb_texture");
+  write_image(*image, path, {.format = FileFormat::png, .depth = Depth::u8}, [](double) {});
+}
+
+double grain(int x, int y) {
+  return 0.2 * unit_double(random_bits(3, x, y));
+}
+
+/// Dark on the left, light on the right.
+void write_two_tones(const fs::path& path) {
+  write_grey(path, {64, 48}, [](int x, int y) { return (x < 32 ? 0.1 : 0.7) + grain(x, y); });
+}
+
+/// What `size`, 60x40, results of a graph show: whether a pixel is light.
+std::vector<bool> light_pixels(const Workplace& w, const std::string& graph, std::vector<std::string> settings) {
+  std::vector<std::string> args = {
+      "run", TERRAZZO_SOURCE_DIR "/graphs/" + graph + ".json", "--set", "size=60x40", "--set", "out=" + graph};
+  for (const std::string& s : settings) args.insert(args.end(), {"--set", s});
+  const ProgramRun run = w.run(args);
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const ImagePtr image = read_image(w.path / graph / "base_color.png", ImageInfo{}, [](const std::string&) {});
+  REQUIRE(image->size() == Size{60, 40});
+  const std::vector<float> pixels = image->pixels();
+  std::vector<bool> light;
+  for (size_t i = 0; i < pixels.size(); i += 3) light.push_back(pixels[i] > 0.5f);
+  return light;
+}
+
+/// The part of light pixels in columns [from, to).
+double light_part(const std::vector<bool>& light, int from, int to) {
+  int count = 0;
+  for (int y = 0; y < 40; y++)
+    for (int x = from; x < to; x++) count += light[size_t(y) * 60 + x];
+  return count / (40.0 * (to - from));
+}
+
+/// White from the middle of the result on.
+void write_halves(const fs::path& path) {
+  write_grey(path, {60, 40}, [](int x, int) { return x < 30 ? 0.0 : 1.0; });
+}
+
+}  // namespace
+
+TEST_CASE("mix shows the second material where the mix map is white") {
+  const Workplace w;
+  write_grey(w.path / "dark/basecolor.png", {48, 48}, [](int x, int y) { return 0.1 + grain(x, y); });
+  write_grey(w.path / "light/basecolor.png", {40, 56}, [](int x, int y) { return 0.7 + grain(x, y); });
+  write_halves(w.path / "map.png");
+  const std::vector<bool> light = light_pixels(w, "mix", {"first=dark", "second=light", "mix=map.png"});
+  CHECK(light_part(light, 0, 27) < 0.02);
+  CHECK(light_part(light, 33, 60) > 0.98);
+}
+
+TEST_CASE("labels lays the exemplar's parts out as painted") {
+  const Workplace w;
+  write_two_tones(w.path / "stone/basecolor.png");
+  write_grey(w.path / "parts.png", {64, 48}, [](int x, int) { return x < 32 ? 0.9 : 0.3; });
+  write_grey(w.path / "layout.png", {60, 40}, [](int x, int) { return x < 30 ? 0.3 : 0.9; });
+  const std::vector<bool> light =
+      light_pixels(w, "labels", {"material=stone", "labels=parts.png", "target=layout.png"});
+  CHECK(light_part(light, 0, 27) > 0.98);
+  CHECK(light_part(light, 33, 60) < 0.02);
+}
+
+TEST_CASE("progression goes from one end of the exemplar to the other, either way") {
+  const Workplace w;
+  write_two_tones(w.path / "stone/basecolor.png");
+  write_halves(w.path / "map.png");
+  const auto run = [&](const std::string& inverted) {
+    return light_pixels(w, "progression", {"material=stone", "target=map.png", "strength=4", "inverted=" + inverted});
+  };
+  const std::vector<bool> light = run("false"), other = run("true");
+  CHECK(light_part(light, 0, 24) < 0.1);
+  CHECK(light_part(light, 36, 60) > 0.9);
+  CHECK(light_part(other, 0, 24) > 0.9);
+  CHECK(light_part(other, 36, 60) < 0.1);
+}
+
+TEST_CASE("masked never shows what must not be shown") {
+  const Workplace w;
+  write_two_tones(w.path / "stone/basecolor.png");
+  write_grey(w.path / "mask.png", {64, 48}, [](int x, int) { return x < 32 ? 1.0 : 0.0; });
+  CHECK(light_part(light_pixels(w, "masked", {"material=stone", "mask=mask.png"}), 0, 60) == 0);
+}
+
+TEST_CASE("variants shows turned copies of the exemplar") {
+  const Workplace w;
+  write_grey(w.path / "stone/basecolor.png", {48, 48}, [](int, int y) { return y / 6 % 2 == 0 ? 0.2 : 0.8; });
+  const auto standing = [&](const std::string& rotations) {
+    const std::vector<bool> light = light_pixels(w, "variants", {"material=stone", "rotations=" + rotations});
+    int count = 0;
+    for (size_t i = 0; i + 1 < light.size(); i++) count += i % 60 < 59 && light[i] != light[i + 1];
+    return count;
+  };
+  const int lying = standing("[]"), both = standing("[90]");
+  CAPTURE(lying);
+  CHECK(both > 2 * lying);
+}
+
+TEST_CASE("from_analysis gives what material gives, to the bit") {
+  const Workplace w;
+  write_two_tones(w.path / "stone/basecolor.png");
+  const ProgramRun run = w.run(
+      {"run", TERRAZZO_SOURCE_DIR "/graphs/analyse.json", "--set", "material=stone", "--set", "out=stone.analysis"});
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  CHECK(light_pixels(w, "from_analysis", {"material=stone", "analysis=stone.analysis"}) ==
+        light_pixels(w, "material", {"material=stone"}));
+  const auto bytes = [&](const std::string& graph) {
+    return read_image(w.path / graph / "base_color.png", ImageInfo{}, [](const std::string&) {})->pixels();
+  };
+  CHECK(bytes("from_analysis") == bytes("material"));
+}
