@@ -8,7 +8,7 @@ namespace {
 
 JsonValue parsed(const std::string& text) {
   const ParsedJson json = parse_json(text);
-  REQUIRE_MESSAGE(json.problems.empty(), json.problems.front().message);
+  REQUIRE_MESSAGE(json.problems.empty(), (json.problems.empty() ? "" : json.problems.front().message));
   return *json.value;
 }
 
