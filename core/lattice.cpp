@@ -35,7 +35,8 @@ int best_side(const Lattice& lattice, int length, bool along_x, int give) {
   int best = length;
   double least = std::numeric_limits<double>::max();
   for (int n = length / 2 + 1; n <= length + length / 8; n++) {
-    const double bent = length_of(lattice.misfit(n, along_x)) / (give + std::max(0, n - length));
+    const int room = give + std::max(0, n - length);
+    const double bent = lattice.bent({n, n}, along_x, !along_x, {room, room});
     if (bent > most_bent && n != length) continue;
     const double badness = std::abs(std::log(double(n) / length)) + bending_weight * bent;
     if (badness >= least) continue;
@@ -111,6 +112,14 @@ Vector2 Lattice::misfit(int length, bool along_x) const {
       least = v;
     }
   return least;
+}
+
+double Lattice::bent(Size size, bool wraps_x, bool wraps_y, Size give) const {
+  const auto along = [&](bool x) {
+    const double missing = length_of(misfit(x ? size.width : size.height, x));
+    return missing > 0 ? missing / (x ? give.width : give.height) : 0;
+  };
+  return std::max(wraps_x ? along(true) : 0, wraps_y ? along(false) : 0);
 }
 
 Size Lattice::best_fitting(Size size, bool wraps_x, bool wraps_y, Size give) const {

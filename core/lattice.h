@@ -44,6 +44,9 @@ struct Lattice {
   /// By how many pixels a surface that wraps after `length` pixels along x or y misses a whole number of cells. Rank 1
   /// misses nothing along its bands.
   Vector2 misfit(int length, bool along_x) const;
+  /// By how much, as a part of their length, cells must be bent within `give` pixels along each side for a surface of
+  /// `size` to wrap: the more of the axes along which it does.
+  double bent(Size size, bool wraps_x, bool wraps_y, Size give) const;
   /// The size near `size`, over half of it and at most an eighth larger, which wraps best along those axes: a size far
   /// off is weighed against cells that must be bent. They are bent within `give`, pixels along each side, and what a
   /// side grows by.

@@ -12,9 +12,6 @@ namespace terrazzo {
 
 namespace {
 
-// How much repeats can be bent without a note.
-constexpr double unseen_bend = 0.03;
-
 /// The width of the border along a side of that length; 0 where the result need not wrap.
 int border_pixels(double border, int side, bool wraps) {
   if (!wraps) return 0;
@@ -43,16 +40,6 @@ KeptPixels interior(Size exemplar, Size result, Size border) {
       kept.keep.push_back(std::min(keep(x, shown.width, border.width), keep(y, shown.height, border.height)));
     }
   return kept;
-}
-
-/// By how much, as a part of their length, repeats are bent within the border.
-double bent(const Lattice& lattice, const SynthesisOptions& options, const LatticeGaps& gaps) {
-  const auto along = [&](bool x, int side, double gap) {
-    const Vector2 v = lattice.misfit(side, x);
-    return gap > 0 ? std::sqrt(v.x * v.x + v.y * v.y) / gap : 0;
-  };
-  return std::max(options.tile_x ? along(true, options.size.width, gaps.x.length) : 0,
-                  options.tile_y ? along(false, options.size.height, gaps.y.length) : 0);
 }
 
 /// An exemplar that wraps around as it is.
@@ -87,7 +74,9 @@ void compute(NodeContext& node) {
         fmt::format("the exemplar of {} pixels repeats: the result has {}, so that it holds a whole number of "
                     "repeats; set \"fit\" to \"size\" to keep {} and bend repeats in the border instead",
                     describe(exemplar), describe(options.size), describe(exemplar)));
-  if (const double much = bent(lattice, options, options.kept.gaps(options.size)); much > unseen_bend)
+  const Size room{2 * border.width + std::max(0, options.size.width - exemplar.width),
+                  2 * border.height + std::max(0, options.size.height - exemplar.height)};
+  if (const double much = lattice.bent(options.size, options.tile_x, options.tile_y, room); much > unseen_bend)
     node.note(fmt::format(
         "to wrap around, repeats are bent by {:.0f} % in the border; a wider border bends them less{}", 100 * much,
         options.size == fitting

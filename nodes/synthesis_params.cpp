@@ -162,9 +162,13 @@ void note_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
   const Lattice& lattice = index.appearance()->lattice();
   if (lattice.fits(options.size, options.tile_x, options.tile_y)) return;
   const Size would = lattice.best_fitting(options.size, options.tile_x, options.tile_y, options.size);
-  node.note(fmt::format(
+  const std::string message = fmt::format(
       "{} does not hold a whole number of the exemplar's repeats, so that {}{}", describe(options.size), consequence,
-      would != options.size ? fmt::format("; {} fits better", describe(would)) : "; no size near it fits better"));
+      would != options.size ? fmt::format("; {} fits better", describe(would)) : "; no size near it fits better");
+  if (lattice.bent(options.size, options.tile_x, options.tile_y, options.size) > unseen_bend)
+    node.warn(message);
+  else
+    node.note(message);
 }
 
 ImagePtr made_anew(const UvMap& result, const KeptPixels& kept) {

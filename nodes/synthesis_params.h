@@ -31,9 +31,12 @@ SynthesisOptions synthesis_options(const NodeContext& node, const Index& index);
 void require_same_exemplar(const UvMap& uv, const Index& index);
 
 /// Unless a result that wraps holds a whole number of the exemplar's repeats, notes what becomes of them and the
-/// size near it that fits best.
+/// size near it that fits best; warns where that will be seen.
 void note_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
                              std::string_view consequence);
+
+/// How much repeats can be bent, as a part of their length, without its being seen.
+inline constexpr double unseen_bend = 0.03;
 
 /// A mask of a result: white where it no longer shows what was kept.
 ImagePtr made_anew(const UvMap& result, const KeptPixels& kept);

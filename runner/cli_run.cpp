@@ -222,8 +222,7 @@ bool same_folder(const std::string& a, const std::string& b) {
 void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
   struct Flags : RunFlags {
-    std::string folder, out, size, seed, quality, blend, join, format;
-    bool tileable = false;
+    std::string folder, out, size, seed, quality, blend, join, format, tileable;
   };
   const auto flags = std::make_shared<Flags>();
   synth->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
@@ -250,7 +249,8 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       ->add_option("--format", flags->format,
                    "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
       ->type_name("FORMAT");
-  synth->add_flag("--tileable", flags->tileable, "The result wraps around in both directions");
+  synth->add_flag("--tileable{xy}", flags->tileable,
+                  "The result wraps around; --tileable=x or --tileable=y in one direction only");
   add_run_flags(*synth, *flags);
   synth->footer("Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7");
   synth->callback([&chosen, flags] {
@@ -265,7 +265,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       set_if_given("--blend", "blend", flags->blend);
       set_if_given("--join", "join", flags->join);
       set_if_given("--format", "format", flags->format);
-      set_if_given("--tileable", "tileable", flags->tileable ? "xy" : "");
+      set_if_given("--tileable", "tileable", flags->tileable);
       std::vector<std::string> set;
       for (const Argument& a : arguments) set.push_back(a.override_text());
       if (same_folder(flags->folder, flags->out))

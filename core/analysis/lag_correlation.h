@@ -73,8 +73,8 @@ class Correlation {
 };
 
 /// The correlation of an exemplar's details with themselves, channels weighted by their variance: over lags up to five
-/// sixths of its sides or, around its borders, all of its sides if it tiles. `counts`: per pixel how much it counts, 0..1;
-/// empty: all do. Throws Cancelled.
+/// sixths of its sides or, around its borders, all of its sides if it tiles. `counts`: per pixel how much it counts,
+/// 0..1; empty: all do. Throws Cancelled.
 Correlation correlate(const ExemplarPlanes& planes, const std::vector<float>& counts, const Task& task);
 
 /// Edge strength, all channels together, as one channel: joints show in it however much bricks differ in colour.

@@ -37,6 +37,11 @@ TEST_CASE("synth --tileable asks for a result that wraps, and synth never overwr
   write_picture(w.path / "maps/stone_basecolor.png", 5);
   const ProgramRun plain = w.run({"synth", "maps", "-o", "plain", "--size", "40x40"});
   const ProgramRun wraps = w.run({"synth", "maps", "-o", "wraps", "--size", "40x40", "--tileable"});
+  const ProgramRun sideways = w.run({"synth", "maps", "-o", "sideways", "--size", "40x40", "--tileable=x"});
+  CHECK_MESSAGE(sideways.code == 0, sideways.err);
+  const ProgramRun wrong = w.run({"synth", "maps", "-o", "wrong", "--tileable=z"});
+  CHECK(wrong.code == 2);
+  CHECK_MESSAGE(says(wrong.err, "--tileable z: expected"), wrong.err);
   REQUIRE(plain.code == 0);
   REQUIRE(wraps.code == 0);
   CHECK(read_text(w.path / "plain/base_color.png") != read_text(w.path / "wraps/base_color.png"));
