@@ -8,7 +8,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr PieceLimits irregular_pieces{0.12, 0.3};
+constexpr PieceLimits irregular_pieces{0.119, 0.3};
 // With a lattice less is out of phase, so pieces grow more readily.
 constexpr PieceLimits pieces_on_lattice{0.055, 0.1};
 constexpr double most_coherence = 3;
