@@ -22,7 +22,8 @@ constexpr double least_shear = 1;
 constexpr double looseness = 1.0 / 12;
 constexpr double certainty_counts = 2.0 / 3;
 
-// Of sizes that wrap: a side that is half as long again is as bad as cells bent by a quarter.
+// Of sizes that wrap: a side that is half as long again is as bad as cells bent by a fifth. Cells that would be bent
+// more than `most_bent` do not hold together: then the size stays.
 constexpr double bending_weight = 2;
 constexpr double most_bent = 0.15;
 

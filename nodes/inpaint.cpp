@@ -10,14 +10,15 @@ namespace terrazzo {
 
 namespace {
 
-/// What is there: the pixels of `uv`, or the exemplar itself, outside the holes.
-KeptPixels outside_holes(const UvMap* uv, const ImagePtr& holes, Size size, double margin) {
+/// What is there: the pixels of `uv`, or the exemplar itself, outside the holes. Up to `margin` pixels from a hole they
+/// may give way.
+KeptPixels outside_holes(const UvMap* uv, const ImagePtr& holes, Size size, bool wraps, double margin) {
   std::vector<uint8_t> hole;
   hole.reserve(size_t(size.area()));
   for_each_strip(*nearest_at_size(holes, size), [&](const Rect& r, const float* v) {
     for (int64_t i = 0; i < r.area(); i++) hole.push_back(v[i * holes->channels()] > 0.5f);
   });
-  const std::vector<int64_t> squared = squared_distances(hole, size, false);
+  const std::vector<int64_t> squared = squared_distances(hole, size, wraps);
   KeptPixels kept;
   kept.keep.reserve(hole.size());
   kept.pixels.reserve(hole.size());
@@ -45,7 +46,7 @@ void compute(NodeContext& node) {
   }
   require_shape("mask", *holes, uv ? "the uv map" : "the exemplar", options.size);
   const double margin = node.number("margin");
-  options.kept = outside_holes(uv.get(), holes, options.size,
+  options.kept = outside_holes(uv.get(), holes, options.size, options.tile_x && options.tile_y,
                                margin < 1 ? margin * std::min(options.size.width, options.size.height) : margin);
   const std::vector<Keep>& keep = options.kept.keep;
   if (std::ranges::all_of(keep, [](Keep k) { return k == Keep::never; }))
