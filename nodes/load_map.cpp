@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include "core/color.h"
 #include "core/image_file.h"
+#include "core/image_ops.h"
 #include "core/node.h"
 #include "nodes/color_space.h"
 
@@ -11,6 +14,21 @@ std::vector<std::string> semantic_choices() {
   return {semantic_names.begin(), semantic_names.end()};
 }
 
+/// A mask painted as transparency would silently be all white or all black.
+void note_transparency(NodeContext& node, const Image& mask) {
+  const int channels = mask.channels();
+  if (channels != 2 && channels != 4) return;
+  bool transparent = false;
+  for_each_strip(mask, [&](const Rect& r, const float* v) {
+    for (int64_t i = 0; i < r.area() && !transparent; i++) transparent = v[(i + 1) * channels - 1] < 1;
+  });
+  if (transparent)
+    node.warn(
+        fmt::format("the mask's first channel counts, not its transparency; for that take output \"{}\" of "
+                    "channel_split",
+                    channels == 2 ? "g" : "a"));
+}
+
 void compute(NodeContext& node) {
   ImageInfo info;
   info.semantic = *semantic_from(node.text("semantic"));
@@ -19,7 +37,9 @@ void compute(NodeContext& node) {
   info.color_space = node.text("color_space") == "auto"
                          ? assumed_color_space(info.semantic, read_image_info(path).depth)
                          : color_space_of(node, "color_space");
-  node.output("image", read_image(path, info, [&](const std::string& warning) { node.note(warning); }));
+  const ImagePtr image = read_image(path, info, [&](const std::string& warning) { node.note(warning); });
+  if (info.semantic == Semantic::mask) note_transparency(node, *image);
+  node.output("image", image);
 }
 
 }  // namespace

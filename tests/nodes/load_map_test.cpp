@@ -39,3 +39,21 @@ TEST_CASE("what is odd about a file is noted") {
   REQUIRE(run.notes.size() == 1);
   CHECK(run.notes[0] == "odd.tif: turned upright, as its orientation mark (6) says");
 }
+
+TEST_CASE("a mask painted as transparency is warned of, an opaque one is not") {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "mask.png").string();
+  const auto notes = [&](int channels, float alpha, const std::string& semantic) {
+    const ImagePtr image =
+        make_image({4, 4}, channels, [&](int x, int, int c) { return c == channels - 1 && x == 2 ? alpha : 1.0f; });
+    write_image(*image, path, {}, [](double) {});
+    return run_node("load_map", {{"path", path}, {"semantic", semantic}}).notes;
+  };
+  REQUIRE(notes(4, 0.5f, "mask").size() == 1);
+  CHECK(notes(4, 0.5f, "mask")[0].find("output \"a\" of channel_split") != std::string::npos);
+  REQUIRE(notes(2, 0, "mask").size() == 1);
+  CHECK(notes(2, 0, "mask")[0].find("output \"g\"") != std::string::npos);
+  CHECK(notes(4, 1, "mask").empty());
+  CHECK(notes(3, 0, "mask").empty());
+  CHECK(notes(4, 0.5f, "base_color").empty());
+}
