@@ -22,10 +22,8 @@ constexpr double least_shear = 1;
 constexpr double looseness = 1.0 / 12;
 constexpr double certainty_counts = 2.0 / 3;
 
-// Of sizes that wrap: a side that is half as long again is as bad as cells bent by a fifth. Cells that would be bent
-// more than `most_bent` do not hold together: then the size stays.
+// Of sizes that wrap: a side that is half as long again is as bad as cells bent by a fifth.
 constexpr double bending_weight = 2;
-constexpr double most_bent = 0.15;
 
 double length_of(const Vector2& v) {
   return std::sqrt(v.x * v.x + v.y * v.y);
@@ -38,7 +36,7 @@ int best_side(const Lattice& lattice, int length, bool along_x, int give) {
   for (int n = length / 2 + 1; n <= length + length / 8; n++) {
     const int room = give + std::max(0, n - length);
     const double bent = lattice.bent({n, n}, along_x, !along_x, {room, room});
-    if (bent > most_bent && n != length) continue;
+    if (bent > Lattice::most_bent && n != length) continue;
     const double badness = std::abs(std::log(double(n) / length)) + bending_weight * bent;
     if (badness >= least) continue;
     least = badness;

@@ -40,7 +40,7 @@ void compute(NodeContext& node) {
                                   room.width, room.height, describe(uv->size()), describe(options.size), at[0], at[1]));
   options.origin = {int(at[0]), int(at[1])};
   options.kept = placed(*uv, options.size, options.origin);
-  note_unless_repeats_fit(node, *index, options, "courses or tiles are bent, or cut, where the result wraps");
+  warn_unless_repeats_fit(node, *index, options, "courses or tiles are bent, or cut, where the result wraps");
   node.output("uv", synthesize(*index, options, node.task()));
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/analysis/distance_transform.h"
+#include "core/disjoint_sets.h"
 #include "core/error.h"
 #include "core/image_ops.h"
 #include "core/synthesis/kept.h"
@@ -10,6 +11,47 @@ namespace terrazzo {
 
 namespace {
 
+/// Half the width of each hole, where that is widest.
+class HalfWidths {
+ public:
+  HalfWidths(const std::vector<uint8_t>& hole, Size size, bool wraps) : holes_(hole.size()), widest_(hole.size()) {
+    std::vector<uint8_t> sound(hole.size());
+    for (size_t i = 0; i < hole.size(); i++) {
+      sound[i] = !hole[i];
+      if (!hole[i]) continue;
+      const auto width = size_t(size.width);
+      if (i % width > 0 && hole[i - 1]) holes_.join(uint32_t(i), uint32_t(i - 1));
+      if (i >= width && hole[i - width]) holes_.join(uint32_t(i), uint32_t(i - width));
+    }
+    const std::vector<int64_t> inside = squared_distances(sound, size, wraps);
+    for (size_t i = 0; i < hole.size(); i++) {
+      int64_t& most = widest_[holes_.find(uint32_t(i))];
+      most = std::max(most, inside[i]);
+    }
+  }
+  /// Squared, of the hole that a pixel is part of.
+  int64_t squared(uint32_t pixel) { return widest_[holes_.find(pixel)]; }
+
+ private:
+  DisjointSets holes_;
+  std::vector<int64_t> widest_;
+};
+
+/// Which pixels stay. Up to `margin` pixels from a hole, and no farther than the hole is wide, they may give way.
+std::vector<Keep> kept_around(const std::vector<uint8_t>& hole, Size size, bool wraps, double margin) {
+  std::vector<Keep> keep(hole.size(), Keep::always);
+  for (size_t i = 0; i < hole.size(); i++)
+    if (hole[i]) keep[i] = Keep::never;
+  if (margin <= 0 || std::ranges::none_of(hole, [](uint8_t h) { return h; })) return keep;
+  HalfWidths half_widths(hole, size, wraps);
+  const std::vector<int64_t> squared = squared_distances(hole, size, wraps);
+  const std::vector<uint32_t> nearest = nearest_set(hole, size, wraps);
+  for (size_t i = 0; i < hole.size(); i++)
+    if (!hole[i] && double(squared[i]) <= margin * margin && squared[i] <= 4 * half_widths.squared(nearest[i]))
+      keep[i] = Keep::at_first;
+  return keep;
+}
+
 /// What is there: the pixels of `uv`, or the exemplar itself, outside the holes. Up to `margin` pixels from a hole they
 /// may give way.
 KeptPixels outside_holes(const UvMap* uv, const ImagePtr& holes, Size size, bool wraps, double margin) {
@@ -18,12 +60,8 @@ KeptPixels outside_holes(const UvMap* uv, const ImagePtr& holes, Size size, bool
   for_each_strip(*nearest_at_size(holes, size), [&](const Rect& r, const float* v) {
     for (int64_t i = 0; i < r.area(); i++) hole.push_back(v[i * holes->channels()] > 0.5f);
   });
-  const std::vector<int64_t> squared = squared_distances(hole, size, wraps);
-  KeptPixels kept;
-  kept.keep.reserve(hole.size());
+  KeptPixels kept{{}, kept_around(hole, size, wraps, margin)};
   kept.pixels.reserve(hole.size());
-  for (size_t i = 0; i < hole.size(); i++)
-    kept.keep.push_back(hole[i] ? Keep::never : double(squared[i]) <= margin * margin ? Keep::at_first : Keep::always);
   if (uv) {
     kept.pixels = uv->pixels();
     return kept;
@@ -89,8 +127,8 @@ NodeType inpaint_node() {
         .type = ParamType::number,
         .fallback = 0.0625,
         .help = "How far from a hole pixels may give way, so that its outline does not show: below 1 a part of the "
-                "shorter side, else pixels. Half a brick or tile suits walls and floors; 0 keeps every pixel outside "
-                "the holes.",
+                "shorter side, else pixels; around thin holes, scratches say, no farther than the hole is wide. Half a "
+                "brick or tile suits walls and floors; 0 keeps every pixel outside the holes.",
         .min = 0,
         .max = 32768,
         .unit = "pixels or part of the side"},
@@ -99,7 +137,7 @@ NodeType inpaint_node() {
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
     const auto uv = node.optional_input<UvMap>("uv");
-    return 3 * synthesis_memory(uv ? uv->size() : node.input<Index>("index")->appearance()->size());
+    return 6 * synthesis_memory(uv ? uv->size() : node.input<Index>("index")->appearance()->size());
   };
   return t;
 }

@@ -46,8 +46,8 @@ KeptPixels interior(Size exemplar, Size result, Size border) {
 void leave(NodeContext& node, const Index& index) {
   const Size size = index.appearance()->size();
   node.note(
-      "the exemplar wraps around already and stays as it is; if its border is to be made anew, tell the nodes that "
-      "analyse it that it does not tile (\"tiles\")");
+      "the exemplar wraps around already and stays as it is; if its border is to be made anew, set \"tiles\" to \"no\" "
+      "where it is analysed, in the stock graph by --set tiles=no");
   const KeptPixels kept = interior(size, size, {0, 0});
   const UvMapPtr uv = UvMap::make(size, size, kept.pixels, {true, true, true});
   node.output("border", made_anew(*uv, kept));
@@ -71,17 +71,21 @@ void compute(NodeContext& node) {
   options.kept = interior(exemplar, options.size, border);
   if (options.size != exemplar)
     node.note(
-        fmt::format("the exemplar of {} pixels repeats: the result has {}, so that it holds a whole number of "
-                    "repeats; set \"fit\" to \"size\" to keep {} and bend repeats in the border instead",
+        fmt::format("the exemplar of {} pixels repeats: the result has {}, so that repeats go around; set \"fit\" to "
+                    "\"size\" to keep {} and bend repeats in the border instead",
                     describe(exemplar), describe(options.size), describe(exemplar)));
   const Size room{2 * border.width + std::max(0, options.size.width - exemplar.width),
                   2 * border.height + std::max(0, options.size.height - exemplar.height)};
-  if (const double much = lattice.bent(options.size, options.tile_x, options.tile_y, room); much > unseen_bend)
-    node.note(fmt::format(
-        "to wrap around, repeats are bent by {:.0f} % in the border; a wider border bends them less{}", 100 * much,
-        options.size == fitting
-            ? ""
-            : fmt::format(", and so does \"fit\": \"repeats\", which makes the result {}", describe(fitting))));
+  const double bent = lattice.bent(options.size, options.tile_x, options.tile_y, room);
+  const std::string how = fmt::format(
+      "to wrap around, repeats are bent by {:.0f} % in the border; a wider border bends them less{}", 100 * bent,
+      options.size == fitting
+          ? ""
+          : fmt::format(", and so does \"fit\": \"repeats\", which makes the result {}", describe(fitting)));
+  if (bent > Lattice::most_bent)
+    node.warn(how);
+  else if (bent > lattice.unseen_bend())
+    node.note(how);
   const UvMapPtr uv = synthesize(*index, options, node.task());
   node.output("border", made_anew(*uv, options.kept));
   node.output("uv", uv);

@@ -157,18 +157,24 @@ void require_same_exemplar(const UvMap& uv, const Index& index) {
                                 describe(analysed), describe(uv.exemplar())));
 }
 
-void note_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
+void warn_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
                              std::string_view consequence) {
   const Lattice& lattice = index.appearance()->lattice();
-  if (lattice.fits(options.size, options.tile_x, options.tile_y)) return;
-  const Size would = lattice.best_fitting(options.size, options.tile_x, options.tile_y, options.size);
-  const std::string message = fmt::format(
-      "{} does not hold a whole number of the exemplar's repeats, so that {}{}", describe(options.size), consequence,
-      would != options.size ? fmt::format("; {} fits better", describe(would)) : "; no size near it fits better");
-  if (lattice.bent(options.size, options.tile_x, options.tile_y, options.size) > unseen_bend)
-    node.warn(message);
-  else
-    node.note(message);
+  const auto fits = [&](Size size) {
+    return lattice.bent(size, options.tile_x, options.tile_y, size) <= lattice.unseen_bend();
+  };
+  if (fits(options.size)) return;
+  std::string advice = "no size near it would";
+  // The less there is to bend in, the nearer to whole repeats.
+  for (const int part : {1, 4, 16}) {
+    const Size give{std::max(1, options.size.width / part), std::max(1, options.size.height / part)};
+    const Size would = lattice.best_fitting(options.size, options.tile_x, options.tile_y, give);
+    if (!fits(would)) continue;
+    advice = fmt::format("{} would", describe(would));
+    break;
+  }
+  node.warn(fmt::format("{} does not hold a whole number of the exemplar's repeats, so that {}; {}",
+                        describe(options.size), consequence, advice));
 }
 
 ImagePtr made_anew(const UvMap& result, const KeptPixels& kept) {

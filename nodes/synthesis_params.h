@@ -30,13 +30,10 @@ SynthesisOptions synthesis_options(const NodeContext& node, const Index& index);
 /// Throws Error about port "uv" unless the uv map was made for the exemplar of the index.
 void require_same_exemplar(const UvMap& uv, const Index& index);
 
-/// Unless a result that wraps holds a whole number of the exemplar's repeats, notes what becomes of them and the
-/// size near it that fits best; warns where that will be seen.
-void note_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
+/// Unless a result that wraps holds a whole number of the exemplar's repeats, or nearly so, warns what becomes of them
+/// and names a size near it that does.
+void warn_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
                              std::string_view consequence);
-
-/// How much repeats can be bent, as a part of their length, without its being seen.
-inline constexpr double unseen_bend = 0.03;
 
 /// A mask of a result: white where it no longer shows what was kept.
 ImagePtr made_anew(const UvMap& result, const KeptPixels& kept);

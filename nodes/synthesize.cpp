@@ -32,7 +32,7 @@ void compute(NodeContext& node) {
   const Part part = part_of(node);
   SynthesisOptions options = synthesis_options(node, *index);
   options.size = part.surface;
-  note_unless_repeats_fit(node, *index, options, "they are stretched to wrap around and joints may jog");
+  warn_unless_repeats_fit(node, *index, options, "they are stretched to wrap around and joints may jog");
   if (!coarse && part.is_whole())
     node.output("uv", synthesize(*index, options, node.task()));
   else

@@ -69,6 +69,13 @@ std::vector<std::string> command_names(const CLI::App* app) {
   return names;
 }
 
+/// A value that may be left out is not told from an argument that comes next.
+std::string direction_hint(const CLI::App* command, const std::string& arg) {
+  const bool direction = arg == "x" || arg == "y" || arg == "xy";
+  return direction && command->get_option_no_throw("--tileable") ? fmt::format("; did you mean --tileable={}?", arg)
+                                                                 : "";
+}
+
 /// Arguments that nothing takes, each with the nearest thing that exists; empty if there are none.
 std::string unknown_arguments(const CLI::App* command) {
   std::string out;
@@ -77,7 +84,7 @@ std::string unknown_arguments(const CLI::App* command) {
     const std::string line =
         arg.starts_with("-")
             ? fmt::format("unknown option {}{}", arg, suggestion(arg.substr(0, arg.find('=')), option_names(command)))
-        : commands.empty() ? fmt::format("unexpected argument {}", arg)
+        : commands.empty() ? fmt::format("unexpected argument {}{}", arg, direction_hint(command, arg))
                            : fmt::format("unknown command {}{}", arg, suggestion(arg, commands));
     out += (out.empty() ? "" : "\n") + line;
   }

@@ -80,13 +80,12 @@ TEST_CASE("make_tileable holds a whole number of repeats unless the size must st
   CHECK(uv->size() == Size{64, 48});
   for (int y = 7; y < 41; y++)
     for (int x = 8; x < 53; x++) REQUIRE(uv->at(x, y) == here(x, y));
-  CHECK(run.notes ==
-        Texts{"the exemplar of 61x53 pixels repeats: the result has 64x48, so that it holds a whole number "
-              "of repeats; set \"fit\" to \"size\" to keep 61x53 and bend repeats in the border instead"});
+  CHECK(run.notes == Texts{"the exemplar of 61x53 pixels repeats: the result has 64x48, so that repeats go around; set "
+                           "\"fit\" to \"size\" to keep 61x53 and bend repeats in the border instead"});
   const NodeRun kept = run_node("make_tileable", {{"fit", "size"}}, {{"index", {index}}});
   CHECK(kept.get<UvMap>("uv")->size() == Size{61, 53});
   CHECK(kept.notes ==
-        Texts{"to wrap around, repeats are bent by 36 % in the border; a wider border bends them less, and "
+        Texts{"warning: to wrap around, repeats are bent by 36 % in the border; a wider border bends them less, and "
               "so does \"fit\": \"repeats\", which makes the result 64x48"});
 }
 
@@ -132,6 +131,13 @@ TEST_CASE("inpaint lets pixels give way up to the margin, and tells which did") 
       in_margin += !hole && !same;
     }
   CHECK(in_margin > 0);
+  // A scratch is given no wider a margin than it is wide.
+  const ImagePtr scratch = make_image({96, 80}, 1, [](int x, int, int) { return x == 40 || x == 41 ? 1.f : 0.f; });
+  const UvMapPtr thin =
+      run_node("inpaint", {{"margin", 12.0}}, {{"index", {index}}, {"mask", {scratch}}}).get<UvMap>("uv");
+  for (int y = 0; y < 80; y++)
+    for (int x = 0; x < 96; x++)
+      if (x < 38 || x > 43) REQUIRE(thin->at(x, y) == here(x, y));
   // Holes whose margins meet leave nothing that always stays, and are filled all the same.
   CHECK_NOTHROW(run_node("inpaint", {{"margin", 60.0}}, {{"index", {index}}, {"mask", {hole()}}}));
 }

@@ -42,6 +42,7 @@ TEST_CASE("synth --tileable asks for a result that wraps, and synth never overwr
   const ProgramRun wrong = w.run({"synth", "maps", "-o", "wrong", "--tileable=z"});
   CHECK(wrong.code == 2);
   CHECK_MESSAGE(says(wrong.err, "--tileable z: expected"), wrong.err);
+  CHECK(says(w.run({"synth", "maps", "-o", "wrong", "--tileable", "x"}).err, "did you mean --tileable=x?"));
   REQUIRE(plain.code == 0);
   REQUIRE(wraps.code == 0);
   CHECK(read_text(w.path / "plain/base_color.png") != read_text(w.path / "wraps/base_color.png"));
