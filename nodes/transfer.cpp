@@ -39,10 +39,26 @@ std::vector<Control> controls_of(const NodeContext& node) {
   return controls;
 }
 
+/// Of a painted layout, soft edges of strokes are no mistake.
+constexpr double most_unknown = 0.05;
+
+void warn_of_unknown_labels(NodeContext& node, const std::vector<Control>& controls, Size exemplar) {
+  for (const Control& control : controls) {
+    if (control.mode != Control::Mode::labels || control.exemplar->channels() != control.target->channels()) continue;
+    const double unknown = unknown_labels(control, exemplar, node.task());
+    if (unknown > most_unknown)
+      node.warn(
+          fmt::format("{:.0f} % of the target have values that \"exemplar_control\" does not have; they count as "
+                      "the nearest it has",
+                      100 * unknown));
+  }
+}
+
 void compute(NodeContext& node) {
   const auto index = node.input<Index>("index");
   SynthesisOptions options = synthesis_options(node, *index);
   options.controls = controls_of(node);
+  warn_of_unknown_labels(node, options.controls, index->appearance()->size());
   node.output("uv", synthesize(*index, options, node.task()));
 }
 

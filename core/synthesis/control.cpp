@@ -207,6 +207,17 @@ double typical_distance(const PaddedLevel& level) {
 
 }  // namespace
 
+double unknown_labels(const Control& control, Size exemplar, const Task& task) {
+  const std::vector<Label> known =
+      labels_of(*materialized(nearest_at_size(control.exemplar, exemplar), task));  // sorted
+  const ImagePtr target = materialized(control.target, task);
+  const float* values = target->in_memory();
+  int64_t unknown = 0;
+  for (int64_t i = 0; i < target->size().area(); i++)
+    unknown += !std::ranges::binary_search(known, label_of(values + i * target->channels(), target->channels()));
+  return double(unknown) / double(target->size().area());
+}
+
 ControlPyramid::ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size output, int levels,
                                const Task& task) {
   if (controls.empty()) return;

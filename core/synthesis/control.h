@@ -31,6 +31,10 @@ struct Control {
   Match match = Match::histogram;  ///< only for values
 };
 
+/// The part of a target's pixels, 0..1, whose label the exemplar's control does not have. `exemplar`: the exemplar's
+/// size. Throws Error about "exemplar_control" if that has too many.
+double unknown_labels(const Control& control, Size exemplar, const Task& task);
+
 /// Control values of the exemplar or the output at one level: bytes, all controls' channels interleaved.
 struct ControlPlanes {
   Size size;

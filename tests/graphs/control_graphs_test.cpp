@@ -79,6 +79,16 @@ TEST_CASE("labels lays the exemplar's parts out as painted") {
       light_pixels(w, "labels", {"material=stone", "labels=parts.png", "target=layout.png"});
   CHECK(light_part(light, 0, 27) > 0.98);
   CHECK(light_part(light, 33, 60) < 0.02);
+  write_grey(w.path / "other.png", {60, 40}, [](int x, int) { return x < 45 ? 0.3 : 0.6; });
+  const auto warns = [&](const std::string& layout) {
+    const ProgramRun run =
+        w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/labels.json", "--set", "size=20x20", "--set", "out=other", "--set",
+               "material=stone", "--set", "labels=parts.png", "--set", "target=" + layout});
+    REQUIRE_MESSAGE(run.code == 0, run.err);
+    return run.err.find("25 % of the target have values that \"exemplar_control\" does not have") != std::string::npos;
+  };
+  CHECK(warns("other.png"));
+  CHECK_FALSE(warns("layout.png"));
 }
 
 TEST_CASE("progression goes from one end of the exemplar to the other, either way") {
