@@ -10,6 +10,7 @@
 #include "core/analysis/planes.h"
 #include "core/analysis/straight_lines.h"
 #include "core/analysis/usable.h"
+#include "core/bounds.h"
 
 namespace terrazzo {
 
@@ -58,19 +59,6 @@ Found searched(const Correlation& values, const Correlation& joints, double leas
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }
 
-Rect bounds(const std::vector<uint8_t>& allowed, Size size) {
-  int left = size.width, right = 0, top = size.height, bottom = 0;
-  for (int y = 0; y < size.height; y++)
-    for (int x = 0; x < size.width; x++)
-      if (allowed[size_t(y) * size.width + x]) {
-        left = std::min(left, x);
-        right = std::max(right, x + 1);
-        top = std::min(top, y);
-        bottom = y + 1;
-      }
-  return {left, top, right - left, bottom - top};
-}
-
 /// What a mask leaves to be seen of an exemplar.
 struct View {
   ExemplarPlanes planes;
@@ -84,7 +72,7 @@ View view_of(const Features& features, const Task& task) {
   View view{weighted_planes(features, task), {}};
   const std::vector<uint8_t> allowed = allowed_pixels(features);
   if (!allowed.empty()) {
-    const Rect seen = bounds(allowed, features.size());
+    const Rect seen = bounds(features.size(), [&](size_t i) { return allowed[i] != 0; });
     view.planes = cropped(view.planes, seen);
     view.counts = cropped({features.size(), 1, features.wraps(), {allowed.begin(), allowed.end()}}, seen);
   }

@@ -2,21 +2,16 @@
 
 #include <algorithm>
 
+#include "core/bounds.h"
+
 namespace terrazzo {
 
 LatticeGaps KeptPixels::gaps(Size output) const {
-  int left = output.width, right = 0, top = output.height, bottom = 0;
-  for (int y = 0; y < output.height && !empty(); y++)
-    for (int x = 0; x < output.width; x++)
-      if (keep[size_t(y) * output.width + x] == Keep::always) {
-        left = std::min(left, x);
-        right = std::max(right, x + 1);
-        top = std::min(top, y);
-        bottom = y + 1;
-      }
-  if (right == 0) return {};
-  return {{double(right), double(output.width - (right - left))},
-          {double(bottom), double(output.height - (bottom - top))}};
+  if (empty()) return {};
+  const Rect kept = bounds(output, [&](size_t i) { return keep[i] == Keep::always; });
+  if (kept.area() == 0) return {};
+  return {{double(kept.right()), double(output.width - kept.width)},
+          {double(kept.bottom()), double(output.height - kept.height)}};
 }
 
 FixedPixels::FixedPixels(const KeptPixels& kept, Size output, int level, Size exemplar) {
