@@ -5,10 +5,10 @@
 
 namespace terrazzo {
 
-AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Lattice& lattice) {
+AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Repeats& repeats) {
   Hasher h;
   h.add("appearance").add(channels).add(wraps).add(int64_t(levels.size()));
-  lattice.add_to(h);
+  repeats.add_to(h);
   for (const AppearanceLevel& l : levels) {
     if (l.vectors.size() != size_t(l.size.area())) throw std::logic_error("one appearance vector per pixel");
     if (!l.usable.empty() && l.usable.size() != l.vectors.size())
@@ -25,7 +25,7 @@ AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels
   a->levels_ = std::move(levels);
   a->channels_ = channels;
   a->wraps_ = wraps;
-  a->lattice_ = lattice;
+  a->repeats_ = repeats;
   a->digest_ = h.digest();
   return a;
 }

@@ -7,7 +7,7 @@
 
 #include "core/geometry.h"
 #include "core/hash.h"
-#include "core/lattice.h"
+#include "core/repeats.h"
 
 namespace terrazzo {
 
@@ -41,13 +41,14 @@ using AppearancePtr = std::shared_ptr<const Appearance>;
 /// finest level first, each level with a PCA of its own. Immutable.
 class Appearance {
  public:
-  static AppearancePtr make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Lattice& lattice = {});
+  static AppearancePtr make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Repeats& repeats = {});
 
   const std::vector<AppearanceLevel>& levels() const { return levels_; }
   Size size() const { return levels_.front().size; }
-  int channels() const { return channels_; }           ///< features and guidance channels that went in
-  bool wraps() const { return wraps_; }                ///< the exemplar tiles in x and y
-  const Lattice& lattice() const { return lattice_; }  ///< how the exemplar repeats, if it does
+  int channels() const { return channels_; }                   ///< features and guidance channels that went in
+  bool wraps() const { return wraps_; }                        ///< the exemplar tiles in x and y
+  const Repeats& repeats() const { return repeats_; }          ///< how the exemplar repeats, if it does
+  const Lattice& lattice() const { return repeats_.lattice; }  ///< that of all of it or of most
   const Digest& digest() const { return digest_; }
 
  private:
@@ -55,7 +56,7 @@ class Appearance {
   std::vector<AppearanceLevel> levels_;
   int channels_ = 0;
   bool wraps_ = false;
-  Lattice lattice_;
+  Repeats repeats_;
   Digest digest_;
 };
 

@@ -4,11 +4,11 @@
 
 namespace terrazzo {
 
-FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wraps, const Lattice& lattice,
+FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wraps, const Repeats& repeats,
                            ImagePtr mask) {
   Hasher h;
   h.add("features").add(size.width).add(size.height).add(wraps).add(int64_t(images.size()));
-  lattice.add_to(h);
+  repeats.add_to(h);
   if (mask && mask->size() != size) throw std::logic_error("the mask needs the features' size");
   if (mask) h.add(mask->digest());
   bool any = false;
@@ -27,7 +27,7 @@ FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wra
   auto features = std::shared_ptr<Features>(new Features);
   features->size_ = size;
   features->wraps_ = wraps;
-  features->lattice_ = lattice;
+  features->repeats_ = repeats;
   features->images_ = std::move(images);
   features->mask_ = std::move(mask);
   features->digest_ = h.digest();

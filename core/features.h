@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/image.h"
-#include "core/lattice.h"
+#include "core/repeats.h"
 
 namespace terrazzo {
 
@@ -23,14 +23,14 @@ class Features {
  public:
   /// All images must have `size`. Throws Error if every weight is 0. `wraps`: the exemplar tiles in x and y. `mask`:
   /// where its first channel exceeds 0.5 the exemplar may be sampled; null: everywhere.
-  static FeaturesPtr make(Size size, std::vector<FeatureImage> images, bool wraps, const Lattice& lattice = {},
+  static FeaturesPtr make(Size size, std::vector<FeatureImage> images, bool wraps, const Repeats& repeats = {},
                           ImagePtr mask = nullptr);
   /// The same features of an exemplar that is known to repeat.
-  FeaturesPtr with(const Lattice& lattice) const { return make(size_, images_, wraps_, lattice, mask_); }
+  FeaturesPtr with(const Repeats& repeats) const { return make(size_, images_, wraps_, repeats, mask_); }
 
   Size size() const { return size_; }
   bool wraps() const { return wraps_; }
-  const Lattice& lattice() const { return lattice_; }  ///< rank 0 unless it has been looked for and found
+  const Repeats& repeats() const { return repeats_; }  ///< of rank 0 unless they have been looked for and found
   const std::vector<FeatureImage>& images() const { return images_; }
   const ImagePtr& mask() const { return mask_; }  ///< null: all of the exemplar may be sampled
   /// Channels of non-zero weight.
@@ -41,7 +41,7 @@ class Features {
   Features() = default;
   Size size_;
   bool wraps_ = false;
-  Lattice lattice_;
+  Repeats repeats_;
   std::vector<FeatureImage> images_;
   ImagePtr mask_;
   Digest digest_;

@@ -134,8 +134,8 @@ LatticePhase::Matrix LatticePhase::to_cells(const Lattice& l, double scale) {
   return {by * d, -bx * d, -ay * d, ax * d};
 }
 
-LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y,
-                           const Vector2& origin, const LatticeGaps& gaps)
+LatticePhase::LatticePhase(const Lattice& lattice, const Lattice& shown, const Vector2& start, int level,
+                           const LatticeSurface& surface)
     : rank_(lattice.rank) {
   if (rank_ == 0) return;
   const double scale = 1.0 / double(int64_t{1} << level);
@@ -151,13 +151,21 @@ LatticePhase::LatticePhase(const Lattice& lattice, int level, Size output, bool 
   const double tolerance = std::clamp(loose, rounding, 1.0);
   stiffness_ = 1 / (tolerance * tolerance);
   to_exemplar_ = to_cells(lattice, scale);
-  const bool bends_x = tile_x && gaps.x.length > 0, bends_y = tile_y && gaps.y.length > 0;
-  to_output_ = to_cells(lattice.fitted(output, tile_x && !bends_x, tile_y && !bends_y), scale);
-  const double x = origin.x * scale, y = origin.y * scale;
-  origin_ = {to_output_.xx * x + to_output_.xy * y, to_output_.yx * x + to_output_.yy * y};
+  const LatticeGaps& gaps = surface.gaps;
+  const Size size = surface.size;
+  const bool bends_x = surface.wraps_x && gaps.x.length > 0, bends_y = surface.wraps_y && gaps.y.length > 0;
+  const Lattice fitted = shown.fitted(size, surface.wraps_x && !bends_x, surface.wraps_y && !bends_y);
+  shown_first_ = {fitted.first.x * scale, fitted.first.y * scale};
+  shown_second_ = {fitted.second.x * scale, fitted.second.y * scale};
+  to_output_ = to_cells(fitted, scale);
+  const auto cells_of = [&](const Matrix& m, const Vector2& at) {
+    return Vector2{(m.xx * at.x + m.xy * at.y) * scale, (m.yx * at.x + m.yy * at.y) * scale};
+  };
+  const Vector2 from = cells_of(to_exemplar_, start), to = cells_of(to_output_, surface.origin);
+  origin_ = {to.x - from.x, to.y - from.y};
   if (bends_x || bends_y) {
-    bent_x_ = bent(output.width, lattice.misfit(output.width, true), level, bends_x ? gaps.x : LatticeGap{});
-    bent_y_ = bent(output.height, lattice.misfit(output.height, false), level, bends_y ? gaps.y : LatticeGap{});
+    bent_x_ = bent(size.width, shown.misfit(size.width, true), level, bends_x ? gaps.x : LatticeGap{});
+    bent_y_ = bent(size.height, shown.misfit(size.height, false), level, bends_y ? gaps.y : LatticeGap{});
   }
   if (active() && !resolves_cells_) find_promising_steps();
 }

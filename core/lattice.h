@@ -15,6 +15,7 @@ namespace terrazzo {
 struct Vector2 {
   double x = 0;
   double y = 0;
+  bool operator==(const Vector2&) const = default;
 };
 
 /// How an exemplar repeats. Rank 2: in two directions, by `first` and `second` (pixels of the finest level). Rank 1: in
@@ -56,6 +57,7 @@ struct Lattice {
   /// side grows by.
   Size best_fitting(Size size, bool wraps_x, bool wraps_y, Size give) const;
 
+  bool operator==(const Lattice&) const = default;
   void add_to(Hasher& h) const { h.add(rank).add(first.x).add(first.y).add(second.x).add(second.y).add(certainty); }
 };
 
@@ -69,17 +71,28 @@ struct LatticeGaps {
   LatticeGap x, y;
 };
 
+/// The result that a lattice is shown on, in pixels of its finest level.
+struct LatticeSurface {
+  Size size;
+  bool wraps_x = false;
+  bool wraps_y = false;
+  Vector2 origin{};    ///< the position at which the exemplar's start is in phase
+  LatticeGaps gaps{};  ///< along which of the axes in which it wraps the lattice is bent, and where
+};
+
 /// Tells whether exemplar positions are in phase with output positions, at the scale of one pyramid level: whether both
 /// lie at the same place within the lattice's cell. Basic arithmetic only, so every machine decides alike.
 class LatticePhase {
  public:
   LatticePhase() = default;
-  /// `level`: 0 = the finest. `output`: the result's size at the finest level. A result that wraps around must hold a
-  /// whole number of cells: its lattice is stretched until it does. Inactive where a pixel has become larger than
-  /// two cells. `origin`: the output position, at the finest level, at which the exemplar's (0, 0) is in
-  /// phase. `gaps`: along which of the axes in which it wraps the lattice is bent instead, and where.
-  LatticePhase(const Lattice& lattice, int level, Size output, bool tile_x, bool tile_y, const Vector2& origin = {},
-               const LatticeGaps& gaps = {});
+  /// `level`: 0 = the finest. A result that wraps around must hold a whole number of cells: unless it has gaps to bend
+  /// in, its lattice is stretched until it does. Inactive where a pixel has become larger than two cells.
+  LatticePhase(const Lattice& lattice, int level, const LatticeSurface& surface)
+      : LatticePhase(lattice, lattice, {}, level, surface) {}
+  /// A cell of `lattice` is shown as one of `shown`, which has the same rank. `start`: the exemplar position, at the
+  /// finest level, that is in phase with the surface's origin.
+  LatticePhase(const Lattice& lattice, const Lattice& shown, const Vector2& start, int level,
+               const LatticeSurface& surface);
 
   bool active() const { return rank_ > 0; }
   /// Whether a cell is large enough to tell places within it apart. Where it is not, positions can still be in phase:
@@ -87,14 +100,14 @@ class LatticePhase {
   bool resolves_cells() const { return resolves_cells_; }
 
   /// What the exemplar position (u, v) has too much to be in phase with the output position (x, y), in pixels.
-  Vector2 excess(int u, int v, int x, int y) const {
+  Vector2 excess(int u, int v, double x, double y) const {
     const Vector2 c = cells(u, v, x, y);
     const double p = c.x - nearest(c.x), q = c.y - nearest(c.y);
     return {first_.x * p + second_.x * q, first_.y * p + second_.y * q};
   }
 
   /// Moves (u, v) into phase with (x, y); where cells are not resolved, to the position in reach that is nearest to it.
-  void snap(int x, int y, int& u, int& v) const {
+  void snap(double x, double y, int& u, int& v) const {
     if (!active()) return;
     if (!resolves_cells_) {
       search(x, y, u, v);
@@ -106,7 +119,13 @@ class LatticePhase {
   }
 
   /// Factor on the cost of a candidate that is further out of phase than the lattice's certainty leaves open.
-  double penalty(int u, int v, int x, int y) const { return penalty(excess(u, v, x, y)); }
+  double penalty(int u, int v, double x, double y) const { return penalty(excess(u, v, x, y)); }
+
+  /// One of the result's positions that are in phase with the exemplar position (u, v). Only where nothing bends.
+  Vector2 shown_at(int u, int v) const {
+    const Vector2 c = cells(u, v, 0, 0);
+    return {shown_first_.x * c.x + shown_second_.x * c.y, shown_first_.y * c.x + shown_second_.y * c.y};
+  }
 
  private:
   struct Matrix {
@@ -120,7 +139,7 @@ class LatticePhase {
   }
 
   /// By how many cells, in each direction, the exemplar position (u, v) is too far on for the output position (x, y).
-  Vector2 cells(int u, int v, int x, int y) const {
+  Vector2 cells(int u, int v, double x, double y) const {
     const Vector2 straight{
         to_exemplar_.xx * u + to_exemplar_.xy * v - to_output_.xx * x - to_output_.xy * y + origin_.x,
         to_exemplar_.yx * u + to_exemplar_.yy * v - to_output_.yx * x - to_output_.yy * y + origin_.y};
@@ -144,7 +163,7 @@ class LatticePhase {
   static int bin_of(double cells) { return std::min(bins - 1, int((cells - std::floor(cells)) * bins)); }
 
   /// Takes the cheapest of the steps to pixels up to `farthest` away along each axis.
-  void search(int x, int y, int& u, int& v) const {
+  void search(double x, double y, int& u, int& v) const {
     const Vector2 place = cells(u, v, x, y);
     uint64_t left = promising_[size_t(bin_of(place.x) + (rank_ == 1 ? 0 : bin_of(place.y) * bins))];
     int best = std::countr_zero(left);
@@ -165,10 +184,11 @@ class LatticePhase {
   bool resolves_cells_ = false;
   double stiffness_ = 1;  // 1 / the square of what a position may be out of phase, in pixels
   int rank_ = 0;
-  Vector2 first_, second_;
-  Matrix to_exemplar_;  // pixels to cells; for rank 1 its second row is 0
+  Vector2 first_, second_;              // in pixels of the level
+  Vector2 shown_first_, shown_second_;  // likewise, as they are shown
+  Matrix to_exemplar_;                  // pixels to cells; for rank 1 its second row is 0
   Matrix to_output_;
-  Vector2 origin_;                        // in cells of the output
+  Vector2 origin_;                        // of the output less the exemplar's start, in cells
   std::vector<Vector2> bent_x_, bent_y_;  // both empty where nothing bends
   // Where cells are not resolved, which steps may be the cheapest, by where in a cell they start: `bins` to a row.
   std::vector<uint64_t> promising_;

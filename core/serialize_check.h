@@ -7,8 +7,9 @@
 namespace terrazzo {
 
 /// Whether a pyramid read from a file can be worked with: each level half the one before, none too large or too small
-/// for synthesis, bases that belong to the channels, and a lattice no larger than an exemplar can be. Throws
-/// DamagedFile saying what is wrong.
-void check_levels(const std::vector<AppearanceLevel>& levels, int channels, const Lattice& lattice);
+/// for synthesis, and bases that belong to the channels. Throws DamagedFile saying what is wrong.
+void check_levels(const std::vector<AppearanceLevel>& levels, int channels);
+/// The same of how an exemplar of a known size repeats: no lattice larger than an exemplar can be, parts inside it.
+void check_repeats(const Repeats& repeats, Size exemplar);
 
 }  // namespace terrazzo

@@ -105,21 +105,39 @@ class ValueReader {
     return checked([&] { return Material::make(std::move(name), std::move(maps)); });
   }
 
+  double component() {
+    const auto v = in_.get<double>();
+    require(std::isfinite(v), "a lattice has a component that is not a number");
+    return v;
+  }
+
   Lattice lattice() {
     Lattice l;
     l.rank = in_.get_below<uint8_t>(3);
-    for (double* v : {&l.first.x, &l.first.y, &l.second.x, &l.second.y, &l.certainty}) {
-      *v = in_.get<double>();
-      require(std::isfinite(*v), "a lattice has a component that is not a number");
-    }
+    for (double* v : {&l.first.x, &l.first.y, &l.second.x, &l.second.y, &l.certainty}) *v = component();
     require(l.is_valid(), "a lattice has no extent");
     return l;
+  }
+
+  Repeats repeats() {
+    Repeats r = lattice();
+    const int count = in_.get<uint8_t>();
+    for (int i = 0; i < count; i++) {
+      LatticePart p;
+      for (int* v : {&p.place.x, &p.place.y, &p.place.width, &p.place.height}) *v = in_.get<int32_t>();
+      p.lattice = lattice();
+      p.shown = lattice();
+      for (double* v : {&p.start.x, &p.start.y}) *v = component();
+      r.parts.push_back(p);
+    }
+    return r;
   }
 
   FeaturesPtr features() {
     const Size s = size();
     const bool wraps = in_.get_below<uint8_t>(2) != 0;
-    const Lattice repeats = lattice();
+    const Repeats repeated = repeats();
+    check_repeats(repeated, s);
     std::vector<FeatureImage> images;
     const auto count = in_.get<uint32_t>();
     for (uint32_t i = 0; i < count; i++) {
@@ -128,7 +146,7 @@ class ValueReader {
       images.push_back(std::move(f));
     }
     const ImagePtr mask = in_.get_below<uint8_t>(2) != 0 ? image() : nullptr;
-    return checked([&] { return Features::make(s, std::move(images), wraps, repeats, mask); });
+    return checked([&] { return Features::make(s, std::move(images), wraps, repeated, mask); });
   }
 
   /// `count` items. Memory grows with what is really in the file, whatever it says.
@@ -177,13 +195,14 @@ class ValueReader {
     const int channels = in_.get<int32_t>();
     require(channels > 0, "an appearance has no channels");
     const bool wraps = in_.get_below<uint8_t>(2) != 0;
-    const Lattice repeats = lattice();
+    const Repeats repeated = repeats();
     const auto count = in_.get<uint32_t>();
     require(count > 0, "an appearance has no levels");
     std::vector<AppearanceLevel> levels;
     for (uint32_t i = 0; i < count; i++) levels.push_back(level());
-    check_levels(levels, channels, repeats);
-    return checked([&] { return Appearance::make(std::move(levels), channels, wraps, repeats); });
+    check_levels(levels, channels);
+    check_repeats(repeated, levels.front().size);
+    return checked([&] { return Appearance::make(std::move(levels), channels, wraps, repeated); });
   }
 
   IndexPtr index() {

@@ -70,7 +70,7 @@ class ValueWriter {
   void operator()(const FeaturesPtr& features) {
     put(features->size());
     out_.put(uint8_t(features->wraps()));
-    put(features->lattice());
+    put(features->repeats());
     out_.put(uint32_t(features->images().size()));
     for (const FeatureImage& f : features->images()) {
       (*this)(f.image);
@@ -83,7 +83,7 @@ class ValueWriter {
   void operator()(const AppearancePtr& appearance) {
     out_.put(int32_t(appearance->channels()));
     out_.put(uint8_t(appearance->wraps()));
-    put(appearance->lattice());
+    put(appearance->repeats());
     out_.put(uint32_t(appearance->levels().size()));
     for (const AppearanceLevel& l : appearance->levels()) {
       put(l.size);
@@ -136,6 +136,22 @@ class ValueWriter {
     out_.put(uint8_t(lattice.rank));
     for (const double v : {lattice.first.x, lattice.first.y, lattice.second.x, lattice.second.y, lattice.certainty})
       out_.put(v);
+  }
+
+  void put(Vector2 v) {
+    out_.put(v.x);
+    out_.put(v.y);
+  }
+
+  void put(const Repeats& repeats) {
+    put(repeats.lattice);
+    out_.put(uint8_t(repeats.parts.size()));
+    for (const LatticePart& p : repeats.parts) {
+      for (const int v : {p.place.x, p.place.y, p.place.width, p.place.height}) out_.put(int32_t(v));
+      put(p.lattice);
+      put(p.shown);
+      put(p.start);
+    }
   }
 
   void put(Size size) {

@@ -47,10 +47,12 @@ NodeType combine_node() {
       "One result can draw on several exemplars of a surface: photographs of neighbouring spots, say, or a clean and a "
       "worn one. This lays them out in one material, which everything that takes an exemplar takes: weight, guidance, "
       "resolve_uv. Give its mask to \"weight\", so that nothing is taken from across the gaps, and set \"tiles\" to no "
-      "there and in other analysis; leave \"regularity\" out, which would take the layout for a lattice, unless all "
-      "exemplars repeat alike and their places agree. Exemplars must have the same maps; sizes may differ. All pixels "
-      "stay as they are, "
-      "but that colours and normals are brought to the first exemplar's colour space and convention. \"labels\" tells "
+      "there and in other analysis; give its labels to \"regularity\", so that it finds each exemplar's own lattice "
+      "and "
+      "the joints of bricks and tiles meet. Exemplars must have the same maps; sizes may differ. All pixels stay as "
+      "they "
+      "are, but that colours and normals are brought to the first exemplar's colour space and convention. \"labels\" "
+      "tells "
       "exemplars apart when a target steers which is used where.";
   t.inputs = {{.name = "materials", .type = ValueType::material, .help = "the exemplars", .list = true},
               {.name = "masks",

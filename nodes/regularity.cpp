@@ -1,14 +1,22 @@
 #include "core/analysis/regularity.h"
 
+#include <map>
+
 #include <fmt/format.h>
 
+#include "core/analysis/part_lattices.h"
+#include "core/analysis/usable.h"
+#include "core/image_ops.h"
 #include "core/node.h"
+#include "core/text.h"
+#include "nodes/image_work.h"
 
 namespace terrazzo {
 
 namespace {
 
 constexpr double largest_side = 65536;  // of an exemplar
+constexpr size_t most_described = 4;
 
 std::string described(const Lattice& l) {
   if (l.rank == 0) return fmt::format("no lattice found (certainty {:.2f})", l.certainty);
@@ -26,24 +34,84 @@ Lattice manual_lattice(const Numbers& first, const Numbers& second) {
   return l;
 }
 
+/// What the parameters say of an exemplar or a part of one.
+FoundLattice lattice_of(NodeContext& node, const ExemplarView& view) {
+  const std::string& mode = node.text("mode");
+  if (mode == "auto") return find_lattice(view, node.number("least_certainty"), node.task());
+  if (mode == "manual") return {manual_lattice(node.numbers("first"), node.numbers("second"))};
+  return {};
+}
+
+/// The rectangle of each label, in the order of their values.
+std::vector<Rect> places_of(const ImagePtr& labels, Size exemplar, const Task& task) {
+  require_one_channel("labels", *labels);
+  if (labels->size() != exemplar)
+    throw Error("labels", fmt::format("expected the size of the features' exemplar, {}, found {}", describe(exemplar),
+                                      describe(labels->size())));
+  struct Place {
+    Rect bounds;
+    int64_t pixels = 0;
+  };
+  std::map<float, Place> places;
+  const std::vector<float>& values = materialized(labels, task)->pixels();
+  for (int y = 0; y < exemplar.height; y++) {
+    const float* row = &values[size_t(y) * size_t(exemplar.width)];
+    for (int x = 0, next = 0; x < exemplar.width; x = next) {
+      while (next < exemplar.width && row[next] == row[x]) next++;
+      const Rect run{x, y, next - x, 1};
+      Place& p = places[row[x]];
+      p.bounds = p.pixels == 0 ? run : united(p.bounds, run);
+      p.pixels += run.area();
+      if (places.size() > most_lattice_parts)
+        throw Error("labels",
+                    fmt::format("expected at most {} exemplars side by side, found more values", most_lattice_parts));
+    }
+  }
+  std::vector<Rect> out;
+  for (const auto& [label, place] : places) {
+    if (place.bounds.area() != place.pixels)
+      throw Error("labels",
+                  "expected exemplars side by side, each a rectangle, as \"combine\" and \"variants\" lay them out");
+    out.push_back(place.bounds);
+  }
+  return out;
+}
+
+std::string described(const std::vector<LatticePart>& parts) {
+  std::string text;
+  for (size_t i = 0; i < std::min(parts.size(), most_described); i++)
+    text += fmt::format("{}exemplar {}: {}", i > 0 ? "; " : "", i + 1, described(parts[i].lattice));
+  if (parts.size() > most_described) text += fmt::format("; and {} more", parts.size() - most_described);
+  return text;
+}
+
 void compute(NodeContext& node) {
   const auto features = node.input<Features>("features");
-  const std::string& mode = node.text("mode");
-  Lattice lattice;
-  bool too_few = false;
-  if (mode == "auto") {
-    const FoundLattice found = find_lattice(*features, node.number("least_certainty"), node.task());
-    lattice = found.lattice;
-    too_few = found.too_few;
+  const ImagePtr labels = node.optional_input<Image>("labels");
+  if (node.text("mode") == "off") {
+    node.output("features", features->with(Lattice{}));
+    return;
   }
-  if (mode == "manual") lattice = manual_lattice(node.numbers("first"), node.numbers("second"));
-  if (mode != "off") node.note(described(lattice));
+  const ExemplarPlanes planes = weighted_planes(*features, node.task());
+  const std::vector<uint8_t> allowed = allowed_pixels(*features);
+  std::vector<ExemplarPart> parts;
+  bool too_few = false;
+  const std::vector<Rect> places =
+      labels ? places_of(labels, features->size(), node.task()) : std::vector{whole(features->size())};
+  for (const Rect& place : places) {
+    parts.push_back({place, view_of(planes, allowed, place), {}});
+    const FoundLattice found = lattice_of(node, parts.back().view);
+    parts.back().lattice = found.lattice;
+    too_few |= found.too_few;
+  }
+  const Repeats repeats = labels ? Repeats(brought_together(parts, node.task())) : Repeats(parts.front().lattice);
+  node.note(labels ? described(repeats.parts) : described(repeats.lattice));
   if (too_few)
     node.warn(
         "straight joints cross, but the exemplar shows too few tiles, or too unlike ones, to tell how they repeat, so "
         "that results may break them; crop it to whole tiles so that its borders fit, take one of more tiles, or give "
         "\"first\" and \"second\" with \"mode\": \"manual\"");
-  node.output("features", features->with(lattice));
+  node.output("features", features->with(repeats));
 }
 
 std::vector<std::string> check(const Params& params) {
@@ -64,7 +132,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 8;
+  t.version = 9;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =
@@ -73,8 +141,13 @@ NodeType regularity_node() {
       "courses or columns, and says how sure it is. Synthesis then keeps every pixel at its place within the lattice's "
       "cell, so "
       "that courses stay straight and tiles keep their size over any distance. Exemplars without a lattice pass "
-      "through unchanged.";
-  t.inputs = {{.name = "features", .type = ValueType::features, .help = "the exemplar's weighted channels"}};
+      "through unchanged. Of several exemplars that lie side by side (\"combine\", \"variants\"; give their labels) "
+      "each has its own lattice; where those are alike, joints of one go on in another.";
+  t.inputs = {{.name = "features", .type = ValueType::features, .help = "the exemplar's weighted channels"},
+              {.name = "labels",
+               .type = ValueType::image,
+               .help = "of several exemplars side by side, which one each pixel belongs to, 1 channel",
+               .optional = true}};
   t.outputs = {{.name = "features", .type = ValueType::features, .help = "the same, with the lattice"}};
   t.params = {
       {.name = "mode",

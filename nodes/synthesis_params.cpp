@@ -160,8 +160,13 @@ void require_same_exemplar(const UvMap& uv, const Index& index) {
 void warn_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
                              std::string_view consequence) {
   const Lattice& lattice = index.appearance()->lattice();
+  const auto is_unseen = [&](const Lattice& l, Size size) {
+    return l.bent(size, options.tile_x, options.tile_y, size) <= l.unseen_bend();
+  };
   const auto fits = [&](Size size) {
-    return lattice.bent(size, options.tile_x, options.tile_y, size) <= lattice.unseen_bend();
+    return is_unseen(lattice, size) && std::ranges::all_of(index.appearance()->repeats().parts, [&](const auto& part) {
+             return is_unseen(part.shown, size);
+           });
   };
   if (fits(options.size)) return;
   std::string advice = "no size near it would";

@@ -73,7 +73,7 @@ Forecast foresee(const Params& params, const InputForecasts& inputs) {
 NodeType transfer_node() {
   NodeType t;
   t.name = "transfer";
-  t.version = 8;
+  t.version = 9;
   t.category = "synthesis";
   t.summary = "Synthesis steered by a target image";
   t.help =

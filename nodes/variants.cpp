@@ -64,8 +64,9 @@ NodeType variants_node() {
   t.help =
       "A small exemplar offers more to choose from when it may also appear turned, mirrored or at another scale. This "
       "lays the original and its copies, every rotation of every scale and mirroring, side by side in one material, as "
-      "\"combine\" does: give the mask to \"weight\", set \"tiles\" to no there, and leave \"regularity\" out. Normals "
-      "turn with the surface. "
+      "\"combine\" does: give the mask to \"weight\", set \"tiles\" to no there, and give the labels to "
+      "\"regularity\". "
+      "Normals turn with the surface. "
       "Scaling is that of the whole body: slopes and so normals stay, and heights part from their mean by that factor "
       "(clipped to 0..1 in maps of 8 and 16 bit: leave headroom with \"levels\" for scales above 1). Multiples of 90 "
       "degrees move pixels and change none; other rotations interpolate (cubic convolution), and their empty corners "

@@ -27,7 +27,9 @@ AppearancePtr sample_appearance() {
     l.scale = 0.1;
     l.retained = 0.97;
   }
-  return Appearance::make(std::move(levels), 2, true);
+  const Lattice tiles{2, {4, 0.5}, {0, 3}, 0.5}, courses{1, {0, 2}, {}, 0.25};
+  const Repeats repeats({{{0, 0, 4, 6}, tiles, tiles, {}}, {{4, 0, 4, 6}, courses, courses, {0.5, 1.25}}});
+  return Appearance::make(std::move(levels), 2, true, repeats);
 }
 
 IndexPtr sample_index() {
@@ -64,13 +66,14 @@ struct SameContent {
   }
   bool operator()(const FeaturesPtr& a, const FeaturesPtr& b) const {
     bool same = a->size() == b->size() && a->wraps() == b->wraps() && a->images().size() == b->images().size() &&
-                (*this)(a->mask(), b->mask());
+                a->repeats() == b->repeats() && (*this)(a->mask(), b->mask());
     for (size_t i = 0; same && i < a->images().size(); i++)
       same = a->images()[i].weights == b->images()[i].weights && (*this)(a->images()[i].image, b->images()[i].image);
     return same;
   }
   bool operator()(const AppearancePtr& a, const AppearancePtr& b) const {
-    bool same = a->wraps() == b->wraps() && a->channels() == b->channels() && a->levels().size() == b->levels().size();
+    bool same = a->wraps() == b->wraps() && a->channels() == b->channels() && a->repeats() == b->repeats() &&
+                a->levels().size() == b->levels().size();
     for (size_t i = 0; same && i < a->levels().size(); i++) {
       const AppearanceLevel &l = a->levels()[i], &m = b->levels()[i];
       same = l.size == m.size && l.vectors == m.vectors && l.usable == m.usable && l.dimensions == m.dimensions &&

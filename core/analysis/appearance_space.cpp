@@ -177,7 +177,7 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
     // Each level has a quarter of the pixels of the one before.
     task.progress(1 - 1.0 / double(int64_t{4} << (2 * l)));
   }
-  return Appearance::make(std::move(levels), planes.channels + guides.channels, features.wraps(), features.lattice());
+  return Appearance::make(std::move(levels), planes.channels + guides.channels, features.wraps(), features.repeats());
 }
 
 }  // namespace terrazzo

@@ -19,7 +19,7 @@ constexpr double better = 0.005;
 constexpr double near_best = 0.03;  // of a period, within which the most certain one is looked for
 
 /// How far lines that repeat stand out.
-struct Repeats {
+struct LineRepeats {
   int count = 0;
   double mean = 0, variance = 0;
   double alike = 0;  ///< their correlation with what they repeat
@@ -65,7 +65,7 @@ class LineCorrelation {
   }
 
   /// How far lines a period apart are more alike than lines half a period apart.
-  Repeats repeats(double period) const {
+  LineRepeats repeats(double period) const {
     double sum = 0, squares = 0, alike = 0;
     int count = 0;
     for (double d = period; d < size() - 1 && count < most_repeats; d += period, count++) {
@@ -113,17 +113,17 @@ Bands bands_of(const Correlation& r, bool courses) {
     for (int n = int(length / shortest_repeat); n >= 2; n--) consider(double(length) / n);
   } else {
     for (double period = shortest_repeat; period <= lines.size() / 1.3; period += 0.1) consider(period);
-    Repeats most = best > 0 ? lines.repeats(best) : Repeats{};
+    LineRepeats most = best > 0 ? lines.repeats(best) : LineRepeats{};
     const double last = best * (1 + near_best);
     for (double period = best * (1 - near_best); period < last; period += 0.005)
-      if (const Repeats n = lines.repeats(period); n.count == most.count && n.certainty() > most.certainty()) {
+      if (const LineRepeats n = lines.repeats(period); n.count == most.count && n.certainty() > most.certainty()) {
         most = n;
         best = period;
       }
   }
   if (best == 0) return {};
   const auto distinct = [&](double v) { return v / std::sqrt(std::max(v, lines.at(0))); };
-  const Repeats found = lines.repeats(best);
+  const LineRepeats found = lines.repeats(best);
   double certainty = found.certainty();
   // Thin joints are little of all there is, but what comes again so often is no chance.
   if (lines.size() >= (r.wraps() ? 2 : 1) * often * best)

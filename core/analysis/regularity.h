@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/analysis/exemplar_view.h"
 #include "core/features.h"
 #include "core/lattice.h"
 #include "core/task.h"
@@ -16,6 +17,8 @@ struct FoundLattice {
 /// those repeat more surely: the cell whose repeats correlate most and places between them least (Liu, Collins & Tsin
 /// 2004 judge lattices alike), or else the period of its courses or columns, and their bond. Rank 0 if the certainty
 /// stays under `least_certainty`.
+FoundLattice find_lattice(const ExemplarView& view, double least_certainty, const Task& task);
+/// The same for all of an exemplar that its mask allows.
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task);
 
 }  // namespace terrazzo

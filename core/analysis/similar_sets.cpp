@@ -61,7 +61,7 @@ uint32_t row_distance(const AppearanceVector* a, const AppearanceVector* b) {
 
 class LevelSearch {
  public:
-  LevelSearch(const AppearanceLevel& level, bool wraps, const LatticePhase& phase)
+  LevelSearch(const AppearanceLevel& level, bool wraps, const PartPhases& phase)
       : level_(level, wraps),
         phase_(phase),
         period_x_(wraps ? level.size.width : no_period),
@@ -73,7 +73,8 @@ class LevelSearch {
 
   /// (u, v) where it is usable, of a regular exemplar the place in phase with (x, y) that is nearest to it.
   std::array<int, 2> settled(int x, int y, int u, int v) const {
-    phase_.snap(x, y, u, v);
+    const Vector2 shown = phase_.shown_at(x, y);
+    phase_.snap(shown.x, shown.y, u, v);
     level_.unwind(u, v);
     level_.settle(u, v);
     return {u, v};
@@ -107,7 +108,7 @@ class LevelSearch {
     }
     if (is_member | (near > 1)) return;
     if (between(x, u, period_x_) < away_ && between(y, v, period_y_) < away_) return;
-    if (phase_.resolves_cells() && phase_.penalty(u, v, x, y) > 1) return;
+    if (phase_.resolves_cells() && is_out_of_phase(u, v, x, y)) return;
     const uint32_t d = distance(x, y, u, v, limit);
     if (d >= limit) return;
     for (; place > 0 && set[place - 1].distance > d; place--) set[place] = set[place - 1];
@@ -126,12 +127,16 @@ class LevelSearch {
   }
 
  private:
+  bool is_out_of_phase(int u, int v, int x, int y) const {
+    const Vector2 shown = phase_.shown_at(x, y);
+    return phase_.penalty(u, v, shown.x, shown.y) > 1;
+  }
   static int between(int a, int b, int period) {
     const int d = std::abs(a - b);
     return std::min(d, period - d);
   }
   PaddedLevel level_;
-  LatticePhase phase_;
+  PartPhases phase_;
   int period_x_, period_y_;
   int away_;
 };
@@ -231,7 +236,7 @@ IndexPtr make_index(const AppearancePtr& appearance, int per_pixel, const Task& 
   Sets parent;
   for (int l = int(levels.size()) - 1; l >= std::min(finest_searched, int(levels.size()) - 1); l--) {
     const LevelSearch level(levels[l], appearance->wraps(),
-                            LatticePhase(appearance->lattice(), l, appearance->size(), false, false));
+                            PartPhases(appearance->repeats(), levels[l].size, l, {appearance->size()}));
     Sets sets(level.size(), per_pixel);
     if (level.size().area() <= exhaustive_area) {
       search_all(level, sets, task);

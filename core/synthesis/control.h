@@ -73,6 +73,11 @@ class LevelControl {
   LevelControl(const ControlPyramid& pyramid, int level, const PaddedLevel& exemplar);
 
   const uint8_t* target(int64_t pixel) const { return target_.at(pixel); }
+  /// At the border of the level beyond it.
+  const uint8_t* target_near(int x, int y) const {
+    const Size size = target_.size;
+    return target_.at(int64_t{std::min(y, size.height - 1)} * size.width + std::min(x, size.width - 1));
+  }
   /// The cost of showing an exemplar pixel where `target` is wanted, on the scale of one compared vector: at strength
   /// 1, to miss a label costs as much as a random place's surroundings would. Values may differ at no cost by as much
   /// as they do within the exemplar's features.

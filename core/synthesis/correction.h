@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/analysis/padded_level.h"
-#include "core/lattice.h"
+#include "core/repeats.h"
 #include "core/synthesis/comparison_window.h"
 #include "core/synthesis/control.h"
 #include "core/synthesis/field.h"
@@ -56,7 +56,7 @@ struct CorrectionLevel {
   int per_pixel = 0;
   int level = 0;       ///< 0 = finest; part of every random choice
   PlaneWindow window;  ///< what the field holds of the plane
-  LatticePhase phase;  ///< of a regular exemplar: every output pixel keeps its place in the lattice's cell
+  PartPhases phase;    ///< of a regular exemplar: every output pixel keeps its place in the lattice's cell
   FixedPixels fixed;   ///< pixels of the plane that are not corrected
   const LevelControl* control = nullptr;  ///< null: nothing steers
 };

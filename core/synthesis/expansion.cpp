@@ -60,6 +60,18 @@ int64_t ExpansionGround::mismatch(ExemplarPixel a, ExemplarPixel b, int side) co
   return int64_t(sum * mismatch_unit);
 }
 
+uint64_t ExpansionGround::control_cost(int pixel, ExemplarPixel shown) const {
+  const int x = level.window.x(pixel % field.size.width) * block, y = level.window.y(pixel / field.size.width) * block;
+  uint64_t sum = 0;
+  for (int j = 0; j < block; j++)
+    for (int i = 0; i < block; i++) {
+      int u = shown.x + i, v = shown.y + j;
+      level.exemplar.settle_inside(u, v);
+      sum += level.control->cost(u, v, level.control->target_near(x + i, y + j));
+    }
+  return sum;
+}
+
 double ExpansionGround::edge_at(const AppearanceVector* v, ptrdiff_t step) const {
   const bool along_row = std::abs(step) == 1;
   return edges_[along_row ? 0 : 1][size_t((step < 0 ? v + step : v) - level.exemplar.at(-1, -1))];
@@ -80,7 +92,7 @@ bool Expansion::offer(int pixel, ExemplarPixel shown, int32_t pressure) {
   const FixedPixels& fixed = ground_.level.fixed;
   const ExemplarPixel above{uint16_t(shown.x / ground_.block), uint16_t(shown.y / ground_.block)};
   if (ground_.node[size_t(pixel)] != ExpansionGround::untouched || ground_.field.pixels[size_t(pixel)] == shown ||
-      fixed.at(size_t(pixel)) || fixed.is_past(size_t(pixel), above))
+      fixed.at(size_t(pixel)) || fixed.is_past(size_t(pixel), above) || ground_.strays(pixel, shown))
     return false;
   ground_.node[size_t(pixel)] = int(free_.size());
   free_.push_back({pixel, shown, pressure});

@@ -25,6 +25,11 @@ struct ExpansionGround {
   /// a, as the exemplar's last pixel is continued by itself.
   int64_t mismatch(ExemplarPixel a, ExemplarPixel b, int side) const;
 
+  /// Whether controls are less content with an exemplar pixel than with the one that a pixel shows.
+  bool strays(int pixel, ExemplarPixel offered) const {
+    return level.control != nullptr && control_cost(pixel, offered) > control_cost(pixel, field.pixels[size_t(pixel)]);
+  }
+
   Field& field;
   const CorrectionLevel& level;
   int block;         ///< a pixel of the field stands for `block` x `block` pixels of the level
@@ -35,6 +40,8 @@ struct ExpansionGround {
 
  private:
   void find_edges();
+  /// What showing the exemplar pixel, or a block of them, costs.
+  uint64_t control_cost(int pixel, ExemplarPixel shown) const;
   /// How much an exemplar pixel differs from the one a step away.
   double edge_at(const AppearanceVector* v, ptrdiff_t step) const;
   bool continues(ExemplarPixel a, ExemplarPixel b, int side) const;

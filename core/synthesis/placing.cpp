@@ -76,7 +76,7 @@ void settle_block(int& u, int& v, const PaddedLevel& exemplar) {
 
 }  // namespace
 
-Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* control, const LatticePhase& phase,
+Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* control, const PartPhases& phase,
                     uint64_t seed) {
   Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
   const Size from = exemplar.size();
@@ -104,7 +104,7 @@ void scatter(Field& field, const PaddedLevel& exemplar, double amplitude, uint64
 }
 
 Field block_starts(const Field& parent, const PlaneWindow& window, const PaddedLevel& exemplar,
-                   const LatticePhase& phase, double amplitude, uint64_t seed, int level) {
+                   const PartPhases& phase, double amplitude, uint64_t seed, int level) {
   Field starts{parent.size, std::vector<ExemplarPixel>(parent.pixels.size())};
   tbb::parallel_for(0, parent.size.height, [&](int row) {
     for (int column = 0; column < parent.size.width; column++) {

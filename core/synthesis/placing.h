@@ -3,7 +3,7 @@
 #include <span>
 
 #include "core/analysis/padded_level.h"
-#include "core/lattice.h"
+#include "core/repeats.h"
 #include "core/synthesis/control.h"
 #include "core/synthesis/field.h"
 #include "core/synthesis/plane_window.h"
@@ -15,7 +15,7 @@ namespace terrazzo {
 enum Purpose : uint64_t { blocks = 1, jitter = 2, correction = 3, mending = 4, refilling = 5 };
 
 /// The coarsest level: square blocks of a quarter of the exemplar's side, from random places. `control` may be null.
-Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* control, const LatticePhase& phase,
+Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* control, const PartPhases& phase,
                     uint64_t seed);
 
 /// Moves every pixel of the coarsest level, number `level`, by up to `amplitude` pixels.
@@ -25,7 +25,7 @@ void scatter(Field& field, const PaddedLevel& exemplar, double amplitude, uint64
 /// another, and this is the exemplar pixel that the first of them shows. It is the one below the pixel's own, moved by
 /// up to `amplitude` pixels and into phase. `exemplar`, `phase` and `level` are the finer ones.
 Field block_starts(const Field& parent, const PlaneWindow& window, const PaddedLevel& exemplar,
-                   const LatticePhase& phase, double amplitude, uint64_t seed, int level);
+                   const PartPhases& phase, double amplitude, uint64_t seed, int level);
 
 /// The blocks' pixels. `starts` are those of the parents of what `to` holds, or more: `from` tells which.
 Field expanded(std::span<const ExemplarPixel> starts, const PlaneWindow& from, const PlaneWindow& to,

@@ -40,11 +40,9 @@ std::vector<double> demand_of(const AppearanceLevel& level, const LevelControl* 
 
 /// The exemplar's lattice, made to wrap around with the result. Kept pixels have it as it is: it bends where none are
 /// kept or, where they leave no room and it does not fit, is cut where the result wraps.
-LatticePhase phase_of(const Lattice& lattice, int level, const SynthesisOptions& options, const LatticeGaps& gaps) {
+LatticeSurface surface_of(const Lattice& lattice, const SynthesisOptions& options, const LatticeGaps& gaps) {
   const bool fits = options.kept.empty() || lattice.fits(options.size, options.tile_x, options.tile_y);
-  return {lattice,
-          level,
-          options.size,
+  return {options.size,
           options.tile_x && (fits || gaps.x.length > 0),
           options.tile_y && (fits || gaps.y.length > 0),
           {double(options.origin[0]), double(options.origin[1])},
@@ -145,7 +143,8 @@ class LevelWork {
       : shared_(shared),
         level_(level),
         exemplar_(shared.exemplar(level), shared.index.appearance()->wraps()),
-        phase_(phase_of(shared.lattice, level, shared.options, shared.gaps)),
+        phase_(shared.index.appearance()->repeats(), shared.exemplar(level).size, level,
+               surface_of(shared.lattice, shared.options, shared.gaps)),
         fixed_(shared.fixed(level)),
         control_(shared.controls.empty() ? nullptr : std::make_unique<LevelControl>(shared.controls, level, exemplar_)),
         occupancy_(shared.exemplar(level).size, level >= finest_even ? shared.options.evenness : 0,
@@ -227,11 +226,11 @@ class LevelWork {
   /// Seams between courses or tiles show more than others, and so do those along an outline that was drawn. Measured on
   /// other exemplars moving seams brings nothing.
   bool moves_seams() const {
-    return level_ <= seam_level && (regular() || fixed_.any()) && !control_ &&
-           shared_.options.quality != Quality::draft;
+    return level_ <= seam_level && (regular() || fixed_.any()) && shared_.options.quality != Quality::draft;
   }
-  /// The first time that seams move. Measured on exemplars without a lattice this brings nothing either.
-  bool refills() const { return level_ == seam_level && moves_seams() && regular(); }
+  /// The first time that seams move. Measured on exemplars without a lattice this brings nothing either, and controls
+  /// say where pieces belong.
+  bool refills() const { return level_ == seam_level && moves_seams() && regular() && !control_; }
   /// Of blocks of two by two pixels.
   SeamMoves to_joints() const {
     SeamMoves moves = level_ < seam_level ? to_the_pixel : along_courses;
@@ -274,7 +273,7 @@ class LevelWork {
   const Shared& shared_;
   int level_;
   PaddedLevel exemplar_;
-  LatticePhase phase_;
+  PartPhases phase_;
   FixedPixels fixed_;
   std::unique_ptr<const LevelControl> control_;
   Occupancy occupancy_;

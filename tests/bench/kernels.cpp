@@ -111,7 +111,7 @@ BENCHMARK(correction_pass)->DenseRange(0, 4)->MeasureProcessCPUTime()->Unit(benc
 
 /// Brings places into phase with a skew lattice. Arguments: the level; cells are too small to see from level 3 on.
 void lattice_snap(benchmark::State& state) {
-  const LatticePhase phase({2, {12.4, 3.1}, {-4.2, 13.7}, 0.5}, int(state.range(0)), {1024, 1024}, false, false);
+  const LatticePhase phase({2, {12.4, 3.1}, {-4.2, 13.7}, 0.5}, int(state.range(0)), {{1024, 1024}, false, false});
   int at = 0;
   for (auto _ : state) {
     int u = at % 61, v = at % 53;

@@ -21,7 +21,7 @@ Lattice courses(double height, double certainty = 0.5) {
 
 TEST_CASE("in phase is what lies a whole number of cells apart") {
   const Lattice grid{2, {10, 0}, {5, 8}, 0.5};
-  const LatticePhase phase(grid, 0, output, false, false);
+  const LatticePhase phase(grid, 0, {output, false, false});
   CHECK(phase.resolves_cells());
   CHECK(phase.penalty(31, 17, 31, 17) == 1);
   CHECK(phase.penalty(31 + 25, 17 + 8, 31, 17) == 1);
@@ -35,7 +35,7 @@ TEST_CASE("in phase is what lies a whole number of cells apart") {
 
 TEST_CASE("levels that are too coarse to see a cell still know positions that are in phase at the finest level") {
   // Three pixels of level 3 are 24 of the finest, four courses; a third of them is none.
-  const LatticePhase phase(courses(6), 3, output, false, false);
+  const LatticePhase phase(courses(6), 3, {output, false, false});
   CHECK(phase.active());
   CHECK_FALSE(phase.resolves_cells());
   CHECK(phase.penalty(0, 3, 0, 0) == 1);
@@ -49,7 +49,7 @@ TEST_CASE("levels that are too coarse to see a cell still know positions that ar
     CHECK(std::abs(v - from) <= 1);
   }
   // Those of level 4 are larger than two courses.
-  CHECK_FALSE(LatticePhase(courses(6), 4, output, false, false).active());
+  CHECK_FALSE(LatticePhase(courses(6), 4, {output, false, false}).active());
 }
 
 TEST_CASE("where cells are not resolved, snapping finds the best of all places in reach") {
@@ -59,7 +59,7 @@ TEST_CASE("where cells are not resolved, snapping finds the best of all places i
     for (int level = 2; level <= 5; level++) {
       CAPTURE(lattice.first.x);
       CAPTURE(level);
-      const LatticePhase phase(lattice, level, output, true, false, origin);
+      const LatticePhase phase(lattice, level, {output, true, false, origin});
       if (phase.resolves_cells() || !phase.active()) continue;
       for (int i = 0; i < 1000; i++) {
         const uint64_t r = random_bits(level, i);
@@ -78,16 +78,17 @@ TEST_CASE("where cells are not resolved, snapping finds the best of all places i
 }
 
 TEST_CASE("the surer the lattice, the more it costs to be out of phase") {
-  const LatticePhase unsure(courses(25, 0.1), 0, output, false, false), sure(courses(25, 0.9), 0, output, false, false);
+  const LatticePhase unsure(courses(25, 0.1), 0, {output, false, false}),
+      sure(courses(25, 0.9), 0, {output, false, false});
   CHECK(sure.penalty(0, 4, 0, 0) > unsure.penalty(0, 4, 0, 0));
   // What rounding to whole pixels takes costs nothing, however sure it is.
-  const LatticePhase fine(courses(6.5, 1), 0, output, false, false);
+  const LatticePhase fine(courses(6.5, 1), 0, {output, false, false});
   CHECK(fine.penalty(0, 7, 0, 0) == 1);
   CHECK(fine.penalty(0, 6, 0, 0) == 1);
 }
 
 TEST_CASE("on a surface that wraps around the lattice is stretched to whole cells") {
-  const LatticePhase phase(courses(30), 0, {300, 310}, false, true);
+  const LatticePhase phase(courses(30), 0, {{300, 310}, false, true});
   // 310 pixels hold ten courses of 31.
   CHECK(phase.penalty(0, 300, 0, 310) == 1);
   CHECK(phase.penalty(0, 150, 0, 155) == 1);
@@ -156,7 +157,7 @@ TEST_CASE("what a surface misses to a whole number of cells") {
 TEST_CASE("between kept pixels a lattice bends until it wraps, and stays as it is among them") {
   // 100 pixels hold six and a quarter cells; 20 before the border and 20 behind it are free.
   const Lattice grid{2, {16, 0}, {0, 16}, 1};
-  const LatticePhase phase(grid, 0, {100, 64}, true, true, {}, {{80, 40}, {}});
+  const LatticePhase phase(grid, 0, {{100, 64}, true, true, {}, {{80, 40}, {}}});
   for (int x = 20; x < 80; x++) CHECK(std::abs(phase.excess(x, 5, x, 5).x) < 1e-9);
   // What exceeds a whole number of cells is taken away bit by bit.
   double last = 0;
@@ -170,6 +171,6 @@ TEST_CASE("between kept pixels a lattice bends until it wraps, and stays as it i
     CHECK(std::abs(e.y) < 1e-9);
   }
   // Coarser levels bend alike.
-  const LatticePhase coarse(grid, 2, {100, 64}, true, true, {}, {{80, 40}, {}});
+  const LatticePhase coarse(grid, 2, {{100, 64}, true, true, {}, {{80, 40}, {}}});
   CHECK(coarse.excess(100 / 4, 2, 0, 2).x == doctest::Approx(2.0 / 4));
 }

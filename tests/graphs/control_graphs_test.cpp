@@ -126,6 +126,54 @@ TEST_CASE("variants shows turned copies of the exemplar") {
   CHECK(both > 2 * lying);
 }
 
+namespace {
+
+/// Tiles of 12 pixels with light joints, whose first is `first` pixels from the border.
+void write_tiles(const fs::path& path, int first, double shade) {
+  write_grey(path, {72, 60}, [=](int x, int y) {
+    return wrap(x - first, 12) < 2 || wrap(y - first, 12) < 2 ? 0.9 : shade + grain(x, y);
+  });
+}
+
+/// The part of pixels in columns [from, to) that are light just where joints of 12-pixel tiles would be.
+double tiled_part(const std::vector<bool>& light, int from, int to) {
+  int most = 0;
+  for (int left = 0; left < 12; left++)
+    for (int top = 0; top < 12; top++) {
+      int count = 0;
+      for (int y = 0; y < 40; y++)
+        for (int x = from; x < to; x++)
+          count += light[size_t(y) * 60 + size_t(x)] == (wrap(x - left, 12) < 2 || wrap(y - top, 12) < 2);
+      most = std::max(most, count);
+    }
+  return most / (40.0 * (to - from));
+}
+
+}  // namespace
+
+TEST_CASE("tiles keep their grid where turned copies, other exemplars and other materials meet") {
+  const Workplace w;
+  write_tiles(w.path / "some/basecolor.png", 0, 0.1);
+  write_tiles(w.path / "others/basecolor.png", 5, 0.15);
+  write_halves(w.path / "map.png");
+  CHECK(tiled_part(light_pixels(w, "variants", {"material=some"}), 0, 60) > 0.98);
+  CHECK(tiled_part(light_pixels(w, "several", {"first=some", "second=others"}), 0, 60) > 0.98);
+  CHECK(tiled_part(light_pixels(w, "mix", {"first=some", "second=others", "mix=map.png"}), 0, 60) > 0.98);
+  write_grey(w.path / "sand/basecolor.png", {48, 48}, [](int x, int y) { return 0.1 + grain(x, y); });
+  const std::vector<bool> light = light_pixels(w, "mix", {"first=some", "second=sand", "mix=map.png"});
+  CHECK(tiled_part(light, 0, 29) > 0.95);
+  CHECK(light_part(light, 33, 60) < 0.02);
+}
+
+TEST_CASE("several shows parts of both its materials") {
+  const Workplace w;
+  write_grey(w.path / "dark/basecolor.png", {48, 48}, [](int x, int y) { return 0.1 + grain(x, y); });
+  write_grey(w.path / "light/basecolor.png", {40, 56}, [](int x, int y) { return 0.7 + grain(x, y); });
+  const double part = light_part(light_pixels(w, "several", {"first=dark", "second=light"}), 0, 60);
+  CHECK(part > 0.2);
+  CHECK(part < 0.8);
+}
+
 TEST_CASE("from_analysis gives what material gives, to the bit") {
   const Workplace w;
   write_two_tones(w.path / "stone/basecolor.png");

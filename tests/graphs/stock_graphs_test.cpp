@@ -53,12 +53,12 @@ TEST_CASE("every stock graph that resolves a uv map lets its user blend seams, a
     for (const GraphNode& n : soft.graph.nodes)
       if (resolves(n)) CHECK(std::get<double>(n.params.at("blend")) == 2.5);
   }
-  CHECK(graphs == 13);
+  CHECK(graphs == 14);
 }
 
 TEST_CASE("stock graphs join heights and let their user choose how far") {
   for (const char* name : {"material", "transfer", "magnify", "extend", "inpaint", "make_tileable", "mix", "variants",
-                           "masked", "progression", "labels", "from_analysis"}) {
+                           "masked", "progression", "labels", "several", "from_analysis"}) {
     CAPTURE(name);
     const fs::path path = fs::path(TERRAZZO_SOURCE_DIR) / "graphs" / (std::string(name) + ".json");
     for (const auto& [overrides, reach] :

@@ -55,9 +55,9 @@ std::string complaint_about(const fs::path& path, const Spoil& spoil) {
   const Appearance& of = *good->appearance();
   std::vector<AppearanceLevel> levels = of.levels();
   std::vector<SimilarSets> sets = good->levels();
-  Lattice lattice;
-  spoil(levels, sets, lattice);
-  save_value(Index::make(Appearance::make(std::move(levels), of.channels(), of.wraps(), lattice), std::move(sets)),
+  Repeats repeats;
+  spoil(levels, sets, repeats);
+  save_value(Index::make(Appearance::make(std::move(levels), of.channels(), of.wraps(), repeats), std::move(sets)),
              path, Task());
   return complaint(path);
 }
@@ -137,39 +137,50 @@ TEST_CASE("an analysis whose checksums are right but whose content cannot be is 
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "analysis";
   const auto about = [&](auto spoil) { return complaint_about(path, spoil); };
-  CHECK(about([](Levels&, Sets&, Lattice&) {}).empty());
+  CHECK(about([](Levels&, Sets&, Repeats&) {}).empty());
   const auto has = [](const std::string& text, const char* part) {
     INFO(text);
     return text.find(part) != std::string::npos;
   };
-  CHECK(has(about([](Levels& l, Sets&, Lattice&) { l[1].vectors[3][2] = appearance_limit + 1; }), "out of range"));
-  CHECK(has(about([](Levels& l, Sets&, Lattice&) { l[0].mean.pop_back(); }), "wrong length"));
-  CHECK(has(about([](Levels& l, Sets&, Lattice&) {
+  CHECK(has(about([](Levels& l, Sets&, Repeats&) { l[1].vectors[3][2] = appearance_limit + 1; }), "out of range"));
+  CHECK(has(about([](Levels& l, Sets&, Repeats&) { l[0].mean.pop_back(); }), "wrong length"));
+  CHECK(has(about([](Levels& l, Sets&, Repeats&) {
               l[0].mean.resize(24);
               l[0].basis.resize(24 * size_t(l[0].dimensions));
             }),
             "does not belong to its channels"));
-  CHECK(has(about([](Levels& l, Sets&, Lattice&) {
+  CHECK(has(about([](Levels& l, Sets&, Repeats&) {
               l[0].mean.resize(75);
               l[0].basis.resize(75 * size_t(l[0].dimensions));
             }),
             "does not belong to its channels"));
-  CHECK(has(about([](Levels& l, Sets&, Lattice&) { l[0].basis[7] = std::numeric_limits<float>::infinity(); }),
+  CHECK(has(about([](Levels& l, Sets&, Repeats&) { l[0].basis[7] = std::numeric_limits<float>::infinity(); }),
             "not a number"));
-  CHECK(has(about([](Levels& l, Sets&, Lattice&) { l[1].scale = 0; }), "not positive"));
-  CHECK(has(about([](Levels& l, Sets&, Lattice&) { l[1].dimensions = 9; }), "dimensions"));
-  CHECK(has(about([](Levels& l, Sets&, Lattice&) { l[1].size = {6, 8}; }), "half the size"));
-  CHECK(has(about([](Levels& l, Sets&, Lattice&) { l[0].size = {4, 48}; }), "too small or too large"));
-  CHECK(has(about([](Levels&, Sets& s, Lattice&) { s[0].positions[5] = 16 * 12; }), "outside the exemplar"));
-  CHECK(has(about([](Levels& l, Sets& s, Lattice&) {
+  CHECK(has(about([](Levels& l, Sets&, Repeats&) { l[1].scale = 0; }), "not positive"));
+  CHECK(has(about([](Levels& l, Sets&, Repeats&) { l[1].dimensions = 9; }), "dimensions"));
+  CHECK(has(about([](Levels& l, Sets&, Repeats&) { l[1].size = {6, 8}; }), "half the size"));
+  CHECK(has(about([](Levels& l, Sets&, Repeats&) { l[0].size = {4, 48}; }), "too small or too large"));
+  CHECK(has(about([](Levels&, Sets& s, Repeats&) { s[0].positions[5] = 16 * 12; }), "outside the exemplar"));
+  CHECK(has(about([](Levels& l, Sets& s, Repeats&) {
               s[1].per_pixel = most_similar + 1;
               s[1].positions.assign(size_t(l[1].size.area()) * (most_similar + 1), 0);
             }),
             "number of similar pixels"));
-  CHECK(has(about([](Levels&, Sets& s, Lattice&) { s[1].positions.pop_back(); }), "wrong length"));
-  CHECK(has(about([](Levels&, Sets&, Lattice& l) {
-              l.rank = 1;
-              l.first.x = 1e9;
-            }),
-            "larger than any"));
+  CHECK(has(about([](Levels&, Sets& s, Repeats&) { s[1].positions.pop_back(); }), "wrong length"));
+  CHECK(has(about([](Levels&, Sets&, Repeats& r) { r = Lattice{1, {1e9, 0}, {}, 1}; }), "larger than any"));
+  const auto about_part = [&](auto spoil) {
+    return about([&](Levels&, Sets&, Repeats& r) {
+      const Lattice courses{1, {0, 4}, {}, 1};
+      LatticePart part{{0, 0, 8, 8}, courses, courses, {}};
+      spoil(part);
+      r.parts = {part};
+    });
+  };
+  CHECK(about_part([](LatticePart&) {}).empty());
+  CHECK(has(about_part([](LatticePart& p) { p.place.width = 1 << 30; }), "lies outside the exemplar"));
+  CHECK(has(about_part([](LatticePart& p) { p.place.x = -1; }), "lies outside the exemplar"));
+  CHECK(has(about_part([](LatticePart& p) { p.shown = {}; }), "another way than it is shown"));
+  CHECK(has(about_part([](LatticePart& p) { p.shown.first.y = 1e6; }), "larger than any"));
+  CHECK(has(about_part([](LatticePart& p) { p.start.x = 1e12; }), "starts too far away"));
+  CHECK(has(about_part([](LatticePart& p) { p.start.y = std::numeric_limits<double>::quiet_NaN(); }), "not a number"));
 }

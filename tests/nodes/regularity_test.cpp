@@ -28,7 +28,7 @@ std::function<float(int, int)> tiles(int width, int height) {
 }
 
 Lattice lattice_of(const FeaturesPtr& features, const Params& params = {}) {
-  return run_node("regularity", params, {{"features", {features}}}).get<Features>("features")->lattice();
+  return run_node("regularity", params, {{"features", {features}}}).get<Features>("features")->repeats().lattice;
 }
 
 /// Whether a lattice repeats after (x, y), to a tenth of a cell.
@@ -126,9 +126,77 @@ TEST_CASE("a manual lattice that is none is refused when the graph is checked") 
   CHECK(type->check(params).empty());
 }
 
+namespace {
+
+constexpr Size two_parts{260, 96};
+
+/// Tiles of 16x12 pixels on the left, of 16x12 that begin elsewhere or of 22x18 on the right.
+FeaturesPtr side_by_side(bool alike) {
+  return features_of(two_parts, [=](int x, int y) {
+    if (x < 130) return tiles(16, 12)(x, y);
+    return alike ? tiles(16, 12)(x + 3, y + 5) : tiles(22, 18)(x, y);
+  });
+}
+
+ImagePtr labels_of(const std::function<float(int, int)>& value, Size size = two_parts) {
+  return make_image(size, 1, [&](int x, int y, int) { return value(x, y); });
+}
+
+NodeRun run_with_labels(const FeaturesPtr& features, const ImagePtr& labels, const Params& params = {}) {
+  return run_node("regularity", params, {{"features", {features}}, {"labels", {labels}}});
+}
+
+const ImagePtr& halves() {
+  static const ImagePtr labels = labels_of([](int x, int) { return x < 130 ? 0.f : 1.f; });
+  return labels;
+}
+
+}  // namespace
+
+TEST_CASE("of several exemplars side by side each has its own lattice") {
+  const NodeRun run = run_with_labels(side_by_side(false), halves());
+  const Repeats repeats = run.get<Features>("features")->repeats();
+  REQUIRE(repeats.parts.size() == 2);
+  CHECK(repeats.parts[0].place == Rect{0, 0, 130, 96});
+  CHECK(repeats.parts[1].place == Rect{130, 0, 130, 96});
+  CHECK(repeats.parts[0].lattice.cell_area() == doctest::Approx(16 * 12).epsilon(0.03));
+  CHECK(repeats.parts[1].lattice.cell_area() == doctest::Approx(22 * 18).epsilon(0.03));
+  REQUIRE(run.notes.size() == 1);
+  CHECK(run.notes.front().find("exemplar 2: repeats by") != std::string::npos);
+}
+
+TEST_CASE("exemplars that repeat alike are brought into phase") {
+  for (const char* mode : {"auto", "manual"}) {
+    CAPTURE(mode);
+    Params params{{"mode", std::string(mode)}};
+    if (params["mode"] == ParamValue(std::string("manual"))) {
+      params["first"] = Numbers{16, 0};
+      params["second"] = Numbers{0, 12};
+    }
+    const Repeats repeats = run_with_labels(side_by_side(true), halves(), params).get<Features>("features")->repeats();
+    const PartPhases phases(repeats, two_parts, 0, {two_parts});
+    // Corners of tiles: (16, 12) on the left, (141, 7) on the right.
+    const Vector2 at = phases.shown_at(16, 12);
+    CHECK(phases.penalty(141, 7, at.x, at.y) == 1);
+    CHECK(phases.penalty(144, 7, at.x, at.y) > 2);
+    CHECK(phases.penalty(141, 12, at.x, at.y) > 2);
+  }
+}
+
+TEST_CASE("labels must be rectangles of the features' size") {
+  const FeaturesPtr features = side_by_side(true);
+  const auto refused = [&](const ImagePtr& labels, const char* message) {
+    CHECK_THROWS_WITH_AS(run_with_labels(features, labels), doctest::Contains(message), Error);
+  };
+  refused(labels_of([](int, int) { return 0.f; }, {20, 20}),
+          "expected the size of the features' exemplar, 260x96, found 20x20");
+  refused(labels_of([](int x, int y) { return float(x > y); }), "each a rectangle");
+  refused(labels_of([](int x, int y) { return float(x + 260 * y); }), "at most 255 exemplars side by side");
+}
+
 TEST_CASE("a result that wraps holds a whole number of cells, and positions one cell apart are in phase") {
   const Lattice grid{2, {10.3, 0}, {0, 7.9}, 1};
-  const LatticePhase phase(grid, 0, {100, 80}, true, true);
+  const LatticePhase phase(grid, 0, {{100, 80}, true, true});
   REQUIRE(phase.active());
   for (const int x : {0, 13, 99}) {
     const Vector2 here = phase.excess(5, 6, x, 20), around = phase.excess(5, 6, x - 100, 20 + 80);

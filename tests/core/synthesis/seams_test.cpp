@@ -7,6 +7,7 @@
 #include "core/hash.h"
 #include "core/synthesis/pieces.h"
 #include "tests/core/synthesis/noise.h"
+#include "tests/run_node.h"
 
 using namespace terrazzo;
 using test::noise;
@@ -73,6 +74,33 @@ TEST_CASE("a seam stays where nothing better is in reach, and fixed pixels stay 
   const Field fixed = field;
   move_seams(field, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), {}, Task());
   for (int y = 0; y < field.size.height; y++) CHECK(field.at(9, y) == fixed.at(9, y));
+}
+
+TEST_CASE("a seam does not go where controls want something else") {
+  const std::vector<ExemplarPixel> none;
+  const PaddedLevel exemplar = exemplar_with_repeat();
+  const auto halves = [](Size size, int middle) {
+    return test::make_image(size, 1, [=](int x, int, int) { return x < middle ? 0.f : 1.f; });
+  };
+  for (const int seam : {9, 20}) {
+    CAPTURE(seam);
+    Field field = meeting_at(seam);
+    const Field before = field;
+    // Either piece shows one label, wherever it goes on, and the result wants them to meet where they do.
+    const std::vector<Control> controls = {
+        {.exemplar = halves(side, 24), .target = halves(field.size, seam), .mode = Control::Mode::labels}};
+    const ControlPyramid pyramid(controls, side, field.size, 1, Task());
+    const LevelControl control(pyramid, 0, exemplar);
+    CorrectionLevel level = level_of(exemplar, none);
+    level.window = PlaneWindow::all_of({field.size, false, false});
+    level.control = &control;
+    move_seams(field, level, {}, Task());
+    for (int y = 0; y < field.size.height; y++)
+      for (int x = 0; x < field.size.width; x++)
+        CHECK(control.cost(field.at(x, y).x, field.at(x, y).y, control.target_near(x, y)) <=
+              control.cost(before.at(x, y).x, before.at(x, y).y, control.target_near(x, y)));
+    CHECK(columns_of_first_piece(field, 8) == seam);
+  }
 }
 
 namespace {

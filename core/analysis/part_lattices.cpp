@@ -1,0 +1,138 @@
+#include "core/analysis/part_lattices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/analysis/cell_phase.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr double most_unlike = 0.04;   // of steps, as a part of their length
+constexpr int most_cells = 4;          // of one lattice in a cell of another
+constexpr double most_slanted = 0.02;  // of level courses: what they rise by, as a part of their length
+
+double length_of(const Vector2& v) {
+  return std::sqrt(v.x * v.x + v.y * v.y);
+}
+
+bool are_alike(const Vector2& a, const Vector2& b) {
+  return length_of({a.x - b.x, a.y - b.y}) <= most_unlike * length_of(b);
+}
+
+/// The lattice that is part of `l` (of all its steps, or of some) and whose steps are like those of `model`.
+std::optional<Lattice> stepping_like(const Lattice& model, const Lattice& l) {
+  if (model.rank != l.rank || l.rank == 0) return {};
+  const auto whole = [](double v) { return std::floor(v + 0.5); };
+  Lattice out = l;
+  if (l.rank == 1) {
+    if ((l.first.x != 0) != (model.first.x != 0)) return {};
+    const double steps = whole(l.first.x != 0 ? model.first.x / l.first.x : model.first.y / l.first.y);
+    out.first = {l.first.x * steps, l.first.y * steps};
+    return std::abs(steps) >= 1 && std::abs(steps) <= most_cells && are_alike(out.first, model.first)
+               ? std::optional(out)
+               : std::nullopt;
+  }
+  const double area = l.first.x * l.second.y - l.first.y * l.second.x;
+  const auto nearest = [&](const Vector2& v) {
+    const double i = whole((v.x * l.second.y - v.y * l.second.x) / area),
+                 j = whole((v.y * l.first.x - v.x * l.first.y) / area);
+    return Vector2{l.first.x * i + l.second.x * j, l.first.y * i + l.second.y * j};
+  };
+  out.first = nearest(model.first);
+  out.second = nearest(model.second);
+  const double cells = out.cell_area() / l.cell_area();
+  if (cells < 0.5 || cells > most_cells + 0.5) return {};
+  return are_alike(out.first, model.first) && are_alike(out.second, model.second) ? std::optional(out) : std::nullopt;
+}
+
+/// The level courses of a lattice, or its columns: of rank 0 if it has none.
+Lattice level_bands(const Lattice& l, bool courses) {
+  if (l.rank == 1) return (l.first.x == 0) == courses ? l : Lattice{};
+  if (l.rank == 0) return {};
+  constexpr int farthest = 3;
+  double shortest = 0;
+  for (int i = -farthest; i <= farthest; i++)
+    for (int j = -farthest; j <= farthest; j++) {
+      const Vector2 v{l.first.x * i + l.second.x * j, l.first.y * i + l.second.y * j};
+      const double along = std::abs(courses ? v.x : v.y), across = std::abs(courses ? v.y : v.x);
+      if (along > 0 && across <= most_slanted * along && (shortest == 0 || along < shortest)) shortest = along;
+    }
+  if (shortest == 0) return {};
+  const double period = l.cell_area() / shortest;
+  return {1, courses ? Vector2{0, period} : Vector2{period, 0}, {}, l.certainty};
+}
+
+/// What two parts have in common, in the steps of each.
+struct Common {
+  Lattice of_model, of_part;
+};
+
+std::optional<Common> common(const Lattice& model, const Lattice& part) {
+  if (const auto like = stepping_like(model, part)) return Common{model, *like};
+  if (const auto like = stepping_like(part, model)) return Common{*like, part};
+  return {};
+}
+
+Vector2 moved(const Lattice& l, const Vector2& cells) {
+  return {l.first.x * cells.x + l.second.x * cells.y, l.first.y * cells.x + l.second.y * cells.y};
+}
+
+/// A part that repeats and what it is shown as.
+struct Joined {
+  LatticePart& part;
+  const ExemplarView& view;
+};
+
+Vector2 phase(const ExemplarPart& model, const Joined& joined, const Common& steps) {
+  return moved(steps.of_part, phase_between({model.view, steps.of_model}, {joined.view, steps.of_part}));
+}
+
+/// Shows a part as its model, if their cells are alike.
+bool join_cells(const ExemplarPart& model, const Joined& joined) {
+  LatticePart& part = joined.part;
+  const auto steps = common(model.lattice, part.lattice);
+  if (!steps) return false;
+  part.lattice = steps->of_part;
+  part.shown = steps->of_model;
+  part.start = phase(model, joined, *steps);
+  return true;
+}
+
+/// Gives a part its model's courses or columns, if they are alike.
+bool join_bands(const ExemplarPart& model, const Joined& joined) {
+  for (const bool courses : {true, false}) {
+    LatticePart& part = joined.part;
+    const auto steps = common(level_bands(model.lattice, courses), level_bands(part.lattice, courses));
+    if (!steps) continue;
+    part.start = phase(model, joined, *steps);
+    const Vector2 &to = steps->of_model.first, &from = steps->of_part.first;
+    for (Vector2* v : {&part.shown.first, &part.shown.second})
+      (courses ? v->y : v->x) *= courses ? to.y / from.y : to.x / from.x;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<LatticePart> brought_together(const std::vector<ExemplarPart>& parts, const Task& task) {
+  std::vector<LatticePart> out;
+  std::vector<size_t> models;
+  for (size_t i = 0; i < parts.size(); i++) {
+    task.check();
+    const Lattice& l = parts[i].lattice;
+    out.push_back({parts[i].place, l, l, {}});
+    if (l.rank == 0) continue;
+    const Joined joined{out.back(), parts[i].view};
+    const auto joins = [&](const auto& join) {
+      return std::ranges::any_of(models, [&](size_t m) { return join(parts[m], joined); });
+    };
+    if (!joins(join_cells) && !joins(join_bands)) models.push_back(i);
+  }
+  return out;
+}
+
+}  // namespace terrazzo
