@@ -91,6 +91,16 @@ void compute(NodeContext& node) {
   node.output("uv", uv);
 }
 
+std::vector<std::string> check(const Params& params) {
+  std::vector<std::string> problems = check_synthesis_params(params);
+  const double border = std::get<double>(params.at("border"));
+  if (border >= 0.5 && border < 1)
+    problems.push_back(fmt::format("\"border\": expected less than 0.5 of the side, so that something is kept between "
+                                   "two borders, or at least 1 pixel; found {}",
+                                   border));
+  return problems;
+}
+
 }  // namespace
 
 NodeType make_tileable_node() {
@@ -129,7 +139,7 @@ NodeType make_tileable_node() {
                "whole number of repeats; \"size\" keeps the exemplar's size and bends repeats within the border.",
        .choices = {"repeats", "size"}},
   });
-  t.check = check_synthesis_params;
+  t.check = check;
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
     return 3 * synthesis_memory(node.input<Index>("index")->appearance()->size());

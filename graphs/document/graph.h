@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct GraphNode {
   std::map<std::string, std::vector<Wire>> inputs;  ///< by port; only connected ports
   Place place;
   std::map<std::string, Place> places;  ///< of the parameters and ports that the document gives
+  /// Of path parameters and of ports: the graph's own parameters that say which files they, or what comes in, are from.
+  std::map<std::string, std::set<std::string>> files_by{};
 
   /// Of the parameter or port if the document gives it, else of the node.
   Place place_of(const std::string& about) const {

@@ -67,6 +67,7 @@ class Loader {
     std::vector<Problem> conversions;
     connect(drafts, problems_, conversions);
     const std::vector<size_t> order = execution_order(drafts, problems_);
+    trace_files(drafts, order);
     if (!problems_.empty() && options.look_ahead)
       for (Problem& p : options.look_ahead(faultless(drafts, order))) problems_.push_back(std::move(p));
     finish();
@@ -120,6 +121,17 @@ class Loader {
       if (!p.value && !p.is_wrong)
         problems_.push_back({p.place, "parameter " + in_quotes(p.param.name),
                              fmt::format("has no default and must be set: --set {}=VALUE", p.param.name)});
+  }
+
+  /// Tells every port from which of the graph's files what comes in is made.
+  static void trace_files(std::vector<NodeDraft>& drafts, const std::vector<size_t>& order) {
+    std::map<std::string, std::set<std::string>> files_of;  // by node
+    for (const size_t i : order) {
+      GraphNode& node = drafts[i].node;
+      for (const auto& [port, wires] : node.inputs)
+        for (const Wire& w : wires) node.files_by[port].merge(std::set(files_of[w.node]));
+      for (const auto& [given, files] : node.files_by) files_of[node.name].insert(files.begin(), files.end());
+    }
   }
 
   /// The nodes that nothing has been said against, and that have all they need but for what others are to give.

@@ -120,6 +120,7 @@ class NodeReader {
     const JsonValue given = e.by ? read_command_line(e.by->value, param) : *e.value;
     const std::optional<JsonValue> value = substitution_.expand(given, takes_texts(param.type), complaints);
     if (!value) return;
+    if (param.type == ParamType::path) draft_.node.files_by[param.name] = substitution_.paths_in(given);
     const std::filesystem::path& base = e.by ? reading_.working_folder : reading_.graph_folder;
     if (std::optional<ParamValue> read = read_param(*value, param, base, complaints))
       draft_.node.params.emplace(param.name, std::move(*read));

@@ -315,6 +315,16 @@ std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, bool 
   return complete ? std::optional(std::move(out)) : std::nullopt;
 }
 
+std::set<std::string> Substitution::paths_in(const JsonValue& value) const {
+  std::set<std::string> out;
+  for (size_t at = value.text.find('$'); at != std::string::npos; at = value.text.find('$', at + 1)) {
+    const std::optional<Reference> reference = reference_at(value.text, at);
+    const auto use = reference ? uses_.find(reference->name) : uses_.end();
+    if (use != uses_.end() && use->second.parameter->param.type == ParamType::path) out.insert(reference->name);
+  }
+  return out;
+}
+
 std::vector<const GraphParameter*> Substitution::unused() const {
   std::vector<const GraphParameter*> out;
   for (const std::string& name : names_)

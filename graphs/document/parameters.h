@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <optional>
 #include <string>
 #include <utility>
@@ -53,6 +54,9 @@ class Substitution {
   /// but a `$name` becomes the parameter's value, or that value as text if `wants_text`. A path that begins a longer
   /// text is absolute; further on it stands as it was written. Empty after a problem, or if a parameter has no value.
   std::optional<JsonValue> expand(const JsonValue& value, bool wants_text, Complaints& complaints);
+
+  /// The parameters of type path among those that a text refers to.
+  std::set<std::string> paths_in(const JsonValue& value) const;
 
   /// Parameters that no call of expand has met.
   std::vector<const GraphParameter*> unused() const;

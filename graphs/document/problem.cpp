@@ -16,6 +16,15 @@ std::vector<Problem> in_order(std::vector<Problem> problems) {
   return problems;
 }
 
+/// Where in the command line to look for the files that a port or parameter is about.
+std::string files(const GraphNode& node, const std::string& about, const char* how) {
+  const auto by = node.files_by.find(about);
+  if (by == node.files_by.end() || by->second.empty()) return "";
+  std::string names;
+  for (const std::string& name : by->second) names += fmt::format("{}--set {}", names.empty() ? "" : ", ", name);
+  return fmt::format(" ({}{})", how, names);
+}
+
 std::string all_described(const std::string& file, const std::vector<Problem>& problems) {
   std::string text;
   for (const Problem& p : problems) {
@@ -37,8 +46,8 @@ std::string describe(const std::string& file, const Problem& problem) {
 
 Problem problem_of(const GraphNode& node, const std::string& about, const std::string& message) {
   std::string where = fmt::format("node \"{}\" ({})", node.name, node.type->name);
-  if (node.type->find_input(about)) where += fmt::format(", input \"{}\"", about);
-  if (node.type->find_param(about)) where += fmt::format(", parameter \"{}\"", about);
+  if (node.type->find_input(about)) where += fmt::format(", input \"{}\"{}", about, files(node, about, "made from "));
+  if (node.type->find_param(about)) where += fmt::format(", parameter \"{}\"{}", about, files(node, about, ""));
   return {node.place_of(about), where, message, node.name};
 }
 

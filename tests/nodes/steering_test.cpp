@@ -62,6 +62,23 @@ TEST_CASE("make_tileable keeps the interior, and every map wraps as smoothly as 
   }
 }
 
+TEST_CASE("borders that would leave nothing to keep are refused before anything is analysed") {
+  const NodeType* type = find_node_type("make_tileable");
+  Params params;
+  for (const Param& p : type->params)
+    if (p.fallback) params.emplace(p.name, *p.fallback);
+  const auto refused = [&](double border) {
+    params["border"] = border;
+    const std::vector<std::string> problems = type->check(params);
+    return !problems.empty() && problems.front().find("\"border\": expected less than 0.5") == 0;
+  };
+  CHECK(refused(0.5));
+  CHECK(refused(0.99));
+  CHECK_FALSE(refused(0.49));
+  CHECK_FALSE(refused(1));
+  CHECK_FALSE(refused(40));
+}
+
 TEST_CASE("make_tileable in one direction leaves the other alone; the border may be a part of the side") {
   const UvMapPtr uv = run_node("make_tileable", {{"border", 0.125}, {"directions", "x"}}, {{"index", {gravel_index()}}})
                           .get<UvMap>("uv");
