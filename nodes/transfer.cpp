@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/synthesis/labels.h"
 #include "core/text.h"
 #include "nodes/synthesis_params.h"
 
@@ -31,6 +32,7 @@ std::vector<Control> controls_of(const NodeContext& node) {
   for (size_t i = 0; i < targets.size(); i++) {
     Control control{.exemplar = exemplars[i], .target = targets[i], .strength = strength[i % strength.size()]};
     control.mode = node.text("mode") == "labels" ? Control::Mode::labels : Control::Mode::values;
+    control.leeway = node.number("leeway");
     control.match = match == "none"    ? Control::Match::none
                     : match == "range" ? Control::Match::range
                                        : Control::Match::histogram;
@@ -42,15 +44,17 @@ std::vector<Control> controls_of(const NodeContext& node) {
 /// Of a painted layout, soft edges of strokes are no mistake.
 constexpr double most_unknown = 0.05;
 
-void warn_of_unknown_labels(NodeContext& node, const std::vector<Control>& controls, Size exemplar) {
+void warn_of_labels(NodeContext& node, const std::vector<Control>& controls, Size exemplar) {
   for (const Control& control : controls) {
-    if (control.mode != Control::Mode::labels || control.exemplar->channels() != control.target->channels()) continue;
-    const double unknown = unknown_labels(control, exemplar, node.task());
-    if (unknown > most_unknown)
+    if (control.mode != Control::Mode::labels) continue;
+    const PaintedLabels labels = painted_labels(control, exemplar, control.target->size(), node.task());
+    if (labels.unknown > most_unknown)
       node.warn(
           fmt::format("{:.0f} % of the target have values that \"exemplar_control\" does not have; they count as "
                       "the nearest it has",
-                      100 * unknown));
+                      100 * labels.unknown));
+    if (labels.count > 1 && labels.wanted == 1)
+      node.warn(fmt::format("the target shows one label only, of the {} that \"exemplar_control\" has", labels.count));
   }
 }
 
@@ -58,7 +62,8 @@ void compute(NodeContext& node) {
   const auto index = node.input<Index>("index");
   SynthesisOptions options = synthesis_options(node, *index);
   options.controls = controls_of(node);
-  warn_of_unknown_labels(node, options.controls, index->appearance()->size());
+  warn_of_labels(node, options.controls, index->appearance()->size());
+  warn_unless_repeats_fit(node, *index, options, "they are stretched to wrap around and joints may jog");
   node.output("uv", synthesize(*index, options, node.task()));
 }
 
@@ -85,15 +90,16 @@ NodeType transfer_node() {
       "progression is followed with mode values, a painted layout with mode labels. Several controls work together; "
       "the "
       "n-th target belongs to the n-th exemplar control.";
-  t.inputs = {index_port(),
-              {.name = "exemplar_control",
-               .type = ValueType::image,
-               .help = "what the exemplar has where; of its shape, at any size",
-               .list = true},
-              {.name = "target",
-               .type = ValueType::image,
-               .help = "what is wanted where; as many images, with as many channels each",
-               .list = true}};
+  t.inputs = {
+      index_port(),
+      {.name = "exemplar_control",
+       .type = ValueType::image,
+       .help = "what the exemplar has where; of its shape, at any size",
+       .list = true},
+      {.name = "target",
+       .type = ValueType::image,
+       .help = "what is wanted where; as many images, with as many channels each (labels may be grey or colours)",
+       .list = true}};
   t.outputs = {uv_output()};
   t.params = with_synthesis_params({
       result_size_param(),
@@ -115,6 +121,15 @@ NodeType transfer_node() {
        .help = "values: the nearer, the better. labels: every value is a thing of its own, such as moss or stone; "
                "values of the target that the exemplar's control does not have count as the nearest it has.",
        .choices = {"values", "labels"}},
+      {.name = "leeway",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "Only for labels: how far borders between them may run beside where they are painted, so that bricks, "
+               "tiles and stones stay whole. Parts of the layout that are thinner than twice that, and tips of sharp "
+               "corners, stay at least as they are painted.",
+       .min = 0,
+       .max = 4096,
+       .unit = "pixels of the result"},
       {.name = "match",
        .type = ParamType::choice,
        .fallback = "histogram",

@@ -14,12 +14,12 @@
 #include "core/hash.h"
 #include "core/image_ops.h"
 #include "core/resample.h"
+#include "core/synthesis/labels.h"
 
 namespace terrazzo {
 
 namespace {
 
-constexpr size_t most_labels = 32;
 // What the largest difference of values costs, relative to missing a label.
 constexpr double values_factor = 8;
 // Of the exemplar's longer side: features that are not to be taken apart for the sake of their values.
@@ -94,47 +94,9 @@ void put_values(const Control& control, ControlPlanes& exemplar, ControlPlanes& 
   });
 }
 
-/// A label's value in 255ths.
-using Label = std::array<int, 4>;
-
-Label label_of(const float* values, int channels) {
-  Label label{};
-  for (int c = 0; c < channels; c++) label[c] = int(std::floor(std::clamp(double(values[c]), -1e6, 1e6) * 255 + 0.5));
-  return label;
-}
-
-std::vector<Label> labels_of(const Image& image) {
-  std::map<Label, int> found;
-  const float* values = image.in_memory();
-  for (int64_t i = 0; i < image.size().area(); i++) {
-    found.try_emplace(label_of(values + i * image.channels(), image.channels()));
-    if (found.size() > most_labels)
-      throw Error("exemplar_control",
-                  fmt::format("expected at most {} different labels, found more: this looks like values rather than "
-                              "labels; use mode \"values\", or flatten it with \"threshold\" or \"cluster\"",
-                              most_labels));
-  }
-  std::vector<Label> labels;
-  for (const auto& [label, unused] : found) labels.push_back(label);
-  return labels;
-}
-
-size_t nearest_label(const std::vector<Label>& labels, const Label& to) {
-  size_t best = 0;
-  int64_t least = std::numeric_limits<int64_t>::max();
-  for (size_t i = 0; i < labels.size(); i++) {
-    int64_t sum = 0;
-    for (size_t c = 0; c < to.size(); c++) sum += int64_t{labels[i][c] - to[c]} * (labels[i][c] - to[c]);
-    if (sum >= least) continue;
-    least = sum;
-    best = i;
-  }
-  return best;
-}
-
-void put_labels(const Image& image, const std::vector<Label>& labels, ControlPlanes& planes, int first) {
-  put(image, planes, first,
-      [&](const float* in, uint8_t* out) { out[nearest_label(labels, label_of(in, image.channels()))] = 255; });
+void put_labels(const std::vector<uint8_t>& bytes, const ControlPyramid::Part& part, ControlPlanes& planes) {
+  for (size_t i = 0; i < size_t(planes.size.area()); i++)
+    std::copy_n(&bytes[i * size_t(part.count)], part.count, &planes.values[i * size_t(planes.channels) + part.first]);
 }
 
 ControlPlanes empty(Size size, int channels) {
@@ -161,7 +123,7 @@ ControlPlanes halved(const ControlPlanes& in) {
 
 void check(const Control& control, Size exemplar) {
   require_shape("exemplar_control", *control.exemplar, "the exemplar", exemplar);
-  if (control.exemplar->channels() != control.target->channels())
+  if (control.mode == Control::Mode::values && control.exemplar->channels() != control.target->channels())
     throw Error("target", fmt::format("expected as many channels as \"exemplar_control\", {}; found {}; put "
                                       "\"grayscale\" before both, say",
                                       describe(*control.exemplar), describe(*control.target)));
@@ -207,29 +169,16 @@ double typical_distance(const PaddedLevel& level) {
 
 }  // namespace
 
-double unknown_labels(const Control& control, Size exemplar, const Task& task) {
-  const std::vector<Label> known =
-      labels_of(*materialized(nearest_at_size(control.exemplar, exemplar), task));  // sorted
-  const ImagePtr target = materialized(control.target, task);
-  const float* values = target->in_memory();
-  int64_t unknown = 0;
-  for (int64_t i = 0; i < target->size().area(); i++)
-    unknown += !std::ranges::binary_search(known, label_of(values + i * target->channels(), target->channels()));
-  return double(unknown) / double(target->size().area());
-}
-
 ControlPyramid::ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size output, int levels,
                                const Task& task) {
   if (controls.empty()) return;
   int channels = 0;
-  std::vector<ImagePtr> label_images;
-  std::vector<std::vector<Label>> labels;
+  std::vector<PaintedLabels> labels;
   for (const Control& control : controls) {
     check(control, exemplar);
     const bool is_labels = control.mode == Control::Mode::labels;
-    label_images.push_back(is_labels ? materialized(nearest_at_size(control.exemplar, exemplar), task) : nullptr);
-    labels.push_back(is_labels ? labels_of(*label_images.back()) : std::vector<Label>{});
-    const int count = is_labels ? int(labels.back().size()) : control.exemplar->channels();
+    labels.push_back(is_labels ? painted_labels(control, exemplar, output, task) : PaintedLabels{});
+    const int count = is_labels ? labels.back().count : control.exemplar->channels();
     parts_.push_back({channels, count, control.strength, is_labels});
     channels += count;
   }
@@ -237,10 +186,10 @@ ControlPyramid::ControlPyramid(const std::vector<Control>& controls, Size exempl
   target_.push_back(terrazzo::empty(output, channels));
   for (size_t i = 0; i < controls.size(); i++) {
     task.check();
-    if (label_images[i]) {
-      put_labels(*label_images[i], labels[i], exemplar_[0], parts_[i].first);
-      put_labels(*materialized(nearest_at_size(controls[i].target, output), task), labels[i], target_[0],
-                 parts_[i].first);
+    if (parts_[i].labels) {
+      put_labels(wanted_labels(labels[i].exemplar, labels[i].count, exemplar, 0, task), parts_[i], exemplar_[0]);
+      put_labels(wanted_labels(labels[i].target, labels[i].count, output, controls[i].leeway, task), parts_[i],
+                 target_[0]);
     } else {
       put_values(controls[i], exemplar_[0], target_[0], parts_[i].first, task);
     }

@@ -25,15 +25,12 @@ struct Control {
     histogram,  ///< its values become the exemplar control's values of equal rank, per channel
   };
   ImagePtr exemplar;  ///< of the exemplar's shape
-  ImagePtr target;    ///< as many channels; stretched over the output
+  ImagePtr target;    ///< as many channels, but that labels may be grey or colours; stretched over the output
   double strength = 1;
   Mode mode = Mode::values;
   Match match = Match::histogram;  ///< only for values
+  double leeway = 0;               ///< only for labels: how many pixels of the output borders may run elsewhere
 };
-
-/// The part of a target's pixels, 0..1, whose label the exemplar's control does not have. `exemplar`: the exemplar's
-/// size. Throws Error about "exemplar_control" if that has too many.
-double unknown_labels(const Control& control, Size exemplar, const Task& task);
 
 /// Control values of the exemplar or the output at one level: bytes, all controls' channels interleaved.
 struct ControlPlanes {

@@ -103,8 +103,8 @@ void scatter(Field& field, const PaddedLevel& exemplar, double amplitude, uint64
     }
 }
 
-Field block_starts(const Field& parent, const PlaneWindow& window, const PaddedLevel& exemplar,
-                   const PartPhases& phase, double amplitude, uint64_t seed, int level) {
+Field block_starts(const Field& parent, const PlaneWindow& window, const PaddedLevel& exemplar, const PartPhases& phase,
+                   double amplitude, uint64_t seed, int level) {
   Field starts{parent.size, std::vector<ExemplarPixel>(parent.pixels.size())};
   tbb::parallel_for(0, parent.size.height, [&](int row) {
     for (int column = 0; column < parent.size.width; column++) {

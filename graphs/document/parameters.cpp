@@ -318,6 +318,10 @@ std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, bool 
 std::set<std::string> Substitution::paths_in(const JsonValue& value) const {
   std::set<std::string> out;
   for (size_t at = value.text.find('$'); at != std::string::npos; at = value.text.find('$', at + 1)) {
+    if (value.text.compare(at, 2, "$$") == 0) {
+      at++;
+      continue;
+    }
     const std::optional<Reference> reference = reference_at(value.text, at);
     const auto use = reference ? uses_.find(reference->name) : uses_.end();
     if (use != uses_.end() && use->second.parameter->param.type == ParamType::path) out.insert(reference->name);

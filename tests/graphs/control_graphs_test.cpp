@@ -165,6 +165,43 @@ TEST_CASE("tiles keep their grid where turned copies, other exemplars and other 
   CHECK(light_part(light, 33, 60) < 0.02);
 }
 
+TEST_CASE("with leeway a mix ends where tiles do") {
+  const Workplace w;
+  write_tiles(w.path / "some/basecolor.png", 0, 0.1);
+  write_grey(w.path / "sand/basecolor.png", {48, 48}, [](int x, int y) { return 0.5 + grain(x, y); });
+  write_grey(w.path / "map.png", {60, 40}, [](int x, int) { return x < 33 ? 0.0 : 1.0; });
+  /// The part of the rows in which the sand begins beside a joint or in its place.
+  const auto ends_at_joints = [&](const std::string& leeway) {
+    light_pixels(w, "mix", {"first=some", "second=sand", "mix=map.png", "leeway=" + leeway});
+    const ImagePtr image = read_image(w.path / "mix/base_color.png", ImageInfo{}, [](const std::string&) {});
+    const std::vector<float> pixels = image->pixels();
+    const auto is_sand = [&](int x, int y) {
+      const float v = pixels[size_t(y * 60 + x) * 3];
+      return v > 0.4f && v < 0.8f;
+    };
+    int joints = 0;
+    for (int y = 0; y < 40; y++) {
+      int x = 59;
+      while (x > 0 && is_sand(x, y)) x--;
+      const auto is_joint = [&](int at) { return at >= 0 && pixels[size_t(y * 60 + at) * 3] > 0.8f; };
+      joints += is_joint(x) || is_joint(x + 1 - 12);
+    }
+    return joints / 40.0;
+  };
+  CHECK(ends_at_joints("0") < 0.5);
+  CHECK(ends_at_joints("10") > 0.8);
+}
+
+TEST_CASE("a mix map that shows one material only is warned of") {
+  const Workplace w;
+  write_grey(w.path / "sand/basecolor.png", {48, 48}, grain);
+  write_grey(w.path / "map.png", {60, 40}, [](int, int) { return 0.4; });
+  const ProgramRun run = w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/mix.json", "--set", "size=20x20", "--set", "out=x",
+                                "--set", "first=sand", "--set", "second=sand", "--set", "mix=map.png"});
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  CHECK(run.err.find("the target shows one label only, of the 2") != std::string::npos);
+}
+
 TEST_CASE("several shows parts of both its materials") {
   const Workplace w;
   write_grey(w.path / "dark/basecolor.png", {48, 48}, [](int x, int y) { return 0.1 + grain(x, y); });

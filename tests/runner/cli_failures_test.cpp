@@ -61,8 +61,9 @@ TEST_CASE("a run tells all that would fail before anything runs") {
   const ProgramRun r = w.run({"run", "soft.json", "--set", "photo.path=none.png", "--set", "out=file"});
   CHECK(r.code == 2);
   CHECK(r.err.find("error: soft.json:6:5: node \"photo\" (load_map): cannot read ") == 0);
-  CHECK(r.err.find("error: soft.json:8:54: node \"files\" (export), parameter \"path\": expected a folder") !=
-        std::string::npos);
+  CHECK(
+      r.err.find("error: soft.json:8:54: node \"files\" (export), parameter \"path\" (--set out): expected a folder") !=
+      std::string::npos);
   CHECK(r.err.find("cached") == std::string::npos);
 }
 
