@@ -35,6 +35,10 @@ inline Rect intersect(const Rect& a, const Rect& b) {
   return {x, y, std::max(0, std::min(a.right(), b.right()) - x), std::max(0, std::min(a.bottom(), b.bottom()) - y)};
 }
 
+inline bool contains(const Rect& r, int x, int y) {
+  return x >= r.x && y >= r.y && x < r.right() && y < r.bottom();
+}
+
 /// The smallest rectangle around both, neither of which may be empty.
 inline Rect united(const Rect& a, const Rect& b) {
   const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);

@@ -70,8 +70,9 @@ void require_same_maps(const std::string& port, const std::vector<KnownMaps>& ma
     if (differences.empty()) continue;
     throw Error(
         port,
-        fmt::format("expected the same maps in all materials, {} as in the first; material {}{} {}; add or "
-                    "leave out maps with \"get_map\" and \"make_material\"",
+        fmt::format("expected the same maps in all materials, {} as in the first; material {}{} {}; leave "
+                    "maps out with \"maps\" of \"load_material\", as {{\"normal\": \"\"}}, or add them with "
+                    "\"make_material\"",
                     fmt::join(first.maps, ", "), i + 1, other.name.empty() ? "" : fmt::format(" (\"{}\")", other.name),
                     fmt::join(differences, ", ")));
   }

@@ -95,9 +95,10 @@ std::vector<std::string> check(const Params& params) {
   std::vector<std::string> problems = check_synthesis_params(params);
   const double border = std::get<double>(params.at("border"));
   if (border >= 0.5 && border < 1)
-    problems.push_back(fmt::format("\"border\": expected less than 0.5 of the side, so that something is kept between "
-                                   "two borders, or at least 1 pixel; found {}",
-                                   border));
+    problems.push_back(
+        fmt::format("\"border\": expected less than 0.5 of the side, so that something is kept between "
+                    "two borders, or at least 1 pixel; found {}",
+                    border));
   return problems;
 }
 

@@ -63,8 +63,9 @@ std::vector<Rect> places_of(const ImagePtr& labels, Size exemplar, const Task& t
       p.bounds = p.pixels == 0 ? run : united(p.bounds, run);
       p.pixels += run.area();
       if (places.size() > most_lattice_parts)
-        throw Error("labels",
-                    fmt::format("expected at most {} exemplars side by side, found more values", most_lattice_parts));
+        throw Error("labels", fmt::format("expected at most {} exemplars side by side, found more values: this "
+                                          "looks like a picture, not like the labels of \"combine\" or \"variants\"",
+                                          most_lattice_parts));
     }
   }
   std::vector<Rect> out;
@@ -77,11 +78,17 @@ std::vector<Rect> places_of(const ImagePtr& labels, Size exemplar, const Task& t
   return out;
 }
 
-std::string described(const std::vector<LatticePart>& parts) {
+std::string described(const BroughtTogether& all) {
+  const size_t count = all.parts.size();
   std::string text;
-  for (size_t i = 0; i < std::min(parts.size(), most_described); i++)
-    text += fmt::format("{}exemplar {}: {}", i > 0 ? "; " : "", i + 1, described(parts[i].lattice));
-  if (parts.size() > most_described) text += fmt::format("; and {} more", parts.size() - most_described);
+  for (size_t i = 0; i < std::min(count, most_described); i++)
+    text += fmt::format("{}exemplar {}: {}", i > 0 ? "; " : "", i + 1, described(all.parts[i].lattice));
+  if (count > most_described) text += fmt::format("; and {} more", count - most_described);
+  if (all.kinds > 1)
+    text +=
+        "; not all repeat alike, so that courses and tiles break where they meet: for one surface that does repeat, "
+        "set "
+        "\"mode\" to \"manual\" and give \"first\" and \"second\"; of copies take those that keep its grid";
   return text;
 }
 
@@ -104,8 +111,14 @@ void compute(NodeContext& node) {
     parts.back().lattice = found.lattice;
     too_few |= found.too_few;
   }
-  const Repeats repeats = labels ? Repeats(brought_together(parts, node.task())) : Repeats(parts.front().lattice);
-  node.note(labels ? described(repeats.parts) : described(repeats.lattice));
+  Repeats repeats = parts.front().lattice;
+  if (labels) {
+    BroughtTogether all = brought_together(parts, node.task());
+    node.note(described(all));
+    repeats = Repeats(std::move(all.parts));
+  } else {
+    node.note(described(repeats.lattice));
+  }
   if (too_few)
     node.warn(
         "straight joints cross, but the exemplar shows too few tiles, or too unlike ones, to tell how they repeat, so "

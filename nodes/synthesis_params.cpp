@@ -182,6 +182,41 @@ void warn_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
                         describe(options.size), consequence, advice));
 }
 
+void note_shares(NodeContext& node, const Index& index, const UvMap& result) {
+  constexpr size_t most_listed = 8;
+  const std::vector<LatticePart>& parts = index.appearance()->repeats().parts;
+  if (parts.size() < 2) return;
+  std::vector<int64_t> counts(parts.size(), 0);
+  size_t part = 0;  // neighbours mostly show the same
+  for (const ExemplarPixel& p : result.pixels()) {
+    const auto shows = [&](const LatticePart& l) { return contains(l.place, p.x, p.y); };
+    if (!shows(parts[part]))
+      part = std::min(parts.size() - 1, size_t(std::ranges::find_if(parts, shows) - parts.begin()));
+    counts[part]++;
+  }
+  std::string shares;
+  for (size_t i = 0; i < std::min(parts.size(), most_listed); i++)
+    shares += fmt::format("{}exemplar {} in {:.0f} %", i > 0 ? ", " : "", i + 1,
+                          100.0 * double(counts[i]) / double(result.size().area()));
+  node.note(fmt::format("the result shows {}{}", shares, parts.size() > most_listed ? ", and others" : ""));
+}
+
+void warn_of_unused_parts(NodeContext& node, const Index& index, const UvMap& result) {
+  std::string unused;
+  int64_t area = 0;
+  const std::vector<LatticePart>& parts = index.appearance()->repeats().parts;
+  for (size_t i = 0; i < parts.size(); i++) {
+    area += parts[i].place.area();
+    if (std::ranges::none_of(result.pixels(), [&](ExemplarPixel p) { return contains(parts[i].place, p.x, p.y); }))
+      unused += fmt::format("{}{}", unused.empty() ? "" : ", ", i + 1);
+  }
+  if (unused.empty() || result.size().area() < area) return;  // a small result has no room for all
+  node.warn(
+      fmt::format("nothing is shown of exemplar {}, which does not fit the others; another seed may show it, and a "
+                  "mix map says where it goes: graphs/mix.json",
+                  unused));
+}
+
 ImagePtr made_anew(const UvMap& result, const KeptPixels& kept) {
   std::vector<float> mask;
   mask.reserve(kept.keep.size());

@@ -33,11 +33,13 @@ void compute(NodeContext& node) {
   SynthesisOptions options = synthesis_options(node, *index);
   options.size = part.surface;
   warn_unless_repeats_fit(node, *index, options, "they are stretched to wrap around and joints may jog");
-  if (!coarse && part.is_whole())
-    node.output("uv", synthesize(*index, options, node.task()));
-  else
-    node.output("uv", refine(*index, coarse ? *coarse : *coarse_uv(*index, options, node.task()), options, part.region,
-                             node.task()));
+  const UvMapPtr uv = !coarse && part.is_whole()
+                          ? synthesize(*index, options, node.task())
+                          : refine(*index, coarse ? *coarse : *coarse_uv(*index, options, node.task()), options,
+                                   part.region, node.task());
+  note_shares(node, *index, *uv);
+  if (part.is_whole()) warn_of_unused_parts(node, *index, *uv);
+  node.output("uv", uv);
 }
 
 std::vector<std::string> check(const Params& params) {

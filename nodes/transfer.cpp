@@ -64,7 +64,9 @@ void compute(NodeContext& node) {
   options.controls = controls_of(node);
   warn_of_labels(node, options.controls, index->appearance()->size());
   warn_unless_repeats_fit(node, *index, options, "they are stretched to wrap around and joints may jog");
-  node.output("uv", synthesize(*index, options, node.task()));
+  const UvMapPtr uv = synthesize(*index, options, node.task());
+  note_shares(node, *index, *uv);
+  node.output("uv", uv);
 }
 
 Forecast foresee(const Params& params, const InputForecasts& inputs) {

@@ -70,7 +70,8 @@ NodeType variants_node() {
       "Scaling is that of the whole body: slopes and so normals stay, and heights part from their mean by that factor "
       "(clipped to 0..1 in maps of 8 and 16 bit: leave headroom with \"levels\" for scales above 1). Multiples of 90 "
       "degrees move pixels and change none; other rotations interpolate (cubic convolution), and their empty corners "
-      "are left out of the mask. Do not turn what has an up and a down, or a direction of light.";
+      "are left out of the mask. Do not turn what has an up and a down, or a direction of light. Mirrored copies meet "
+      "the original in butterflies where it is made of large features.";
   t.inputs = {material_port("material", "the exemplar"),
               {.name = "mask",
                .type = ValueType::image,

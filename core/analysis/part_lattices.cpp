@@ -118,20 +118,21 @@ bool join_bands(const ExemplarPart& model, const Joined& joined) {
 
 }  // namespace
 
-std::vector<LatticePart> brought_together(const std::vector<ExemplarPart>& parts, const Task& task) {
-  std::vector<LatticePart> out;
+BroughtTogether brought_together(const std::vector<ExemplarPart>& parts, const Task& task) {
+  BroughtTogether out;
   std::vector<size_t> models;
   for (size_t i = 0; i < parts.size(); i++) {
     task.check();
     const Lattice& l = parts[i].lattice;
-    out.push_back({parts[i].place, l, l, {}});
+    out.parts.push_back({parts[i].place, l, l, {}});
     if (l.rank == 0) continue;
-    const Joined joined{out.back(), parts[i].view};
+    const Joined joined{out.parts.back(), parts[i].view};
     const auto joins = [&](const auto& join) {
       return std::ranges::any_of(models, [&](size_t m) { return join(parts[m], joined); });
     };
     if (!joins(join_cells) && !joins(join_bands)) models.push_back(i);
   }
+  out.kinds = models.size();
   return out;
 }
 

@@ -89,3 +89,28 @@ TEST_CASE("a result that wraps and holds no whole number of repeats names a size
             "warning: 112x100 does not hold a whole number of the exemplar's repeats, so that they are "
             "stretched to wrap around and joints may jog; no size near it would"});
 }
+
+TEST_CASE("of several exemplars it is told how much of each is shown, and which is not shown at all") {
+  constexpr Size all{96, 48};
+  const ImagePtr image = wall(all);
+  const Repeats halves(std::vector<LatticePart>{{{0, 0, 48, 48}, {}, {}, {}}, {{48, 0, 48, 48}, {}, {}, {}}});
+  const auto notes = [&](int allowed, Size size) {
+    const ImagePtr mask = make_image(all, 1, [=](int x, int, int) { return x < allowed ? 1.f : 0.f; });
+    const FeaturesPtr features = Features::make(all, {{image, {1, 1, 1}}}, false, halves, mask);
+    const IndexPtr index = make_index(make_appearance(*features, {}, {}, Task()), 3, Task());
+    return run_node("synthesize", {{"size", size}}, {{"index", {index}}}).notes;
+  };
+  const std::vector<std::string> both = notes(96, {100, 80});
+  REQUIRE(both.size() == 1);
+  const auto percent = [&](const std::string& of) { return std::stoi(both[0].substr(both[0].find(of) + of.size())); };
+  CHECK(both[0].starts_with("the result shows exemplar 1 in "));
+  const int sum = percent("exemplar 1 in ") + percent("exemplar 2 in ");
+  CHECK(sum >= 99);
+  CHECK(sum <= 101);
+  CHECK(percent("exemplar 2 in ") > 10);
+  const std::vector<std::string> one = notes(48, {100, 80});
+  REQUIRE(one.size() == 2);
+  CHECK(one[0] == "the result shows exemplar 1 in 100 %, exemplar 2 in 0 %");
+  CHECK(one[1].starts_with("warning: nothing is shown of exemplar 2,"));
+  CHECK(notes(48, {60, 40}).size() == 1);
+}

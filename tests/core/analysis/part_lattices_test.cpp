@@ -46,6 +46,12 @@ Vector2 apart(const Vector2& a, const Vector2& b, const Vector2& cell) {
 }
 
 const Lattice grid{2, {24, 0}, {0, 16}, 0.8};
+std::vector<LatticePart> together(const std::vector<ExemplarPart>& parts, size_t kinds = 1) {
+  BroughtTogether all = brought_together(parts, Task());
+  CHECK(all.kinds == kinds);
+  return std::move(all.parts);
+}
+
 constexpr Rect left{0, 0, 120, 96}, right{130, 0, 120, 96};
 
 }  // namespace
@@ -81,7 +87,7 @@ TEST_CASE("pixels that a mask leaves out do not count for the phase") {
 TEST_CASE("parts with alike cells are shown as the first, moved so that their joints meet") {
   const Lattice turned{2, {0, -16.05}, {24.1, 16.05}, 0.7};  // the same cells, in other steps and measured a little off
   const std::vector<LatticePart> parts =
-      brought_together({{left, view(left, tiles), grid}, {right, view(right, moved(tiles, 7, 5)), turned}}, Task());
+      together({{left, view(left, tiles), grid}, {right, view(right, moved(tiles, 7, 5)), turned}});
   REQUIRE(parts.size() == 2);
   CHECK(parts[0].start.x == 0);
   CHECK(parts[0].shown.first.x == 24);
@@ -98,7 +104,7 @@ TEST_CASE("parts with alike cells are shown as the first, moved so that their jo
 TEST_CASE("parts that have only courses in common share these") {
   const Lattice courses{1, {0, 15.8}, {}, 0.5};
   const std::vector<LatticePart> parts =
-      brought_together({{left, view(left, tiles), grid}, {right, view(right, moved(tiles, 0, 6)), courses}}, Task());
+      together({{left, view(left, tiles), grid}, {right, view(right, moved(tiles, 0, 6)), courses}});
   CHECK(parts[1].lattice.first.y == 15.8);
   CHECK(parts[1].shown.rank == 1);
   CHECK(parts[1].shown.first.y == doctest::Approx(16));
@@ -106,7 +112,7 @@ TEST_CASE("parts that have only courses in common share these") {
 
   const Lattice wider{2, {37, 0}, {18.5, 16}, 0.5};
   const std::vector<LatticePart> bonds =
-      brought_together({{left, view(left, tiles), grid}, {right, view(right, moved(tiles, 0, 6)), wider}}, Task());
+      together({{left, view(left, tiles), grid}, {right, view(right, moved(tiles, 0, 6)), wider}});
   CHECK(bonds[1].lattice.first.x == 37);
   CHECK(bonds[1].shown.first.x == 37);
   CHECK(bonds[1].start.x == 0);
@@ -116,10 +122,8 @@ TEST_CASE("parts that have only courses in common share these") {
 TEST_CASE("a lattice of every second tile is one with that of every tile") {
   const Lattice pairs{2, {48, 0}, {0, 16}, 0.5};
   for (const bool first : {false, true}) {
-    const std::vector<LatticePart> parts =
-        brought_together({{left, view(left, tiles), first ? pairs : grid},
-                          {right, view(right, moved(tiles, 7, 5)), first ? grid : pairs}},
-                         Task());
+    const std::vector<LatticePart> parts = together({{left, view(left, tiles), first ? pairs : grid},
+                                                     {right, view(right, moved(tiles, 7, 5)), first ? grid : pairs}});
     CHECK(parts[1].lattice.first.x == doctest::Approx(48));
     CHECK(parts[1].shown.first.x == doctest::Approx(48));
     CHECK(apart(parts[1].start, {137, 5}, {24, 16}).x < 1);
@@ -129,8 +133,7 @@ TEST_CASE("a lattice of every second tile is one with that of every tile") {
 TEST_CASE("parts that differ more, or do not repeat, keep what they have") {
   const Lattice other{2, {31, 0}, {0, 19}, 0.5};
   const ExemplarView some = view(left, tiles);
-  const std::vector<LatticePart> parts =
-      brought_together({{left, some, grid}, {right, some, other}, {left, some, {}}}, Task());
+  const std::vector<LatticePart> parts = together({{left, some, grid}, {right, some, other}, {left, some, {}}}, 2);
   CHECK(parts[1].shown.first.x == 31);
   CHECK(parts[1].shown.second.y == 19);
   CHECK(parts[1].start.x == 0);
