@@ -10,7 +10,8 @@ namespace terrazzo {
 
 namespace {
 
-constexpr double most_unlike = 0.04;   // of steps, as a part of their length
+// By how much steps may differ, as a part of their length. Courses of one wall do not all have the same height.
+constexpr double most_unlike = 0.04, most_unlike_bands = 0.06;
 constexpr int most_cells = 4;          // of one lattice in a cell of another
 constexpr double most_slanted = 0.02;  // of level courses: what they rise by, as a part of their length
 
@@ -18,8 +19,8 @@ double length_of(const Vector2& v) {
   return std::sqrt(v.x * v.x + v.y * v.y);
 }
 
-bool are_alike(const Vector2& a, const Vector2& b) {
-  return length_of({a.x - b.x, a.y - b.y}) <= most_unlike * length_of(b);
+bool are_alike(const Vector2& a, const Vector2& b, double unlike) {
+  return length_of({a.x - b.x, a.y - b.y}) <= unlike * length_of(b);
 }
 
 /// The lattice that is part of `l` (of all its steps, or of some) and whose steps are like those of `model`.
@@ -31,7 +32,7 @@ std::optional<Lattice> stepping_like(const Lattice& model, const Lattice& l) {
     if ((l.first.x != 0) != (model.first.x != 0)) return {};
     const double steps = whole(l.first.x != 0 ? model.first.x / l.first.x : model.first.y / l.first.y);
     out.first = {l.first.x * steps, l.first.y * steps};
-    return std::abs(steps) >= 1 && std::abs(steps) <= most_cells && are_alike(out.first, model.first)
+    return std::abs(steps) >= 1 && std::abs(steps) <= most_cells && are_alike(out.first, model.first, most_unlike_bands)
                ? std::optional(out)
                : std::nullopt;
   }
@@ -45,7 +46,9 @@ std::optional<Lattice> stepping_like(const Lattice& model, const Lattice& l) {
   out.second = nearest(model.second);
   const double cells = out.cell_area() / l.cell_area();
   if (cells < 0.5 || cells > most_cells + 0.5) return {};
-  return are_alike(out.first, model.first) && are_alike(out.second, model.second) ? std::optional(out) : std::nullopt;
+  return are_alike(out.first, model.first, most_unlike) && are_alike(out.second, model.second, most_unlike)
+             ? std::optional(out)
+             : std::nullopt;
 }
 
 /// The level courses of a lattice, or its columns: of rank 0 if it has none.
