@@ -34,12 +34,11 @@ Lattice manual_lattice(const Numbers& first, const Numbers& second) {
   return l;
 }
 
-/// What the parameters say of an exemplar or a part of one.
-FoundLattice lattice_of(NodeContext& node, const ExemplarView& view) {
+/// What the parameters say of an exemplar, or of several that repeat alike.
+FoundLattice lattice_of(NodeContext& node, const std::vector<ExemplarView>& views) {
   const std::string& mode = node.text("mode");
-  if (mode == "auto") return find_lattice(view, node.number("least_certainty"), node.task());
-  if (mode == "manual") return {manual_lattice(node.numbers("first"), node.numbers("second"))};
-  return {};
+  if (mode == "auto") return find_lattice(views, node.number("least_certainty"), node.task());
+  return {manual_lattice(node.numbers("first"), node.numbers("second"))};
 }
 
 /// The rectangle of each label, in the order of their values.
@@ -92,6 +91,34 @@ std::string described(const BroughtTogether& all) {
   return text;
 }
 
+struct FoundParts {
+  BroughtTogether all;
+  bool too_few = false;
+};
+
+/// What is found of each exemplar by itself or, if those of one surface do not agree, of all of them together.
+FoundParts found_parts(NodeContext& node, const Features& features, const std::vector<Rect>& places) {
+  const ExemplarPlanes planes = weighted_planes(features, node.task());
+  const std::vector<uint8_t> allowed = allowed_pixels(features);
+  const auto brought = [&](std::vector<ExemplarView> views, const auto& lattice) {
+    std::vector<ExemplarPart> parts;
+    bool too_few = false;
+    for (size_t i = 0; i < places.size(); i++) {
+      const FoundLattice found = lattice(views[i]);
+      parts.push_back({places[i], std::move(views[i]), found.lattice});
+      too_few |= found.too_few;
+    }
+    return FoundParts{brought_together(parts, node.task()), too_few};
+  };
+  std::vector<ExemplarView> views;
+  for (const Rect& place : places) views.push_back(view_of(planes, allowed, place));
+  FoundParts apart = brought(std::move(views), [&](const ExemplarView& view) { return lattice_of(node, {view}); });
+  if (!node.flag("alike") || apart.all.kinds < 2) return apart;
+  views = views_at_one_scale(planes, allowed, places);
+  const FoundLattice of_all = lattice_of(node, views);
+  return of_all.lattice.rank > 0 ? brought(std::move(views), [&](const ExemplarView&) { return of_all; }) : apart;
+}
+
 void compute(NodeContext& node) {
   const auto features = node.input<Features>("features");
   const ImagePtr labels = node.optional_input<Image>("labels");
@@ -99,32 +126,17 @@ void compute(NodeContext& node) {
     node.output("features", features->with(Lattice{}));
     return;
   }
-  const ExemplarPlanes planes = weighted_planes(*features, node.task());
-  const std::vector<uint8_t> allowed = allowed_pixels(*features);
-  std::vector<ExemplarPart> parts;
-  bool too_few = false;
-  const std::vector<Rect> places =
-      labels ? places_of(labels, features->size(), node.task()) : std::vector{whole(features->size())};
-  for (const Rect& place : places) {
-    parts.push_back({place, view_of(planes, allowed, place), {}});
-    const FoundLattice found = lattice_of(node, parts.back().view);
-    parts.back().lattice = found.lattice;
-    too_few |= found.too_few;
-  }
-  Repeats repeats = parts.front().lattice;
-  if (labels) {
-    BroughtTogether all = brought_together(parts, node.task());
-    node.note(described(all));
-    repeats = Repeats(std::move(all.parts));
-  } else {
-    node.note(described(repeats.lattice));
-  }
-  if (too_few)
+  FoundParts found =
+      found_parts(node, *features,
+                  labels ? places_of(labels, features->size(), node.task()) : std::vector{whole(features->size())});
+  node.note(labels ? described(found.all) : described(found.all.parts.front().lattice));
+  if (found.too_few)
     node.warn(
         "straight joints cross, but the exemplar shows too few tiles, or too unlike ones, to tell how they repeat, so "
         "that results may break them; crop it to whole tiles so that its borders fit, take one of more tiles, or give "
         "\"first\" and \"second\" with \"mode\": \"manual\"");
-  node.output("features", features->with(repeats));
+  node.output("features",
+              features->with(labels ? Repeats(std::move(found.all.parts)) : Repeats(found.all.parts.front().lattice)));
 }
 
 std::vector<std::string> check(const Params& params) {
@@ -174,6 +186,11 @@ NodeType regularity_node() {
        .help = "A lattice found with less certainty is not used.",
        .min = 0,
        .max = 1},
+      {.name = "alike",
+       .type = ParamType::boolean,
+       .fallback = false,
+       .help = "With labels: the exemplars are of one surface and repeat alike. Where what is found of each does not "
+               "agree, one lattice is looked for in all of them together."},
       {.name = "first",
        .type = ParamType::numbers,
        .fallback = Numbers{},

@@ -19,6 +19,12 @@ Rect allowed_within(const std::vector<uint8_t>& allowed, Size exemplar, const Re
   return {part.x + inside.x, part.y + inside.y, inside.width, inside.height};
 }
 
+void halve(ExemplarView& view) {
+  view.planes = halved(view.planes);
+  if (!view.counts.values.empty()) view.counts = halved(view.counts);
+  view.scale *= 2;
+}
+
 }  // namespace
 
 bool ExemplarView::empty() const {
@@ -33,12 +39,21 @@ ExemplarView view_of(const ExemplarPlanes& exemplar, const std::vector<uint8_t>&
     if (std::ranges::all_of(view.counts.values, [](float v) { return v == 1; })) view.counts = {};
   }
   view.planes = cropped(exemplar, view.seen);
-  while (!view.empty() && std::max(view.planes.size.width, view.planes.size.height) > most_side) {
-    view.planes = halved(view.planes);
-    if (!view.counts.values.empty()) view.counts = halved(view.counts);
-    view.scale *= 2;
-  }
+  while (!view.empty() && std::max(view.planes.size.width, view.planes.size.height) > most_side) halve(view);
   return view;
+}
+
+std::vector<ExemplarView> views_at_one_scale(const ExemplarPlanes& exemplar, const std::vector<uint8_t>& allowed,
+                                             const std::vector<Rect>& parts) {
+  std::vector<ExemplarView> views;
+  double scale = 1;
+  for (const Rect& part : parts) {
+    views.push_back(view_of(exemplar, allowed, part));
+    scale = std::max(scale, views.back().scale);
+  }
+  for (ExemplarView& view : views)
+    while (!view.empty() && view.scale < scale) halve(view);
+  return views;
 }
 
 }  // namespace terrazzo

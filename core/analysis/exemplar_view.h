@@ -20,4 +20,8 @@ struct ExemplarView {
 /// `allowed`: per pixel of the exemplar whether it may be sampled; empty: all may. What is around that is left out.
 ExemplarView view_of(const ExemplarPlanes& exemplar, const std::vector<uint8_t>& allowed, const Rect& part);
 
+/// The view of each part, all at the scale that the largest needs, so that they can be compared.
+std::vector<ExemplarView> views_at_one_scale(const ExemplarPlanes& exemplar, const std::vector<uint8_t>& allowed,
+                                             const std::vector<Rect>& parts);
+
 }  // namespace terrazzo

@@ -61,6 +61,29 @@ Correlation correlate(const ExemplarPlanes& planes, const std::vector<float>& co
   return {std::move(sum), within, size, planes.wraps};
 }
 
+Correlation pooled(const std::vector<Correlation>& all) {
+  if (all.size() == 1) return all.front();
+  Size lags, exemplar;
+  for (const Correlation& r : all) {
+    lags = {std::max(lags.width, r.lags().width), std::max(lags.height, r.lags().height)};
+    exemplar = {std::max(exemplar.width, r.exemplar().width), std::max(exemplar.height, r.exemplar().height)};
+  }
+  std::vector<double> values;
+  values.reserve(size_t(lags.width) * size_t(2 * lags.height - 1));
+  for (int dy = 1 - lags.height; dy < lags.height; dy++)
+    for (int dx = 0; dx < lags.width; dx++) {
+      double sum = 0, pairs = 0;
+      for (const Correlation& r : all) {
+        if (dx >= r.lags().width || std::abs(dy) >= r.lags().height) continue;
+        const double own = double(r.exemplar().width - dx) * (r.exemplar().height - std::abs(dy));
+        sum += own * r.at(dx, dy);
+        pairs += own;
+      }
+      values.push_back(pairs > 0 ? sum / pairs : 0);
+    }
+  return {std::move(values), lags, exemplar, false};
+}
+
 ExemplarPlanes outlines(const ExemplarPlanes& in) {
   Planes values = Planes::zeros(in.size, in.channels);
   values.values = in.values;

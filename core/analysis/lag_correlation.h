@@ -77,6 +77,10 @@ class Correlation {
 /// 0..1; empty: all do. Throws Cancelled.
 Correlation correlate(const ExemplarPlanes& planes, const std::vector<float>& counts, const Task& task);
 
+/// What several exemplars of one surface, at one scale, say together: the mean, by how much of them lies on itself at a
+/// lag. At least one; none of several may tile.
+Correlation pooled(const std::vector<Correlation>& all);
+
 /// Edge strength, all channels together, as one channel: joints show in it however much bricks differ in colour.
 ExemplarPlanes outlines(const ExemplarPlanes& planes);
 

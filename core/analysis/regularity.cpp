@@ -57,32 +57,43 @@ Found searched(const Correlation& values, const Correlation& joints, double leas
 
 }  // namespace
 
-FoundLattice find_lattice(const ExemplarView& view, double least_certainty, const Task& task) {
-  if (view.empty()) return {};
-  const ExemplarPlanes& planes = view.planes;
-  const ExemplarPlanes edges = outlines(planes);
-  const Found found = searched(correlate(planes, view.counts.values, task), correlate(edges, view.counts.values, task),
-                               least_certainty);
+FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_certainty, const Task& task) {
+  std::vector<const ExemplarView*> views;
+  for (const ExemplarView& v : all)
+    if (!v.empty()) views.push_back(&v);
+  if (views.empty()) return {};
+  std::vector<Correlation> values, joints;
+  bool cross = false;
+  for (const ExemplarView* v : views) {
+    const ExemplarPlanes edges = outlines(v->planes);
+    values.push_back(correlate(v->planes, v->counts.values, task));
+    joints.push_back(correlate(edges, v->counts.values, task));
+    cross |= lines_cross(edges);
+  }
+  const Found found = searched(pooled(values), pooled(joints), least_certainty);
   Lattice best = found.lattice;
   if (best.certainty < least_certainty || !best.is_valid()) best = {0, {}, {}, best.certainty};
-  const Lattice lines = planes.wraps ? lattice_of_lines(edges, best) : Lattice{};
+  const ExemplarView& largest =
+      **std::ranges::max_element(views, {}, [](const ExemplarView* v) { return v->seen.area(); });
+  const bool wraps = views.size() == 1 && largest.planes.wraps;
+  const Lattice lines = wraps ? lattice_of_lines(outlines(largest.planes), best) : Lattice{};
   if (lines.rank > 0 && lines.certainty >= least_certainty)
     best = lines;
   else if (best.rank > 0)
     best.certainty = std::max(best.certainty, found.alike);
   if (best.rank == 1)
-    if (const Lattice bond = bond_of(planes, best, task); bond.certainty >= least_certainty) best = bond;
-  const bool too_few = best.rank < 2 && !planes.wraps && lines_cross(edges);
+    if (const Lattice bond = bond_of(largest.planes, best, task); bond.certainty >= least_certainty) best = bond;
+  const bool too_few = best.rank < 2 && !wraps && cross;
   if (best.rank == 0) return {best, too_few};
-  for (Vector2* v : {&best.first, &best.second}) *v = {v->x * view.scale, v->y * view.scale};
-  const Size size{view.seen.width, view.seen.height};
-  best = best.fitted(size, planes.wraps, planes.wraps);
-  if (best.rank == 2 && best.cell_area() < smallest_cell * smallest_cell) best = two_by_two(best, size, planes.wraps);
+  for (Vector2* v : {&best.first, &best.second}) *v = {v->x * largest.scale, v->y * largest.scale};
+  const Size size{largest.seen.width, largest.seen.height};
+  best = best.fitted(size, wraps, wraps);
+  if (best.rank == 2 && best.cell_area() < smallest_cell * smallest_cell) best = two_by_two(best, size, wraps);
   return {best, too_few};
 }
 
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task) {
-  return find_lattice(view_of(weighted_planes(features, task), allowed_pixels(features), whole(features.size())),
+  return find_lattice({view_of(weighted_planes(features, task), allowed_pixels(features), whole(features.size()))},
                       least_certainty, task);
 }
 

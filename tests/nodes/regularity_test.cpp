@@ -183,6 +183,21 @@ TEST_CASE("exemplars that repeat alike are brought into phase") {
   }
 }
 
+TEST_CASE("exemplars of one surface that seem to repeat differently have one lattice if they are said to be alike") {
+  const FeaturesPtr boards =
+      features_of(two_parts, [](int x, int y) { return y % (x < 130 ? 30 : 20) < 3 ? 1.f : 0.f; });
+  const auto run = [&](bool alike) { return run_with_labels(boards, halves(), {{"alike", alike}}); };
+  const auto says_unlike = [](const NodeRun& r) {
+    return r.notes.front().find("not all repeat alike") != std::string::npos;
+  };
+  CHECK(says_unlike(run(false)));
+  const NodeRun alike = run(true);
+  CHECK_FALSE(says_unlike(alike));
+  const Repeats repeats = alike.get<Features>("features")->repeats();
+  CHECK(repeats.parts[0].lattice.rank == 1);
+  CHECK(repeats.parts[1].lattice == repeats.parts[0].lattice);
+}
+
 TEST_CASE("labels must be rectangles of the features' size") {
   const FeaturesPtr features = side_by_side(true);
   const auto refused = [&](const ImagePtr& labels, const char* message) {

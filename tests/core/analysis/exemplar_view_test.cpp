@@ -44,3 +44,12 @@ TEST_CASE("a view of a part shows that, and no more of it than may be sampled") 
   CHECK(*holed.counts.at(2, 0) == 1);
   CHECK(view_of(planes, std::vector<uint8_t>(60 * 40, 0), {0, 0, 60, 40}).empty());
 }
+
+TEST_CASE("views of several parts have the scale that the largest needs") {
+  const std::vector<ExemplarView> views =
+      views_at_one_scale(ramp({700, 100}, false), {}, {{0, 0, 600, 90}, {610, 0, 80, 80}});
+  REQUIRE(views.size() == 2);
+  CHECK(views[0].scale == 4);
+  CHECK(views[1].scale == 4);
+  CHECK(views[1].planes.size == Size{20, 20});
+}
