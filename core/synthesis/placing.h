@@ -24,8 +24,8 @@ void scatter(Field& field, const PaddedLevel& exemplar, double amplitude, uint64
 /// Where each pixel of a field leads on the next finer level: each becomes a block of four pixels, which continue one
 /// another, and this is the exemplar pixel that the first of them shows. It is the one below the pixel's own, moved by
 /// up to `amplitude` pixels and into phase. `exemplar`, `phase` and `level` are the finer ones.
-Field block_starts(const Field& parent, const PlaneWindow& window, const PaddedLevel& exemplar,
-                   const PartPhases& phase, double amplitude, uint64_t seed, int level);
+Field block_starts(const Field& parent, const PlaneWindow& window, const PaddedLevel& exemplar, const PartPhases& phase,
+                   double amplitude, uint64_t seed, int level);
 
 /// The blocks' pixels. `starts` are those of the parents of what `to` holds, or more: `from` tells which.
 Field expanded(std::span<const ExemplarPixel> starts, const PlaneWindow& from, const PlaneWindow& to,
