@@ -1,5 +1,6 @@
 #include "core/analysis/regularity.h"
 
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -56,6 +57,7 @@ std::vector<Rect> places_of(const ImagePtr& labels, Size exemplar, const Task& t
   for (int y = 0; y < exemplar.height; y++) {
     const float* row = &values[size_t(y) * size_t(exemplar.width)];
     for (int x = 0, next = 0; x < exemplar.width; x = next) {
+      if (!std::isfinite(row[x])) throw Error("labels", "expected labels, found a value that is not a number");
       while (next < exemplar.width && row[next] == row[x]) next++;
       const Rect run{x, y, next - x, 1};
       Place& p = places[row[x]];
@@ -85,9 +87,9 @@ std::string described(const BroughtTogether& all) {
   if (count > most_described) text += fmt::format("; and {} more", count - most_described);
   if (all.kinds > 1)
     text +=
-        "; not all repeat alike, so that courses and tiles break where they meet: for one surface that does repeat, "
-        "set "
-        "\"mode\" to \"manual\" and give \"first\" and \"second\"; of copies take those that keep its grid";
+        "; not all repeat alike, so that courses and tiles break where they meet: for one surface set \"alike\" to "
+        "true, "
+        "or \"mode\" to \"manual\" and give \"first\" and \"second\"; of copies take those that keep its grid";
   return text;
 }
 

@@ -62,13 +62,12 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
   for (const ExemplarView& v : all)
     if (!v.empty()) views.push_back(&v);
   if (views.empty()) return {};
+  std::vector<ExemplarPlanes> edges;
   std::vector<Correlation> values, joints;
-  bool cross = false;
   for (const ExemplarView* v : views) {
-    const ExemplarPlanes edges = outlines(v->planes);
+    edges.push_back(outlines(v->planes));
     values.push_back(correlate(v->planes, v->counts.values, task));
-    joints.push_back(correlate(edges, v->counts.values, task));
-    cross |= lines_cross(edges);
+    joints.push_back(correlate(edges.back(), v->counts.values, task));
   }
   const Found found = searched(pooled(values), pooled(joints), least_certainty);
   Lattice best = found.lattice;
@@ -76,14 +75,14 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
   const ExemplarView& largest =
       **std::ranges::max_element(views, {}, [](const ExemplarView* v) { return v->seen.area(); });
   const bool wraps = views.size() == 1 && largest.planes.wraps;
-  const Lattice lines = wraps ? lattice_of_lines(outlines(largest.planes), best) : Lattice{};
+  const Lattice lines = wraps ? lattice_of_lines(edges.front(), best) : Lattice{};
   if (lines.rank > 0 && lines.certainty >= least_certainty)
     best = lines;
   else if (best.rank > 0)
     best.certainty = std::max(best.certainty, found.alike);
   if (best.rank == 1)
     if (const Lattice bond = bond_of(largest.planes, best, task); bond.certainty >= least_certainty) best = bond;
-  const bool too_few = best.rank < 2 && !wraps && cross;
+  const bool too_few = best.rank < 2 && !wraps && std::ranges::any_of(edges, lines_cross);
   if (best.rank == 0) return {best, too_few};
   for (Vector2* v : {&best.first, &best.second}) *v = {v->x * largest.scale, v->y * largest.scale};
   const Size size{largest.seen.width, largest.seen.height};

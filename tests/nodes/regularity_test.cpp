@@ -1,6 +1,7 @@
 #include "core/analysis/regularity.h"
 
 #include <cmath>
+#include <limits>
 
 #include <doctest/doctest.h>
 
@@ -206,6 +207,8 @@ TEST_CASE("labels must be rectangles of the features' size") {
   refused(labels_of([](int, int) { return 0.f; }, {20, 20}),
           "expected the size of the features' exemplar, 260x96, found 20x20");
   refused(labels_of([](int x, int y) { return float(x > y); }), "each a rectangle");
+  refused(labels_of([](int x, int) { return x == 20 ? std::numeric_limits<float>::quiet_NaN() : 0.f; }),
+          "not a number");
   refused(labels_of([](int x, int y) { return float(x + 260 * y); }), "at most 255 exemplars side by side");
 }
 
