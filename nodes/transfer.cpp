@@ -145,8 +145,10 @@ NodeType transfer_node() {
   t.compute = compute;
   t.foresee = foresee;
   t.memory_hint = [](const NodeContext& node) {
-    const auto channels = int64_t(4 * node.list<Image>("target").size());
-    return synthesis_memory(node.size("size")) + size_t(node.size("size").area() * channels * 5);
+    // Bytes of a pixel: of the pyramids of controls, and of distances to labels while those are worked out.
+    const auto controls = int64_t(4 * 5 * node.list<Image>("target").size());
+    const int64_t distances = node.number("leeway") > 0 ? 28 : 0;
+    return synthesis_memory(node.size("size")) + size_t(node.size("size").area() * (controls + distances));
   };
   return t;
 }
