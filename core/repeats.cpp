@@ -62,10 +62,13 @@ void Repeats::add_to(Hasher& h) const {
 }
 
 PartPhases::PartPhases(const Repeats& repeats, Size exemplar, int level, const LatticeSurface& surface)
-    : one_(repeats.lattice, level, surface), size_(exemplar) {
-  active_ = one_.active();
-  resolves_cells_ = one_.resolves_cells();
-  if (repeats.parts.empty()) return;
+    : size_(exemplar) {
+  if (repeats.parts.empty()) {
+    one_ = {repeats.lattice, level, surface};
+    active_ = one_.active();
+    resolves_cells_ = one_.resolves_cells();
+    return;
+  }
   std::vector<LatticePhase> phases;
   for (const LatticePart& p : repeats.parts) phases.emplace_back(p.lattice, p.shown, p.start, level, surface);
   const auto is_active = [](const LatticePhase& p) { return p.active(); };

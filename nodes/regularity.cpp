@@ -1,16 +1,9 @@
 #include "core/analysis/regularity.h"
 
-#include <cmath>
-#include <map>
-
 #include <fmt/format.h>
 
 #include "core/analysis/part_lattices.h"
-#include "core/analysis/usable.h"
-#include "core/image_ops.h"
 #include "core/node.h"
-#include "core/text.h"
-#include "nodes/image_work.h"
 
 namespace terrazzo {
 
@@ -35,48 +28,14 @@ Lattice manual_lattice(const Numbers& first, const Numbers& second) {
   return l;
 }
 
-/// What the parameters say of an exemplar, or of several that repeat alike.
-FoundLattice lattice_of(NodeContext& node, const std::vector<ExemplarView>& views) {
-  const std::string& mode = node.text("mode");
-  if (mode == "auto") return find_lattice(views, node.number("least_certainty"), node.task());
+FoundLattice given_lattice(const NodeContext& node) {
   return {manual_lattice(node.numbers("first"), node.numbers("second"))};
 }
 
-/// The rectangle of each label, in the order of their values.
-std::vector<Rect> places_of(const ImagePtr& labels, Size exemplar, const Task& task) {
-  require_one_channel("labels", *labels);
-  if (labels->size() != exemplar)
-    throw Error("labels", fmt::format("expected the size of the features' exemplar, {}, found {}", describe(exemplar),
-                                      describe(labels->size())));
-  struct Place {
-    Rect bounds;
-    int64_t pixels = 0;
-  };
-  std::map<float, Place> places;
-  const std::vector<float>& values = materialized(labels, task)->pixels();
-  for (int y = 0; y < exemplar.height; y++) {
-    const float* row = &values[size_t(y) * size_t(exemplar.width)];
-    for (int x = 0, next = 0; x < exemplar.width; x = next) {
-      if (!std::isfinite(row[x])) throw Error("labels", "expected labels, found a value that is not a number");
-      while (next < exemplar.width && row[next] == row[x]) next++;
-      const Rect run{x, y, next - x, 1};
-      Place& p = places[row[x]];
-      p.bounds = p.pixels == 0 ? run : united(p.bounds, run);
-      p.pixels += run.area();
-      if (places.size() > most_lattice_parts)
-        throw Error("labels", fmt::format("expected at most {} exemplars side by side, found more values: this "
-                                          "looks like a picture, not like the labels of \"combine\" or \"variants\"",
-                                          most_lattice_parts));
-    }
-  }
-  std::vector<Rect> out;
-  for (const auto& [label, place] : places) {
-    if (place.bounds.area() != place.pixels)
-      throw Error("labels",
-                  "expected exemplars side by side, each a rectangle, as \"combine\" and \"variants\" lay them out");
-    out.push_back(place.bounds);
-  }
-  return out;
+/// What the parameters say of an exemplar that lies beside others, or of several that repeat alike.
+FoundLattice lattice_of(NodeContext& node, const std::vector<ExemplarView>& views) {
+  if (node.text("mode") == "manual") return given_lattice(node);
+  return find_lattice(views, node.number("least_certainty"), node.task());
 }
 
 std::string described(const BroughtTogether& all) {
@@ -93,52 +52,37 @@ std::string described(const BroughtTogether& all) {
   return text;
 }
 
-struct FoundParts {
-  BroughtTogether all;
-  bool too_few = false;
-};
-
-/// What is found of each exemplar by itself or, if those of one surface do not agree, of all of them together.
-FoundParts found_parts(NodeContext& node, const Features& features, const std::vector<Rect>& places) {
-  const ExemplarPlanes planes = weighted_planes(features, node.task());
-  const std::vector<uint8_t> allowed = allowed_pixels(features);
-  const auto brought = [&](std::vector<ExemplarView> views, const auto& lattice) {
-    std::vector<ExemplarPart> parts;
-    bool too_few = false;
-    for (size_t i = 0; i < places.size(); i++) {
-      const FoundLattice found = lattice(views[i]);
-      parts.push_back({places[i], std::move(views[i]), found.lattice});
-      too_few |= found.too_few;
-    }
-    return FoundParts{brought_together(parts, node.task()), too_few};
-  };
-  std::vector<ExemplarView> views;
-  for (const Rect& place : places) views.push_back(view_of(planes, allowed, place));
-  FoundParts apart = brought(std::move(views), [&](const ExemplarView& view) { return lattice_of(node, {view}); });
-  if (!node.flag("alike") || apart.all.kinds < 2) return apart;
-  views = views_at_one_scale(planes, allowed, places);
-  const FoundLattice of_all = lattice_of(node, views);
-  return of_all.lattice.rank > 0 ? brought(std::move(views), [&](const ExemplarView&) { return of_all; }) : apart;
+/// What the parameters say of all of an exemplar.
+FoundLattice lattice_of_all(NodeContext& node, const Features& features) {
+  if (node.text("mode") == "manual") return given_lattice(node);
+  return find_lattice(features, node.number("least_certainty"), node.task());
 }
 
 void compute(NodeContext& node) {
   const auto features = node.input<Features>("features");
   const ImagePtr labels = node.optional_input<Image>("labels");
-  if (node.text("mode") == "off") {
-    node.output("features", features->with(Lattice{}));
-    return;
+  Repeats repeats;
+  bool too_few = false;
+  if (node.text("mode") != "off" && labels) {
+    BroughtTogether all = find_part_lattices(
+        *features, label_places(labels, features->size(), node.task()),
+        [&](const std::vector<ExemplarView>& views) { return lattice_of(node, views); }, node.flag("alike"),
+        node.task());
+    node.note(described(all));
+    too_few = all.too_few;
+    repeats = Repeats(std::move(all.parts));
+  } else if (node.text("mode") != "off") {
+    const FoundLattice found = lattice_of_all(node, *features);
+    node.note(described(found.lattice));
+    too_few = found.too_few;
+    repeats = found.lattice;
   }
-  FoundParts found =
-      found_parts(node, *features,
-                  labels ? places_of(labels, features->size(), node.task()) : std::vector{whole(features->size())});
-  node.note(labels ? described(found.all) : described(found.all.parts.front().lattice));
-  if (found.too_few)
+  if (too_few)
     node.warn(
         "straight joints cross, but the exemplar shows too few tiles, or too unlike ones, to tell how they repeat, so "
         "that results may break them; crop it to whole tiles so that its borders fit, take one of more tiles, or give "
         "\"first\" and \"second\" with \"mode\": \"manual\"");
-  node.output("features",
-              features->with(labels ? Repeats(std::move(found.all.parts)) : Repeats(found.all.parts.front().lattice)));
+  node.output("features", features->with(repeats));
 }
 
 std::vector<std::string> check(const Params& params) {

@@ -182,7 +182,7 @@ void warn_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
                         describe(options.size), consequence, advice));
 }
 
-void note_shares(NodeContext& node, const Index& index, const UvMap& result) {
+void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, bool all_expected) {
   constexpr size_t most_listed = 8;
   const std::vector<LatticePart>& parts = index.appearance()->repeats().parts;
   if (parts.size() < 2) return;
@@ -194,23 +194,17 @@ void note_shares(NodeContext& node, const Index& index, const UvMap& result) {
       part = std::min(parts.size() - 1, size_t(std::ranges::find_if(parts, shows) - parts.begin()));
     counts[part]++;
   }
-  std::string shares;
-  for (size_t i = 0; i < std::min(parts.size(), most_listed); i++)
-    shares += fmt::format("{}exemplar {} in {:.0f} %", i > 0 ? ", " : "", i + 1,
-                          100.0 * double(counts[i]) / double(result.size().area()));
-  node.note(fmt::format("the result shows {}{}", shares, parts.size() > most_listed ? ", and others" : ""));
-}
-
-void warn_of_unused_parts(NodeContext& node, const Index& index, const UvMap& result) {
-  std::string unused;
+  std::string shares, unused;
   int64_t area = 0;
-  const std::vector<LatticePart>& parts = index.appearance()->repeats().parts;
   for (size_t i = 0; i < parts.size(); i++) {
     area += parts[i].place.area();
-    if (std::ranges::none_of(result.pixels(), [&](ExemplarPixel p) { return contains(parts[i].place, p.x, p.y); }))
-      unused += fmt::format("{}{}", unused.empty() ? "" : ", ", i + 1);
+    if (counts[i] == 0) unused += fmt::format("{}{}", unused.empty() ? "" : ", ", i + 1);
+    if (i < most_listed)
+      shares += fmt::format("{}exemplar {} in {:.0f} %", i > 0 ? ", " : "", i + 1,
+                            100.0 * double(counts[i]) / double(result.size().area()));
   }
-  if (unused.empty() || result.size().area() < area) return;  // a small result has no room for all
+  node.note(fmt::format("the result shows {}{}", shares, parts.size() > most_listed ? ", and others" : ""));
+  if (!all_expected || unused.empty() || result.size().area() < area) return;  // a small one has no room for all
   node.warn(
       fmt::format("nothing is shown of exemplar {}, which does not fit the others; another seed may show it, and a "
                   "mix map says where it goes: graphs/mix.json",

@@ -35,10 +35,9 @@ void require_same_exemplar(const UvMap& uv, const Index& index);
 void warn_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
                              std::string_view consequence);
 
-/// Of an exemplar of several parts: notes how much of the result shows which.
-void note_shares(NodeContext& node, const Index& index, const UvMap& result);
-/// Warns of parts of which nothing is shown, though there is room for all.
-void warn_of_unused_parts(NodeContext& node, const Index& index, const UvMap& result);
+/// Of an exemplar of several parts: notes how much of the result shows which and, if all are expected, warns of those
+/// of which nothing is shown, though there is room for all.
+void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, bool all_expected);
 
 /// A mask of a result: white where it no longer shows what was kept.
 ImagePtr made_anew(const UvMap& result, const KeptPixels& kept);

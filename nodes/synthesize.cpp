@@ -37,8 +37,7 @@ void compute(NodeContext& node) {
                           ? synthesize(*index, options, node.task())
                           : refine(*index, coarse ? *coarse : *coarse_uv(*index, options, node.task()), options,
                                    part.region, node.task());
-  note_shares(node, *index, *uv);
-  if (part.is_whole()) warn_of_unused_parts(node, *index, *uv);
+  tell_of_parts(node, *index, *uv, part.is_whole());
   node.output("uv", uv);
 }
 

@@ -65,7 +65,7 @@ void compute(NodeContext& node) {
   warn_of_labels(node, options.controls, index->appearance()->size());
   warn_unless_repeats_fit(node, *index, options, "they are stretched to wrap around and joints may jog");
   const UvMapPtr uv = synthesize(*index, options, node.task());
-  note_shares(node, *index, *uv);
+  tell_of_parts(node, *index, *uv, false);
   node.output("uv", uv);
 }
 

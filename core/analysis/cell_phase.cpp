@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include <tbb/parallel_for.h>
+
 #include "core/analysis/lag_correlation.h"
 
 namespace terrazzo {
@@ -97,12 +99,6 @@ double likeness(const MeanCell& a, const MeanCell& b, int columns, int rows) {
   return size > 0 ? product / size : 0;
 }
 
-/// Of a maximum between its neighbours, in steps: the vertex of a parabola.
-double vertex(double before, double at, double after) {
-  const double bend = before - 2 * at + after;
-  return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
-}
-
 }  // namespace
 
 Vector2 phase_between(const RepeatingView& first, const RepeatingView& other) {
@@ -114,18 +110,18 @@ Vector2 phase_between(const RepeatingView& first, const RepeatingView& other) {
   const auto alike = [&](int column, int row) {
     return likeness(values, other_values, column, row) + likeness(lines, other_lines, column, row);
   };
-  int column = 0, row = 0;
-  double most = -2;
-  for (int y = 0; y < bins.rows; y++)
-    for (int x = 0; x < bins.columns; x++) {
-      const double here = alike(x, y);
-      if (here <= most) continue;
-      most = here;
-      column = x;
-      row = y;
-    }
-  const double x = column + vertex(alike(column - 1, row), most, alike(column + 1, row));
-  const double y = bins.rows == 1 ? 0 : row + vertex(alike(column, row - 1), most, alike(column, row + 1));
+  std::vector<double> likenesses(size_t(bins.columns * bins.rows));
+  tbb::parallel_for(0, bins.rows, [&](int y) {
+    for (int x = 0; x < bins.columns; x++) likenesses[size_t(y * bins.columns + x)] = alike(x, y);
+  });
+  const auto best = int(std::ranges::max_element(likenesses) - likenesses.begin());
+  const int column = best % bins.columns, row = best / bins.columns;
+  const auto near = [&](int x, int y) {
+    return likenesses[size_t(wrap(y, bins.rows) * bins.columns + wrap(x, bins.columns))];
+  };
+  const double most = near(column, row);
+  const double x = column + vertex_near(near(column - 1, row), most, near(column + 1, row));
+  const double y = bins.rows == 1 ? 0 : row + vertex_near(near(column, row - 1), most, near(column, row + 1));
   return {x / bins.columns, y / bins.rows};
 }
 

@@ -14,6 +14,12 @@ namespace terrazzo {
 /// Pixels; what repeats after fewer is grain.
 inline constexpr double shortest_repeat = 4;
 
+/// Of a maximum between its neighbours, in steps: the vertex of a parabola.
+inline double vertex_near(double before, double at, double after) {
+  const double bend = before - 2 * at + after;
+  return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
+}
+
 /// Correlation over lags, all channels together; symmetric about the origin.
 class Correlation {
  public:
@@ -54,9 +60,7 @@ class Correlation {
     // The vertex of a parabola along each axis.
     double value = at(bx, by);
     const auto vertex = [&](double left, double middle, double right) {
-      const double bend = left - 2 * middle + right;
-      if (bend >= 0) return 0.0;
-      const double offset = std::clamp(0.5 * (left - right) / bend, -0.5, 0.5);
+      const double offset = vertex_near(left, middle, right);
       value += 0.25 * (right - left) * offset;
       return offset;
     };

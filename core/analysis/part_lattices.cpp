@@ -2,9 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "core/analysis/cell_phase.h"
+#include "core/analysis/usable.h"
+#include "core/error.h"
+#include "core/image_ops.h"
+#include "core/map_names.h"
 
 namespace terrazzo {
 
@@ -137,6 +144,67 @@ BroughtTogether brought_together(const std::vector<ExemplarPart>& parts, const T
   }
   out.kinds = models.size();
   return out;
+}
+
+std::vector<Rect> label_places(const ImagePtr& labels, Size exemplar, const Task& task) {
+  require_one_channel("labels", *labels);
+  if (labels->size() != exemplar)
+    throw Error("labels", fmt::format("expected the size of the features' exemplar, {}, found {}", describe(exemplar),
+                                      describe(labels->size())));
+  struct Place {
+    Rect bounds;
+    int64_t pixels = 0;
+  };
+  std::map<float, Place> places;
+  const std::vector<float>& values = materialized(labels, task)->pixels();
+  for (int y = 0; y < exemplar.height; y++) {
+    const float* row = &values[size_t(y) * size_t(exemplar.width)];
+    for (int x = 0, next = 0; x < exemplar.width; x = next) {
+      if (!std::isfinite(row[x])) throw Error("labels", "expected labels, found a value that is not a number");
+      while (next < exemplar.width && row[next] == row[x]) next++;
+      const Rect run{x, y, next - x, 1};
+      Place& p = places[row[x]];
+      p.bounds = p.pixels == 0 ? run : united(p.bounds, run);
+      p.pixels += run.area();
+      if (places.size() > most_lattice_parts)
+        throw Error("labels", fmt::format("expected at most {} exemplars side by side, found more values: this "
+                                          "looks like a picture, not like the labels of \"combine\" or \"variants\"",
+                                          most_lattice_parts));
+    }
+  }
+  std::vector<Rect> out;
+  for (const auto& [label, place] : places) {
+    if (place.bounds.area() != place.pixels)
+      throw Error("labels",
+                  "expected exemplars side by side, each a rectangle, as \"combine\" and \"variants\" lay them out");
+    out.push_back(place.bounds);
+  }
+  return out;
+}
+
+BroughtTogether find_part_lattices(const Features& features, const std::vector<Rect>& places,
+                                   const LatticeFinder& finder, bool alike, const Task& task) {
+  const ExemplarPlanes planes = weighted_planes(features, task);
+  const std::vector<uint8_t> allowed = allowed_pixels(features);
+  const auto brought = [&](std::vector<ExemplarView> views, const auto& lattice) {
+    std::vector<ExemplarPart> parts;
+    bool too_few = false;
+    for (size_t i = 0; i < places.size(); i++) {
+      const FoundLattice found = lattice(views[i]);
+      parts.push_back({places[i], std::move(views[i]), found.lattice});
+      too_few |= found.too_few;
+    }
+    BroughtTogether all = brought_together(parts, task);
+    all.too_few = too_few;
+    return all;
+  };
+  std::vector<ExemplarView> views;
+  for (const Rect& place : places) views.push_back(view_of(planes, allowed, place));
+  BroughtTogether apart = brought(std::move(views), [&](const ExemplarView& view) { return finder({view}); });
+  if (!alike || apart.kinds < 2) return apart;
+  views = views_at_one_scale(planes, allowed, places);
+  const FoundLattice of_all = finder(views);
+  return of_all.lattice.rank > 0 ? brought(std::move(views), [&](const ExemplarView&) { return of_all; }) : apart;
 }
 
 }  // namespace terrazzo
