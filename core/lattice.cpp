@@ -25,10 +25,6 @@ constexpr double certainty_counts = 2.0 / 3;
 // Of sizes that wrap: a side that is half as long again is as bad as cells bent by a fifth.
 constexpr double bending_weight = 2;
 
-double length_of(const Vector2& v) {
-  return std::sqrt(v.x * v.x + v.y * v.y);
-}
-
 /// The length of a side, near `length`, that wraps best.
 int best_side(const Lattice& lattice, int length, bool along_x, int give) {
   int best = length;
@@ -92,22 +88,26 @@ bool Lattice::fits(Size size, bool wraps_x, bool wraps_y, double precision) cons
   return (!wraps_x || comes_back(size.width, true)) && (!wraps_y || comes_back(size.height, false));
 }
 
+Vector2 Lattice::cells(const Vector2& at) const {
+  if (rank == 1) return {first.x != 0 ? at.x / first.x : at.y / first.y, 0};
+  const double d = 1.0 / (first.x * second.y - first.y * second.x);
+  return {(second.y * at.x - second.x * at.y) * d, (first.x * at.y - first.y * at.x) * d};
+}
+
 Vector2 Lattice::misfit(int length, bool along_x) const {
   if (rank == 0) return {};
-  const double x = along_x ? length : 0, y = along_x ? 0 : length;
   const auto part = [](double cells) { return cells - std::floor(cells + 0.5); };
-  if (rank == 1)
-    return first.x != 0 ? Vector2{first.x * part(x / first.x), 0} : Vector2{0, first.y * part(y / first.y)};
-  const double d = 1.0 / (first.x * second.y - first.y * second.x);
-  const double i = part((second.y * x - second.x * y) * d), j = part((first.x * y - first.y * x) * d);
+  const Vector2 c = cells(along_x ? Vector2{double(length), 0} : Vector2{0, double(length)});
+  const double i = part(c.x), j = part(c.y);
+  if (rank == 1) return at({i, 0});
   // In a skewed cell the nearest corner need not be the one that both parts round to.
   Vector2 least{};
   double shortest = std::numeric_limits<double>::max();
   for (const double p : {i, i - std::copysign(1, i)})
     for (const double q : {j, j - std::copysign(1, j)}) {
-      const Vector2 v{first.x * p + second.x * q, first.y * p + second.y * q};
-      if (length_of(v) >= shortest) continue;
-      shortest = length_of(v);
+      const Vector2 v = at({p, q});
+      if (v.length() >= shortest) continue;
+      shortest = v.length();
       least = v;
     }
   return least;
@@ -115,7 +115,7 @@ Vector2 Lattice::misfit(int length, bool along_x) const {
 
 double Lattice::bent(Size size, bool wraps_x, bool wraps_y, Size give) const {
   const auto along = [&](bool x) {
-    const double missing = length_of(misfit(x ? size.width : size.height, x));
+    const double missing = misfit(x ? size.width : size.height, x).length();
     return missing > 0 ? missing / (x ? give.width : give.height) : 0;
   };
   return std::max(wraps_x ? along(true) : 0, wraps_y ? along(false) : 0);
@@ -192,8 +192,7 @@ std::vector<Vector2> LatticePhase::bent(int length, const Vector2& misfit, int l
 void LatticePhase::find_promising_steps() {
   const int rows = rank_ == 1 ? 1 : bins;
   constexpr double half = 0.5 / bins + 1e-6;  // beyond what rounding does to a start
-  const auto length = [](const Vector2& v) { return std::sqrt(v.x * v.x + v.y * v.y); };
-  const double reach = half * (length(first_) + (rank_ == 1 ? 0 : length(second_)));
+  const double reach = half * (first_.length() + (rank_ == 1 ? 0 : second_.length()));
   promising_.resize(size_t(rows) * bins);
   for (int row = 0; row < rows; row++)
     for (int column = 0; column < bins; column++) {
@@ -215,7 +214,7 @@ void LatticePhase::find_promising_steps() {
             for (const bool other_q : {false, true}) {
               if ((other_p && std::abs(p) + half < 0.5) || (other_q && std::abs(q) + half < 0.5)) continue;
               const double pp = other_p ? p - std::copysign(1, p) : p, qq = other_q ? q - std::copysign(1, q) : q;
-              const double off = length({first_.x * pp + second_.x * qq, first_.y * pp + second_.y * qq});
+              const double off = Vector2{first_.x * pp + second_.x * qq, first_.y * pp + second_.y * qq}.length();
               lowest = std::min(lowest, cost(penalty({std::max(0.0, off - reach), 0}), dx, dy));
               highest = std::max(highest, cost(penalty({off + reach, 0}), dx, dy));
             }

@@ -15,6 +15,7 @@ namespace terrazzo {
 struct Vector2 {
   double x = 0;
   double y = 0;
+  double length() const { return std::sqrt(x * x + y * y); }
   bool operator==(const Vector2&) const = default;
 };
 
@@ -27,6 +28,11 @@ struct Lattice {
   Vector2 second;
   double certainty = 0;  ///< how much repeats exceed chance, 0..1
 
+  /// A position in steps of the lattice, and back; of rank 1 along its one step only.
+  Vector2 cells(const Vector2& at) const;
+  Vector2 at(const Vector2& cells) const {
+    return {first.x * cells.x + second.x * cells.y, first.y * cells.x + second.y * cells.y};
+  }
   /// Of a cell of rank 2, in square pixels.
   double cell_area() const { return std::abs(first.x * second.y - first.y * second.x); }
   /// Whether the vectors can carry a lattice of this rank.

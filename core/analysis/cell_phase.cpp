@@ -14,10 +14,6 @@ namespace {
 
 constexpr int fewest_bins = 8, most_bins = 48;  // along a step
 
-double length_of(const Vector2& v) {
-  return std::sqrt(v.x * v.x + v.y * v.y);
-}
-
 struct Bins {
   int columns = 1, rows = 1;
 };
@@ -25,7 +21,7 @@ struct Bins {
 /// About one to a pixel.
 Bins bins_of(const RepeatingView& r) {
   const auto along = [&](const Vector2& step) {
-    return std::clamp(int(std::ceil(length_of(step) / r.view.scale)), fewest_bins, most_bins);
+    return std::clamp(int(std::ceil(step.length() / r.view.scale)), fewest_bins, most_bins);
   };
   return {along(r.lattice.first), r.lattice.rank == 2 ? along(r.lattice.second) : 1};
 }
@@ -49,19 +45,15 @@ MeanCell mean_cell(const ExemplarPlanes& planes, const RepeatingView& of, Bins b
   out.values.assign(size_t(bins.columns * bins.rows * n), 0);
   std::vector<int> counts(size_t(bins.columns * bins.rows));
   const ExemplarView& view = of.view;
-  const Lattice& l = of.lattice;
-  const double area = l.first.x * l.second.y - l.first.y * l.second.x;
   const auto bin = [](double cells, int count) {
     return std::min(count - 1, int((cells - std::floor(cells)) * count));
   };
   for (int y = 0; y < planes.size.height; y++)
     for (int x = 0; x < planes.size.width; x++) {
       if (!view.counts.values.empty() && *view.counts.at(x, y) < 1) continue;
-      const double u = (x + 0.5) * view.scale - 0.5 + view.seen.x, v = (y + 0.5) * view.scale - 0.5 + view.seen.y;
-      const double i =
-          l.rank == 1 ? (l.first.x != 0 ? u / l.first.x : v / l.first.y) : (u * l.second.y - v * l.second.x) / area;
-      const double j = l.rank == 1 ? 0 : (v * l.first.x - u * l.first.y) / area;
-      const size_t at = size_t(bin(j, bins.rows) * bins.columns + bin(i, bins.columns));
+      const Vector2 cells =
+          of.lattice.cells({(x + 0.5) * view.scale - 0.5 + view.seen.x, (y + 0.5) * view.scale - 0.5 + view.seen.y});
+      const size_t at = size_t(bin(cells.y, bins.rows) * bins.columns + bin(cells.x, bins.columns));
       counts[at]++;
       for (int c = 0; c < n; c++) out.values[at * size_t(n) + size_t(c)] += double(planes.at(x, y)[c]);
     }

@@ -22,12 +22,8 @@ constexpr double most_unlike = 0.04, most_unlike_bands = 0.06;
 constexpr int most_cells = 4;          // of one lattice in a cell of another
 constexpr double most_slanted = 0.02;  // of level courses: what they rise by, as a part of their length
 
-double length_of(const Vector2& v) {
-  return std::sqrt(v.x * v.x + v.y * v.y);
-}
-
 bool are_alike(const Vector2& a, const Vector2& b, double unlike) {
-  return length_of({a.x - b.x, a.y - b.y}) <= unlike * length_of(b);
+  return Vector2{a.x - b.x, a.y - b.y}.length() <= unlike * b.length();
 }
 
 /// The lattice that is part of `l` (of all its steps, or of some) and whose steps are like those of `model`.
@@ -37,17 +33,15 @@ std::optional<Lattice> stepping_like(const Lattice& model, const Lattice& l) {
   Lattice out = l;
   if (l.rank == 1) {
     if ((l.first.x != 0) != (model.first.x != 0)) return {};
-    const double steps = whole(l.first.x != 0 ? model.first.x / l.first.x : model.first.y / l.first.y);
-    out.first = {l.first.x * steps, l.first.y * steps};
+    const double steps = whole(l.cells(model.first).x);
+    out.first = l.at({steps, 0});
     return std::abs(steps) >= 1 && std::abs(steps) <= most_cells && are_alike(out.first, model.first, most_unlike_bands)
                ? std::optional(out)
                : std::nullopt;
   }
-  const double area = l.first.x * l.second.y - l.first.y * l.second.x;
   const auto nearest = [&](const Vector2& v) {
-    const double i = whole((v.x * l.second.y - v.y * l.second.x) / area),
-                 j = whole((v.y * l.first.x - v.x * l.first.y) / area);
-    return Vector2{l.first.x * i + l.second.x * j, l.first.y * i + l.second.y * j};
+    const Vector2 cells = l.cells(v);
+    return l.at({whole(cells.x), whole(cells.y)});
   };
   out.first = nearest(model.first);
   out.second = nearest(model.second);
@@ -66,7 +60,7 @@ Lattice level_bands(const Lattice& l, bool courses) {
   double shortest = 0;
   for (int i = -farthest; i <= farthest; i++)
     for (int j = -farthest; j <= farthest; j++) {
-      const Vector2 v{l.first.x * i + l.second.x * j, l.first.y * i + l.second.y * j};
+      const Vector2 v = l.at({double(i), double(j)});
       const double along = std::abs(courses ? v.x : v.y), across = std::abs(courses ? v.y : v.x);
       if (along > 0 && across <= most_slanted * along && (shortest == 0 || along < shortest)) shortest = along;
     }
@@ -86,10 +80,6 @@ std::optional<Common> common(const Lattice& model, const Lattice& part) {
   return {};
 }
 
-Vector2 moved(const Lattice& l, const Vector2& cells) {
-  return {l.first.x * cells.x + l.second.x * cells.y, l.first.y * cells.x + l.second.y * cells.y};
-}
-
 /// A part that repeats and what it is shown as.
 struct Joined {
   LatticePart& part;
@@ -97,7 +87,7 @@ struct Joined {
 };
 
 Vector2 phase(const ExemplarPart& model, const Joined& joined, const Common& steps) {
-  return moved(steps.of_part, phase_between({model.view, steps.of_model}, {joined.view, steps.of_part}));
+  return steps.of_part.at(phase_between({model.view, steps.of_model}, {joined.view, steps.of_part}));
 }
 
 /// Shows a part as its model, if their cells are alike.
