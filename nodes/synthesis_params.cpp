@@ -225,7 +225,7 @@ size_t synthesis_memory(Size size) {
 }
 
 size_t coarse_memory(Size surface) {
-  // For each block of 2x2 pixels of a surface with a lattice what it shows, leads to, and which piece it is in.
+  // For each block of 2x2 pixels what it shows, leads to, and which piece it is in or how unlike the exemplar.
   return size_t(surface.area()) / 4 * (2 * sizeof(ExemplarPixel) + 4 * sizeof(int));
 }
 

@@ -7,14 +7,13 @@ NodeType synthesize_coarse_node() {
   NodeType t;
   t.name = "synthesize_coarse";
   t.category = "synthesis";
-  t.version = 10;
+  t.version = 11;
   t.summary = "Makes the coarse levels of a surface too large to be made at once";
   t.help =
       "What synthesize does first: all that depends on the surface as a whole. Connect it to \"coarse\" of synthesize, "
       "with the same surface, seed and other parameters, and make the surface part by part, on as many machines as "
-      "share the cache; this stage is then made once. It holds a sixteenth of the surface's pixels, or a quarter if "
-      "the exemplar has a lattice. Its uv map is for synthesize only: it tells where blocks of pixels of a coarse "
-      "level begin.";
+      "share the cache; this stage is then made once. It holds a quarter of the surface's pixels. Its uv map is for "
+      "synthesize only: it tells where blocks of 2x2 pixels of the finest level begin.";
   t.inputs = {index_port()};
   t.outputs = {{.name = "uv", .type = ValueType::uv_map, .help = "the coarse levels, for \"coarse\" of synthesize"}};
   t.params = with_synthesis_params({surface_param("size", "Size of the whole surface.", 1), tileable_param()});

@@ -85,9 +85,10 @@ class PaddedLevel {
 };
 
 /// Squared distance of two appearance vectors. (The compiler makes vector instructions of it, as all differences fit 16
-/// bits.)
+/// bits, unless it unrolls the loop first, which it does within other loops.)
 inline int squared_distance(const AppearanceVector& a, const AppearanceVector& b) {
   int sum = 0;
+#pragma GCC unroll 1
   for (int d = 0; d < appearance_dimensions; d++) {
     const auto difference = int16_t(a[d] - b[d]);
     sum += difference * difference;

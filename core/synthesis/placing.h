@@ -12,7 +12,7 @@
 namespace terrazzo {
 
 /// What a random number is drawn for: keeps the draws of different purposes apart.
-enum Purpose : uint64_t { blocks = 1, jitter = 2, correction = 3, mending = 4, refilling = 5 };
+enum Purpose : uint64_t { blocks = 1, jitter = 2, correction = 3, mending = 4, refilling = 5, reworking = 6 };
 
 /// The coarsest level: square blocks of a quarter of the exemplar's side, from random places. `control` may be null.
 Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* control, const PartPhases& phase,

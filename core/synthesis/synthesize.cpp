@@ -14,6 +14,7 @@
 #include "core/synthesis/piece_limits.h"
 #include "core/synthesis/placing.h"
 #include "core/synthesis/refilling.h"
+#include "core/synthesis/reworking.h"
 #include "core/synthesis/seams.h"
 
 namespace terrazzo {
@@ -49,16 +50,15 @@ LatticeSurface surface_of(const Lattice& lattice, const SynthesisOptions& option
           gaps};
 }
 
-/// The finest level that can be worked out for the plane as a whole. Where pieces are aligned or their seams move as
-/// wholes, every level but the finest needs all of the plane.
-int finest_whole_level(bool whole_pieces) {
-  return whole_pieces ? 1 : 2;
-}
+/// The finest level that is worked out for the plane as a whole: patches are laid, pieces aligned and their seams moved
+/// on every level but the finest.
+constexpr int finest_whole_level = 1;
 
 struct Effort {
   int passes;
   int random_candidates;
   const Window* window;
+  int places_tried = 6;  // where windows are unlike the exemplar
 };
 
 /// The budget belongs to the coarse levels, where pixels are few and decisions are large. Filling in between kept
@@ -70,8 +70,8 @@ Effort effort_at(int level, Quality quality, bool between_kept, bool coarsest) {
   }
   if (between_kept && level <= 1) return {6, 4, &full_window()};
   if (quality == Quality::best) {
-    if (level <= 1) return {level == 0 ? 4 : 6, level == 0 ? 0 : 4, &full_window()};
-    return {16, level >= 3 ? 24 : 8, &full_window()};
+    if (level <= 1) return {level == 0 ? 4 : 6, level == 0 ? 0 : 4, &full_window(), 16};
+    return {16, level >= 3 ? 24 : 8, &full_window(), 16};
   }
   if (level == 0) return {coarsest ? 2 : 1, 0, &sparse_window()};  // a tiny exemplar has no other level
   if (level == 1) return {2, 0, &full_window()};
@@ -88,7 +88,9 @@ constexpr SeamMoves along_courses{.reach = 20, .stay = 8};
 constexpr int nearest_joint = 10, farthest_joint = 24;
 constexpr double stay_by_joint = 4;  // where the joint is as near as that, less where it is farther
 constexpr int coarsest_mended = 3;   // at coarser ones it brings nothing
+constexpr int finest_mended = 2;     // nor at finer ones, but on lattices and beside kept pixels
 constexpr int passes_after_mending[] = {2, 5};
+constexpr int coarsest_reworked = 3;  // coarser windows are all unlike one another
 
 // Between kept pixels nothing is said about whole pieces; single ones hold together more instead.
 constexpr double coherence_between_kept = 0.75;
@@ -207,6 +209,9 @@ class LevelWork {
       terrazzo::correct(field, level, how, occupancy_, shared_.task);
       shared_.task.progress(std::pow(0.25, level_ - shared_.finest) * (pass + 1) / effort.passes);
     }
+    if (reworks())
+      rework_unlike(field, level, occupancy_, effort.places_tried,
+                    random_bits(shared_.options.seed, Purpose::reworking), shared_.task);
   }
 
   /// How far beyond what is wanted of this level a field must reach.
@@ -245,8 +250,13 @@ class LevelWork {
   }
   bool mends(int passes_left) const {
     if (shared_.options.quality == Quality::draft) return false;
-    return level_ >= finest_whole_level(regular()) && level_ <= coarsest_mended && !control_ &&
-           std::ranges::count(passes_after_mending, passes_left) > 0;
+    return level_ >= (regular() || fixed_.any() ? finest_whole_level : finest_mended) && level_ <= coarsest_mended &&
+           !control_ && std::ranges::count(passes_after_mending, passes_left) > 0;
+  }
+  /// Places unlike any of the exemplar's. Measured on lattices this brings next to nothing.
+  bool reworks() const {
+    return level_ >= finest_whole_level && level_ <= coarsest_reworked && !regular() && !control_ && !fixed_.any() &&
+           shared_.options.quality != Quality::draft;
   }
   bool regular() const { return shared_.lattice.rank > 0; }
 
@@ -282,7 +292,7 @@ class LevelWork {
 
 /// The finest level that is worked out for the plane as a whole.
 int coarse_level(const Shared& s) {
-  return std::min(s.levels - 1, finest_whole_level(s.lattice.rank > 0 || !s.options.kept.empty()));
+  return std::min(s.levels - 1, finest_whole_level);
 }
 
 /// What coarse_uv() gives.
@@ -302,11 +312,6 @@ Field coarse_field(const Shared& s) {
   }
 }
 
-Rect parents(const Rect& r) {
-  const int x = r.x >> 1, y = r.y >> 1;
-  return {x, y, ((r.right() - 1) >> 1) + 1 - x, ((r.bottom() - 1) >> 1) + 1 - y};
-}
-
 Field cropped(Field field, const PlaneWindow& window, const Rect& region) {
   if (window.part == region) return field;
   Field out{{region.width, region.height}, std::vector<ExemplarPixel>(size_t(region.area()))};
@@ -318,25 +323,14 @@ Field cropped(Field field, const PlaneWindow& window, const Rect& region) {
 
 /// Part of the finest level. `coarse`: the pixels of coarse_field().
 Field refined_field(const Shared& s, std::span<const ExemplarPixel> coarse, const Rect& region) {
-  const int levels = coarse_level(s);
-  std::vector<std::unique_ptr<LevelWork>> work;
-  std::vector<PlaneWindow> windows;
-  std::vector<Rect> wanted{region};
-  for (int l = 0; l < levels; l++) {
-    work.push_back(std::make_unique<LevelWork>(s, l));
-    windows.push_back(PlaneWindow::around(wanted[l], work[l]->reach(), s.plane(l)));
-    wanted.push_back(parents(windows[l].part));
-  }
-  windows.push_back(PlaneWindow::all_of(s.plane(levels)));
-  if (levels == 0) return cropped({windows[0].size(), {coarse.begin(), coarse.end()}}, windows[0], region);
-  work[levels - 1]->count_use(coarse);
-  Field field;
-  for (int l = levels - 1; l >= 0; l--) {
-    if (l < levels - 1) field = work[l]->starts(field, windows[l + 1]);
-    field = work[l]->begun(l < levels - 1 ? field.pixels : coarse, windows[l + 1], windows[l]);
-    work[l]->correct(field, windows[l], windows[l].held(wanted[l]));
-  }
-  return cropped(std::move(field), windows[0], region);
+  const PlaneWindow blocks = PlaneWindow::all_of(s.plane(coarse_level(s)));
+  if (coarse_level(s) == 0) return cropped({blocks.size(), {coarse.begin(), coarse.end()}}, blocks, region);
+  LevelWork work(s, 0);
+  const PlaneWindow window = PlaneWindow::around(region, work.reach(), s.plane(0));
+  work.count_use(coarse);
+  Field field = work.begun(coarse, blocks, window);
+  work.correct(field, window, window.held(region));
+  return cropped(std::move(field), window, region);
 }
 
 UvMapPtr finest_uv(const Shared& s, std::span<const ExemplarPixel> coarse, const Rect& region) {

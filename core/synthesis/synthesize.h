@@ -44,15 +44,14 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
 /// The same in two steps, so that parts of a surface can be made apart from one another, by any number of machines.
 ///
 /// The coarse levels of the whole surface: all that depends on the surface as a whole. A uv map of the surface's size
-/// divided by 4 (by 2 if the exemplar has a lattice or pixels are kept, since whole pieces move at every level),
-/// rounded up: each of its pixels stands for a block of 2x2 pixels of the next finer level, and tells the exemplar
-/// pixel of that level which the block's first pixel begins with. Throws as synthesize does.
+/// divided by 2, rounded up: each of its pixels stands for a block of 2x2 pixels of the next finer level, and tells the
+/// exemplar pixel of that level which the block's first pixel begins with. Throws as synthesize does.
 UvMapPtr coarse_uv(const Index& index, const SynthesisOptions& options, const Task& task);
 
 /// A part of what synthesize() gives, to the bit: `region` of the surface, which may hang over the right and the bottom
-/// border where it tiles. `coarse` must come from coarse_uv() with the same index and options. The finer levels are
-/// worked out for the region and an apron around it, as wide as corrections look: 48 pixels, and 144 more for an
-/// exemplar without a lattice. Throws Cancelled, and Error about "coarse" or "origin" if they do not suit.
+/// border where it tiles. `coarse` must come from coarse_uv() with the same index and options. The finest level is
+/// worked out for the region and an apron around it, as wide as its corrections look. Throws Cancelled, and Error about
+/// "coarse" or "origin" if they do not suit.
 UvMapPtr refine(const Index& index, const UvMap& coarse, const SynthesisOptions& options, const Rect& region,
                 const Task& task);
 

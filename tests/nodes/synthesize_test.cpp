@@ -53,7 +53,7 @@ TEST_CASE("coarse levels of another surface are refused, saying what they are of
   const IndexPtr index = wall_index({72, 64});
   const UvMapPtr levels = uv_of(run_node("synthesize_coarse", {{"size", Size{300, 60}}}, {{"index", {index}}}));
   CHECK_THROWS_WITH_AS(run_node("synthesize", {{"size", Size{50, 50}}}, {{"index", {index}}, {"coarse", {levels}}}),
-                       doctest::Contains("these have 75x15"), Error);
+                       doctest::Contains("these have 150x30"), Error);
 }
 
 TEST_CASE("a place off the surface is a problem of the document") {

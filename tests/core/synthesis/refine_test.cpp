@@ -79,14 +79,13 @@ TEST_CASE("parts of a surface that tiles go on around its border") {
     }
 }
 
-TEST_CASE("the coarse levels are a small part of the whole, and smaller without a lattice") {
+TEST_CASE("the coarse levels are a quarter of the whole, with and without a lattice") {
   const SynthesisOptions options{.size = {202, 99}};
-  const UvMapPtr plain = coarse_uv(*index_with({}, false), options, Task());
-  CHECK(plain->size() == Size{51, 25});
-  CHECK(plain->exemplar() == Size{36, 32});
-  const UvMapPtr regular = coarse_uv(*index_with(bricks(), false), options, Task());
-  CHECK(regular->size() == Size{101, 50});
-  CHECK(regular->exemplar() == Size{72, 64});
+  for (const Lattice& lattice : {Lattice{}, bricks()}) {
+    const UvMapPtr coarse = coarse_uv(*index_with(lattice, false), options, Task());
+    CHECK(coarse->size() == Size{101, 50});
+    CHECK(coarse->exemplar() == Size{72, 64});
+  }
 }
 
 TEST_CASE("an exemplar of one level has nothing to refine, and parts of it are right") {

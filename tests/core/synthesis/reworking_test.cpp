@@ -1,0 +1,137 @@
+#include "core/synthesis/reworking.h"
+
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include "core/synthesis/likeness.h"
+#include "tests/core/synthesis/slopes.h"
+
+using namespace terrazzo;
+
+namespace {
+
+constexpr Size exemplar_size{64, 64};
+constexpr Size field_size{44, 40};
+constexpr Size large{150, 130};  // several windows at a time
+constexpr Rect wrong{18, 16, 5, 4};
+const std::vector<ExemplarPixel> none;
+
+Field one_piece() {
+  Field field{field_size, {}};
+  for (int y = 0; y < field_size.height; y++)
+    for (int x = 0; x < field_size.width; x++) field.pixels.push_back({uint16_t(9 + x), uint16_t(11 + y)});
+  return field;
+}
+
+/// One piece, but for a few pixels that show another place.
+Field with_wrong_place() {
+  Field field = one_piece();
+  for (int y = wrong.y; y < wrong.bottom(); y++)
+    for (int x = wrong.x; x < wrong.right(); x++) field.at(x, y) = {uint16_t(x + 9 - 15), uint16_t(y + 11 + 20)};
+  return field;
+}
+
+/// Blocks from anywhere.
+Field rubble(int side, Size size) {
+  Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      const uint64_t r = random_bits(3, x / side, y / side);
+      field.at(x, y) = {uint16_t(2 + below(uint32_t(r), 60 - side) + x % side),
+                        uint16_t(2 + below(uint32_t(r >> 32), 60 - side) + y % side)};
+    }
+  return field;
+}
+
+CorrectionLevel level_of(const PaddedLevel& exemplar, bool closed = false, FixedPixels fixed = {},
+                         Size size = field_size) {
+  return {.exemplar = exemplar,
+          .similar = none,
+          .level = 2,
+          .window = PlaneWindow::all_of({size, closed, closed}),
+          .phase = {},
+          .fixed = std::move(fixed)};
+}
+
+void rework(Field& field, const CorrectionLevel& level) {
+  Occupancy evenness(exemplar_size, 0, 1);
+  rework_unlike(field, level, evenness, 4, 1, Task());
+}
+
+int64_t unlikeness(const Field& field, const CorrectionLevel& level) {
+  const Likeness likeness(level);
+  int64_t sum = 0;
+  for (int y = 0; y + Likeness::side <= field.size.height; y++)
+    for (int x = 0; x + Likeness::side <= field.size.width; x++) {
+      Likeness::Window shown;
+      for (int i = 0; i < Likeness::side * Likeness::side; i++)
+        shown[i] = field.at(x + i % Likeness::side, y + i / Likeness::side);
+      sum += likeness.unlikeness(shown);
+    }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a place unlike the exemplar is covered by what goes on around it") {
+  const PaddedLevel exemplar = test::slopes(exemplar_size);
+  Field field = with_wrong_place();
+  rework(field, level_of(exemplar));
+  CHECK(field.pixels == one_piece().pixels);
+}
+
+TEST_CASE("what is like the exemplar stays, whether it shows seams or not") {
+  const PaddedLevel exemplar = test::slopes(exemplar_size);
+  const CorrectionLevel level = level_of(exemplar);
+  Field whole = one_piece();
+  rework(whole, level);
+  CHECK(whole.pixels == one_piece().pixels);
+  Field nearly = one_piece();
+  for (int y = wrong.y; y < wrong.bottom(); y++)
+    for (int x = wrong.x; x < wrong.right(); x++) nearly.at(x, y).x++;
+  const Field before = nearly;
+  REQUIRE(unlikeness(before, level) == 0);
+  rework(nearly, level);
+  CHECK(nearly.pixels == before.pixels);
+}
+
+TEST_CASE("reworking leaves fixed pixels alone") {
+  const PaddedLevel exemplar = test::slopes(exemplar_size);
+  Field field = with_wrong_place();
+  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
+  for (int y = wrong.y; y < wrong.bottom(); y++)
+    for (int x = wrong.x; x < wrong.right(); x++) kept.keep[size_t(y) * field_size.width + x] = Keep::always;
+  rework(field, level_of(exemplar, false, FixedPixels(kept, field_size, 0, exemplar_size)));
+  for (int y = wrong.y; y < wrong.bottom(); y++)
+    for (int x = wrong.x; x < wrong.right(); x++) CHECK(field.at(x, y) == with_wrong_place().at(x, y));
+}
+
+TEST_CASE("reworking shows nothing that a mask forbids") {
+  std::vector<uint8_t> usable(size_t(exemplar_size.area()), 1);
+  // Where the piece goes on below the wrong place.
+  const int u = 9 + wrong.x + 2, v = 11 + wrong.y + 1;
+  usable[size_t(v) * exemplar_size.width + u] = 0;
+  const PaddedLevel exemplar = test::slopes(exemplar_size, usable);
+  Field field = with_wrong_place();
+  rework(field, level_of(exemplar));
+  CHECK(field.pixels != with_wrong_place().pixels);
+  bool shown = false;
+  for (const ExemplarPixel& p : field.pixels) shown |= p.x == u && p.y == v;
+  CHECK_FALSE(shown);
+}
+
+TEST_CASE("less is unlike the exemplar than before, and the same on one thread as on many") {
+  const PaddedLevel exemplar = test::slopes(exemplar_size);
+  for (const bool closed : {false, true})
+    for (const int side : {5, 7}) {
+      CAPTURE(closed);
+      CAPTURE(side);
+      const CorrectionLevel level = level_of(exemplar, closed, {}, large);
+      const Field before = rubble(side, large);
+      Field many = before, one = before;
+      tbb::task_arena(4).execute([&] { rework(many, level); });
+      tbb::task_arena(1).execute([&] { rework(one, level); });
+      CHECK(many.pixels == one.pixels);
+      CHECK(unlikeness(many, level) < unlikeness(before, level));
+    }
+}
