@@ -46,6 +46,7 @@ class NearestWindow {
     const int width = level_.exemplar.size().width;
     for (int dy = -reach; dy <= reach && least_ > enough; dy += reach)
       for (int dx = -reach; dx <= reach; dx += reach) {
+        if ((dx == 0) != (dy == 0)) continue;  // corners and the middle are enough
         const ExemplarPixel p = shown_[(dy + reach) * side + dx + reach];
         const size_t first = (size_t(p.y) * width + p.x) * size_t(level_.per_pixel);
         for (int k = 0; k < level_.per_pixel; k++) {
@@ -79,7 +80,7 @@ class NearestWindow {
   const CorrectionLevel& level_;
   const Likeness::Window& shown_;
   std::array<const AppearanceVector*, side * side> wanted_;
-  std::array<uint32_t, side * side + 9 * most_similar + 5> tried_;
+  std::array<uint32_t, side * side + 5 * most_similar + 5> tried_;
   ptrdiff_t count_ = 0;
   int64_t least_;
 };

@@ -47,9 +47,9 @@ class Surroundings {
     });
     if (!any) return limit;
     int64_t sum = 0;
+    for_each(touched, [&](int dx, int dy) { sum += changed_[at(dx, dy)] ? 0 : begun_unlikeness_[at(dx, dy)]; });
     for_each(touched, [&](int dx, int dy) {
-      const size_t i = at(dx, dy);
-      if (sum < limit) sum += changed_[i] ? unlikeness(dx, dy) : begun_unlikeness_[i];
+      if (changed_[at(dx, dy)] && sum < limit) sum += unlikeness(dx, dy);
     });
     return sum;
   }
