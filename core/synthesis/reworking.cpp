@@ -13,7 +13,9 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int32_t unlike = Likeness::most / 2;      // windows that are so unlike any begin the work
+constexpr int32_t unlike = Likeness::most / 2;  // windows that are so unlike any begin the work
+// From this level on there are so many pixels that only every second window is looked at, in x and in y.
+constexpr int many_pixels = 1;
 constexpr int64_t worthwhile = Likeness::most / 2;  // what unlikeness must fall by
 
 /// What a field shows around a window, far enough to tell how like the exemplar all is that the window has a part in.
@@ -176,9 +178,11 @@ void rework_unlike(Field& field, const CorrectionLevel& level, Occupancy& occupa
       [&] { return Reworker(ground, occupancy, likeness, tries, seed); });
   const Size size = field.size;
   std::vector<int32_t> values(field.pixels.size());
-  tbb::parallel_for(0, size.height, [&](int y) {
+  const int step = level.level <= many_pixels ? 2 : 1;
+  tbb::parallel_for(0, (size.height + step - 1) / step, [&](int row) {
     task.check();
-    for (int x = 0; x < size.width; x++) values[size_t(y) * size.width + x] = reworkers.local().unlikeness(x, y);
+    for (int x = 0; x < size.width; x += step)
+      values[size_t(row) * step * size.width + x] = reworkers.local().unlikeness(x, row * step);
   });
   std::vector<int32_t> sums = core_sums(values, size, level.window);
   for (size_t i = 0; i < sums.size(); i++)
