@@ -9,9 +9,6 @@ namespace terrazzo {
 
 namespace {
 
-// From this level on there are so many pixels that only what shows most is worth the time.
-constexpr int many_pixels = 1;
-
 /// The mismatch of every pixel with its right and its lower neighbour.
 std::vector<int32_t> mismatches(const ExpansionGround& ground) {
   const Size size = ground.field.size;
@@ -37,7 +34,7 @@ std::vector<int> worst_windows(const ExpansionGround& ground) {
   for (const int32_t v : values) total += v;
   const int64_t average = total * (2 * Patches::core + 1) * (2 * Patches::core + 1) / size.area();
   return worst_first(core_sums(values, size, ground.level.window),
-                     average * (ground.level.level <= many_pixels ? 3 : 1), size);
+                     average * (ground.level.level <= Patches::many_pixels ? 3 : 1), size);
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ class Patches {
   static constexpr int half = 6;   ///< of a window, without its middle
   static constexpr int core = 4;   ///< the same without the rim
   static constexpr int near = 20;  ///< what shows so near the middle already is not shown again
+  /// From this level on there are so many pixels that not all windows are worth the time.
+  static constexpr int many_pixels = 1;
 
   /// `occupancy`: what is in use too often fits less well.
   Patches(ExpansionGround& ground, const Occupancy& occupancy, uint64_t seed);

@@ -13,9 +13,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int32_t unlike = Likeness::most / 2;  // windows that are so unlike any begin the work
-// From this level on there are so many pixels that only every second window is looked at, in x and in y.
-constexpr int many_pixels = 1;
+constexpr int32_t unlike = Likeness::most / 2;      // windows that are so unlike any begin the work
 constexpr int64_t worthwhile = Likeness::most / 2;  // what unlikeness must fall by
 
 /// What a field shows around a window, far enough to tell how like the exemplar all is that the window has a part in.
@@ -178,7 +176,7 @@ void rework_unlike(Field& field, const CorrectionLevel& level, Occupancy& occupa
       [&] { return Reworker(ground, occupancy, likeness, tries, seed); });
   const Size size = field.size;
   std::vector<int32_t> values(field.pixels.size());
-  const int step = level.level <= many_pixels ? 2 : 1;
+  const int step = level.level <= Patches::many_pixels ? 2 : 1;  // every second window, in x and in y
   tbb::parallel_for(0, (size.height + step - 1) / step, [&](int row) {
     task.check();
     for (int x = 0; x < size.width; x += step)

@@ -5,6 +5,7 @@
 
 #include "core/hash.h"
 #include "core/synthesis/expansion.h"
+#include "tests/core/synthesis/fields.h"
 
 using namespace terrazzo;
 
@@ -28,33 +29,14 @@ PaddedLevel noise(const std::vector<uint8_t>& usable = {}) {
   return {level, false};
 }
 
-Field one_piece() {
-  Field field{field_size, {}};
-  for (int y = 0; y < field_size.height; y++)
-    for (int x = 0; x < field_size.width; x++) field.pixels.push_back({uint16_t(9 + x), uint16_t(11 + y)});
-  return field;
-}
-
 constexpr Rect wrong{18, 16, 5, 4};
 
 /// One piece, but for a few pixels that show another place.
 Field with_wrong_place() {
-  Field field = one_piece();
+  Field field = test::one_piece(field_size);
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++)
       field.at(x, y) = {uint16_t(4 + x - wrong.x), uint16_t(5 + y - wrong.y)};
-  return field;
-}
-
-/// Blocks from anywhere.
-Field rubble(int side, Size size) {
-  Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
-  for (int y = 0; y < size.height; y++)
-    for (int x = 0; x < size.width; x++) {
-      const uint64_t r = random_bits(3, x / side, y / side);
-      field.at(x, y) = {uint16_t(2 + below(uint32_t(r), 60 - side) + x % side),
-                        uint16_t(2 + below(uint32_t(r >> 32), 60 - side) + y % side)};
-    }
   return field;
 }
 
@@ -91,15 +73,15 @@ TEST_CASE("what does not belong there is covered by what goes on around it") {
   const PaddedLevel exemplar = noise();
   Field field = with_wrong_place();
   mend(field, level_of(exemplar, none));
-  CHECK(field.pixels == one_piece().pixels);
+  CHECK(field.pixels == test::one_piece(field_size).pixels);
 }
 
 TEST_CASE("a result without seams stays as it is") {
   const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise();
-  Field field = one_piece();
+  Field field = test::one_piece(field_size);
   mend(field, level_of(exemplar, none));
-  CHECK(field.pixels == one_piece().pixels);
+  CHECK(field.pixels == test::one_piece(field_size).pixels);
 }
 
 TEST_CASE("fixed pixels stay, whatever they show") {
@@ -135,13 +117,13 @@ TEST_CASE("mending lowers the mismatch and gives the same pixels on one thread a
       CAPTURE(closed);
       CAPTURE(side);
       const CorrectionLevel level = level_of(exemplar, none, closed, {}, large);
-      Field many = rubble(side, large), one = rubble(side, large);
+      Field many = test::rubble(side, large), one = test::rubble(side, large);
       mend(many, level);
       {
         const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
         mend(one, level);
       }
       CHECK(many.pixels == one.pixels);
-      CHECK(mismatch(many, level) < mismatch(rubble(side, large), level));
+      CHECK(mismatch(many, level) < mismatch(test::rubble(side, large), level));
     }
 }

@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/synthesis/likeness.h"
+#include "tests/core/synthesis/fields.h"
 #include "tests/core/synthesis/slopes.h"
 
 using namespace terrazzo;
@@ -16,30 +17,11 @@ constexpr Size large{150, 130};  // several windows at a time
 constexpr Rect wrong{18, 16, 5, 4};
 const std::vector<ExemplarPixel> none;
 
-Field one_piece() {
-  Field field{field_size, {}};
-  for (int y = 0; y < field_size.height; y++)
-    for (int x = 0; x < field_size.width; x++) field.pixels.push_back({uint16_t(9 + x), uint16_t(11 + y)});
-  return field;
-}
-
 /// One piece, but for a few pixels that show another place.
 Field with_wrong_place() {
-  Field field = one_piece();
+  Field field = test::one_piece(field_size);
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++) field.at(x, y) = {uint16_t(x + 9 - 15), uint16_t(y + 11 + 20)};
-  return field;
-}
-
-/// Blocks from anywhere.
-Field rubble(int side, Size size) {
-  Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
-  for (int y = 0; y < size.height; y++)
-    for (int x = 0; x < size.width; x++) {
-      const uint64_t r = random_bits(3, x / side, y / side);
-      field.at(x, y) = {uint16_t(2 + below(uint32_t(r), 60 - side) + x % side),
-                        uint16_t(2 + below(uint32_t(r >> 32), 60 - side) + y % side)};
-    }
   return field;
 }
 
@@ -77,16 +59,16 @@ TEST_CASE("a place unlike the exemplar is covered by what goes on around it") {
   const PaddedLevel exemplar = test::slopes(exemplar_size);
   Field field = with_wrong_place();
   rework(field, level_of(exemplar));
-  CHECK(field.pixels == one_piece().pixels);
+  CHECK(field.pixels == test::one_piece(field_size).pixels);
 }
 
 TEST_CASE("what is like the exemplar stays, whether it shows seams or not") {
   const PaddedLevel exemplar = test::slopes(exemplar_size);
   const CorrectionLevel level = level_of(exemplar);
-  Field whole = one_piece();
+  Field whole = test::one_piece(field_size);
   rework(whole, level);
-  CHECK(whole.pixels == one_piece().pixels);
-  Field nearly = one_piece();
+  CHECK(whole.pixels == test::one_piece(field_size).pixels);
+  Field nearly = test::one_piece(field_size);
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++) nearly.at(x, y).x++;
   const Field before = nearly;
@@ -127,7 +109,7 @@ TEST_CASE("less is unlike the exemplar than before, and the same on one thread a
       CAPTURE(closed);
       CAPTURE(side);
       const CorrectionLevel level = level_of(exemplar, closed, {}, large);
-      const Field before = rubble(side, large);
+      const Field before = test::rubble(side, large);
       Field many = before, one = before;
       tbb::task_arena(4).execute([&] { rework(many, level); });
       tbb::task_arena(1).execute([&] { rework(one, level); });

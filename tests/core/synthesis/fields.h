@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/hash.h"
+#include "core/synthesis/field.h"
+
+namespace terrazzo::test {
+
+/// All of it goes on from one place of an exemplar.
+inline Field one_piece(Size size) {
+  Field field{size, {}};
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) field.pixels.push_back({uint16_t(9 + x), uint16_t(11 + y)});
+  return field;
+}
+
+/// Blocks from anywhere in an exemplar of 64x64 pixels.
+inline Field rubble(int side, Size size) {
+  Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      const uint64_t r = random_bits(3, x / side, y / side);
+      field.at(x, y) = {uint16_t(2 + below(uint32_t(r), 60 - side) + x % side),
+                        uint16_t(2 + below(uint32_t(r >> 32), 60 - side) + y % side)};
+    }
+  return field;
+}
+
+}  // namespace terrazzo::test
