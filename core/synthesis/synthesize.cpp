@@ -255,7 +255,7 @@ class LevelWork {
   }
   /// Places unlike any of the exemplar's. Measured on lattices this brings next to nothing.
   bool reworks() const {
-    return level_ >= finest_whole_level && level_ <= coarsest_reworked && !regular() && !control_ && !fixed_.any() &&
+    return level_ >= finest_whole_level && level_ <= coarsest_reworked && !regular() && !control_ &&
            shared_.options.quality != Quality::draft;
   }
   bool regular() const { return shared_.lattice.rank > 0; }
