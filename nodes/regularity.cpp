@@ -103,7 +103,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 9;
+  t.version = 10;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =

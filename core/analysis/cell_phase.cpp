@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/analysis/lag_correlation.h"
+#include "core/geometry.h"
 
 namespace terrazzo {
 
@@ -45,9 +46,9 @@ MeanCell mean_cell(const ExemplarPlanes& planes, const RepeatingView& of, Bins b
   out.values.assign(size_t(bins.columns * bins.rows * n), 0);
   std::vector<int> counts(size_t(bins.columns * bins.rows));
   const ExemplarView& view = of.view;
-  const auto bin = [](double cells, int count) {
-    return std::min(count - 1, int((cells - std::floor(cells)) * count));
-  };
+  // Of steps of whole pixels every pixel lies on the border of two bins, and must not fall into either as it happens.
+  constexpr double hardly = 1e-6;
+  const auto bin = [](double cells, int count) { return wrap(int(std::floor(cells * count + hardly)), count); };
   for (int y = 0; y < planes.size.height; y++)
     for (int x = 0; x < planes.size.width; x++) {
       if (!view.counts.values.empty() && *view.counts.at(x, y) < 1) continue;

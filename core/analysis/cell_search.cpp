@@ -26,6 +26,8 @@ constexpr double least_gap = 0.1, least_errors = 4;
 // The same where one lattice has been found and its multiples are compared with it.
 constexpr int most_cells = 4;
 constexpr double least_errors_of_parts = 6;
+// Cells of photographs are hardly ever as alike, and then seldom lie so near whole pixels.
+constexpr double least_alike_of_drawn = 0.93, no_difference = 0.01, near_whole = 0.15;
 constexpr int fewest_around = 4, most_around = 12;  // cells of an exemplar that tiles, of which all lattices are tried
 
 double cross(Vector2 a, Vector2 b) {
@@ -221,6 +223,28 @@ void refine(const Correlation& r, Vector2& a, Vector2& b, int steps) {
   }
 }
 
+double on_points(const Correlation& r, const Lattice& l) {
+  double sum = 0;
+  int count = 0;
+  for (const Vector2 d : points_of(r, l.first, l.second)) {
+    sum += r.at(d);
+    count++;
+  }
+  return sum / std::max(1, count);
+}
+
+/// Drawn patterns repeat by whole pixels, to which no fit to their peaks comes quite.
+Lattice rounded_if_drawn(const Correlation& r, const Lattice& l) {
+  Lattice whole = l;
+  for (Vector2* v : {&whole.first, &whole.second}) {
+    const Vector2 rounded{std::floor(v->x + 0.5), std::floor(v->y + 0.5)};
+    if (std::max(std::abs(rounded.x - v->x), std::abs(rounded.y - v->y)) > near_whole) return l;
+    *v = rounded;
+  }
+  const double alike = whole.is_valid() ? on_points(r, whole) : 0;
+  return alike >= least_alike_of_drawn && alike >= on_points(r, l) - no_difference ? whole : l;
+}
+
 class CellSearch {
  public:
   explicit CellSearch(const Correlation& r) : r_(r) {}
@@ -308,6 +332,7 @@ Cell best_cell(const Correlation& r, const std::vector<Lattice>& further) {
   if (!best) return {};
   Lattice out{2, best->a, best->b, std::clamp(best->on.mean - best->on.deviation, 0.0, 1.0)};
   refine(r, out.first, out.second, 24);
+  out = rounded_if_drawn(r, out);
   if (std::abs(out.first.x) < std::abs(out.second.x)) std::swap(out.first, out.second);
   if (out.first.x < 0) out.first = {-out.first.x, -out.first.y};
   if (out.second.y < 0) out.second = {-out.second.x, -out.second.y};

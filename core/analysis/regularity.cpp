@@ -17,6 +17,9 @@ namespace {
 // Pixels. Coarse levels see nothing of finer cells and would mix what they show; they keep pieces of two by two apart.
 constexpr double smallest_cell = 7.5;
 constexpr double least_distinct = 0.15;  // from here on cells say more than the bands they lie in
+// Grass that was made to tile often holds a part of itself twice or four times: few cells must be alike by more. (Of
+// 260 textures of games, tiles and bricks of so few cells are by 0.69 and more, leaves and ground by 0.57 and less.)
+constexpr double few_cells = 6.5, least_alike_of_few = 0.65;
 
 Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
   Lattice out = l;
@@ -27,6 +30,12 @@ Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
     if (twice.fits(exemplar, wraps, wraps)) out = twice;
   }
   return out;
+}
+
+bool is_sure(const Cell& cell, Size exemplar, double least_certainty) {
+  const bool few = cell.lattice.cell_area() * few_cells > double(exemplar.area());
+  return cell.distinct >= least_distinct &&
+         cell.lattice.certainty >= (few ? std::max(least_certainty, least_alike_of_few) : least_certainty);
 }
 
 struct Found {
@@ -49,8 +58,7 @@ Found searched(const Correlation& values, const Correlation& joints, double leas
     if (c.distinct > cell.distinct)
       cell = {without_false_repeats(r == &values ? joints : values, c.lattice), c.distinct};
   }
-  if (cell.distinct >= least_distinct && cell.lattice.certainty >= least_certainty)
-    return {cell.lattice, cell.lattice.certainty};
+  if (is_sure(cell, values.exemplar(), least_certainty)) return {cell.lattice, cell.lattice.certainty};
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }

@@ -30,6 +30,9 @@ class Occupancy {
   void recount(const Field& field, const FixedPixels& fixed);
   /// The same once and for all: recount() does nothing from now on.
   void count_for_good(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed);
+  /// From now on every count makes what is used too much dearer than the last, and what is used too little cheaper (the
+  /// integral part of a controller): what fits badly everywhere would otherwise be used too little for ever.
+  void insist();
   bool active() const { return weight_ > 0; }
   uint32_t factor(int x, int y) const { return factors_[row_starts_[y] + columns_of_[x]]; }
 
@@ -46,6 +49,7 @@ class Occupancy {
   std::vector<uint32_t> row_starts_;  // the first cell of every y's row of cells
   std::vector<double> areas_;         // of the cells: their usable pixels
   std::vector<double> shares_;        // of all use, by cell; empty: all alike
+  std::vector<double> prices_;        // what all counts have made of each cell; empty: only the last matters
   std::vector<uint32_t> factors_;
 };
 

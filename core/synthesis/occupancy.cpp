@@ -6,6 +6,9 @@ namespace terrazzo {
 
 // Pixels of a cell that hardly ever should be used: keeps the excess finite.
 constexpr double least_expected = 1e-6;
+// How much a count adds to a cell's price, for a use that is doubled; and what prices may become.
+constexpr double insistence = 0.3;
+constexpr double least_price = 0.25, most_price = 4;
 
 Occupancy::Occupancy(Size exemplar, double weight, double least_factor, const std::vector<double>& demand)
     : weight_(weight),
@@ -29,6 +32,10 @@ Occupancy::Occupancy(Size exemplar, double weight, double least_factor, const st
   for (const double d : demand) sum += d;
   for (size_t i = 0; i < demand.size(); i++)
     shares_[row_starts_[i / exemplar.width] + columns_of_[i % exemplar.width]] += demand[i] / sum;
+}
+
+void Occupancy::insist() {
+  if (active()) prices_.assign(factors_.size(), 1.0);
 }
 
 void Occupancy::recount(const Field& field, const FixedPixels& fixed) {
@@ -58,7 +65,11 @@ void Occupancy::count(std::span<const ExemplarPixel> pixels, const FixedPixels& 
     const double excess = used > once ? std::min(4.0, used / once - 1) : std::min(0.0, (used - expected) / once);
     // What is used too little is made cheaper as what is used too much is made dearer, but only so far: to be
     // everywhere alike is not worth breaking features for.
-    const double factor = std::max(least_factor_, 1.0 + weight_ * excess);
+    double factor = std::max(least_factor_, 1.0 + weight_ * excess);
+    if (!prices_.empty()) {
+      prices_[i] = std::clamp(prices_[i] * (1 + insistence * std::min(1.0, excess)), least_price, most_price);
+      factor = std::max(least_price, factor * prices_[i]);
+    }
     factors_[i] = uint32_t(unit_factor * factor);
   }
 }

@@ -151,7 +151,9 @@ class LevelWork {
         control_(shared.controls.empty() ? nullptr : std::make_unique<LevelControl>(shared.controls, level, exemplar_)),
         occupancy_(shared.exemplar(level).size, level >= finest_even ? shared.options.evenness : 0,
                    shared.places_landmarks(level) ? least_landmark_factor : least_occupancy_factor,
-                   demand_of(shared.exemplar(level), control_.get())) {}
+                   demand_of(shared.exemplar(level), control_.get())) {
+    if (insists_on_evenness()) occupancy_.insist();
+  }
 
   /// What the coarsest level begins with.
   Field beginning() const {
@@ -263,6 +265,10 @@ class LevelWork {
   /// Only when asked for: where a level merely begins none are needed, and they may be many.
   void find_similar() {
     if (similar_.empty()) similar_ = similar_pixels(shared_.index.levels()[level_], shared_.exemplar(level_).size);
+  }
+  /// Measured on lattices this breaks more and makes nothing more like the exemplar.
+  bool insists_on_evenness() const {
+    return shared_.places_landmarks(level_) && !regular() && !control_ && !fixed_.any();
   }
   static int reach_of(int passes) { return passes * sub_passes * correction_reach; }
 

@@ -200,6 +200,34 @@ TEST_CASE("a chequered floor repeats with its colours, not with its joints") {
   check_cell(l, 24, 24, 48, 0);
 }
 
+TEST_CASE("a drawn chequered floor repeats by whole pixels, to the bit") {
+  for (const int side : {23, 32}) {
+    CAPTURE(side);
+    const Lattice l = lattice_of(plain_features(
+        make_image({256, 256}, 1, [&](int x, int y, int) { return (x / side + y / side) % 2 == 0 ? 0.2f : 0.8f; })));
+    REQUIRE(l.rank == 2);
+    for (const Vector2& v : {l.first, l.second}) {
+      CHECK(std::abs(v.x) == side);
+      CHECK(std::abs(v.y) == side);
+    }
+  }
+}
+
+TEST_CASE("four parts of a texture that are half alike are no cells, though it tiles") {
+  const auto ground = [](double alike) {
+    return plain_features(make_image({128, 128}, 1,
+                                     [=](int x, int y, int) {
+                                       const auto spot = [&](int kind, int u, int v) {
+                                         return unit_double(random_bits(kind, u / 4, v / 4));
+                                       };
+                                       return float(alike * spot(1, x % 64, y % 64) + (1 - alike) * spot(2, x, y));
+                                     }),
+                          true);
+  };
+  CHECK(lattice_of(ground(0.5)).rank < 2);
+  check_cell(lattice_of(ground(0.8)), 64, 0, 0, 64);
+}
+
 TEST_CASE("a herringbone that tiles and comes four times is found") {
   const double side = 192, step = side / 6;
   const FeaturesPtr f = plain_features(make_image({int(side), int(side)}, 1,

@@ -41,11 +41,11 @@ TEST_CASE("a distribution has its peak where it should and falls off to one side
 TEST_CASE("jitter at any level changes the result, however large and whether or not the exemplar tiles") {
   for (const bool wraps : {false, true}) {
     const IndexPtr index = wall_index({64, 64}, wraps);
-    const Digest still = synthesize(*index, {.size = {50, 50}}, Task())->digest();
+    const Digest still = synthesize(*index, {.size = {100, 90}}, Task())->digest();
     for (size_t level = 0; level < 3; level++) {
       std::vector<double> jitter(3, 0.0);
       jitter[level] = 1000;
-      CHECK(synthesize(*index, {.size = {50, 50}, .jitter = jitter}, Task())->digest() != still);
+      CHECK(synthesize(*index, {.size = {100, 90}, .jitter = jitter}, Task())->digest() != still);
     }
   }
 }

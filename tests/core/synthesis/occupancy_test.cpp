@@ -28,6 +28,25 @@ TEST_CASE("even use costs nothing, what is used too much is dear and what is use
   CHECK(uneven.factor(31, 31) == unit_factor * 3 / 4);
 }
 
+TEST_CASE("who insists makes what stays unevenly used dearer and cheaper with every count, and never for nothing") {
+  Occupancy insistent(exemplar, 0.7, 0.5), content(exemplar, 0.7, 0.5);
+  insistent.insist();
+  content.insist();
+  uint32_t dearest = unit_factor, cheapest = unit_factor;
+  for (int count = 0; count < 2; count++) {
+    insistent.recount(showing({64, 64}, 16, 32), {});
+    CHECK(insistent.factor(0, 0) > dearest);
+    CHECK(insistent.factor(31, 31) < cheapest);
+    dearest = insistent.factor(0, 0);
+    cheapest = insistent.factor(31, 31);
+  }
+  for (int count = 0; count < 100; count++) insistent.recount(showing({64, 64}, 16, 32), {});
+  CHECK(insistent.factor(31, 31) >= unit_factor / 4);
+  CHECK(insistent.factor(0, 0) <= 8 * unit_factor);
+  for (int count = 0; count < 100; count++) content.recount(showing({64, 64}, 32, 32), {});
+  CHECK(content.factor(0, 0) == unit_factor);
+}
+
 TEST_CASE("a small output may show one piece of the exemplar once") {
   Occupancy small(exemplar, 1, 0);
   small.recount(showing({8, 8}, 8, 8), {});
