@@ -1,5 +1,8 @@
 #include "core/analysis/regularity.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/analysis/part_lattices.h"
@@ -92,6 +95,8 @@ std::vector<std::string> check(const Params& params) {
   if (first.size() != 2)
     return {"\"first\": expected [x, y], the pixels after which the exemplar repeats, since mode is \"manual\""};
   if (!second.empty() && second.size() != 2) return {"\"second\": expected [x, y], or nothing for courses or columns"};
+  const auto is_short = [](const Numbers& v) { return std::max(std::abs(v[0]), std::abs(v[1])) < 1; };
+  if (is_short(first) || (!second.empty() && is_short(second))) return {"expected repeats after a pixel or more"};
   if (manual_lattice(first, second).is_valid()) return {};
   if (second.empty())
     return {"\"first\": without \"second\", expected [0, height] for courses or [width, 0] for columns"};

@@ -125,6 +125,8 @@ TEST_CASE("a manual lattice that is none is refused when the graph is checked") 
   CHECK(type->check(params).size() == 1);
   params["second"] = Numbers{6, 0};
   CHECK(type->check(params).empty());
+  params["first"] = Numbers{0, 0.1};
+  CHECK(type->check(params) == std::vector<std::string>{"expected repeats after a pixel or more"});
 }
 
 namespace {
