@@ -18,8 +18,9 @@ namespace {
 constexpr double smallest_cell = 7.5;
 constexpr double least_distinct = 0.15;  // from here on cells say more than the bands they lie in
 // Grass that was made to tile often holds a part of itself twice or four times: few cells must be alike by more. (Of
-// 260 textures of games, tiles and bricks of so few cells are by 0.69 and more, leaves and ground by 0.57 and less.)
-constexpr double few_cells = 6.5, least_alike_of_few = 0.65;
+// 260 textures of games, plates, tiles and bricks of so few cells are by 0.62 and more, grass and ground by 0.58 and
+// less.)
+constexpr double few_cells = 6.5, least_alike_of_few = 0.6;
 
 Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
   Lattice out = l;
