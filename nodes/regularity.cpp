@@ -134,7 +134,8 @@ NodeType regularity_node() {
       {.name = "least_certainty",
        .type = ParamType::number,
        .fallback = 0.08,
-       .help = "A lattice found with less certainty is not used.",
+       .help = "A lattice found with less certainty is not used, nor one with less than 0.6 of which the exemplar "
+               "holds at most six cells.",
        .min = 0,
        .max = 1},
       {.name = "alike",

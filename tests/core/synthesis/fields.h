@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/hash.h"
-#include "core/synthesis/field.h"
+#include "core/synthesis/correction.h"
 
 namespace terrazzo::test {
 
@@ -23,6 +23,17 @@ inline Field rubble(int side, Size size) {
                         uint16_t(2 + below(uint32_t(r >> 32), 60 - side) + y % side)};
     }
   return field;
+}
+
+/// What a field of that size is corrected by, with no similar pixels.
+inline CorrectionLevel level_of(const PaddedLevel& exemplar, Size size, bool closed = false, FixedPixels fixed = {}) {
+  static const std::vector<ExemplarPixel> none;
+  return {.exemplar = exemplar,
+          .similar = none,
+          .level = 2,
+          .window = PlaneWindow::all_of({size, closed, closed}),
+          .phase = {},
+          .fixed = std::move(fixed)};
 }
 
 }  // namespace terrazzo::test

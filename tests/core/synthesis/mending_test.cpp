@@ -40,16 +40,6 @@ Field with_wrong_place() {
   return field;
 }
 
-CorrectionLevel level_of(const PaddedLevel& exemplar, const std::vector<ExemplarPixel>& none, bool closed = false,
-                         FixedPixels fixed = {}, Size size = field_size) {
-  return {.exemplar = exemplar,
-          .similar = none,
-          .level = 2,
-          .window = PlaneWindow::all_of({size, closed, closed}),
-          .phase = {},
-          .fixed = std::move(fixed)};
-}
-
 void mend(Field& field, const CorrectionLevel& level) {
   Occupancy evenness(exemplar_size, 0, 1);
   mend_seams(field, level, evenness, 1, Task());
@@ -69,54 +59,49 @@ int64_t mismatch(Field field, const CorrectionLevel& level) {
 }  // namespace
 
 TEST_CASE("what does not belong there is covered by what goes on around it") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise();
   Field field = with_wrong_place();
-  mend(field, level_of(exemplar, none));
+  mend(field, test::level_of(exemplar, field_size));
   CHECK(field.pixels == test::one_piece(field_size).pixels);
 }
 
 TEST_CASE("a result without seams stays as it is") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise();
   Field field = test::one_piece(field_size);
-  mend(field, level_of(exemplar, none));
+  mend(field, test::level_of(exemplar, field_size));
   CHECK(field.pixels == test::one_piece(field_size).pixels);
 }
 
 TEST_CASE("fixed pixels stay, whatever they show") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise();
   Field field = with_wrong_place();
   KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++) kept.keep[size_t(y) * field_size.width + x] = Keep::always;
-  mend(field, level_of(exemplar, none, false, FixedPixels(kept, field_size, 0, exemplar_size)));
+  mend(field, test::level_of(exemplar, field_size, false, FixedPixels(kept, field_size, 0, exemplar_size)));
   CHECK(field.pixels == with_wrong_place().pixels);
 }
 
 TEST_CASE("what a mask forbids is not shown") {
-  const std::vector<ExemplarPixel> none;
   std::vector<uint8_t> usable(size_t(exemplar_size.area()), 1);
   // Where the piece goes on below the wrong place.
   const int u = 9 + wrong.x + 2, v = 11 + wrong.y + 1;
   usable[size_t(v) * exemplar_size.width + u] = 0;
   const PaddedLevel exemplar = noise(usable);
   Field field = with_wrong_place();
-  mend(field, level_of(exemplar, none));
+  mend(field, test::level_of(exemplar, field_size));
   bool shown = false;
   for (const ExemplarPixel& p : field.pixels) shown |= p.x == u && p.y == v;
   CHECK_FALSE(shown);
 }
 
 TEST_CASE("mending lowers the mismatch and gives the same pixels on one thread as on many") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise();
   for (const bool closed : {false, true})
     for (const int side : {5, 9}) {
       CAPTURE(closed);
       CAPTURE(side);
-      const CorrectionLevel level = level_of(exemplar, none, closed, {}, large);
+      const CorrectionLevel level = test::level_of(exemplar, large, closed);
       Field many = test::rubble(side, large), one = test::rubble(side, large);
       mend(many, level);
       {

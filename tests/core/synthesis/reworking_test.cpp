@@ -15,7 +15,6 @@ constexpr Size exemplar_size{64, 64};
 constexpr Size field_size{44, 40};
 constexpr Size large{150, 130};  // several windows at a time
 constexpr Rect wrong{18, 16, 5, 4};
-const std::vector<ExemplarPixel> none;
 
 /// One piece, but for a few pixels that show another place.
 Field with_wrong_place() {
@@ -23,16 +22,6 @@ Field with_wrong_place() {
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++) field.at(x, y) = {uint16_t(x + 9 - 15), uint16_t(y + 11 + 20)};
   return field;
-}
-
-CorrectionLevel level_of(const PaddedLevel& exemplar, bool closed = false, FixedPixels fixed = {},
-                         Size size = field_size) {
-  return {.exemplar = exemplar,
-          .similar = none,
-          .level = 2,
-          .window = PlaneWindow::all_of({size, closed, closed}),
-          .phase = {},
-          .fixed = std::move(fixed)};
 }
 
 void rework(Field& field, const CorrectionLevel& level) {
@@ -58,13 +47,13 @@ int64_t unlikeness(const Field& field, const CorrectionLevel& level) {
 TEST_CASE("a place unlike the exemplar is covered by what goes on around it") {
   const PaddedLevel exemplar = test::slopes(exemplar_size);
   Field field = with_wrong_place();
-  rework(field, level_of(exemplar));
+  rework(field, test::level_of(exemplar, field_size));
   CHECK(field.pixels == test::one_piece(field_size).pixels);
 }
 
 TEST_CASE("what is like the exemplar stays, whether it shows seams or not") {
   const PaddedLevel exemplar = test::slopes(exemplar_size);
-  const CorrectionLevel level = level_of(exemplar);
+  const CorrectionLevel level = test::level_of(exemplar, field_size);
   Field whole = test::one_piece(field_size);
   rework(whole, level);
   CHECK(whole.pixels == test::one_piece(field_size).pixels);
@@ -83,7 +72,7 @@ TEST_CASE("reworking leaves fixed pixels alone") {
   KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++) kept.keep[size_t(y) * field_size.width + x] = Keep::always;
-  rework(field, level_of(exemplar, false, FixedPixels(kept, field_size, 0, exemplar_size)));
+  rework(field, test::level_of(exemplar, field_size, false, FixedPixels(kept, field_size, 0, exemplar_size)));
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++) CHECK(field.at(x, y) == with_wrong_place().at(x, y));
 }
@@ -95,7 +84,7 @@ TEST_CASE("reworking shows nothing that a mask forbids") {
   usable[size_t(v) * exemplar_size.width + u] = 0;
   const PaddedLevel exemplar = test::slopes(exemplar_size, usable);
   Field field = with_wrong_place();
-  rework(field, level_of(exemplar));
+  rework(field, test::level_of(exemplar, field_size));
   CHECK(field.pixels != with_wrong_place().pixels);
   bool shown = false;
   for (const ExemplarPixel& p : field.pixels) shown |= p.x == u && p.y == v;
@@ -108,7 +97,7 @@ TEST_CASE("less is unlike the exemplar than before, and the same on one thread a
     for (const int side : {5, 7}) {
       CAPTURE(closed);
       CAPTURE(side);
-      const CorrectionLevel level = level_of(exemplar, closed, {}, large);
+      const CorrectionLevel level = test::level_of(exemplar, large, closed);
       const Field before = test::rubble(side, large);
       Field many = before, one = before;
       tbb::task_arena(4).execute([&] { rework(many, level); });
