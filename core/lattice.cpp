@@ -43,6 +43,12 @@ int best_side(const Lattice& lattice, int length, bool along_x, int give) {
 
 }  // namespace
 
+bool Lattice::is_whole() const {
+  constexpr double rounding = 1e-6;
+  const auto whole = [](double v) { return std::abs(v - std::floor(v + 0.5)) < rounding; };
+  return rank == 2 && whole(first.x) && whole(first.y) && whole(second.x) && whole(second.y);
+}
+
 double Lattice::longest_step() const {
   if (rank != 2) return 0;
   // Next to nothing is what measuring leaves of nothing.
@@ -155,6 +161,7 @@ LatticePhase::LatticePhase(const Lattice& lattice, const Lattice& shown, const V
   const Size size = surface.size;
   const bool bends_x = surface.wraps_x && gaps.x.length > 0, bends_y = surface.wraps_y && gaps.y.length > 0;
   const Lattice fitted = shown.fitted(size, surface.wraps_x && !bends_x, surface.wraps_y && !bends_y);
+  whole_ = lattice.is_whole() && fitted.is_whole() && !bends_x && !bends_y;
   shown_first_ = {fitted.first.x * scale, fitted.first.y * scale};
   shown_second_ = {fitted.second.x * scale, fitted.second.y * scale};
   to_output_ = to_cells(fitted, scale);

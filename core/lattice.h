@@ -35,6 +35,8 @@ struct Lattice {
   }
   /// Of a cell of rank 2, in square pixels.
   double cell_area() const { return std::abs(first.x * second.y - first.y * second.x); }
+  /// Of rank 2: whether cells are whole pixels long and high.
+  bool is_whole() const;
   /// Whether the vectors can carry a lattice of this rank.
   bool is_valid() const {
     if (rank == 1) return (first.x == 0) != (first.y == 0);
@@ -104,6 +106,10 @@ class LatticePhase {
   /// Whether a cell is large enough to tell places within it apart. Where it is not, positions can still be in phase:
   /// two that are a whole number of cells apart at the finest level.
   bool resolves_cells() const { return resolves_cells_; }
+
+  /// Whether cells are whole pixels of the finest level long and high, both in the exemplar and as they are shown, as
+  /// in drawn patterns: what is in phase there is so to the pixel.
+  bool is_whole() const { return whole_; }
 
   /// What the exemplar position (u, v) has too much to be in phase with the output position (x, y), in pixels.
   Vector2 excess(int u, int v, double x, double y) const {
@@ -188,6 +194,7 @@ class LatticePhase {
   void find_promising_steps();
 
   bool resolves_cells_ = false;
+  bool whole_ = false;
   double stiffness_ = 1;  // 1 / the square of what a position may be out of phase, in pixels
   int rank_ = 0;
   Vector2 first_, second_;              // in pixels of the level

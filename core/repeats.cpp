@@ -67,6 +67,7 @@ PartPhases::PartPhases(const Repeats& repeats, Size exemplar, int level, const L
     one_ = {repeats.lattice, level, surface};
     active_ = one_.active();
     resolves_cells_ = one_.resolves_cells();
+    whole_ = one_.is_whole();
     return;
   }
   std::vector<LatticePhase> phases;
@@ -75,6 +76,7 @@ PartPhases::PartPhases(const Repeats& repeats, Size exemplar, int level, const L
   active_ = std::ranges::any_of(phases, is_active);
   resolves_cells_ =
       active_ && std::ranges::all_of(phases, [](const LatticePhase& p) { return !p.active() || p.resolves_cells(); });
+  whole_ = active_ && std::ranges::all_of(phases, [](const LatticePhase& p) { return !p.active() || p.is_whole(); });
   parts_ = std::make_shared<const std::vector<LatticePhase>>(std::move(phases));
   part_at_ = std::make_shared<const std::vector<uint8_t>>(part_at_each(repeats.parts, exemplar, level));
 }

@@ -46,6 +46,8 @@ class PartPhases {
   bool active() const { return active_; }
   /// Whether all lattices' cells are large enough to tell places within them apart.
   bool resolves_cells() const { return resolves_cells_; }
+  /// Whether all that repeats does so by whole pixels (LatticePhase::is_whole).
+  bool is_whole() const { return whole_; }
   void snap(double x, double y, int& u, int& v) const { of(u, v).snap(x, y, u, v); }
   double penalty(int u, int v, double x, double y) const {
     const LatticePhase& phase = of(u, v);
@@ -67,6 +69,7 @@ class PartPhases {
 
   bool active_ = false;
   bool resolves_cells_ = false;
+  bool whole_ = false;
   LatticePhase one_;
   Size size_;  // of the level
   std::shared_ptr<const std::vector<LatticePhase>> parts_;

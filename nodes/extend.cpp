@@ -57,7 +57,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType extend_node() {
   NodeType t;
   t.name = "extend";
-  t.version = 13;
+  t.version = 14;
   t.category = "synthesis";
   t.summary = "Grows an existing result, keeping its pixels";
   t.help =

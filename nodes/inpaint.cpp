@@ -101,7 +101,7 @@ void compute(NodeContext& node) {
 NodeType inpaint_node() {
   NodeType t;
   t.name = "inpaint";
-  t.version = 13;
+  t.version = 14;
   t.category = "synthesis";
   t.summary = "Fills holes and keeps the rest pixel by pixel";
   t.help =

@@ -107,7 +107,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType make_tileable_node() {
   NodeType t;
   t.name = "make_tileable";
-  t.version = 14;
+  t.version = 15;
   t.category = "synthesis";
   t.summary = "Keeps an exemplar's interior and makes its border wrap";
   t.help =

@@ -80,7 +80,7 @@ Forecast foresee(const Params& params, const InputForecasts& inputs) {
 NodeType transfer_node() {
   NodeType t;
   t.name = "transfer";
-  t.version = 9;
+  t.version = 10;
   t.category = "synthesis";
   t.summary = "Synthesis steered by a target image";
   t.help =

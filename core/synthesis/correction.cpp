@@ -56,6 +56,7 @@ class PixelCorrector {
         stride_(level.exemplar.stride()),
         pass_bits_(random_bits(pass.seed, level.level, pass.pass)),
         dear_coherence_(!pass.piece_coherence.empty() || pass.coherence > unit_factor),
+        looks_around_(occupancy.looks_around()),
         taps_(int(pass.window->size())) {
     for (int t = 0; t < taps_; t++) {
       const auto [dx, dy] = (*pass.window)[t];
@@ -214,6 +215,7 @@ class PixelCorrector {
       if (level_.control) difference = level_.control->cost(x, y, target_) * uint64_t(count_);
     }
     if (occupancy_.active()) factor = uint32_t((uint64_t{factor} * occupancy_.factor(x, y)) / unit_factor);
+    if (looks_around_) factor = uint32_t(uint64_t{factor} * occupancy_.nearby_factor(x_, y_, x, y) / unit_factor);
     const AppearanceVector* centre = exemplar_ + (y * stride_ + x);
     // The nearest pixels tell most candidates off, before the dearer terms, which only raise the cost.
     difference += tap_distance(centre, 0);
@@ -330,6 +332,7 @@ class PixelCorrector {
   ptrdiff_t stride_;
   uint64_t pass_bits_;
   bool dear_coherence_;  // it may cost more to continue a neighbour than not to
+  bool looks_around_;
   int taps_;
   std::array<ptrdiff_t, 9> around_offsets_{};
   std::array<ptrdiff_t, most_taps> field_offsets_{}, exemplar_offsets_{};

@@ -1,6 +1,6 @@
-#include <algorithm>
+#include "core/synthesis/occupancy.h"
 
-#include "core/synthesis/correction.h"
+#include <algorithm>
 
 namespace terrazzo {
 
@@ -13,38 +13,40 @@ constexpr double least_price = 0.25, most_price = 4;
 Occupancy::Occupancy(Size exemplar, double weight, double least_factor, const std::vector<double>& demand)
     : weight_(weight),
       least_factor_(least_factor),
-      cell_(std::max(2, std::max(exemplar.width, exemplar.height) / 16)),
-      columns_((exemplar.width + cell_ - 1) / cell_),
-      rows_((exemplar.height + cell_ - 1) / cell_),
-      columns_of_(size_t(exemplar.width)),
-      row_starts_(size_t(exemplar.height)),
-      factors_(size_t(columns_) * rows_, unit_factor) {
-  for (int x = 0; x < exemplar.width; x++) columns_of_[x] = uint32_t(x / cell_);
-  for (int y = 0; y < exemplar.height; y++) row_starts_[y] = uint32_t(y / cell_ * columns_);
+      exemplar_(exemplar),
+      cells_(exemplar),
+      factors_(cells_.count, unit_factor) {
   if (!active()) return;
   areas_.assign(factors_.size(), 0.0);
   for (int y = 0; y < exemplar.height; y++)
     for (int x = 0; x < exemplar.width; x++)
-      areas_[row_starts_[y] + columns_of_[x]] += demand.empty() || demand[size_t(y) * exemplar.width + x] > 0;
+      areas_[cells_.of(x, y)] += demand.empty() || demand[size_t(y) * exemplar.width + x] > 0;
   if (demand.empty()) return;
   shares_.assign(factors_.size(), 0.0);
   double sum = 0;
   for (const double d : demand) sum += d;
   for (size_t i = 0; i < demand.size(); i++)
-    shares_[row_starts_[i / exemplar.width] + columns_of_[i % exemplar.width]] += demand[i] / sum;
+    shares_[cells_.of(int(i) % exemplar.width, int(i) / exemplar.width)] += demand[i] / sum;
 }
 
 void Occupancy::insist() {
   if (active()) prices_.assign(factors_.size(), 1.0);
 }
 
+void Occupancy::look_around(const Plane& plane) {
+  if (active() && NearbyUse::is_worth_it(exemplar_, cells_, plane)) nearby_.emplace(exemplar_, areas_, weight_, plane);
+}
+
 void Occupancy::recount(const Field& field, const FixedPixels& fixed) {
-  if (!settled_) count(field.pixels, fixed);
+  if (settled_) return;
+  count(field.pixels, fixed);
+  if (nearby_) nearby_->count(field, cells_);
 }
 
 void Occupancy::count_for_good(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed) {
   count(pixels, fixed);
   settled_ = true;
+  nearby_.reset();
 }
 
 void Occupancy::count(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed) {
@@ -53,7 +55,7 @@ void Occupancy::count(std::span<const ExemplarPixel> pixels, const FixedPixels& 
   int64_t free = 0;
   for (size_t i = 0; i < pixels.size(); i++) {
     if (fixed.at(i)) continue;
-    use[row_starts_[pixels[i].y] + columns_of_[pixels[i].x]]++;
+    use[cells_.of(pixels[i])]++;
     free++;
   }
   const double even = std::max(least_expected, double(free) / double(factors_.size()));

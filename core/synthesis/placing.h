@@ -14,9 +14,10 @@ namespace terrazzo {
 /// What a random number is drawn for: keeps the draws of different purposes apart.
 enum Purpose : uint64_t { blocks = 1, jitter = 2, correction = 3, mending = 4, refilling = 5, reworking = 6 };
 
-/// The coarsest level: square blocks of a quarter of the exemplar's side, from random places. `control` may be null.
-Field random_blocks(Size size, const PaddedLevel& exemplar, const LevelControl* control, const PartPhases& phase,
-                    uint64_t seed);
+/// The coarsest level: square blocks of a quarter of the exemplar's side, each the best of some from random places:
+/// what a mask and `control`, which may be null, have least against, or what shows least near by.
+Field random_blocks(const Plane& plane, const PaddedLevel& exemplar, const LevelControl* control,
+                    const PartPhases& phase, uint64_t seed);
 
 /// Moves every pixel of the coarsest level, number `level`, by up to `amplitude` pixels.
 void scatter(Field& field, const PaddedLevel& exemplar, double amplitude, uint64_t seed, int level);

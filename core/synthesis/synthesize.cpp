@@ -153,12 +153,13 @@ class LevelWork {
                    shared.places_landmarks(level) ? least_landmark_factor : least_occupancy_factor,
                    demand_of(shared.exemplar(level), control_.get())) {
     if (insists_on_evenness()) occupancy_.insist();
+    if (looks_around()) occupancy_.look_around(shared.plane(level));
   }
 
   /// What the coarsest level begins with.
   Field beginning() const {
     const uint64_t seed = shared_.options.seed;
-    Field field = random_blocks(shared_.plane(level_).size, exemplar_, control_.get(), phase_, seed);
+    Field field = random_blocks(shared_.plane(level_), exemplar_, control_.get(), phase_, seed);
     scatter(field, exemplar_, shared_.jitter(level_), seed, level_);
     fixed_.begin(field, PlaneWindow::all_of(shared_.plane(level_)));
     return field;
@@ -270,6 +271,8 @@ class LevelWork {
   bool insists_on_evenness() const {
     return shared_.places_landmarks(level_) && !regular() && !control_ && !fixed_.any();
   }
+  /// On lattices everything near by is alike, and controls say what belongs where.
+  bool looks_around() const { return !regular() && !control_; }
   static int reach_of(int passes) { return passes * sub_passes * correction_reach; }
 
   CorrectionLevel correction_level(const PlaneWindow& window, const std::vector<ExemplarPixel>& similar,

@@ -77,6 +77,17 @@ TEST_CASE("where cells are not resolved, snapping finds the best of all places i
     }
 }
 
+TEST_CASE("cells are whole where the exemplar's and those that are shown are whole pixels, in both directions") {
+  const Lattice drawn{2, {12, 0}, {6, 9}, 1}, photographed{2, {12.25, 0}, {6, 9}, 1};
+  CHECK(LatticePhase(drawn, 0, {output}).is_whole());
+  CHECK_FALSE(LatticePhase(photographed, 0, {output}).is_whole());
+  CHECK_FALSE(LatticePhase(drawn, photographed, {}, 0, {output}).is_whole());
+  CHECK_FALSE(LatticePhase(courses(12), 0, {output}).is_whole());
+  CHECK(LatticePhase(drawn, 0, {{240, 180}, true, true}).is_whole());
+  CHECK_FALSE(LatticePhase(drawn, 0, {{250, 180}, true, true}).is_whole());
+  CHECK_FALSE(LatticePhase(drawn, 0, {{250, 180}, true, false, {}, {{50, 100}, {}}}).is_whole());
+}
+
 TEST_CASE("the surer the lattice, the more it costs to be out of phase") {
   const LatticePhase unsure(courses(25, 0.1), 0, {output, false, false}),
       sure(courses(25, 0.9), 0, {output, false, false});

@@ -1,6 +1,6 @@
-#include <doctest/doctest.h>
+#include "core/synthesis/occupancy.h"
 
-#include "core/synthesis/correction.h"
+#include <doctest/doctest.h>
 
 using namespace terrazzo;
 

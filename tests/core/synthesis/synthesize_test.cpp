@@ -1,6 +1,7 @@
 #include "core/synthesis/synthesize.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -74,6 +75,44 @@ TEST_CASE("evenness spreads the use of the exemplar") {
     return used.size();
   };
   CHECK(used_pixels(2) > used_pixels(0));
+}
+
+TEST_CASE("what shows at a place seldom shows again near by") {
+  const Size size{128, 128};
+  const ImagePtr image = make_image(
+      size, 1,
+      [](int x, int y, int) {
+        return float(0.7 * unit_double(random_bits(3, x / 6, y / 6)) + 0.3 * unit_double(random_bits(4, x, y)));
+      },
+      Semantic::height, "raw");
+  const IndexPtr exemplar = make_index(make_appearance(*plain_features(image), {}, {}, Task()), 3, Task());
+  constexpr int near = 48, piece = 12;
+  /// The part of the pixels that show again nearer than that, with what lies around them.
+  const auto shown_again = [&](double evenness, uint64_t seed) {
+    const UvMapPtr uv = synthesize(*exemplar, {.size = {256, 256}, .seed = seed, .evenness = evenness}, Task());
+    std::vector<std::vector<std::array<int, 2>>> places(size_t(size.area()));
+    const auto goes_on = [&](int x, int y) {
+      const ExemplarPixel a = uv->at(x, y), b = uv->at(x + piece, y + piece);
+      return b.x == a.x + piece && b.y == a.y + piece;
+    };
+    int again = 0;
+    for (int y = 0; y + piece < 256; y++)
+      for (int x = 0; x + piece < 256; x++) {
+        if (!goes_on(x, y)) continue;
+        auto& same = places[size_t(uv->at(x, y).y) * size.width + uv->at(x, y).x];
+        again += std::ranges::any_of(same, [&](const std::array<int, 2>& p) {
+          return (x - p[0]) * (x - p[0]) + (y - p[1]) * (y - p[1]) < near * near;
+        });
+        same.push_back({x, y});
+      }
+    return again / (256.0 * 256.0);
+  };
+  double careless = 0, careful = 0;
+  for (uint64_t seed = 1; seed <= 3; seed++) {
+    careless += shown_again(0, seed) / 3;
+    careful += shown_again(0.7, seed) / 3;
+  }
+  CHECK(careful < careless / 5);
 }
 
 TEST_CASE("rare features come about as often as in the exemplar") {
