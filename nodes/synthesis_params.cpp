@@ -44,7 +44,8 @@ const std::vector<Param>& shared_params() {
       {.name = "evenness",
        .type = ParamType::number,
        .fallback = 0.7,
-       .help = "How strongly over-used parts of the exemplar are avoided. 0 lets the best-fitting parts repeat.",
+       .help = "How strongly parts of the exemplar are avoided that are used too often, or near by already. 0 lets the "
+               "best-fitting parts repeat.",
        .min = 0,
        .max = 10},
       {.name = "jitter",

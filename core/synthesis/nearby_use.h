@@ -45,10 +45,10 @@ class NearbyUse {
     bool closed;
   };
   size_t block(int x, int y) const { return size_t(y / side_) * columns_ + x / side_; }
-  Counts shown(const Field& field, const ExemplarCells& cells) const;
+  void count_shown(const Field& field, const ExemplarCells& cells);
   void sum_along(const Line& line, int reach, const Counts& counts, Counts& sums) const;
-  Counts sums_around(const Counts& counts, int reach) const;
-  void raise_factors(const Counts& sums, int reach);
+  void sum_around(int reach);
+  void raise_factors(int reach);
 
   Size exemplar_;
   std::vector<double> areas_;
@@ -57,6 +57,8 @@ class NearbyUse {
   size_t cells_;
   int side_;  // of a block: what is near is told for all of its pixels alike
   int columns_, rows_;
+  Counts shown_;          // by every block
+  Counts across_, sums_;  // what blocks around it show: those beside it, and all
   Counts factors_;
 };
 
