@@ -56,7 +56,6 @@ class PixelCorrector {
         stride_(level.exemplar.stride()),
         pass_bits_(random_bits(pass.seed, level.level, pass.pass)),
         dear_coherence_(!pass.piece_coherence.empty() || pass.coherence > unit_factor),
-        looks_around_(occupancy.looks_around()),
         taps_(int(pass.window->size())) {
     for (int t = 0; t < taps_; t++) {
       const auto [dx, dy] = (*pass.window)[t];
@@ -73,6 +72,7 @@ class PixelCorrector {
     if (!steered && inside && continues_all_around(own)) return *own;
     x_ = level_.window.x(x);
     y_ = level_.window.y(y);
+    nearby_ = occupancy_.nearby_factors(x_, y_);
     if constexpr (steered)
       if (level_.control) target_ = level_.control->target(int64_t(level_.window.index(x, y)));
     if (inside)
@@ -215,7 +215,7 @@ class PixelCorrector {
       if (level_.control) difference = level_.control->cost(x, y, target_) * uint64_t(count_);
     }
     if (occupancy_.active()) factor = uint32_t((uint64_t{factor} * occupancy_.factor(x, y)) / unit_factor);
-    if (looks_around_) factor = uint32_t(uint64_t{factor} * occupancy_.nearby_factor(x_, y_, x, y) / unit_factor);
+    if (nearby_) factor = uint32_t(uint64_t{factor} * nearby_[occupancy_.cell(x, y)] / unit_factor);
     const AppearanceVector* centre = exemplar_ + (y * stride_ + x);
     // The nearest pixels tell most candidates off, before the dearer terms, which only raise the cost.
     difference += tap_distance(centre, 0);
@@ -332,7 +332,6 @@ class PixelCorrector {
   ptrdiff_t stride_;
   uint64_t pass_bits_;
   bool dear_coherence_;  // it may cost more to continue a neighbour than not to
-  bool looks_around_;
   int taps_;
   std::array<ptrdiff_t, 9> around_offsets_{};
   std::array<ptrdiff_t, most_taps> field_offsets_{}, exemplar_offsets_{};
@@ -341,6 +340,7 @@ class PixelCorrector {
   // Of the pixel under way:
   int x_ = 0, y_ = 0;  // in the plane
   const uint8_t* target_ = nullptr;
+  const uint16_t* nearby_ = nullptr;  // factors of what shows near by, of every cell
   std::array<const ExemplarPixel*, 9> around_;
   alignas(32) std::array<std::array<uint32_t, 8>, rings> ring_ids_;
   int count_ = 0;  // pixels of the window

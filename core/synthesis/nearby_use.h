@@ -32,8 +32,8 @@ class NearbyUse {
   static bool is_worth_it(Size exemplar, const ExemplarCells& cells, const Plane& plane);
   /// The field must hold the whole plane.
   void count(const Field& field, const ExemplarCells& cells);
-  /// For showing a cell at a position of the plane, in 1/4096.
-  uint32_t factor(int x, int y, size_t cell) const { return factors_[block(x, y) * cells_ + cell]; }
+  /// For showing each cell at a position of the plane, in 1/4096.
+  const uint16_t* factors(int x, int y) const { return &factors_[block(x, y) * cells_]; }
 
  private:
   using Counts = std::vector<uint16_t>;  // of every block and cell

@@ -34,9 +34,9 @@ class Occupancy {
   void look_around(const Plane& plane);
   bool active() const { return weight_ > 0; }
   uint32_t factor(int x, int y) const { return factors_[cells_.of(x, y)]; }
-  bool looks_around() const { return nearby_.has_value(); }
-  /// For showing an exemplar pixel at a position of the plane, by what shows near by there alone.
-  uint32_t nearby_factor(int x, int y, int u, int v) const { return nearby_->factor(x, y, cells_.of(u, v)); }
+  /// For showing each cell at a position of the plane, by what shows near by there alone; null unless it looks around.
+  const uint16_t* nearby_factors(int x, int y) const { return nearby_ ? nearby_->factors(x, y) : nullptr; }
+  size_t cell(int x, int y) const { return cells_.of(x, y); }
 
  private:
   void count(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed);

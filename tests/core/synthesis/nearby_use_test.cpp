@@ -24,7 +24,7 @@ Field with_copies(Size size, std::initializer_list<std::array<int, 2>> places) {
 uint32_t factor_at(int x, int y, const Field& field, bool tiles = false) {
   NearbyUse use(exemplar, std::vector<double>(cells.count, 4.0), 0.7, {field.size, tiles, tiles});
   use.count(field, cells);
-  return use.factor(x, y, cells.of(20, 20));
+  return use.factors(x, y)[cells.of(20, 20)];
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ TEST_CASE("an exemplar of a few pixels may come about as often as it must") {
   Field field{{32, 32}, {}};
   for (int i = 0; i < 32 * 32; i++) field.pixels.push_back({uint16_t(i % 4), uint16_t(i / 32 % 4)});
   use.count(field, few);
-  for (size_t cell = 0; cell < few.count; cell++) CHECK(use.factor(16, 16, cell) < 2 * unit_factor);
+  for (size_t cell = 0; cell < few.count; cell++) CHECK(use.factors(16, 16)[cell] < 2 * unit_factor);
 }
 
 TEST_CASE("what is near is counted unless that took too much memory") {
@@ -73,14 +73,14 @@ TEST_CASE("what is near is counted unless that took too much memory") {
 
 TEST_CASE("occupancy looks around from when it is told to until it has counted for good") {
   Occupancy occupancy(exemplar, 0.7, 0.5), even(exemplar, 0, 0.5);
-  CHECK_FALSE(occupancy.looks_around());
+  CHECK(occupancy.nearby_factors(24, 24) == nullptr);
   const Field field = with_copies({128, 64}, {{20, 20}, {28, 20}});
   occupancy.look_around({field.size});
   occupancy.recount(field, {});
-  REQUIRE(occupancy.looks_around());
-  CHECK(occupancy.nearby_factor(24, 24, 20, 20) > unit_factor * 3 / 2);
+  REQUIRE(occupancy.nearby_factors(24, 24));
+  CHECK(occupancy.nearby_factors(24, 24)[occupancy.cell(20, 20)] > unit_factor * 3 / 2);
   occupancy.count_for_good(field.pixels, {});
-  CHECK_FALSE(occupancy.looks_around());
+  CHECK(occupancy.nearby_factors(24, 24) == nullptr);
   even.look_around({field.size});
-  CHECK_FALSE(even.looks_around());
+  CHECK(even.nearby_factors(24, 24) == nullptr);
 }
