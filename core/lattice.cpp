@@ -22,6 +22,8 @@ constexpr double least_shear = 1;
 constexpr double looseness = 1.0 / 12;
 constexpr double certainty_counts = 2.0 / 3;
 
+constexpr double most_slanted = 0.02;  // of level courses: what they rise by, as a part of their length
+
 // Of sizes that wrap: a side that is half as long again is as bad as cells bent by a fifth.
 constexpr double bending_weight = 2;
 
@@ -47,6 +49,30 @@ bool Lattice::is_whole() const {
   constexpr double rounding = 1e-6;
   const auto whole = [](double v) { return std::abs(v - std::floor(v + 0.5)) < rounding; };
   return rank == 2 && whole(first.x) && whole(first.y) && whole(second.x) && whole(second.y);
+}
+
+Vector2 Lattice::along_bands(bool courses) const {
+  if (rank == 1) return (first.x == 0) == courses ? courses ? Vector2{1, 0} : Vector2{0, 1} : Vector2{};
+  if (rank == 0) return {};
+  constexpr int farthest = 3;
+  Vector2 shortest;
+  for (int i = -farthest; i <= farthest; i++)
+    for (int j = -farthest; j <= farthest; j++) {
+      const Vector2 v = at({double(i), double(j)});
+      const double along = courses ? v.x : v.y, across = std::abs(courses ? v.y : v.x);
+      const double least = courses ? shortest.x : shortest.y;
+      if (along > 0 && across <= most_slanted * along && (least == 0 || along < least)) shortest = v;
+    }
+  return shortest;
+}
+
+Lattice Lattice::level_bands(bool courses) const {
+  if (rank == 1) return (first.x == 0) == courses ? *this : Lattice{};
+  const Vector2 along = along_bands(courses);
+  const double length = courses ? along.x : along.y;
+  if (length == 0) return {};
+  const double period = cell_area() / length;
+  return {1, courses ? Vector2{0, period} : Vector2{period, 0}, {}, certainty};
 }
 
 double Lattice::longest_step() const {

@@ -42,6 +42,11 @@ struct Lattice {
     if (rank == 1) return (first.x == 0) != (first.y == 0);
     return rank == 0 || (rank == 2 && cell_area() >= 1);
   }
+  /// Its level courses, or its columns, as a lattice of rank 1: of rank 0 if it has none.
+  Lattice level_bands(bool courses) const;
+  /// The way that those run, which need not be quite level: the shortest step of the lattice along x, or along y, of
+  /// any length if the rank is 1; (0, 0) if it has none.
+  Vector2 along_bands(bool courses) const;
   /// Of rank 2: how far along x or y, the farther of the two, it comes back: the length of a brick in its course.
   double longest_step() const;
   /// The nearest lattice of which a surface of `size` holds a whole number of cells, along each axis in which it wraps.

@@ -69,4 +69,29 @@ SymmetricEigen eigen_symmetric(std::vector<double> matrix, int n) {
   return result;
 }
 
+std::vector<double> solve_positive_definite(std::vector<double> matrix, std::vector<double> right) {
+  const int n = int(right.size());
+  if (matrix.size() != right.size() * right.size())
+    throw std::invalid_argument("solve_positive_definite: a matrix of another size");
+  const auto l = [&](int i, int j) -> double& { return matrix[size_t(i * n + j)]; };
+  for (int j = 0; j < n; j++) {
+    for (int k = 0; k < j; k++) l(j, j) -= l(j, k) * l(j, k);
+    if (l(j, j) <= 0) throw std::invalid_argument("solve_positive_definite: the matrix is not positive definite");
+    l(j, j) = std::sqrt(l(j, j));
+    for (int i = j + 1; i < n; i++) {
+      for (int k = 0; k < j; k++) l(i, j) -= l(i, k) * l(j, k);
+      l(i, j) /= l(j, j);
+    }
+  }
+  for (int i = 0; i < n; i++) {
+    for (int k = 0; k < i; k++) right[size_t(i)] -= l(i, k) * right[size_t(k)];
+    right[size_t(i)] /= l(i, i);
+  }
+  for (int i = n - 1; i >= 0; i--) {
+    for (int k = i + 1; k < n; k++) right[size_t(i)] -= l(k, i) * right[size_t(k)];
+    right[size_t(i)] /= l(i, i);
+  }
+  return right;
+}
+
 }  // namespace terrazzo

@@ -15,4 +15,8 @@ struct SymmetricEigen {
 /// Computations, section 8.5): for small matrices, tens of rows. The same bits on every machine. Thread-safe.
 SymmetricEigen eigen_symmetric(std::vector<double> matrix, int n);
 
+/// The x of matrix x = right, by Cholesky's decomposition (Golub & Van Loan, section 4.2): the matrix must be symmetric
+/// and positive definite. The same bits on every machine. Thread-safe.
+std::vector<double> solve_positive_definite(std::vector<double> matrix, std::vector<double> right);
+
 }  // namespace terrazzo

@@ -180,4 +180,21 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
   return Appearance::make(std::move(levels), planes.channels + guides.channels, features.wraps(), features.repeats());
 }
 
+PixelChannels pixel_channels(const AppearanceLevel& level, int most) {
+  const size_t n = level.mean.size(), all = n / window, middle = window / 2 * all;
+  PixelChannels out{std::min(most, int(all)), {}};
+  const auto count = size_t(out.channels);
+  out.values.resize(level.vectors.size() * count);
+  tbb::parallel_for(0, level.size.height, [&](int y) {
+    for (size_t i = size_t(y) * level.size.width; i < size_t(y + 1) * level.size.width; i++)
+      for (size_t c = 0; c < count; c++) {
+        double sum = level.mean[middle + c];
+        for (int d = 0; d < level.dimensions; d++)
+          sum += level.vectors[i][size_t(d)] / level.scale * level.basis[size_t(d) * n + middle + c];
+        out.values[i * count + c] = float(sum);
+      }
+  });
+  return out;
+}
+
 }  // namespace terrazzo

@@ -20,4 +20,12 @@ struct AppearanceOptions {
 AppearancePtr make_appearance(const Features& features, const std::vector<ImagePtr>& guidance,
                               const AppearanceOptions& options, const Task& task);
 
+/// The channels of a level's pixels, without what is around them, as far as appearance vectors tell: `channels` values
+/// per pixel, row by row. Of all channels the first `most`.
+struct PixelChannels {
+  int channels = 0;
+  std::vector<float> values;
+};
+PixelChannels pixel_channels(const AppearanceLevel& level, int most);
+
 }  // namespace terrazzo

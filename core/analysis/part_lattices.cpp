@@ -19,8 +19,7 @@ namespace {
 
 // By how much steps may differ, as a part of their length. Courses of one wall do not all have the same height.
 constexpr double most_unlike = 0.04, most_unlike_bands = 0.06;
-constexpr int most_cells = 4;          // of one lattice in a cell of another
-constexpr double most_slanted = 0.02;  // of level courses: what they rise by, as a part of their length
+constexpr int most_cells = 4;  // of one lattice in a cell of another
 
 bool are_alike(const Vector2& a, const Vector2& b, double unlike) {
   return Vector2{a.x - b.x, a.y - b.y}.length() <= unlike * b.length();
@@ -50,23 +49,6 @@ std::optional<Lattice> stepping_like(const Lattice& model, const Lattice& l) {
   return are_alike(out.first, model.first, most_unlike) && are_alike(out.second, model.second, most_unlike)
              ? std::optional(out)
              : std::nullopt;
-}
-
-/// The level courses of a lattice, or its columns: of rank 0 if it has none.
-Lattice level_bands(const Lattice& l, bool courses) {
-  if (l.rank == 1) return (l.first.x == 0) == courses ? l : Lattice{};
-  if (l.rank == 0) return {};
-  constexpr int farthest = 3;
-  double shortest = 0;
-  for (int i = -farthest; i <= farthest; i++)
-    for (int j = -farthest; j <= farthest; j++) {
-      const Vector2 v = l.at({double(i), double(j)});
-      const double along = std::abs(courses ? v.x : v.y), across = std::abs(courses ? v.y : v.x);
-      if (along > 0 && across <= most_slanted * along && (shortest == 0 || along < shortest)) shortest = along;
-    }
-  if (shortest == 0) return {};
-  const double period = l.cell_area() / shortest;
-  return {1, courses ? Vector2{0, period} : Vector2{period, 0}, {}, l.certainty};
 }
 
 /// What two parts have in common, in the steps of each.
@@ -105,7 +87,7 @@ bool join_cells(const ExemplarPart& model, const Joined& joined) {
 bool join_bands(const ExemplarPart& model, const Joined& joined) {
   for (const bool courses : {true, false}) {
     LatticePart& part = joined.part;
-    const auto steps = common(level_bands(model.lattice, courses), level_bands(part.lattice, courses));
+    const auto steps = common(model.lattice.level_bands(courses), part.lattice.level_bands(courses));
     if (!steps) continue;
     part.start = phase(model, joined, *steps);
     const Vector2 &to = steps->of_model.first, &from = steps->of_part.first;

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/image_ops.h"
 #include "core/synthesis/alignment.h"
+#include "core/synthesis/bricklaying.h"
 #include "core/synthesis/correction.h"
 #include "core/synthesis/mending.h"
 #include "core/synthesis/piece_limits.h"
@@ -84,11 +85,13 @@ constexpr int seam_level = 1;
 // At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
 // brick away. Courses do not tell how long bricks are.
 constexpr SeamMoves to_the_pixel{.reach = 4, .stay = 32};
+constexpr SeamMoves around_bricks{.reach = 8, .stay = 2, .block = 2};
 constexpr SeamMoves along_courses{.reach = 20, .stay = 8};
 constexpr int nearest_joint = 10, farthest_joint = 24;
-constexpr double stay_by_joint = 4;  // where the joint is as near as that, less where it is farther
-constexpr int coarsest_mended = 3;   // at coarser ones it brings nothing
-constexpr int finest_mended = 2;     // nor at finer ones, but on lattices and beside kept pixels
+constexpr double shortest_brick = 64;  // pixels; what is shorter is laid well enough as it is
+constexpr double stay_by_joint = 4;    // where the joint is as near as that, less where it is farther
+constexpr int coarsest_mended = 3;     // at coarser ones it brings nothing
+constexpr int finest_mended = 2;       // nor at finer ones, but on lattices and beside kept pixels
 constexpr int passes_after_mending[] = {2, 5};
 constexpr int coarsest_reworked = 3;  // coarser windows are all unlike one another
 
@@ -178,7 +181,8 @@ class LevelWork {
       refill_pieces(starts, 2, level, occupancy_, random_bits(shared_.options.seed, Purpose::refilling), shared_.task);
     }
     if (phase_.resolves_cells()) align_pieces(starts, 2, level, alignment_reach, shared_.task);
-    if (moves_seams()) move_seams(starts, level, to_joints(), shared_.task);
+    const bool laid = lays_bricks() && lay(starts, level);
+    if (moves_seams()) move_seams(starts, level, laid ? around_bricks : to_joints(), shared_.task);
     return starts;
   }
 
@@ -239,6 +243,19 @@ class LevelWork {
   /// The first time that seams move. Measured on exemplars without a lattice this brings nothing either, and controls
   /// say where pieces belong.
   bool refills() const { return level_ == seam_level && moves_seams() && regular() && !control_; }
+  /// Bricks are laid whole where only seams still move, before they look for the pixel.
+  bool lays_bricks() const {
+    return level_ < seam_level && moves_seams() && regular() && !control_ && !fixed_.any() &&
+           shared_.index.appearance()->repeats().parts.empty() &&
+           (shared_.lattice.rank == 1 || shared_.lattice.longest_step() >= shortest_brick);
+  }
+  /// Whether the exemplar has bricks.
+  bool lay(Field& starts, const CorrectionLevel& level) const {
+    const Appearance& appearance = *shared_.index.appearance();
+    const Coursing coursing = find_coursing(appearance, shared_.task);
+    const LatticePhase phase(shared_.lattice, 0, surface_of(shared_.lattice, shared_.options, shared_.gaps));
+    return lay_bricks(starts, 2, level, appearance, coursing, phase, shared_.task);
+  }
   /// Of blocks of two by two pixels.
   SeamMoves to_joints() const {
     SeamMoves moves = level_ < seam_level ? to_the_pixel : along_courses;

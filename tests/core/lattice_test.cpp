@@ -113,6 +113,22 @@ TEST_CASE("a lattice knows the length of its bricks, lying and standing") {
   CHECK(courses(6).longest_step() == 0);
 }
 
+TEST_CASE("a lattice knows its level courses and its columns, and how they run") {
+  const Lattice bricks{2, {128, 1}, {64, 43}, 1};
+  CHECK(bricks.along_bands(true).x == doctest::Approx(128));
+  CHECK(bricks.along_bands(true).y == doctest::Approx(1));
+  CHECK(bricks.level_bands(true).rank == 1);
+  CHECK(bricks.level_bands(true).first.y == doctest::Approx(bricks.cell_area() / 128));
+  // Straight up it comes back after two courses only, and not quite.
+  CHECK(bricks.level_bands(false).first.x == doctest::Approx(64).epsilon(0.01));
+  CHECK(courses(6).along_bands(true).x > 0);
+  CHECK(courses(6).along_bands(false).y == 0);
+  CHECK(courses(6).level_bands(false).rank == 0);
+  const Lattice turned{2, {29, 13}, {-13, 29}, 1};
+  CHECK(turned.along_bands(true).x == 0);
+  CHECK(turned.level_bands(true).rank == 0);
+}
+
 TEST_CASE("the size that fits best, fits, and is near what was asked for") {
   // Those of a woven fabric scanned a little askew, bricks, courses, columns, and tiles turned by some degrees.
   const Lattice fabric{2, {8.30, 12.24}, {-8.23, 12.27}, 0.77};

@@ -1,0 +1,83 @@
+#include "core/analysis/coursing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "core/analysis/bed_joints.h"
+#include "core/analysis/head_joints.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr double smallest_period = 14;               // pixels; finer joints are lost
+constexpr double largest_period = 96;                // more is looked at where pixels are larger
+constexpr double least_told = 1;                     // how far joints and bricks lie apart, in deviations
+constexpr int least_of_kind = 2, least_courses = 3;  // or there is nothing to choose from
+// Where few bricks end in the exemplar, courses must be cut elsewhere.
+constexpr double least_joints = 1.25;  // in a course of each kind
+constexpr int least_inside = 3;        // rows of a course that belong to no joint
+
+/// All courses of one kind of which the exemplar shows something, whole or not.
+std::vector<ExemplarCourse> courses_of_kind(const Coursing& m, int kind, int breadth) {
+  std::vector<ExemplarCourse> out;
+  const size_t k = size_t(kind);
+  for (double start = -m.period; start < breadth; start += m.period) {
+    const double begin = start + m.beds[k];
+    const double end = k + 1 < m.beds.size() ? start + m.beds[k + 1] : start + m.period + m.beds[0];
+    if (end > 0 && begin < breadth) out.push_back({begin, end, kind, {}});
+  }
+  return out;
+}
+
+/// Nothing if joints cannot be told from bricks, or bricks hardly end.
+std::vector<ExemplarCourse> whole_courses(const CourseSheet& sheet, const Coursing& m, int kind, const Task& task) {
+  std::vector<ExemplarCourse> courses = courses_of_kind(m, kind, sheet.breadth);
+  const HeadJoints head_joints(sheet, courses, m.half_joint);
+  if (head_joints.told() < least_told) return {};
+  std::erase_if(courses, [&](const ExemplarCourse& c) {
+    const CourseInside inside(c, m.half_joint);
+    return inside.begin < 0 || inside.end > sheet.breadth || inside.end - inside.begin < least_inside;
+  });
+  tbb::parallel_for(size_t{0}, courses.size(), [&](size_t i) {
+    task.check();
+    courses[i].joint = head_joints.likeness(courses[i]);
+  });
+  double joints = 0;
+  for (const ExemplarCourse& c : courses) joints += joint_count(c);
+  const bool enough = int(courses.size()) >= least_of_kind && joints >= least_joints * double(courses.size());
+  return enough ? courses : std::vector<ExemplarCourse>{};
+}
+
+}  // namespace
+
+Coursing find_coursing(const Appearance& appearance, const Task& task) {
+  Coursing out;
+  Vector2 along = appearance.lattice().along_bands(true);
+  out.axes = {along.x == 0, along.x == 0 ? 0 : along.y / along.x};
+  if (out.axes.upright) along = appearance.lattice().along_bands(false);
+  if (out.axes.upright && along.y != 0) out.axes.rise = along.x / along.y;
+  const Lattice bands = appearance.lattice().level_bands(!out.axes.upright);
+  if (bands.rank == 0) return {};
+  out.period = std::abs(out.axes.upright ? bands.first.x : bands.first.y);
+  while (out.period > largest_period && out.level + 1 < int(appearance.levels().size())) {
+    out.period /= 2;
+    out.level++;
+  }
+  if (out.period < smallest_period) return {};
+  const CourseSheet sheet(appearance.levels()[size_t(out.level)], out.axes);
+  const BedJoints beds = find_bed_joints(sheet, out.period);
+  out.beds = beds.places;
+  out.half_joint = beds.half_breadth;
+  for (int kind = 0; kind < int(out.beds.size()); kind++) {
+    task.check();
+    const std::vector<ExemplarCourse> courses = whole_courses(sheet, out, kind, task);
+    if (courses.empty()) return {};
+    out.courses.insert(out.courses.end(), courses.begin(), courses.end());
+  }
+  return int(out.courses.size()) >= least_courses ? out : Coursing{};
+}
+
+}  // namespace terrazzo

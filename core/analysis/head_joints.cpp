@@ -1,0 +1,168 @@
+#include "core/analysis/head_joints.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/linear_algebra.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr double regularised = 1e-3;          // of the mean variance
+constexpr double surely_bed = 0.6;            // of a joint's half breadth
+constexpr int sections = 6;                   // that a course is divided into across,
+constexpr int unlike_sections = 1;            // of which so many need not look like the joint
+constexpr float sure = 0.75f, unsure = 0.4f;  // of a joint
+
+/// What a pixel is told by: itself, what is around it, and how much that varies.
+constexpr int most_traits = 2 * CourseSheet::most_channels + 1;
+using Traits = std::array<double, most_traits>;
+
+int trait_count(const CourseSheet& sheet) {
+  return 2 * sheet.channels() + 1;
+}
+
+Traits traits_of(const CourseSheet& sheet, int along, int across, int radius) {
+  const auto channels = size_t(sheet.channels());
+  Traits out{};
+  double squares = 0;
+  int n = 0;
+  for (int v = std::max(0, across - radius); v <= std::min(sheet.breadth - 1, across + radius); v++)
+    for (int u = std::max(0, along - radius); u <= std::min(sheet.length - 1, along + radius); u++, n++)
+      for (size_t c = 0; c < channels; c++) {
+        const double value = sheet.at(u, v)[c];
+        out[channels + c] += value;
+        squares += value * value;
+      }
+  double of_means = 0;
+  for (size_t c = 0; c < channels; c++) {
+    out[c] = sheet.at(along, across)[c];
+    out[channels + c] /= n;
+    of_means += out[channels + c] * out[channels + c];
+  }
+  out[2 * channels] = std::sqrt(std::max(0.0, squares / n - of_means));
+  return out;
+}
+
+/// The mean and the covariance of traits, as they are added.
+class Moments {
+ public:
+  explicit Moments(int traits) : n_(traits) {}
+
+  void add(const Traits& f) {
+    weight_++;
+    for (int i = 0; i < n_; i++) {
+      sum_[size_t(i)] += f[size_t(i)];
+      for (int j = 0; j <= i; j++) products_[size_t(i * n_ + j)] += f[size_t(i)] * f[size_t(j)];
+    }
+  }
+  bool empty() const { return weight_ == 0; }
+  double mean(int i) const { return sum_[size_t(i)] / weight_; }
+  double covariance(int i, int j) const {
+    return products_[size_t(std::max(i, j) * n_ + std::min(i, j))] / weight_ - mean(i) * mean(j);
+  }
+
+ private:
+  int n_;
+  double weight_ = 0;
+  Traits sum_{};
+  std::array<double, size_t(most_traits) * most_traits> products_{};
+};
+
+int radius_of(int half_breadth) {
+  return std::max(1, half_breadth);
+}
+
+}  // namespace
+
+CourseInside::CourseInside(const ExemplarCourse& course, int half_breadth) {
+  const double margin = std::max(1.6 * half_breadth + 1, 0.12 * (course.end - course.begin));
+  begin = int(std::floor(course.begin + margin));
+  end = int(std::floor(course.end - margin));
+}
+
+HeadJoints::HeadJoints(const CourseSheet& sheet, const std::vector<ExemplarCourse>& courses, int half_breadth)
+    : sheet_(sheet), half_breadth_(half_breadth) {
+  const int n = trait_count(sheet);
+  Moments joints(n), bricks(n);
+  const auto add = [&](int begin, int end, Moments& to) {
+    for (int v = begin; v < end; v++)
+      for (int u = 0; u < sheet.length; u++)
+        if (sheet.usable(u, v)) to.add(traits_of(sheet, u, v, radius_of(half_breadth)));
+  };
+  for (const ExemplarCourse& c : courses) {
+    for (const double bed : {c.begin, c.end}) {
+      const int first = int(std::floor(bed - surely_bed * half_breadth + 0.5));
+      const int last = int(std::floor(bed + surely_bed * half_breadth + 0.5));
+      if (first >= 0 && last < sheet.breadth) add(first, last + 1, joints);
+    }
+    const CourseInside inside(c, half_breadth);
+    add(std::max(0, inside.begin), std::min(sheet.breadth, inside.end), bricks);
+  }
+  if (joints.empty() || bricks.empty()) return;
+
+  std::vector<double> spread(size_t(n * n)), apart(static_cast<size_t>(n));
+  double variance = 0;
+  for (int i = 0; i < n; i++) {
+    apart[size_t(i)] = joints.mean(i) - bricks.mean(i);
+    for (int j = 0; j < n; j++) spread[size_t(i * n + j)] = joints.covariance(i, j) + bricks.covariance(i, j);
+    variance += spread[size_t(i * n + i)] / n;
+  }
+  if (!(variance > 0)) return;
+  for (int i = 0; i < n; i++) spread[size_t(i * n + i)] += regularised * variance;
+  weights_ = solve_positive_definite(std::move(spread), apart);
+  double squared = 0, of_bricks = 0;
+  for (int i = 0; i < n; i++) {
+    squared += weights_[size_t(i)] * apart[size_t(i)];
+    of_bricks += weights_[size_t(i)] * bricks.mean(i);
+  }
+  if (!(squared > 0)) return;
+  // The mean joint is 1, the mean brick 0.
+  for (double& w : weights_) w /= squared;
+  offset_ = -of_bricks / squared;
+  told_ = std::sqrt(squared);
+}
+
+std::vector<float> HeadJoints::likeness(const ExemplarCourse& course) const {
+  const CourseInside inside(course, half_breadth_);
+  const int height = inside.end - inside.begin;
+  using Sections = std::array<double, sections>;
+  std::vector<Sections> columns(size_t(sheet_.length));
+  const auto of = [&](int u, int v) {
+    const Traits f = traits_of(sheet_, u, v, radius_of(half_breadth_));
+    double sum = offset_;
+    for (size_t i = 0; i < weights_.size(); i++) sum += weights_[i] * f[i];
+    return sum;
+  };
+  for (int u = 0; u < sheet_.length; u++)
+    for (int s = 0; s < sections; s++) {
+      const int first = inside.begin + s * height / sections;
+      const int end = std::max(first + 1, inside.begin + (s + 1) * height / sections);
+      for (int v = first; v < end; v++) columns[size_t(u)][size_t(s)] += of(u, v) / (end - first);
+    }
+  std::vector<float> out(size_t(sheet_.length), 0.0f);
+  const int reach = half_breadth_ / 2;
+  for (int u = 0; u < sheet_.length; u++) {
+    const int begin = std::max(0, u - reach), end = std::min(sheet_.length, u + reach + 1);
+    Sections mean{};
+    for (int k = begin; k < end; k++)
+      for (size_t s = 0; s < sections; s++) mean[s] += columns[size_t(k)][s] / (end - begin);
+    std::ranges::nth_element(mean, mean.begin() + unlike_sections);
+    out[size_t(u)] = float(std::clamp(mean[unlike_sections], 0.0, 1.0));
+  }
+  return out;
+}
+
+int joint_count(const ExemplarCourse& course) {
+  int count = 0;
+  bool in_joint = false;
+  for (const float j : course.joint) {
+    count += j >= sure && !in_joint;
+    in_joint = j >= (in_joint ? unsure : sure);
+  }
+  return count;
+}
+
+}  // namespace terrazzo
