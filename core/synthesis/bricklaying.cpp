@@ -15,21 +15,20 @@ namespace {
 
 // In units, course heights, or pixels of the coursing's level.
 constexpr double most_unlike = 4;
-constexpr double shortest_run = 0.9;  // what is shorter is no brick
-constexpr double again = 6;           // by how far a course must go back to show what it has just shown
-constexpr double near = 3;            // what shows so near in a course close by
-constexpr double dear = 1;            // costs so much more,
-constexpr int close_periods = 1;      // so many periods away or less
-const double gap =
-    getenv("TZ_GAP") ? atof(getenv("TZ_GAP")) : 2;  // what a joint costs that is missing, or twice as wide
-constexpr double own = 1;                           // what a course shows already is cheaper by so much,
-constexpr double continued = 1;                     // and so is what continues the course beside it,
-constexpr double beside = 0.85;                     // which is looked at so far from the middle
-constexpr int most_columns = 6144;                  // of the exemplar that are tried for one course
-constexpr int most_off = 2;                         // that what stays may be out of place
-constexpr double most_staying = 0.25;               // of a run, before it does
-constexpr double most_out_of_phase = 2;             // LatticePhase::penalty(): by as much as the lattice is unsure
-constexpr double most_risen = 0.5;                  // rows, after which a result that wraps does not meet itself
+constexpr double shortest_run = 0.9;     // what is shorter is no brick
+constexpr double again = 6;              // by how far a course must go back to show what it has just shown
+constexpr double near = 3;               // what shows so near in a course close by
+constexpr double dear = 1;               // costs so much more,
+constexpr int close_periods = 1;         // so many periods away or less
+constexpr double gap = 2;                // what a joint costs that is missing, or twice as wide
+constexpr double own = 1;                // what a course shows already is cheaper by so much,
+constexpr double continued = 1;          // and so is what continues the course beside it,
+constexpr double beside = 0.85;          // which is looked at so far from the middle
+constexpr int most_columns = 6144;       // of the exemplar that are tried for one course
+constexpr int most_off = 2;              // that what stays may be out of place
+constexpr double most_staying = 0.25;    // of a run, before it does
+constexpr double most_out_of_phase = 2;  // LatticePhase::penalty(): by as much as the lattice is unsure
+constexpr double most_risen = 0.5;       // rows, after which a result that wraps does not meet itself
 
 /// A course of the result.
 struct ResultCourse {
