@@ -14,11 +14,11 @@ namespace {
 
 constexpr double smallest_period = 14;               // pixels; finer joints are lost
 constexpr double largest_period = 96;                // more is looked at where pixels are larger
-constexpr double least_told = 1;                     // how far joints and bricks lie apart, in deviations
+constexpr double least_told = 0.7;                   // how far joints and bricks lie apart, in deviations
 constexpr int least_of_kind = 2, least_courses = 3;  // or there is nothing to choose from
-// Where few bricks end in the exemplar, courses must be cut elsewhere.
-constexpr double least_joints = 1.25;  // in a course of each kind
-constexpr int least_inside = 3;        // rows of a course that belong to no joint
+constexpr double least_joints = 0.5;                 // in a course of each kind
+constexpr double most_aligned = 0.5;                 // of joints that go on in the course below
+constexpr int least_inside = 3;                      // rows of a course that belong to no joint
 
 /// All courses of one kind of which the exemplar shows something, whole or not.
 std::vector<ExemplarCourse> courses_of_kind(const Coursing& m, int kind, int breadth) {
@@ -30,6 +30,21 @@ std::vector<ExemplarCourse> courses_of_kind(const Coursing& m, int kind, int bre
     if (end > 0 && begin < breadth) out.push_back({begin, end, kind, {}});
   }
   return out;
+}
+
+/// How many of the joints go on in a course below.
+double aligned_share(const std::vector<ExemplarCourse>& courses, int half_joint) {
+  int aligned = 0, all = 0;
+  for (const ExemplarCourse& upper : courses)
+    for (const ExemplarCourse& lower : courses) {
+      if (std::abs(lower.begin - upper.end) > 1) continue;
+      const std::vector<double> below = sure_joints(lower);
+      for (const double u : sure_joints(upper)) {
+        aligned += std::ranges::any_of(below, [&](double v) { return std::abs(u - v) <= half_joint + 1; });
+        all++;
+      }
+    }
+  return all > 0 ? double(aligned) / all : 0;
 }
 
 /// Nothing if joints cannot be told from bricks, or bricks hardly end.
@@ -46,7 +61,7 @@ std::vector<ExemplarCourse> whole_courses(const CourseSheet& sheet, const Coursi
     courses[i].joint = head_joints.likeness(courses[i]);
   });
   double joints = 0;
-  for (const ExemplarCourse& c : courses) joints += joint_count(c);
+  for (const ExemplarCourse& c : courses) joints += double(sure_joints(c).size());
   const bool enough = int(courses.size()) >= least_of_kind && joints >= least_joints * double(courses.size());
   return enough ? courses : std::vector<ExemplarCourse>{};
 }
@@ -77,7 +92,10 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
     if (courses.empty()) return {};
     out.courses.insert(out.courses.end(), courses.begin(), courses.end());
   }
-  return int(out.courses.size()) >= least_courses ? out : Coursing{};
+  if (int(out.courses.size()) < least_courses) return {};
+  // What goes on across courses would be cut up with each of them, unless a lattice has its place.
+  if (appearance.lattice().rank < 2 && aligned_share(out.courses, out.half_joint) > most_aligned) return {};
+  return out;
 }
 
 }  // namespace terrazzo

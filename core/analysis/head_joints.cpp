@@ -10,7 +10,8 @@ namespace terrazzo {
 
 namespace {
 
-constexpr double regularised = 1e-3;          // of the mean variance
+constexpr double regularised = 1e-3;  // of the mean variance
+constexpr int most_samples = 1 << 17, stagger = 7;
 constexpr double surely_bed = 0.6;            // of a joint's half breadth
 constexpr int sections = 6;                   // that a course is divided into across,
 constexpr int unlike_sections = 1;            // of which so many need not look like the joint
@@ -87,9 +88,11 @@ HeadJoints::HeadJoints(const CourseSheet& sheet, const std::vector<ExemplarCours
     : sheet_(sheet), half_breadth_(half_breadth) {
   const int n = trait_count(sheet);
   Moments joints(n), bricks(n);
+  // Some of the pixels, in a pattern that shows every column.
+  const int step = std::max(1, int(int64_t{sheet.length} * sheet.breadth / most_samples));
   const auto add = [&](int begin, int end, Moments& to) {
     for (int v = begin; v < end; v++)
-      for (int u = 0; u < sheet.length; u++)
+      for (int u = v * stagger % step; u < sheet.length; u += step)
         if (sheet.usable(u, v)) to.add(traits_of(sheet, u, v, radius_of(half_breadth)));
   };
   for (const ExemplarCourse& c : courses) {
@@ -155,14 +158,16 @@ std::vector<float> HeadJoints::likeness(const ExemplarCourse& course) const {
   return out;
 }
 
-int joint_count(const ExemplarCourse& course) {
-  int count = 0;
-  bool in_joint = false;
-  for (const float j : course.joint) {
-    count += j >= sure && !in_joint;
-    in_joint = j >= (in_joint ? unsure : sure);
+std::vector<double> sure_joints(const ExemplarCourse& course) {
+  std::vector<double> out;
+  const size_t length = course.joint.size();
+  for (size_t u = 0; u < length; u++) {
+    const size_t begin = u;
+    float most = 0;
+    for (; u < length && course.joint[u] >= unsure; u++) most = std::max(most, course.joint[u]);
+    if (most >= sure) out.push_back(double(begin + u) / 2);
   }
-  return count;
+  return out;
 }
 
 }  // namespace terrazzo

@@ -33,7 +33,7 @@ struct CourseInside {
   int begin, end;
 };
 
-/// How many joints a course surely has.
-int joint_count(const ExemplarCourse& course);
+/// The middles of the joints that a course surely has, ascending.
+std::vector<double> sure_joints(const ExemplarCourse& course);
 
 }  // namespace terrazzo

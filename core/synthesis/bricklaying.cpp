@@ -23,6 +23,8 @@ constexpr int close_periods = 1;         // so many periods away or less
 constexpr double gap = 2;                // what a joint costs that is missing, or twice as wide
 constexpr double own = 1;                // what a course shows already is cheaper by so much,
 constexpr double continued = 1;          // and so is what continues the course beside it,
+constexpr double even = 1;               // and dearer what shows more often than others,
+constexpr double most_even = 3;          // by so many times at most
 constexpr double beside = 0.85;          // which is looked at so far from the middle
 constexpr int most_columns = 6144;       // of the exemplar that are tried for one course
 constexpr int most_off = 2;              // that what stays may be out of place
@@ -80,9 +82,14 @@ class Bricklayer {
     const int count = int(all_.size()), apart = 2 * reach() + 1;
     // Around a result that wraps the last ones see the first ones.
     const int together = closed_across_ ? count - count % apart : count;
-    for (int turn = 0; turn < std::min(apart, together); turn++)
+    for (int turn = 0; turn < std::min(apart, together); turn++) {
+      count_use();
       tbb::parallel_for(0, (together - turn + apart - 1) / apart, [&](int i) { lay_course(turn + i * apart); });
-    for (int at = together; at < count; at++) lay_course(at);
+    }
+    for (int at = together; at < count; at++) {
+      count_use();
+      lay_course(at);
+    }
     return true;
   }
 
@@ -154,6 +161,7 @@ class Bricklayer {
     std::vector<ColumnPrice> prices;
     price_what_is_near(at, tried, prices);
     price_what_goes_on(course, tried, prices);
+    price_what_is_used(tried, prices);
     course.runs = fitting_runs(looks, courses, prices, fit_);
     for (CourseRun& r : course.runs) r.course = tried[size_t(r.course)];
     for (size_t i = 0; i < course.runs.size(); i++) show(course.runs[i], end_of(course, i), course);
@@ -241,6 +249,49 @@ class Bricklayer {
     }
   }
 
+  /// How often the result shows each column of the exemplar, of how often it would if all showed alike.
+  void count_use() {
+    use_.clear();
+    for (const CourseColumns& c : columns_) use_.emplace_back(c.looks.size(), 0.0f);
+    std::vector<double> shown_of(coursing_.beds.size(), 0.0), there(coursing_.beds.size(), 0.0);
+    for (const ResultCourse& r : all_)
+      for (int x = 0; x < length_; x++) {
+        const ExemplarPixel* p = shown(x * blocks_, int(std::floor(r.middle())));
+        if (!p) continue;
+        const double across = coursing_.axes.across(p->x, p->y) / scale_;
+        for (size_t c = 0; c < columns_.size(); c++)
+          if (shows_course(int(c), across)) {
+            use_[c][size_t(coursing_.axes.along(p->x, p->y) / scale_)]++;
+            shown_of[size_t(kind_of(int(c)))]++;
+          }
+      }
+    for (size_t c = 0; c < columns_.size(); c++) there[size_t(kind_of(int(c)))] += double(columns_[c].looks.size());
+    for (size_t c = 0; c < use_.size(); c++) {
+      const ExemplarCourse& course = coursing_.courses[c];
+      const auto kind = size_t(course.kind);
+      const float usual = float(shown_of[kind] / there[kind]);
+      use_[c] = smoothed(use_[c], std::max(1, int((course.end - course.begin) / 4)), usual);
+    }
+  }
+  /// Of so many columns to each side together, as they come and go together; in units of `usual`.
+  static std::vector<float> smoothed(const std::vector<float>& values, int reach, float usual) {
+    const int n = int(values.size());
+    std::vector<float> out(values.size(), 0.0f);
+    for (int u = 0; u < n && usual > 0; u++) {
+      const int begin = std::max(0, u - reach), end = std::min(n, u + reach + 1);
+      for (int k = begin; k < end; k++) out[size_t(u)] += values[size_t(k)] / (usual * float(end - begin));
+    }
+    return out;
+  }
+
+  void price_what_is_used(const std::vector<int>& tried, std::vector<ColumnPrice>& prices) const {
+    for (size_t c = 0; c < tried.size(); c++)
+      for (size_t u = 0; u < use_[size_t(tried[c])].size(); u++) {
+        const double often = double(use_[size_t(tried[c])][u]) - 1;
+        prices.push_back({int(c), int(u), 0, length_, int32_t(even * cost_unit * std::clamp(often, -1.0, most_even))});
+      }
+  }
+
   /// By how much exemplar positions differ from those of the result, in pixels of the finest level.
   struct Offset {
     int along = 0, across = 0;
@@ -308,6 +359,7 @@ class Bricklayer {
   bool closed_along_, closed_across_;
   std::vector<CourseColumns> columns_;  // of each course of the exemplar
   std::vector<ResultCourse> all_;
+  std::vector<std::vector<float>> use_;  // of each column of those
   CourseFit fit_;
   int near_ = 0;
 };

@@ -12,7 +12,7 @@ namespace {
 
 // What it costs to go over to or from another place of the exemplar in a joint and in the middle of a brick, in units
 // and course heights, and which columns are surely either.
-constexpr double cut_joint = 0.5, cut_brick = 8;
+constexpr double cut_joint = 0.5, cut_brick = 6;
 constexpr double surely_brick = 0.5, surely_joint = 0.9;
 
 /// A course may reach into the exemplar's border, which is not shown: there the result stays as it is.

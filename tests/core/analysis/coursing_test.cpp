@@ -109,7 +109,21 @@ TEST_CASE("courses that rise are followed") {
   CHECK(found == doctest::Approx(drawn).epsilon(0.2));
 }
 
-TEST_CASE("there is no coursing without courses, without joints, or where bricks hardly end") {
+TEST_CASE("joints that go on across courses are cut up by no one, unless a lattice has their place") {
+  // Stack bond: all bricks of a row of columns end together.
+  const ImagePtr image = test::make_image(
+      {256, 240}, 3,
+      [](int x, int y, int c) {
+        const double speckle = 0.05 * unit_double(random_bits(6, x, y, c));
+        if (y % 40 < 3 || x % 64 < 3) return float(0.8 + speckle);
+        return float(0.2 + 0.2 * unit_double(random_bits(5, y / 40, x / 64)) + speckle);
+      },
+      Semantic::base_color, "srgb_texture");
+  CHECK(coursing_of(image, {1, {0, 40}, {}, 0.9}).empty());
+  CHECK(!coursing_of(image, {2, {64, 0}, {0, 40}, 0.9}).empty());
+}
+
+TEST_CASE("there are no courses to lay without courses, without joints, or where bricks hardly end") {
   const ImagePtr image = DrawnWall({240, 220}).image();
   CHECK(coursing_of(image, {}).empty());
   CHECK(coursing_of(image, {1, {0, 9}, {}, 0.9}).empty());
