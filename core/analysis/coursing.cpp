@@ -12,12 +12,15 @@ namespace terrazzo {
 
 namespace {
 
-constexpr double smallest_period = 14;               // pixels; finer joints are lost
-constexpr double largest_period = 96;                // more is looked at where pixels are larger
-constexpr double least_told = 0.7;                   // how far joints and bricks lie apart, in deviations
+constexpr double smallest_period = 14;  // pixels; finer joints are lost
+constexpr double largest_period = 96;   // more is looked at where pixels are larger
+// How far joints and what is between them lie apart, in deviations. Courses of boards are cut so seldom that it may be
+// less.
+constexpr double least_told_of_bricks = 1, least_told_of_boards = 0.7;
+constexpr double shortest_board = 5;                 // course heights
 constexpr int least_of_kind = 2, least_courses = 3;  // or there is nothing to choose from
 constexpr double least_joints = 0.5;                 // in a course of each kind
-constexpr double most_aligned = 0.5;                 // of joints that go on in the course below
+constexpr double most_aligned = 0.3;                 // of joints that go on in the course below
 constexpr int least_inside = 3;                      // rows of a course that belong to no joint
 
 /// All courses of one kind of which the exemplar shows something, whole or not.
@@ -51,7 +54,7 @@ double aligned_share(const std::vector<ExemplarCourse>& courses, int half_joint)
 std::vector<ExemplarCourse> whole_courses(const CourseSheet& sheet, const Coursing& m, int kind, const Task& task) {
   std::vector<ExemplarCourse> courses = courses_of_kind(m, kind, sheet.breadth);
   const HeadJoints head_joints(sheet, courses, m.half_joint);
-  if (head_joints.told() < least_told) return {};
+  if (head_joints.told() < least_told_of_boards) return {};
   std::erase_if(courses, [&](const ExemplarCourse& c) {
     const CourseInside inside(c, m.half_joint);
     return inside.begin < 0 || inside.end > sheet.breadth || inside.end - inside.begin < least_inside;
@@ -62,8 +65,10 @@ std::vector<ExemplarCourse> whole_courses(const CourseSheet& sheet, const Coursi
   });
   double joints = 0;
   for (const ExemplarCourse& c : courses) joints += double(sure_joints(c).size());
-  const bool enough = int(courses.size()) >= least_of_kind && joints >= least_joints * double(courses.size());
-  return enough ? courses : std::vector<ExemplarCourse>{};
+  if (int(courses.size()) < least_of_kind || joints < least_joints * double(courses.size())) return {};
+  const double height = courses[0].end - courses[0].begin, brick = sheet.length * double(courses.size()) / joints;
+  const bool boards = brick >= shortest_board * height;
+  return boards || head_joints.told() >= least_told_of_bricks ? courses : std::vector<ExemplarCourse>{};
 }
 
 }  // namespace
