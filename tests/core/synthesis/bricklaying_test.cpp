@@ -105,5 +105,6 @@ TEST_CASE("sizes smaller than a brick, and masks, do no harm") {
   const ImagePtr mask = test::make_image(wall.size(), 1, [](int x, int, int) { return x >= 120 ? 1.0f : 0.0f; });
   const FeaturesPtr features = Features::make(wall.size(), {{image, {1, 1, 1}}}, false, wall.lattice(), mask);
   const IndexPtr index = make_index(make_appearance(*features, {}, {}, task), 3, task);
-  for (const ExemplarPixel p : synthesize(*index, {.size = {300, 200}, .seed = 5}, task)->pixels()) REQUIRE(p.x >= 120);
+  const UvMapPtr uv = synthesize(*index, {.size = {300, 200}, .seed = 5}, task);
+  for (const ExemplarPixel p : uv->pixels()) REQUIRE(p.x >= 120);
 }
