@@ -120,6 +120,17 @@ Param tileable_param() {
           .choices = {"none", "x", "y", "xy"}};
 }
 
+Param whole_bricks_param() {
+  return {
+      .name = "whole_bricks",
+      .type = ParamType::boolean,
+      .fallback = true,
+      .help =
+          "Of an exemplar built of courses, as walls and floors of boards are: every course is put together from "
+          "whole bricks, or boards, cut at joints only. Not in drafts. false leaves it to the seams to find joints, "
+          "which makes fewer new combinations but cuts some bricks."};
+}
+
 std::vector<Param> with_synthesis_params(std::vector<Param> own) {
   own.insert(own.end(), shared_params().begin(), shared_params().end());
   return own;
@@ -142,6 +153,7 @@ SynthesisOptions synthesis_options(const NodeContext& node, const Index& index) 
     options.tile_x = tileable == "x" || tileable == "xy";
     options.tile_y = tileable == "y" || tileable == "xy";
   }
+  if (node.type().find_param("whole_bricks")) options.whole_bricks = node.flag("whole_bricks");
   options.seed = uint64_t(node.integer("seed"));
   const auto quality = std::find(quality_names.begin(), quality_names.end(), node.text("quality"));
   options.quality = static_cast<Quality>(quality - quality_names.begin());

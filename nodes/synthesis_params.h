@@ -19,12 +19,14 @@ inline constexpr int largest_surface = 65536;
 Param surface_param(std::string name, std::string help, int least);
 /// Parameter "tileable": directions in which the result wraps around.
 Param tileable_param();
+/// Parameter "whole_bricks", of nodes that make surfaces anew.
+Param whole_bricks_param();
 /// `own` parameters, followed by those of every synthesis: seed, quality, coherence, evenness, and jitter.
 std::vector<Param> with_synthesis_params(std::vector<Param> own);
 /// Checks them; for NodeType::check.
 std::vector<std::string> check_synthesis_params(const Params& params);
 
-/// What the parameters above say; "size" and "tileable" if the node has them.
+/// What the parameters above say; "size", "tileable" and "whole_bricks" if the node has them.
 SynthesisOptions synthesis_options(const NodeContext& node, const Index& index);
 
 /// Throws Error about port "uv" unless the uv map was made for the exemplar of the index.

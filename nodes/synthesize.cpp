@@ -91,6 +91,7 @@ NodeType synthesize_node() {
   t.params = with_synthesis_params(
       {result_size_param(),
        tileable_param(),
+       whole_bricks_param(),
        surface_param("surface", "Size of the whole surface that the result is a part of; a side of 0 is the result's.",
                      0),
        {.name = "origin",

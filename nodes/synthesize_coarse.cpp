@@ -16,7 +16,8 @@ NodeType synthesize_coarse_node() {
       "synthesize only: it tells where blocks of 2x2 pixels of the finest level begin.";
   t.inputs = {index_port()};
   t.outputs = {{.name = "uv", .type = ValueType::uv_map, .help = "the coarse levels, for \"coarse\" of synthesize"}};
-  t.params = with_synthesis_params({surface_param("size", "Size of the whole surface.", 1), tileable_param()});
+  t.params = with_synthesis_params(
+      {surface_param("size", "Size of the whole surface.", 1), tileable_param(), whole_bricks_param()});
   t.check = check_synthesis_params;
   t.compute = [](NodeContext& node) {
     const auto index = node.input<Index>("index");

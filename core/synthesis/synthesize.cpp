@@ -245,8 +245,8 @@ class LevelWork {
   bool refills() const { return level_ == seam_level && moves_seams() && regular() && !control_; }
   /// Bricks are laid whole where only seams still move, before they look for the pixel.
   bool lays_bricks() const {
-    return level_ < seam_level && moves_seams() && regular() && !control_ && !fixed_.any() &&
-           shared_.index.appearance()->repeats().parts.empty() &&
+    return shared_.options.whole_bricks && level_ < seam_level && moves_seams() && regular() && !control_ &&
+           !fixed_.any() && shared_.index.appearance()->repeats().parts.empty() &&
            (shared_.lattice.rank == 1 || shared_.lattice.longest_step() >= shortest_brick);
   }
   /// Whether the exemplar has bricks.

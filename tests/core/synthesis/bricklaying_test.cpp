@@ -56,7 +56,8 @@ TEST_CASE("bricks of a wall are whole in what is made of it, lying and standing"
     CAPTURE(upright);
     const DrawnWall wall({240, 220}, upright);
     CHECK(cut_share(lay(wall, {.size = {480, 480}, .seed = 1})) < 0.0025);
-    // As drafts they are not laid: what the figure is worth.
+    // What the figure is worth: they need not be laid, and in drafts are not.
+    CHECK(cut_share(lay(wall, {.size = {480, 480}, .seed = 1, .whole_bricks = false})) > 0.005);
     CHECK(cut_share(lay(wall, {.size = {480, 480}, .seed = 1, .quality = Quality::draft})) > 0.005);
   }
 }
