@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "nodes/registry.h"
-#include "tests/exemplars.h"
+#include "tests/core/drawn_wall.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -39,6 +39,21 @@ TEST_CASE("a part of a surface is that part of the whole, with coarse levels mad
   CHECK(!given->wraps().x);
   for (int y = 0; y < 30; y++)
     for (int x = 0; x < 50; x++) REQUIRE(given->at(x, y) == all->at((270 + x) % 300, 20 + y));
+}
+
+TEST_CASE("whole bricks are a choice, of no weight to drafts, and laid alike in parts") {
+  const IndexPtr index = make_index(DrawnWall({240, 220}).appearance(), 3, Task());
+  const auto made = [&](Params params) { return uv_of(run_node("synthesize", params, {{"index", {index}}})); };
+  const Params laid = {{"size", Size{300, 260}}}, loose = {{"size", Size{300, 260}}, {"whole_bricks", false}};
+  const UvMapPtr whole = made(laid);
+  CHECK(whole->digest() != made(loose)->digest());
+  Params draft = laid, loose_draft = loose;
+  draft["quality"] = loose_draft["quality"] = std::string("draft");
+  CHECK(made(draft)->digest() == made(loose_draft)->digest());
+
+  const UvMapPtr part = made({{"surface", Size{300, 260}}, {"size", Size{80, 70}}, {"origin", Numbers{200, 30}}});
+  for (int y = 0; y < 70; y++)
+    for (int x = 0; x < 80; x++) REQUIRE(part->at(x, y) == whole->at(200 + x, 30 + y));
 }
 
 TEST_CASE("the whole surface from its coarse levels is what synthesize makes by itself") {
