@@ -85,7 +85,7 @@ constexpr int seam_level = 1;
 // At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
 // brick away. Courses do not tell how long bricks are.
 constexpr SeamMoves to_the_pixel{.reach = 4, .stay = 32};
-constexpr SeamMoves around_bricks{.reach = 8, .stay = 2, .block = 2};
+constexpr SeamMoves around_bricks{.reach = 8, .stay = 1, .block = 2};
 constexpr SeamMoves along_courses{.reach = 20, .stay = 8};
 constexpr int nearest_joint = 10, farthest_joint = 24;
 constexpr double shortest_brick = 64;  // pixels; what is shorter is laid well enough as it is

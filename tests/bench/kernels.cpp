@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 
 #include "core/analysis/appearance_space.h"
+#include "core/analysis/coursing.h"
 #include "core/analysis/principal_components.h"
 #include "core/analysis/similar_sets.h"
 #include "core/analysis/weighting.h"
@@ -179,6 +180,41 @@ BENCHMARK(synthesis)
     ->MeasureProcessCPUTime()
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
+
+/// The generated wall: courses of 21 pixels to 256, bricks of three times that.
+IndexPtr wall_of(int side) {
+  static std::map<int, IndexPtr> made;
+  IndexPtr& index = made[side];
+  if (index) return index;
+  PatternSpec spec;
+  spec.size = {side, side};
+  const MaterialPtr material = Material::of(make_pattern(spec, Task())->find(Semantic::base_color));
+  const double course = side / 12.0;
+  const FeaturesPtr features =
+      weighted_features(*material, {{material->maps()[0].name, {1.0}}}, false)->with(Lattice{1, {0, course}, {}, 0.9});
+  index = make_index(make_appearance(*features, {}, {}, Task()), similar_per_pixel, Task());
+  return index;
+}
+
+void coursing(benchmark::State& state) {
+  const IndexPtr index = wall_of(int(state.range(0)));
+  for (auto _ : state) {
+    const Coursing found = find_coursing(*index->appearance(), Task());
+    if (found.empty()) state.SkipWithError("no courses");
+  }
+  count_items(state, index->appearance()->size().area());
+}
+BENCHMARK(coursing)->RangeMultiplier(2)->Range(256, 2048)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+
+/// From 256x256 to a square of that side, without and with bricks laid whole.
+void wall(benchmark::State& state) {
+  const IndexPtr index = wall_of(256);
+  const int side = int(state.range(0));
+  const SynthesisOptions options{.size = {side, side}, .whole_bricks = state.range(1) != 0};
+  for (auto _ : state) benchmark::DoNotOptimize(synthesize(*index, options, Task()).get());
+  count_items(state, options.size.area());
+}
+BENCHMARK(wall)->ArgsProduct({{512, 1024, 2048}, {0, 1}})->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 
 void png_writing(benchmark::State& state) {
   PatternSpec spec;
