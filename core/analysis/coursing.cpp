@@ -98,8 +98,9 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
     out.courses.insert(out.courses.end(), courses.begin(), courses.end());
   }
   if (int(out.courses.size()) < least_courses) return {};
-  // What goes on across courses would be cut up with each of them, unless a lattice has its place.
-  if (appearance.lattice().rank < 2 && aligned_share(out.courses, out.half_joint) > most_aligned) return {};
+  // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and whole, by
+  // themselves.
+  if (aligned_share(out.courses, out.half_joint) > most_aligned) return {};
   return out;
 }
 
