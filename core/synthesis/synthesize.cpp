@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -85,7 +86,9 @@ constexpr int seam_level = 1;
 // At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
 // brick away. Courses do not tell how long bricks are.
 constexpr SeamMoves to_the_pixel{.reach = 4, .stay = 32};
-constexpr SeamMoves around_bricks{.reach = 8, .stay = 1, .block = 2};
+// Around whole bricks they keep to joints, and hardly go farther than those are broad.
+constexpr int around_bricks = 2, farthest_around_bricks = 8;
+constexpr double stay_around_bricks = 1;
 constexpr SeamMoves along_courses{.reach = 20, .stay = 8};
 constexpr int nearest_joint = 10, farthest_joint = 24;
 constexpr double shortest_brick = 64;  // pixels; what is shorter is laid well enough as it is
@@ -181,8 +184,12 @@ class LevelWork {
       refill_pieces(starts, 2, level, occupancy_, random_bits(shared_.options.seed, Purpose::refilling), shared_.task);
     }
     if (phase_.resolves_cells()) align_pieces(starts, 2, level, alignment_reach, shared_.task);
-    const bool laid = lays_bricks() && lay(starts, level);
-    if (moves_seams()) move_seams(starts, level, laid ? around_bricks : to_joints(), shared_.task);
+    if (lays_bricks())
+      if (const std::optional<SeamMoves> moves = lay(starts, level)) {
+        move_seams(starts, level, *moves, shared_.task);
+        return starts;
+      }
+    if (moves_seams()) move_seams(starts, level, to_joints(), shared_.task);
     return starts;
   }
 
@@ -249,12 +256,15 @@ class LevelWork {
            !fixed_.any() && shared_.index.appearance()->repeats().parts.empty() &&
            (shared_.lattice.rank == 1 || shared_.lattice.longest_step() >= shortest_brick);
   }
-  /// Whether the exemplar has bricks.
-  bool lay(Field& starts, const CorrectionLevel& level) const {
+  /// How seams move then; nothing if the exemplar has no bricks.
+  std::optional<SeamMoves> lay(Field& starts, const CorrectionLevel& level) const {
     const Appearance& appearance = *shared_.index.appearance();
     const Coursing coursing = find_coursing(appearance, shared_.task);
     const LatticePhase phase(shared_.lattice, 0, surface_of(shared_.lattice, shared_.options, shared_.gaps));
-    return lay_bricks(starts, 2, level, appearance, coursing, phase, shared_.task);
+    if (!lay_bricks(starts, 2, level, appearance, coursing, phase, shared_.task)) return std::nullopt;
+    const int half_joint = coursing.half_joint << coursing.level;
+    return SeamMoves{
+        .reach = std::min(around_bricks + half_joint, farthest_around_bricks), .stay = stay_around_bricks, .block = 2};
   }
   /// Of blocks of two by two pixels.
   SeamMoves to_joints() const {
