@@ -51,10 +51,11 @@ double aligned_share(const std::vector<ExemplarCourse>& courses, int half_joint)
 }
 
 /// Nothing if joints cannot be told from bricks, or bricks hardly end.
-std::vector<ExemplarCourse> whole_courses(const CourseSheet& sheet, const Coursing& m, int kind, const Task& task) {
+std::vector<ExemplarCourse> whole_courses(const CourseSheet& sheet, Coursing& m, int kind, const Task& task) {
   std::vector<ExemplarCourse> courses = courses_of_kind(m, kind, sheet.breadth);
   const HeadJoints head_joints(sheet, courses, m.half_joint);
   if (head_joints.told() < least_told_of_boards) return {};
+  m.told = kind == 0 ? head_joints.told() : std::min(m.told, head_joints.told());
   std::erase_if(courses, [&](const ExemplarCourse& c) {
     const CourseInside inside(c, m.half_joint);
     return inside.begin < 0 || inside.end > sheet.breadth || inside.end - inside.begin < least_inside;

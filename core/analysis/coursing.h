@@ -24,6 +24,7 @@ struct Coursing {
   int half_joint = 0;                   ///< of a joint's breadth, without its middle
   std::vector<double> beds;             ///< where the first course of each kind may begin, in 0..period, ascending
   std::vector<ExemplarCourse> courses;  ///< those that lie in the exemplar as wholes
+  double told = 0;  ///< how far joints and bricks lie apart, in deviations: of the kind that is told least
   bool empty() const { return courses.empty(); }
 };
 

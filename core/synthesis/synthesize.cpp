@@ -86,8 +86,10 @@ constexpr int seam_level = 1;
 // At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
 // brick away. Courses do not tell how long bricks are.
 constexpr SeamMoves to_the_pixel{.reach = 4, .stay = 32};
-// Around whole bricks they keep to joints, and hardly go farther than those are broad.
-constexpr int around_bricks = 2, farthest_around_bricks = 8;
+// Around whole bricks they look for joints that bricks were cut beside. The more clearly those are told, the less far:
+// boards would keep stubs of joints.
+constexpr int around_bricks = 8, around_clear_bricks = 2;
+constexpr double clearly_told = 2;
 constexpr double stay_around_bricks = 1;
 constexpr SeamMoves along_courses{.reach = 20, .stay = 8};
 constexpr int nearest_joint = 10, farthest_joint = 24;
@@ -262,9 +264,9 @@ class LevelWork {
     const Coursing coursing = find_coursing(appearance, shared_.task);
     const LatticePhase phase(shared_.lattice, 0, surface_of(shared_.lattice, shared_.options, shared_.gaps));
     if (!lay_bricks(starts, 2, level, appearance, coursing, phase, shared_.task)) return std::nullopt;
-    const int half_joint = coursing.half_joint << coursing.level;
+    const int clear = std::min(around_bricks, around_clear_bricks + (coursing.half_joint << coursing.level));
     return SeamMoves{
-        .reach = std::min(around_bricks + half_joint, farthest_around_bricks), .stay = stay_around_bricks, .block = 2};
+        .reach = coursing.told >= clearly_told ? clear : around_bricks, .stay = stay_around_bricks, .block = 2};
   }
   /// Of blocks of two by two pixels.
   SeamMoves to_joints() const {
