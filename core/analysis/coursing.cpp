@@ -19,9 +19,10 @@ constexpr double largest_period = 96;   // more is looked at where pixels are la
 constexpr double least_told_of_bricks = 1, least_told_of_boards = 0.7;
 constexpr double shortest_board = 5;                 // course heights
 constexpr int least_of_kind = 2, least_courses = 3;  // or there is nothing to choose from
-constexpr double least_joints = 0.5;                 // in a course of each kind
-constexpr double most_aligned = 0.3;                 // of joints that go on in the course below
-constexpr int least_inside = 3;                      // rows of a course that belong to no joint
+constexpr double least_shown = 0.8;   // of the exemplar: no result shows courses that its border cuts off
+constexpr double least_joints = 0.5;  // in a course of each kind
+constexpr double most_aligned = 0.3;  // of joints that go on in the course below
+constexpr int least_inside = 3;       // rows of a course that belong to no joint
 
 /// All courses of one kind of which the exemplar shows something, whole or not.
 std::vector<ExemplarCourse> courses_of_kind(const Coursing& m, int kind, int breadth) {
@@ -33,6 +34,13 @@ std::vector<ExemplarCourse> courses_of_kind(const Coursing& m, int kind, int bre
     if (end > 0 && begin < breadth) out.push_back({begin, end, kind, {}});
   }
   return out;
+}
+
+/// What share of so many rows whole courses take.
+double shown_share(const std::vector<ExemplarCourse>& courses, int breadth) {
+  double rows = 0;
+  for (const ExemplarCourse& c : courses) rows += c.end - c.begin;
+  return rows / breadth;
 }
 
 /// How many of the joints go on in a course below.
@@ -98,7 +106,7 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
     if (courses.empty()) return {};
     out.courses.insert(out.courses.end(), courses.begin(), courses.end());
   }
-  if (int(out.courses.size()) < least_courses) return {};
+  if (int(out.courses.size()) < least_courses || shown_share(out.courses, sheet.breadth) < least_shown) return {};
   // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and whole, by
   // themselves.
   if (aligned_share(out.courses, out.half_joint) > most_aligned) return {};

@@ -124,6 +124,12 @@ TEST_CASE("what goes on across courses is not cut up") {
   CHECK(coursing_of(image, {2, {64, 0}, {0, 40}, 0.9}).empty());
 }
 
+TEST_CASE("walls are left alone of which the border cuts a fifth") {
+  const auto courses = [](int height) { return find_coursing(*DrawnWall({240, height}).appearance(), Task()).courses; };
+  CHECK(courses(84).size() == 3);
+  CHECK(courses(91).empty());
+}
+
 TEST_CASE("there are no courses to lay without courses, without joints, or where bricks hardly end") {
   const ImagePtr image = DrawnWall({240, 220}).image();
   CHECK(coursing_of(image, {}).empty());
