@@ -10,30 +10,7 @@
 
 #include "core/geometry.h"
 #include "core/hash.h"
-
-// This file is read once per instruction set, and this only once.
-#ifndef TERRAZZO_SUB_PASS
-#define TERRAZZO_SUB_PASS
-namespace terrazzo {
-namespace {
-
-/// Every second pixel of every second row.
-struct SubPass {
-  /// `wanted`: columns and rows of the field; `odd_x`, `odd_y`: which of their positions in the plane.
-  SubPass(const PlaneWindow& window, const Rect& wanted, int odd_x, int odd_y)
-      : first_x(wanted.x + ((window.part.x + wanted.x + odd_x) & 1)),
-        first_y(wanted.y + ((window.part.y + wanted.y + odd_y) & 1)),
-        columns((wanted.right() - first_x + 1) / 2),
-        rows((wanted.bottom() - first_y + 1) / 2) {}
-  int x(int column) const { return first_x + 2 * column; }
-  int y(int row) const { return first_y + 2 * row; }
-  int first_x, first_y;
-  int columns, rows;
-};
-
-}  // namespace
-}  // namespace terrazzo
-#endif
+#include "core/synthesis/sub_pass.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace terrazzo {
