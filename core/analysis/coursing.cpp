@@ -16,12 +16,13 @@ constexpr double smallest_period = 14;  // pixels; finer joints are lost
 constexpr double largest_period = 96;   // more is looked at where pixels are larger
 // How far joints and what is between them lie apart, in deviations. Courses of boards are cut so seldom that it may be
 // less.
-constexpr double least_told_of_bricks = 1, least_told_of_boards = 0.7;
+constexpr double least_told_of_bricks = 1.1, least_told_of_boards = 0.7;
 constexpr double shortest_board = 5;                 // course heights
 constexpr int least_of_kind = 2, least_courses = 3;  // or there is nothing to choose from
 constexpr double least_shown = 0.8;   // of the exemplar: no result shows courses that its border cuts off
 constexpr double least_joints = 0.5;  // in a course of each kind
 constexpr double most_aligned = 0.3;  // of joints that go on in the course below
+constexpr double least_astray = 0.6;  // joints to each brick that a lattice has, which do not come again with it
 constexpr int least_inside = 3;       // rows of a course that belong to no joint
 
 /// All courses of one kind of which the exemplar shows something, whole or not.
@@ -58,6 +59,39 @@ double aligned_share(const std::vector<ExemplarCourse>& courses, int half_joint)
   return all > 0 ? double(aligned) / all : 0;
 }
 
+/// How many joints there are for every `step` along the courses that do not come again a step farther on.
+double joints_astray(const std::vector<ExemplarCourse>& courses, double step, int half_joint) {
+  double length = 0;
+  int joints = 0, followed = 0, again = 0;
+  for (const ExemplarCourse& c : courses) {
+    const std::vector<double> sure = sure_joints(c);
+    length += double(c.joint.size());
+    joints += int(sure.size());
+    for (const double u : sure) {
+      if (u + step >= double(c.joint.size()) - half_joint - 1) continue;
+      again += std::ranges::any_of(sure, [&](double v) { return std::abs(u + step - v) <= half_joint + 1; });
+      followed++;
+    }
+  }
+  return followed > 0 ? (1 - double(again) / followed) * joints * step / length : 0;
+}
+
+/// From joint to joint, as most are: where the exemplar shows few bricks from end to end, the mean of all.
+double usual_brick(const std::vector<ExemplarCourse>& courses) {
+  std::vector<double> bricks;
+  double joints = 0, length = 0;
+  for (const ExemplarCourse& c : courses) {
+    const std::vector<double> sure = sure_joints(c);
+    for (size_t i = 1; i < sure.size(); i++) bricks.push_back(sure[i] - sure[i - 1]);
+    joints += double(sure.size());
+    length += double(c.joint.size());
+  }
+  if (bricks.size() < courses.size()) return length / joints;
+  const auto middle = bricks.begin() + std::ptrdiff_t(bricks.size() / 2);
+  std::ranges::nth_element(bricks, middle);
+  return *middle;
+}
+
 /// Nothing if joints cannot be told from bricks, or bricks hardly end.
 std::vector<ExemplarCourse> whole_courses(const CourseSheet& sheet, Coursing& m, int kind, const Task& task) {
   std::vector<ExemplarCourse> courses = courses_of_kind(m, kind, sheet.breadth);
@@ -75,8 +109,8 @@ std::vector<ExemplarCourse> whole_courses(const CourseSheet& sheet, Coursing& m,
   double joints = 0;
   for (const ExemplarCourse& c : courses) joints += double(sure_joints(c).size());
   if (int(courses.size()) < least_of_kind || joints < least_joints * double(courses.size())) return {};
-  const double height = courses[0].end - courses[0].begin, brick = sheet.length * double(courses.size()) / joints;
-  const bool boards = brick >= shortest_board * height;
+  const double height = courses[0].end - courses[0].begin;
+  const bool boards = usual_brick(courses) >= shortest_board * height;
   return boards || head_joints.told() >= least_told_of_bricks ? courses : std::vector<ExemplarCourse>{};
 }
 
@@ -107,9 +141,11 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
     out.courses.insert(out.courses.end(), courses.begin(), courses.end());
   }
   if (int(out.courses.size()) < least_courses || shown_share(out.courses, sheet.breadth) < least_shown) return {};
-  // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and whole, by
-  // themselves.
+  // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and bricks that are all
+  // alike, whole by themselves.
   if (aligned_share(out.courses, out.half_joint) > most_aligned) return {};
+  const double step = std::abs(out.axes.upright ? along.y : along.x) / (1 << out.level);
+  if (appearance.lattice().rank == 2 && joints_astray(out.courses, step, out.half_joint) < least_astray) return {};
   return out;
 }
 
