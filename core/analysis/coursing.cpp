@@ -19,11 +19,12 @@ constexpr double largest_period = 96;   // more is looked at where pixels are la
 constexpr double least_told_of_bricks = 1.1, least_told_of_boards = 0.7;
 constexpr double shortest_board = 5;                 // course heights
 constexpr int least_of_kind = 2, least_courses = 3;  // or there is nothing to choose from
-constexpr double least_shown = 0.8;   // of the exemplar: no result shows courses that its border cuts off
-constexpr double least_joints = 0.5;  // in a course of each kind
-constexpr double most_aligned = 0.3;  // of joints that go on in the course below
-constexpr double least_astray = 0.6;  // joints to each brick that a lattice has, which do not come again with it
-constexpr int least_inside = 3;       // rows of a course that belong to no joint
+constexpr double least_shown = 0.8;     // of the exemplar: no result shows courses that its border cuts off
+constexpr double least_joints = 0.5;    // in a course of each kind
+constexpr double most_aligned = 0.3;    // of joints that go on in the course below
+constexpr double least_astray = 0.6;    // joints to each brick of a lattice which do not come again with it
+constexpr double least_between = 0.15;  // share_between_bricks()
+constexpr int least_inside = 3;         // rows of a course that belong to no joint
 
 /// All courses of one kind of which the exemplar shows something, whole or not.
 std::vector<ExemplarCourse> courses_of_kind(const Coursing& m, int kind, int breadth) {
@@ -74,6 +75,48 @@ double joints_astray(const std::vector<ExemplarCourse>& courses, double step, in
     }
   }
   return followed > 0 ? (1 - double(again) / followed) * joints * step / length : 0;
+}
+
+/// What share of all that bricks vary by is what they differ by as wholes: the intraclass correlation.
+double share_between_bricks(const CourseSheet& sheet, const std::vector<ExemplarCourse>& courses, int half_joint) {
+  const auto channels = size_t(sheet.channels());
+  std::vector<double> sums(channels, 0.0), squares(channels, 0.0), of_means(channels, 0.0);
+  double pixels = 0;
+  const auto add_brick = [&](const CourseInside& inside, int begin, int end) {
+    const double count = double(end - begin) * (inside.end - inside.begin);
+    if (begin >= end) return;
+    pixels += count;
+    for (size_t k = 0; k < channels; k++) {
+      double sum = 0;
+      for (int v = inside.begin; v < inside.end; v++)
+        for (int u = begin; u < end; u++) {
+          const double value = sheet.at(u, v)[k];
+          sum += value;
+          squares[k] += value * value;
+        }
+      sums[k] += sum;
+      of_means[k] += sum * sum / count;
+    }
+  };
+  const int margin = half_joint + 2;
+  for (const ExemplarCourse& c : courses) {
+    const std::vector<double> joints = sure_joints(c);
+    for (size_t i = 1; i < joints.size(); i++)
+      add_brick(CourseInside(c, half_joint), int(joints[i - 1]) + margin, int(joints[i]) + 1 - margin);
+  }
+  double between = 0, all = 0;
+  for (size_t k = 0; k < channels && pixels > 0; k++) {
+    between += of_means[k] - sums[k] * sums[k] / pixels;
+    all += squares[k] - sums[k] * sums[k] / pixels;
+  }
+  return all > 0 ? between / all : 0;
+}
+
+/// Whether bricks are whole where the lattice puts them together: if its steps are theirs, and no one can tell two
+/// halves of theirs that do not belong together. Nor are they better cut at joints of which no one is sure.
+bool lattice_keeps_whole(const CourseSheet& sheet, const Coursing& m, double step) {
+  if (joints_astray(m.courses, step, m.half_joint) >= least_astray) return false;
+  return !m.is_clear() || share_between_bricks(sheet, m.courses, m.half_joint) < least_between;
 }
 
 /// From joint to joint, as most are: where the exemplar shows few bricks from end to end, the mean of all.
@@ -141,11 +184,11 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
     out.courses.insert(out.courses.end(), courses.begin(), courses.end());
   }
   if (int(out.courses.size()) < least_courses || shown_share(out.courses, sheet.breadth) < least_shown) return {};
-  // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and bricks that are all
-  // alike, whole by themselves.
+  // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and whole, by
+  // themselves.
   if (aligned_share(out.courses, out.half_joint) > most_aligned) return {};
   const double step = std::abs(out.axes.upright ? along.y : along.x) / (1 << out.level);
-  if (appearance.lattice().rank == 2 && joints_astray(out.courses, step, out.half_joint) < least_astray) return {};
+  if (appearance.lattice().rank == 2 && lattice_keeps_whole(sheet, out, step)) return {};
   return out;
 }
 

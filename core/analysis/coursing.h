@@ -26,6 +26,7 @@ struct Coursing {
   std::vector<ExemplarCourse> courses;  ///< those that lie in the exemplar as wholes
   double told = 0;  ///< how far joints and bricks lie apart, in deviations: of the kind that is told least
   bool empty() const { return courses.empty(); }
+  bool is_clear() const { return told >= 2; }
 };
 
 /// Bed joints are what differs from both its sides in the same way along all of the exemplar, once a period of the

@@ -58,7 +58,6 @@ constexpr SeamMoves to_the_pixel{.reach = 4, .stay = 32};
 // Around whole bricks they look for joints that bricks were cut beside. The more clearly those are told, the less far:
 // boards would keep stubs of joints.
 constexpr int around_bricks = 8, around_clear_bricks = 2;
-constexpr double clearly_told = 2;
 constexpr double stay_around_bricks = 1;
 constexpr SeamMoves along_courses{.reach = 20, .stay = 8};
 constexpr int nearest_joint = 10, farthest_joint = 24;
@@ -238,8 +237,7 @@ std::optional<SeamMoves> LevelWork::lay(Field& starts, const CorrectionLevel& le
   const LatticePhase phase(shared_.lattice, 0, surface_of(shared_.lattice, shared_.options, shared_.gaps));
   if (!lay_bricks(starts, 2, level, appearance, coursing, phase, shared_.task)) return std::nullopt;
   const int clear = std::min(around_bricks, around_clear_bricks + (coursing.half_joint << coursing.level));
-  return SeamMoves{
-      .reach = coursing.told >= clearly_told ? clear : around_bricks, .stay = stay_around_bricks, .block = 2};
+  return SeamMoves{.reach = coursing.is_clear() ? clear : around_bricks, .stay = stay_around_bricks, .block = 2};
 }
 
 SeamMoves LevelWork::to_joints() const {

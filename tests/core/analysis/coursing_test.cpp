@@ -132,18 +132,23 @@ TEST_CASE("walls are left alone of which the border cuts a fifth") {
 
 TEST_CASE("bricks that are all alike are left to a lattice that has them") {
   // Running bond: bricks of 64x40, every other course half a brick farther on.
-  const ImagePtr image = test::make_image(
-      {320, 240}, 3,
-      [](int x, int y, int c) {
-        const double speckle = 0.05 * unit_double(random_bits(6, x, y, c));
-        const int course = y / 40, shifted = x + course % 2 * 32;
-        if (y % 40 < 3 || shifted % 64 < 3) return float(0.8 + speckle);
-        return float(0.2 + 0.2 * unit_double(random_bits(5, course, shifted / 64)) + speckle);
-      },
-      Semantic::base_color, "srgb_texture");
-  CHECK(coursing_of(image, {2, {64, 0}, {32, 40}, 0.9}).empty());
-  CHECK(!coursing_of(image, {2, {90, 0}, {45, 40}, 0.9}).empty());
-  CHECK(!coursing_of(image, {1, {0, 40}, {}, 0.9}).empty());
+  const auto wall = [](float tints) {
+    return test::make_image(
+        {320, 240}, 3,
+        [tints](int x, int y, int c) {
+          const float speckle = 0.05f * float(unit_double(random_bits(6, x, y, c)));
+          const int course = y / 40, shifted = x + course % 2 * 32;
+          if (y % 40 < 3 || shifted % 64 < 3) return 0.8f + speckle;
+          return 0.2f + tints * float(unit_double(random_bits(5, course, shifted / 64))) + speckle;
+        },
+        Semantic::base_color, "srgb_texture");
+  };
+  const Lattice bond{2, {64, 0}, {32, 40}, 0.9}, other_bond{2, {90, 0}, {45, 40}, 0.9}, courses{1, {0, 40}, {}, 0.9};
+  const ImagePtr alike = wall(0), of_many_tints = wall(0.2f);
+  CHECK(coursing_of(alike, bond).empty());
+  CHECK(!coursing_of(of_many_tints, bond).empty());
+  CHECK(!coursing_of(alike, other_bond).empty());
+  CHECK(!coursing_of(alike, courses).empty());
 }
 
 TEST_CASE("there are no courses to lay without courses, without joints, or where bricks hardly end") {
