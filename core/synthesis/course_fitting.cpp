@@ -87,6 +87,9 @@ class Leaving {
     for (int to = -farthest; to <= farthest; to++)
       by_part_[size_t(to + farthest)].consider({cost + per_gap_ * std::abs(off_middle - to), k});
   }
+  void consider(const Leaving& other) {
+    for (size_t part = 0; part < by_part_.size(); part++) by_part_[part].consider(other.by_part_[part]);
+  }
   const Cheapest& to(int off_middle) const { return by_part_[size_t(off_middle + farthest)]; }
 
  private:
@@ -122,6 +125,7 @@ class Way {
         cut_count_(labels.cuts.size()),
         changes_(shown.size() + 1),
         price_(size_t(labels.count()), 0),
+        unlike_(size_t(labels.count()), 0),
         grown_(size_t(labels.count()), impossible),
         sums_(fit.shortest + 1, size_t(labels.count()), 0),
         entered_(fit.shortest + 1, cut_count_, impossible),
@@ -184,34 +188,48 @@ class Way {
 
   int length() const { return int(shown_.size()); }
 
-  int32_t cost_of(int x, int course, int label) const {
+  /// What each label of a course costs in a column.
+  void price_labels(int x, int course) {
     const CourseColumns& columns = *labels_.course(course).columns;
-    const auto u = size_t(label - labels_.begin(course));
-    if (!columns.usable[u]) return forbidden;
-    const auto unlike = int32_t(difference(shown_[size_t(x)], columns.looks[u]) * fit_.per_difference);
-    return std::min(fit_.most_unlike, unlike) + price_[size_t(label)];
+    const ColumnLook shown = shown_[size_t(x)];
+    const auto begin = size_t(labels_.begin(course));
+    for (size_t u = 0; u < columns.looks.size(); u++) unlike_[begin + u] = difference(shown, columns.looks[u]);
+    const double per_difference = fit_.per_difference;
+    const int32_t most = fit_.most_unlike;
+    for (size_t u = 0; u < columns.looks.size(); u++) {
+      const int32_t cost = std::min(most, int32_t(unlike_[begin + u] * per_difference)) + price_[begin + u];
+      unlike_[begin + u] = columns.usable[u] ? cost : forbidden;
+    }
   }
 
   /// What it costs to have come to each label of a course, in a run that is long enough.
   void go_on(int x, int course, std::vector<int32_t>& next) {
-    const int begin = labels_.begin(course), step = fit_.step;
-    std::vector<int64_t>& sum = sums_.at(x);
-    for (int l = begin; l < labels_.end(course); l++) {
-      const int32_t here = cost_of(x, course, l);
-      const bool has_before = l - step >= begin && x > 0;
-      sum[size_t(l)] = (has_before ? sums_.at(x - 1)[size_t(l - step)] : 0) + here;
-      int32_t cost = impossible;
-      if (x == 0 && first_ == no_cut && in_phase(x, course, l)) cost = here;
-      if (has_before && grown_[size_t(l - step)] < impossible) cost = grown_[size_t(l - step)] + here;
-      const CutIndex k = labels_.long_enough_since[size_t(l)];
-      if (k != no_cut && x >= fit_.shortest - 1) {
-        const int64_t young = young_cost(x, k, fit_.shortest);
-        if (young < cost) {
-          cost = int32_t(young);
-          grew_[size_t(x) * cut_count_ + k] = 1;
-        }
-      }
-      next[size_t(l)] = cost;
+    price_labels(x, course);
+    const int begin = labels_.begin(course), end = labels_.end(course), step = fit_.step;
+    int64_t* sum = sums_.at(x).data();
+    const int64_t* sum_before = x > 0 ? sums_.at(x - 1).data() : nullptr;
+    const int first_after = x > 0 ? std::min(end, begin + step) : end;
+    for (int l = begin; l < first_after; l++) {
+      sum[l] = unlike_[size_t(l)];
+      next[size_t(l)] = x == 0 && first_ == no_cut && in_phase(x, course, l) ? unlike_[size_t(l)] : impossible;
+    }
+    for (int l = first_after; l < end; l++) {
+      const int32_t before = grown_[size_t(l - step)];
+      sum[l] = sum_before[l - step] + unlike_[size_t(l)];
+      next[size_t(l)] = before < impossible ? before + unlike_[size_t(l)] : impossible;
+    }
+    if (x >= fit_.shortest - 1) grow_up(x, course, next);
+  }
+
+  /// Runs that have just become long enough.
+  void grow_up(int x, int course, std::vector<int32_t>& next) {
+    for (int k = labels_.cuts_begin(course); k < labels_.cuts_end(course); k++) {
+      const int label = labels_.cuts[size_t(k)].label + (fit_.shortest - 1) * fit_.step;
+      if (label >= labels_.end(course)) continue;
+      const int64_t young = young_cost(x, CutIndex(k), fit_.shortest);
+      if (young >= next[size_t(label)]) continue;
+      next[size_t(label)] = int32_t(young);
+      grew_[size_t(x) * cut_count_ + size_t(k)] = 1;
     }
   }
 
@@ -244,20 +262,18 @@ class Way {
     }
     std::vector<int32_t> leave(cut_count_);
     for (size_t k = 0; k < cut_count_; k++) leave[k] = leaving(k);
-    // Of the courses before each, and of those behind it.
-    std::vector<Leaving> before(size_t(labels_.courses()), Leaving(fit_.per_gap)), behind = before;
-    for (int c = 0; c + 1 < labels_.courses(); c++) {
-      before[size_t(c) + 1] = before[size_t(c)];
-      consider_course(c, leave, before[size_t(c) + 1]);
-    }
-    for (int c = labels_.courses() - 1; c > 0; c--) {
-      behind[size_t(c) - 1] = behind[size_t(c)];
-      consider_course(c, leave, behind[size_t(c) - 1]);
+    // Of each course, of those before each, and of those behind it.
+    const auto courses = size_t(labels_.courses());
+    std::vector<Leaving> of(courses, Leaving(fit_.per_gap)), before = of, behind = of;
+    for (int c = 0; c < labels_.courses(); c++)
+      for (int k = labels_.cuts_begin(c); k < labels_.cuts_end(c); k++) consider_cut(k, leave, of[size_t(c)]);
+    for (size_t c = 1; c < courses; c++) {
+      before[c] = before[c - 1];
+      before[c].consider(of[c - 1]);
+      behind[courses - 1 - c] = behind[courses - c];
+      behind[courses - 1 - c].consider(of[courses - c]);
     }
     for (int c = 0; c < labels_.courses(); c++) enter_course(x, c, before[size_t(c)], behind[size_t(c)], leave);
-  }
-  void consider_course(int course, const std::vector<int32_t>& leave, Leaving& to) const {
-    for (int k = labels_.cuts_begin(course); k < labels_.cuts_end(course); k++) consider_cut(k, leave, to);
   }
   void consider_cut(int k, const std::vector<int32_t>& leave, Leaving& to) const {
     to.consider(leave[size_t(k)], CutIndex(k), labels_.cuts[size_t(k)].off_middle);
@@ -332,6 +348,7 @@ class Way {
   size_t cut_count_;
   std::vector<std::vector<std::pair<size_t, int32_t>>> changes_;  // of prices
   std::vector<int32_t> price_;                                    // now, of each label
+  std::vector<int32_t> unlike_;                                   // what each costs by itself
   std::vector<int32_t> grown_;  // what each label costs at the end of a run that is long enough
   Recent<int64_t> sums_;        // of what labels have cost that follow each other
   Recent<int32_t> entered_;     // what it costs to begin a run with each cut
