@@ -15,8 +15,13 @@ namespace {
 constexpr double largest_side = 65536;  // of an exemplar
 constexpr size_t most_described = 4;
 
-std::string described(const Lattice& l) {
-  if (l.rank == 0) return fmt::format("no lattice found (certainty {:.2f})", l.certainty);
+/// `least`: the certainty asked for.
+std::string described(const Lattice& l, double least) {
+  if (l.rank == 0 && l.certainty >= least)
+    return fmt::format("no lattice found: what repeats (certainty {:.2f}) is too seldom, or not alike enough, to tell",
+                       l.certainty);
+  if (l.rank == 0)
+    return fmt::format("no lattice found (certainty {:.2f}, at least {:.2f} is asked for)", l.certainty, least);
   if (l.rank == 2)
     return fmt::format("repeats by ({:.2f}, {:.2f}) and ({:.2f}, {:.2f}) pixels, certainty {:.2f}", l.first.x,
                        l.first.y, l.second.x, l.second.y, l.certainty);
@@ -41,11 +46,11 @@ FoundLattice lattice_of(NodeContext& node, const std::vector<ExemplarView>& view
   return find_lattice(views, node.number("least_certainty"), node.task());
 }
 
-std::string described(const BroughtTogether& all) {
+std::string described(const BroughtTogether& all, double least) {
   const size_t count = all.parts.size();
   std::string text;
   for (size_t i = 0; i < std::min(count, most_described); i++)
-    text += fmt::format("{}exemplar {}: {}", i > 0 ? "; " : "", i + 1, described(all.parts[i].lattice));
+    text += fmt::format("{}exemplar {}: {}", i > 0 ? "; " : "", i + 1, described(all.parts[i].lattice, least));
   if (count > most_described) text += fmt::format("; and {} more", count - most_described);
   if (all.kinds > 1)
     text +=
@@ -64,6 +69,7 @@ FoundLattice lattice_of_all(NodeContext& node, const Features& features) {
 void compute(NodeContext& node) {
   const auto features = node.input<Features>("features");
   const ImagePtr labels = node.optional_input<Image>("labels");
+  const double least = node.number("least_certainty");
   Repeats repeats;
   bool too_few = false;
   if (node.text("mode") != "off" && labels) {
@@ -71,12 +77,12 @@ void compute(NodeContext& node) {
         *features, label_places(labels, features->size(), node.task()),
         [&](const std::vector<ExemplarView>& views) { return lattice_of(node, views); }, node.flag("alike"),
         node.task());
-    node.note(described(all));
+    node.note(described(all, least));
     too_few = all.too_few;
     repeats = Repeats(std::move(all.parts));
   } else if (node.text("mode") != "off") {
     const FoundLattice found = lattice_of_all(node, *features);
-    node.note(described(found.lattice));
+    node.note(described(found.lattice, least));
     too_few = found.too_few;
     repeats = found.lattice;
   }

@@ -96,6 +96,22 @@ TEST_CASE("courses of bricks of random length are found as courses") {
   CHECK(l.first.y == doctest::Approx(9).epsilon(0.01));
 }
 
+TEST_CASE("a node that finds no lattice says what it found, and what was asked for") {
+  const auto note_of = [](float alike) {
+    const FeaturesPtr features = features_of({126, 126}, [alike](int x, int y) {
+      const auto noise = [](int u, int v, uint64_t seed) {
+        return float(unit_double(random_bits(seed, u / 3, v / 3)));
+      };
+      return alike * noise(x % 63, y % 63, 4) + (1 - alike) * noise(x, y, 5);
+    });
+    return run_node("regularity", {}, {{"features", {features}}}).notes.front();
+  };
+  CHECK(note_of(0).starts_with("no lattice found (certainty 0.0"));
+  CHECK(note_of(0).ends_with(", at least 0.08 is asked for)"));
+  // Four cells of which no two are much alike.
+  CHECK(note_of(0.5f).starts_with("no lattice found: what repeats (certainty 0."));
+}
+
 TEST_CASE("noise has no lattice") {
   CHECK(lattice_of(features_of({96, 96}, [](int x, int y) {
           return float(unit_double(random_bits(4, x / 3, y / 3)));
