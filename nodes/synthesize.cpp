@@ -72,7 +72,7 @@ size_t memory(const NodeContext& node) {
 NodeType synthesize_node() {
   NodeType t;
   t.name = "synthesize";
-  t.version = 18;
+  t.version = 19;
   t.category = "synthesis";
   t.summary = "Makes a uv map of any size from an index";
   t.help =

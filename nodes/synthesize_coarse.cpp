@@ -7,7 +7,7 @@ NodeType synthesize_coarse_node() {
   NodeType t;
   t.name = "synthesize_coarse";
   t.category = "synthesis";
-  t.version = 15;
+  t.version = 16;
   t.summary = "Makes the coarse levels of a surface too large to be made at once";
   t.help =
       "What synthesize does first: all that depends on the surface as a whole. Connect it to \"coarse\" of synthesize, "

@@ -14,14 +14,19 @@ namespace {
 
 constexpr double smallest_period = 14;  // pixels; finer joints are lost
 constexpr double largest_period = 96;   // more is looked at where pixels are larger
-// How far joints and what is between them lie apart, in deviations. Courses of boards are cut so seldom that it may be
-// less.
-constexpr double least_told_of_bricks = 1.1, least_told_of_boards = 0.7;
-constexpr double shortest_board = 5;                 // course heights
-constexpr int least_of_kind = 2, least_courses = 3;  // or there is nothing to choose from
+/// How far joints across and what is between them lie apart at least, in deviations, and how many go on in the course
+/// below at most.
+struct Demands {
+  double told_of_bricks, told_of_boards, most_aligned;
+};
+// Courses of boards are cut so seldom that they may be told less. Joints that are known by themselves only were chosen
+// for how they stand out.
+constexpr Demands of_joints_like_beds{1.1, 0.7, 0.3}, of_joints_by_themselves{1.4, 1.4, 0.1};
+constexpr double least_joints = 0.8, least_jointed = 0.4;  // in a course, and courses that have one
+constexpr double least_told_to_learn = 0.8;                // of bed joints
+constexpr double shortest_board = 5;                       // course heights
+constexpr int least_of_kind = 2, least_courses = 3;        // or there is nothing to choose from
 constexpr double least_shown = 0.8;     // of the exemplar: no result shows courses that its border cuts off
-constexpr double least_joints = 0.5;    // in a course of each kind
-constexpr double most_aligned = 0.3;    // of joints that go on in the course below
 constexpr double least_astray = 0.6;    // joints to each brick of a lattice which do not come again with it
 constexpr double least_between = 0.15;  // share_between_bricks()
 constexpr int least_inside = 3;         // rows of a course that belong to no joint
@@ -135,26 +140,52 @@ double usual_brick(const std::vector<ExemplarCourse>& courses) {
   return *middle;
 }
 
-/// Nothing if joints cannot be told from bricks, or bricks hardly end.
-std::vector<ExemplarCourse> whole_courses(const CourseSheet& sheet, Coursing& m, int kind, const Task& task) {
-  std::vector<ExemplarCourse> courses = courses_of_kind(m, kind, sheet.breadth);
-  const HeadJoints head_joints(sheet, courses, m.half_joint);
-  if (head_joints.told() < least_told_of_boards) return {};
-  m.told = kind == 0 ? head_joints.told() : std::min(m.told, head_joints.told());
-  std::erase_if(courses, [&](const ExemplarCourse& c) {
-    const CourseInside inside(c, m.half_joint);
-    return inside.begin < 0 || inside.end > sheet.breadth || inside.end - inside.begin < least_inside;
-  });
+/// Whether joints can be told from bricks, and bricks do end.
+bool are_told(const std::vector<ExemplarCourse>& courses, double told, const Demands& demands) {
+  double joints = 0, jointed = 0;
+  for (const ExemplarCourse& c : courses) {
+    const size_t of_course = sure_joints(c).size();
+    joints += double(of_course);
+    jointed += of_course > 0 ? 1 : 0;
+  }
+  const auto count = double(courses.size());
+  if (joints < least_joints * count || jointed < least_jointed * count) return false;
+  const bool boards = usual_brick(courses) >= shortest_board * (courses[0].end - courses[0].begin);
+  return told >= (boards ? demands.told_of_boards : demands.told_of_bricks);
+}
+
+void find_head_joints(std::vector<ExemplarCourse>& courses, const HeadJoints& head_joints, const Task& task) {
   tbb::parallel_for(size_t{0}, courses.size(), [&](size_t i) {
     task.check();
     courses[i].joint = head_joints.likeness(courses[i]);
   });
-  double joints = 0;
-  for (const ExemplarCourse& c : courses) joints += double(sure_joints(c).size());
-  if (int(courses.size()) < least_of_kind || joints < least_joints * double(courses.size())) return {};
-  const double height = courses[0].end - courses[0].begin;
-  const bool boards = usual_brick(courses) >= shortest_board * height;
-  return boards || head_joints.told() >= least_told_of_bricks ? courses : std::vector<ExemplarCourse>{};
+}
+
+/// The courses of a kind, and what was demanded of them.
+struct ToldCourses {
+  std::vector<ExemplarCourse> courses;
+  Demands met = of_joints_like_beds;
+};
+
+/// Nothing if joints cannot be told from bricks, or bricks hardly end.
+ToldCourses whole_courses(const CourseSheet& sheet, Coursing& m, int kind, const Task& task) {
+  std::vector<ExemplarCourse> courses = courses_of_kind(m, kind, sheet.breadth);
+  HeadJoints head_joints(sheet, courses, m.half_joint);
+  std::erase_if(courses, [&](const ExemplarCourse& c) {
+    const CourseInside inside(c, m.half_joint);
+    return inside.begin < 0 || inside.end > sheet.breadth || inside.end - inside.begin < least_inside;
+  });
+  if (int(courses.size()) < least_of_kind) return {};
+  const double told = head_joints.told();
+  m.told = kind == 0 ? told : std::min(m.told, told);
+  if (told < of_joints_like_beds.told_of_boards) return {};
+  find_head_joints(courses, head_joints, task);
+  if (are_told(courses, told, of_joints_like_beds)) return {courses};
+  if (told < least_told_to_learn || !head_joints.learn_from(courses, task)) return {};
+  m.told = std::min(m.told, head_joints.told());
+  find_head_joints(courses, head_joints, task);
+  if (!are_told(courses, head_joints.told(), of_joints_by_themselves)) return {};
+  return {courses, of_joints_by_themselves};
 }
 
 }  // namespace
@@ -177,11 +208,13 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
   const BedJoints beds = find_bed_joints(sheet, out.period);
   out.beds = beds.places;
   out.half_joint = beds.half_breadth;
+  double most_aligned = 1;
   for (int kind = 0; kind < int(out.beds.size()); kind++) {
     task.check();
-    const std::vector<ExemplarCourse> courses = whole_courses(sheet, out, kind, task);
-    if (courses.empty()) return {};
-    out.courses.insert(out.courses.end(), courses.begin(), courses.end());
+    const ToldCourses told = whole_courses(sheet, out, kind, task);
+    if (told.courses.empty()) return {};
+    out.courses.insert(out.courses.end(), told.courses.begin(), told.courses.end());
+    most_aligned = std::min(most_aligned, told.met.most_aligned);
   }
   if (int(out.courses.size()) < least_courses || shown_share(out.courses, sheet.breadth) < least_shown) return {};
   // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and whole, by

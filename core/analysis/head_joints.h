@@ -4,6 +4,7 @@
 
 #include "core/analysis/course_sheet.h"
 #include "core/analysis/coursing.h"
+#include "core/task.h"
 
 namespace terrazzo {
 
@@ -19,7 +20,16 @@ class HeadJoints {
   /// Of every column of the sheet how much it looks like a joint all through the course: 0..1.
   std::vector<float> likeness(const ExemplarCourse& course) const;
 
+  /// Joints across may be narrower, shallower or darker than those along the courses: tells them from then on by those
+  /// columns of these courses that stand out from the others as the likeliest. Returns false, and changes nothing, if
+  /// there are hardly any. Throws Cancelled.
+  bool learn_from(const std::vector<ExemplarCourse>& courses, const Task& task);
+
  private:
+  class Samples;
+  void tell_apart(const Samples& samples);
+  std::vector<double> all_through(const ExemplarCourse& course) const;
+
   const CourseSheet& sheet_;
   int half_breadth_;
   std::vector<double> weights_;

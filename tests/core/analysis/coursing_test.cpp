@@ -124,6 +124,44 @@ TEST_CASE("what goes on across courses is not cut up") {
   CHECK(coursing_of(image, {2, {64, 0}, {0, 40}, 0.9}).empty());
 }
 
+TEST_CASE("joints across that are shallower than those along are found by how they stand out") {
+  constexpr int course = 40, brick = 96, shift = 37;
+  const auto wall = [](float across, int shifted_by) {
+    return test::make_image(
+        {320, 240}, 3,
+        [=](int x, int y, int c) {
+          const float speckle = 0.05f * float(unit_double(random_bits(6, x, y, c)));
+          const int number = y / course, shifted = x + number * shifted_by;
+          if (y % course < 3) return 0.8f + speckle;
+          if (shifted % brick < 3) return across + speckle;
+          return 0.2f + 0.1f * float(unit_double(random_bits(5, number, shifted / brick))) + speckle;
+        },
+        Semantic::base_color, "srgb_texture");
+  };
+  const Lattice courses{1, {0, course}, {}, 0.9};
+  const Coursing m = coursing_of(wall(0.5f, shift), courses);
+  REQUIRE(m.courses.size() == 6);
+  for (const ExemplarCourse& c : m.courses) {
+    const int number = int(c.begin + c.end) / 2 / course;
+    CAPTURE(number);
+    const std::vector<double> found = sure_joints(c);
+    int drawn = 0;
+    for (int x = 4; x < 316; x++) {
+      if ((x + number * shift) % brick != 1) continue;
+      drawn++;
+      CHECK(std::ranges::any_of(found, [&](double f) { return std::abs(f - x - 0.5) <= 1.5; }));
+    }
+    // Besides those perhaps one that a border cuts.
+    CHECK(int(found.size()) <= drawn + 2);
+  }
+  SUBCASE("but not what goes on across courses") {
+    CHECK(coursing_of(wall(0.5f, 0), courses).empty());
+  }
+  SUBCASE("nor what does not stand out") {
+    CHECK(coursing_of(wall(0.25f, shift), courses).empty());
+  }
+}
+
 TEST_CASE("walls are left alone of which the border cuts a fifth") {
   const auto courses = [](int height) { return find_coursing(*DrawnWall({240, height}).appearance(), Task()).courses; };
   CHECK(courses(84).size() == 3);
