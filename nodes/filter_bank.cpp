@@ -41,7 +41,7 @@ void compute(NodeContext& node) {
 NodeType filter_bank_node() {
   NodeType t;
   t.name = "filter_bank";
-  t.version = 3;
+  t.version = 4;
   t.category = "analysis";
   t.summary = "Responses to edges, lines and blobs of several sizes (MR8)";
   t.help =

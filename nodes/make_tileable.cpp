@@ -64,6 +64,10 @@ void compute(NodeContext& node) {
   const Size exemplar = index->appearance()->size();
   const Size border{border_pixels(node.number("border"), exemplar.width, options.tile_x),
                     border_pixels(node.number("border"), exemplar.height, options.tile_y)};
+  node.note(
+      "the exemplar does not seem to wrap around, so its border is made anew; if it does, set \"tiles\" to \"yes\" "
+      "where "
+      "it is analysed, in the stock graph by --set tiles=yes");
   const Lattice& lattice = index->appearance()->lattice();
   const Size fitting =
       lattice.best_fitting(exemplar, options.tile_x, options.tile_y, {2 * border.width, 2 * border.height});
@@ -107,7 +111,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType make_tileable_node() {
   NodeType t;
   t.name = "make_tileable";
-  t.version = 15;
+  t.version = 16;
   t.category = "synthesis";
   t.summary = "Keeps an exemplar's interior and makes its border wrap";
   t.help =

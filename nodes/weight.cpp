@@ -21,7 +21,7 @@ void compute(NodeContext& node) {
 NodeType weight_node() {
   NodeType t;
   t.name = "weight";
-  t.version = 4;
+  t.version = 5;
   t.category = "analysis";
   t.summary = "Weights the maps of a material for analysis";
   t.help =

@@ -111,45 +111,82 @@ bool steps_alike(const Image& map, bool rows) {
   return distance(border_line(map, rows, -1), border_line(map, rows, 0)) <= std::max(most_inside, most * sum / steps);
 }
 
-/// Whether windows across the seam look as much like the rest of the map as windows inside it do.
-bool windows_fit(const Image& map, const WindowSearch& search, bool rows) {
-  constexpr int samples = 64;
-  constexpr double slack = 1.25;
-  double across = 0, inside = 0;
-  for (int i = 0; i < samples; i++) {
-    const uint64_t r = random_bits(12, rows, i);
-    const int x = int(below(uint32_t(r), map.width() - WindowSearch::side));
-    const int y = int(below(uint32_t(r >> 32), map.height() - WindowSearch::side));
-    inside += search.nearest(x, y);
-    across += rows ? search.nearest(x, map.height() - WindowSearch::side / 2)
-                   : search.nearest(map.width() - WindowSearch::side / 2, y);
+/// How much less than windows inside those across a line look like the rest of their map, as a mean of all maps: 1 is
+/// as much. Places are parts of 1, since maps may differ in size.
+class Fit {
+ public:
+  explicit Fit(const std::vector<ImagePtr>& maps) : maps_(maps) {
+    for (const ImagePtr& map : maps) {
+      searches_.push_back(std::make_unique<WindowSearch>(*map));
+      double sum = 0;
+      for (int i = 0; i < samples; i++)
+        sum += searches_.back()->nearest(inside(map->width(), {12, 0, i}), inside(map->height(), {12, 1, i}));
+      inside_.push_back(std::max(sum / samples, std::numeric_limits<double>::min()));
+    }
   }
-  return across <= slack * inside;
+
+  double across_seam(bool rows) const { return across(rows, std::nullopt); }
+  double across_line(bool rows, double place) const { return across(rows, place); }
+
+ private:
+  static constexpr int samples = 64;
+
+  static int at(double place, int extent) { return int(place * (extent - WindowSearch::side)); }
+  static int inside(int extent, std::array<int, 3> sample) {
+    return at(unit_double(random_bits(sample[0], sample[1], sample[2])), extent);
+  }
+  /// Without a line, of windows across the seam.
+  double across(bool rows, std::optional<double> line) const {
+    double out = 0;
+    for (size_t m = 0; m < maps_.size(); m++) {
+      const int width = maps_[m]->width(), height = maps_[m]->height(), breadth = rows ? height : width;
+      const int first = line ? at(*line, breadth) : breadth - WindowSearch::side / 2;
+      for (int i = 0; i < samples; i++) {
+        const int along = inside(rows ? width : height, {13, rows ? 1 : 0, i});
+        out += (rows ? searches_[m]->nearest(along, first) : searches_[m]->nearest(first, along)) / inside_[m];
+      }
+    }
+    return out / (samples * double(maps_.size()));
+  }
+
+  const std::vector<ImagePtr>& maps_;
+  std::vector<std::unique_ptr<WindowSearch>> searches_;
+  std::vector<double> inside_;
+};
+
+/// Whether there are lines inside across which windows look as little like the rest as across the seam: joints are such
+/// lines.
+bool lines_fit_as_little(const Fit& fit, bool rows) {
+  constexpr int lines = 96, enough = 3;
+  const double seam = fit.across_seam(rows);
+  int found = 0;
+  for (int i = 0; i < lines && found < enough; i++) found += fit.across_line(rows, double(i) / lines) >= seam ? 1 : 0;
+  return found >= enough;
 }
 
-/// Whether windows across every map's borders resemble the rest of the map about as much as windows inside it do.
+/// Whether windows across the borders resemble the rest of the maps about as much as windows inside do, and values go
+/// on there.
 bool borders_fit(const Material& material) {
+  constexpr double slack = 1.25;
   std::vector<ImagePtr> maps;
   for (const Map& map : material.maps()) {
     if (std::min(map.image->width(), map.image->height()) < 2 * WindowSearch::side) return false;
     maps.push_back(materialized(map.image));
   }
-  // What a joint along the border shows across the seam may come nowhere else: it is then judged by itself. Rarely
-  // asked for.
-  std::optional<bool> joint;
-  const auto has_joint = [&] {
-    if (!joint)
-      joint = std::any_of(maps.begin(), maps.end(), [](const ImagePtr& map) { return has_joint_along_border(*map); });
-    return *joint;
+  const auto all = [&](auto&& holds) {
+    return std::ranges::all_of(maps, [&](const ImagePtr& map) { return holds(*map); });
   };
-  return std::all_of(maps.begin(), maps.end(), [&](const ImagePtr& map) {
-    const auto search = std::make_unique<WindowSearch>(*map);
-    const auto fits = [&](bool rows) {
-      return (windows_fit(*map, *search, rows) && (steps_alike(*map, rows) || has_joint())) ||
-             (goes_on(*map, rows) && has_joint());
-    };
-    return fits(true) && fits(false);
-  });
+  // What a joint along the border shows across the seam may come nowhere else: it is then judged by itself.
+  const bool joint = std::ranges::any_of(maps, [](const ImagePtr& map) { return has_joint_along_border(*map); });
+  const Fit fit(maps);
+  const auto fits = [&](bool rows) {
+    const bool like_the_rest = fit.across_seam(rows) <= slack;
+    if (!like_the_rest && !all([&](const Image& map) { return goes_on(map, rows); })) return false;
+    if (!like_the_rest && joint) return true;
+    const auto steps_fit = [&](const Image& map) { return steps_alike(map, rows) || (joint && goes_on(map, rows)); };
+    return all(steps_fit) && (like_the_rest || lines_fit_as_little(fit, rows));
+  };
+  return fits(true) && fits(false);
 }
 
 /// Whether the exemplar's cells, found without regard to its borders, come out uneven around it: an odd number of

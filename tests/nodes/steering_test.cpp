@@ -92,17 +92,23 @@ TEST_CASE("make_tileable in one direction leaves the other alone; the border may
 TEST_CASE("make_tileable holds a whole number of repeats unless the size must stay") {
   const FeaturesPtr plain = plain_features(wall({61, 53}));
   const IndexPtr index = index_of(plain->with(Lattice{2, {16, 0}, {8, 8}, 1}));
+  const std::string anew =
+      "the exemplar does not seem to wrap around, so its border is made anew; if it does, set \"tiles\" to \"yes\" "
+      "where "
+      "it is analysed, in the stock graph by --set tiles=yes";
   const NodeRun run = run_node("make_tileable", {}, {{"index", {index}}});
   const UvMapPtr uv = run.get<UvMap>("uv");
   CHECK(uv->size() == Size{64, 48});
   for (int y = 7; y < 41; y++)
     for (int x = 8; x < 53; x++) REQUIRE(uv->at(x, y) == here(x, y));
-  CHECK(run.notes == Texts{"the exemplar of 61x53 pixels repeats: the result has 64x48, so that repeats go around; set "
+  CHECK(run.notes == Texts{anew,
+                           "the exemplar of 61x53 pixels repeats: the result has 64x48, so that repeats go around; set "
                            "\"fit\" to \"size\" to keep 61x53 and bend repeats in the border instead"});
   const NodeRun kept = run_node("make_tileable", {{"fit", "size"}}, {{"index", {index}}});
   CHECK(kept.get<UvMap>("uv")->size() == Size{61, 53});
   CHECK(kept.notes ==
-        Texts{"warning: to wrap around, repeats are bent by 36 % in the border; a wider border bends them less, and "
+        Texts{anew,
+              "warning: to wrap around, repeats are bent by 36 % in the border; a wider border bends them less, and "
               "so does \"fit\": \"repeats\", which makes the result 64x48"});
 }
 

@@ -44,6 +44,23 @@ TEST_CASE("gravel that was cut out anywhere does not tile, though what lies acro
   CHECK_FALSE(seems_to_tile(*gravel(1000), Task()));
 }
 
+TEST_CASE("rough joints along the border are compared with those inside, over all maps, of any sizes") {
+  // `lighter`: the last rows, which are half a joint.
+  const auto wall = [](int side, float lighter) {
+    return make_image({side, side}, 1, [=](int x, int y, int) {
+      const int course = side / 4, joint = side / 48, row = y % course;
+      const float rough = float(unit_double(random_bits(8, x, y)));
+      if (row < joint || row >= course - joint) return y < side - joint ? rough : rough + lighter;
+      return 0.5f + 0.02f * rough;
+    });
+  };
+  const auto material = [&](float lighter) {
+    return Material::make("wall", {{"height", wall(192, lighter)}, {"roughness", wall(96, lighter)}});
+  };
+  CHECK(seems_to_tile(*material(0), Task()));
+  CHECK_FALSE(seems_to_tile(*material(1), Task()));
+}
+
 TEST_CASE("one tile with its joint along the border tiles, unless the joint is cut off on one side") {
   const auto tile = [](int left) {
     return Material::of(make_image({96, 96}, 1, [left](int x, int y, int) {
