@@ -52,10 +52,16 @@ File open_to_read(const std::filesystem::path& path) {
   return file;
 }
 
+/// Of a file that is as long as its header says.
 Header read_header(const File& file, const std::filesystem::path& path) {
   std::array<uint8_t, header_bytes> bytes{};
-  const size_t size = file.read_at(0, bytes.data(), bytes.size(), path);
-  return parse_header(bytes, size);
+  const size_t read = file.read_at(0, bytes.data(), bytes.size(), path);
+  const Header header = parse_header(bytes, read);
+  const uint64_t size = file.size(path);
+  if (header.contents_offset < header_bytes || header.contents_offset > size ||
+      header.contents_bytes != size - header.contents_offset)
+    throw DamagedFile(fmt::format("it has {} bytes, which is not what its header says", size));
+  return header;
 }
 
 /// The bytes that a block of `elements` must have before compression.
@@ -138,9 +144,6 @@ std::shared_ptr<const BlockFile> BlockFile::open(const std::filesystem::path& pa
   File file = open_to_read(path);
   const Header header = read_header(file, path);
   const uint64_t size = file.size(path);
-  if (header.contents_offset < header_bytes || header.contents_offset > size ||
-      header.contents_bytes != size - header.contents_offset)
-    throw DamagedFile(fmt::format("it has {} bytes, which is not what its header says", size));
   if (size <= held_bytes) {
     result->memory_.resize(size);
     if (file.read_at(0, result->memory_.data(), size, path) != size) throw DamagedFile("it ends too early");

@@ -12,6 +12,7 @@
 #include "core/file_io.h"
 #include "core/image_file.h"
 #include "core/image_libraries.h"
+#include "core/node.h"
 #include "core/png_codec.h"
 #include "core/suggest.h"
 #include "core/text.h"
@@ -148,7 +149,7 @@ using Warn = std::function<void(const std::string&)>;
 
 void warn_of_zeroed(const fs::path& path, size_t count, const Warn& warn) {
   if (count)
-    warn(fmt::format("{}: {} not finite (NaN or infinite); set to 0", path.filename().string(),
+    warn(fmt::format("{}{}: {} not finite (NaN or infinite); set to 0", warning_mark, path.filename().string(),
                      count == 1 ? "1 value is" : fmt::format("{} values are", count)));
 }
 

@@ -62,19 +62,23 @@ void require_same_maps(const std::string& port, const std::vector<KnownMaps>& ma
   const KnownMaps& first = materials.front();
   for (size_t i = 1; i < materials.size(); i++) {
     const KnownMaps& other = materials[i];
-    std::vector<std::string> differences;
-    if (const auto less = maps_missing(first, other); !less.empty())
+    std::vector<std::string> differences, uncommon;
+    if (const auto less = maps_missing(first, other); !less.empty()) {
       differences.push_back(fmt::format("lacks \"{}\"", fmt::join(less, "\", \"")));
-    if (const auto more = maps_missing(other, first); !more.empty())
+      uncommon = less;
+    }
+    if (const auto more = maps_missing(other, first); !more.empty()) {
       differences.push_back(fmt::format("has \"{}\" besides", fmt::join(more, "\", \"")));
+      uncommon.insert(uncommon.end(), more.begin(), more.end());
+    }
     if (differences.empty()) continue;
     throw Error(
         port,
-        fmt::format("expected the same maps in all materials, {} as in the first; material {}{} {}; leave "
-                    "maps out with \"maps\" of \"load_material\", as {{\"normal\": \"\"}}, or add them with "
-                    "\"make_material\"",
+        fmt::format("expected the same maps in all materials, {} as in the first; material {}{} {}; leave maps "
+                    "out where they are loaded (of a node NAME of type \"load_material\" by --set "
+                    "'NAME.maps={{\"{}\": \"\"}}'), or add them with \"make_material\"",
                     fmt::join(first.maps, ", "), i + 1, other.name.empty() ? "" : fmt::format(" (\"{}\")", other.name),
-                    fmt::join(differences, ", ")));
+                    fmt::join(differences, ", "), fmt::join(uncommon, "\": \"\", \"")));
   }
 }
 

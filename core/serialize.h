@@ -29,7 +29,7 @@ struct ValueFileSummary {
   Digest digest;
   double seconds = 0;
 };
-/// Reads and verifies only the header. Throws as load_value does.
+/// Reads and verifies only the header, and that the file is as long as that says. Throws as load_value does.
 ValueFileSummary summarize_value_file(const std::filesystem::path& path);
 
 }  // namespace terrazzo

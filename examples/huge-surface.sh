@@ -11,6 +11,9 @@ cd "$(dirname "$0")/.."
 [ -x build/terrazzo ] || { echo "there is no build/terrazzo; run examples/quickstart.sh first" >&2; exit 2; }
 tiles=${2:-2}
 pixels=${3:-512}
+for number in "$tiles" "$pixels"; do
+  [[ $number =~ ^[1-9][0-9]*$ ]] || { echo "$number: expected a whole number of tiles and of pixels, such as 2 512" >&2; exit 2; }
+done
 out=out/huge-surface
 export TERRAZZO_CACHE=$out/cache
 

@@ -1,10 +1,7 @@
-#include <cerrno>
 #include <filesystem>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 
-#include "core/file_io.h"
 #include "core/node.h"
 #include "core/serialize.h"
 
@@ -12,22 +9,34 @@ namespace terrazzo {
 
 namespace {
 
-Value loaded(const std::filesystem::path& path) {
+/// What does not need all of the file to be read.
+void require_analysis(const std::filesystem::path& path) {
   const ValueFileSummary file = summarize_value_file(path);
   if (file.type != ValueType::index)
     throw Error(fmt::format("expected an index as save_analysis writes it; {} holds a value of type {}", path.string(),
                             name_of(file.type)));
-  return load_value(path);
 }
 
-void compute(NodeContext& node) {
+/// What `read` throws is about the parameter "path".
+template <class Read>
+auto naming_remedy(const Read& read) {
   try {
-    node.output("index", loaded(node.text("path")));
+    return read();
   } catch (const DamagedFile& e) {
-    throw Error("path", fmt::format("{}; expected a file that save_analysis wrote", e.what()));
+    throw Error(
+        "path",
+        fmt::format("{}; expected a whole file as save_analysis writes it: copy it again, or make it anew", e.what()));
   } catch (const Error& e) {
     throw Error("path", e.what());
   }
+}
+
+void compute(NodeContext& node) {
+  node.output("index", naming_remedy([&] {
+                const std::filesystem::path path = node.text("path");
+                require_analysis(path);
+                return load_value(path);
+              }));
 }
 
 }  // namespace
@@ -57,8 +66,7 @@ NodeType load_analysis_node() {
     return missing ? size_t{0} : size_t(bytes) * 3;
   };
   t.foresee = [](const Params& params, const InputForecasts&) {
-    const std::filesystem::path path = std::get<std::string>(params.at("path"));
-    if (!File::open(path, O_RDONLY | O_NONBLOCK).ok()) throw_system_error("read", path, errno);
+    naming_remedy([&] { require_analysis(std::get<std::string>(params.at("path"))); });
     return Forecast{};
   };
   t.compute = compute;

@@ -47,6 +47,7 @@ void compute(NodeContext& node) {
 NodeType load_map_node() {
   NodeType t;
   t.name = "load_map";
+  t.version = 2;
   t.category = "source";
   t.summary = "Reads one image file as a map";
   t.help =

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/map_names.h"
 #include "core/synthesis/labels.h"
 #include "core/text.h"
 #include "nodes/synthesis_params.h"
@@ -58,10 +59,19 @@ void warn_of_labels(NodeContext& node, const std::vector<Control>& controls, Siz
   }
 }
 
+/// Targets need not be as large as the result, but few mean to have theirs bent.
+void tell_of_stretched(NodeContext& node, const std::vector<Control>& controls, Size result) {
+  for (const Control& control : controls)
+    if (const Size target = control.target->size(); target.area() > 1 && !same_shape(target, result))
+      node.note(fmt::format("the target of {} pixels is stretched to the result's {}, which has another shape",
+                            describe(target), describe(result)));
+}
+
 void compute(NodeContext& node) {
   const auto index = node.input<Index>("index");
   SynthesisOptions options = synthesis_options(node, *index);
   options.controls = controls_of(node);
+  tell_of_stretched(node, options.controls, options.size);
   warn_of_labels(node, options.controls, index->appearance()->size());
   warn_unless_repeats_fit(node, *index, options, "they are stretched to wrap around and joints may jog");
   const UvMapPtr uv = synthesize(*index, options, node.task());
@@ -80,7 +90,7 @@ Forecast foresee(const Params& params, const InputForecasts& inputs) {
 NodeType transfer_node() {
   NodeType t;
   t.name = "transfer";
-  t.version = 10;
+  t.version = 11;
   t.category = "synthesis";
   t.summary = "Synthesis steered by a target image";
   t.help =

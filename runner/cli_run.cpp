@@ -180,7 +180,8 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
     chosen = [flags] {
       return run_with_flags(
           [&] {
-            LoadedGraph loaded = load_graph(flags->graph, flags->set, {.look_ahead = foreseen_in_nodes});
+            LoadedGraph loaded =
+                load_graph(flags->graph, flags->set, {.only = flags->only, .look_ahead = foreseen_in_nodes});
             for (const std::string& w : loaded.warnings) warn(*flags, w);
             return std::move(loaded.graph);
           },

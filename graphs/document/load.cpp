@@ -61,12 +61,14 @@ class Loader {
     NodeReading reading(options.types);
     reading.graph_folder = folder_;
     reading.working_folder = working_folder();
-    set_all(out.parameters, overrides, node_types(nodes, reading), options.allow_unset);
+    set_parameters(out.parameters, overrides, working_folder(), node_types(nodes, reading), problems_);
     Substitution substitution(out.parameters);
     std::vector<NodeDraft> drafts = read_nodes(nodes, overrides, reading, substitution, problems_);
     std::vector<Problem> conversions;
     connect(drafts, problems_, conversions);
     const std::vector<size_t> order = execution_order(drafts, problems_);
+    const std::set<std::string> wanted = wanted_nodes(drafts, options.only);
+    if (!options.allow_unset) require_set(out.parameters, drafts, wanted);
     trace_files(drafts, order);
     if (!problems_.empty() && options.look_ahead)
       for (Problem& p : options.look_ahead(faultless(drafts, order))) problems_.push_back(std::move(p));
@@ -75,6 +77,8 @@ class Loader {
     for (const size_t i : order) out.graph.nodes.push_back(std::move(drafts[i].node));
     for (const Problem& p : conversions) out.conversions.push_back(describe(file_, p));
     for (const Problem& p : warnings_about(out.graph, substitution)) out.warnings.push_back(describe(file_, p));
+    if (!options.allow_unset && std::ranges::any_of(drafts, [](const NodeDraft& d) { return !d.unset.empty(); }))
+      std::erase_if(out.graph.nodes, [&](const GraphNode& n) { return !wanted.contains(n.name); });
     return out;
   }
 
@@ -113,12 +117,33 @@ class Loader {
     return out;
   }
 
-  void set_all(std::vector<GraphParameter>& parameters, const std::vector<Override>& overrides, const NodeTypes& nodes,
-               bool allow_unset) {
-    set_parameters(parameters, overrides, working_folder(), nodes, problems_);
-    if (allow_unset) return;
+  /// What only these nodes need, directly or not; of all nodes if there are none or one of them is not there.
+  static std::set<std::string> wanted_nodes(const std::vector<NodeDraft>& drafts,
+                                            const std::vector<std::string>& only) {
+    std::map<std::string, const NodeDraft*> by_name;
+    for (const NodeDraft& d : drafts) by_name.emplace(d.node.name, &d);
+    std::vector<std::string> next = only;
+    if (only.empty() || !std::ranges::all_of(only, [&](const std::string& name) { return by_name.contains(name); }))
+      for (const NodeDraft& d : drafts) next.push_back(d.node.name);
+    std::set<std::string> out;
+    while (!next.empty()) {
+      const auto at = by_name.find(next.back());
+      next.pop_back();
+      if (at == by_name.end() || !out.insert(at->first).second) continue;
+      for (const PortWires& p : at->second->ports)
+        for (const WireEnd& w : p.wires) next.push_back(w.node);
+    }
+    return out;
+  }
+
+  /// Where all nodes run, also what none of them needs: it is there to be set.
+  void require_set(const std::vector<GraphParameter>& parameters, const std::vector<NodeDraft>& drafts,
+                   const std::set<std::string>& wanted) {
+    std::set<std::string> unset;
+    for (const NodeDraft& d : drafts)
+      if (wanted.contains(d.node.name)) unset.insert(d.unset.begin(), d.unset.end());
     for (const GraphParameter& p : parameters)
-      if (!p.value && !p.is_wrong)
+      if (!p.value && !p.is_wrong && (wanted.size() == drafts.size() || unset.contains(p.param.name)))
         problems_.push_back({p.place, "parameter " + in_quotes(p.param.name),
                              fmt::format("has no default and must be set: --set {}=VALUE", p.param.name)});
   }

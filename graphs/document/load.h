@@ -22,6 +22,9 @@ struct LoadOptions {
   /// Parameters without a default need not be set. What depends on them is then missing from the nodes: such a graph
   /// can be looked at, but not run.
   bool allow_unset = false;
+  /// Unless empty, and if all are there: only these nodes and what they need will run, and only what they need must be
+  /// set. If something else is not, the graph comes without all other nodes.
+  std::vector<std::string> only{};
   /// If a document has problems: finds more, in its nodes that have none themselves (whatever they read), so that the
   /// user is told all at once. In an order in which wires come from earlier nodes, as far as there is one.
   std::function<std::vector<Problem>(const std::vector<GraphNode>&)> look_ahead{};

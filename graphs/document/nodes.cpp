@@ -48,6 +48,7 @@ class NodeReader {
                "expected an object such as {\"type\": \"load_map\", ...}, found " + found(member_.value));
     } else if (find_type()) {
       for (const Entry& e : entries(overrides)) read_entry(e);
+      draft_.unset = substitution_.take_unset();
       add_missing();
       run_check();
     }

@@ -34,6 +34,7 @@ struct PortWires {
 struct NodeDraft {
   GraphNode node;  ///< `type` is null if it is unknown; `inputs` are still empty
   std::vector<PortWires> ports;
+  std::set<std::string> unset;  ///< the graph's parameters that it needs and that have no value
 };
 
 /// What every node is read with.

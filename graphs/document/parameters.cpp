@@ -308,6 +308,7 @@ std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, bool 
       const bool keeps_spelling = parameter->param.type == ParamType::path && at > 0;
       out.text += keeps_spelling ? parameter->as_written : text_of(*parameter->value);
     } else {
+      if (parameter) unset_.insert(reference->name);
       complete = false;
     }
     at = reference->end;

@@ -58,6 +58,9 @@ class Substitution {
   /// The parameters of type path among those that a text refers to.
   std::set<std::string> paths_in(const JsonValue& value) const;
 
+  /// The parameters without a value that expand has met since this was last asked.
+  std::set<std::string> take_unset() { return std::exchange(unset_, {}); }
+
   /// Parameters that no call of expand has met.
   std::vector<const GraphParameter*> unused() const;
 
@@ -71,6 +74,7 @@ class Substitution {
   const GraphParameter* find(const std::string& name, Place place, Complaints& complaints);
   std::map<std::string, Use> uses_;
   std::vector<std::string> names_;
+  std::set<std::string> unset_;
 };
 
 }  // namespace terrazzo

@@ -240,9 +240,15 @@ TEST_CASE("transfer steers by a target and wants controls in pairs") {
   const IndexPtr index = gravel_index();
   const ImagePtr has = make_image({96, 80}, 1, [](int x, int, int) { return float(x) / 96; });
   const ImagePtr wants = make_image({20, 20}, 1, [](int x, int, int) { return x < 10 ? 0.f : 1.f; });
-  const UvMapPtr uv = run_node("transfer", {{"size", Size{64, 64}}},
-                               {{"index", {index}}, {"exemplar_control", {has}}, {"target", {wants}}})
-                          .get<UvMap>("uv");
+  const auto transfer = [&](Size size) {
+    return run_node("transfer", {{"size", size}},
+                    {{"index", {index}}, {"exemplar_control", {has}}, {"target", {wants}}});
+  };
+  CHECK(transfer({64, 32}).notes ==
+        Texts{"the target of 20x20 pixels is stretched to the result's 64x32, which has another shape"});
+  const NodeRun run = transfer({64, 64});
+  CHECK(run.notes.empty());
+  const UvMapPtr uv = run.get<UvMap>("uv");
   int64_t left = 0, right = 0;
   for (int y = 0; y < 64; y++)
     for (int x = 0; x < 64; x++) (x < 32 ? left : right) += uv->at(x, y).x;

@@ -220,6 +220,29 @@ TEST_CASE("a graph can be looked at before its parameters are set") {
   CHECK(loaded.graph.find("b")->inputs.at("image")[0].node == "a");
 }
 
+TEST_CASE("what only some nodes need is all that must be set for them") {
+  const std::string text = document(R"("a": {"type": "photo", "file": "$p"}, "b": {"type": "adjust", "image": "@a"},
+                                       "c": {"type": "photo", "file": "$q"})",
+                                    R"("p": {"type": "path"}, "q": {"type": "path"}, "idle": {"type": "int"})");
+  const auto load = [&](const std::vector<std::string>& set, const std::vector<std::string>& only) {
+    return load_graph_text(text, "t.json", set, {.types = fake_types(), .only = only});
+  };
+  CHECK(order_of(load({"p=a.png"}, {"b"}).graph) == std::vector<std::string>{"a", "b"});
+  CHECK(order_of(load({"p=a.png", "q=c.png"}, {"b"}).graph).size() == 3);
+  const auto unset = [&](const std::vector<std::string>& only) {
+    try {
+      load({}, only);
+    } catch (const GraphError& e) {
+      return e.problems().size();
+    }
+    return size_t{0};
+  };
+  CHECK(unset({}) == 3);
+  CHECK(unset({"b"}) == 1);
+  CHECK(unset({"b", "c"}) == 3);
+  CHECK(unset({"b", "none"}) == 3);
+}
+
 TEST_CASE("the interface of a graph is read without looking at its nodes") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "g.json";
