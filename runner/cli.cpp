@@ -76,7 +76,8 @@ std::string direction_hint(const CLI::App* command, const std::string& arg) {
                                                                  : "";
 }
 
-/// Arguments that nothing takes, each with the nearest thing that exists; empty if there are none.
+/// Arguments that nothing takes, each with the nearest thing that exists; empty if there are none. What follows an
+/// unknown command would be that command's.
 std::string unknown_arguments(const CLI::App* command) {
   std::string out;
   for (const std::string& arg : command->remaining()) {
@@ -87,6 +88,7 @@ std::string unknown_arguments(const CLI::App* command) {
         : commands.empty() ? fmt::format("unexpected argument {}{}", arg, direction_hint(command, arg))
                            : fmt::format("unknown command {}{}", arg, suggestion(arg, commands));
     out += (out.empty() ? "" : "\n") + line;
+    if (!arg.starts_with("-") && !commands.empty()) break;
   }
   return out;
 }

@@ -42,6 +42,9 @@ int verify(const CacheFlags& flags) {
 void add_cache_command(CLI::App& app, Chosen& chosen) {
   CLI::App* cache = app.add_subcommand("cache", "Looks after the folder of results that runs share");
   cache->require_subcommand(1);
+  cache->footer(
+      "The folder is $TERRAZZO_CACHE, or terrazzo under $XDG_CACHE_HOME, or ~/.cache/terrazzo.\n"
+      "Example:\n  terrazzo cache gc --limit 2G");
   const auto flags = std::make_shared<CacheFlags>();
   const auto add = [&](const char* name, const char* help, std::function<int(const CacheFlags&)> act) {
     CLI::App* sub = cache->add_subcommand(name, help);
@@ -62,9 +65,6 @@ void add_cache_command(CLI::App& app, Chosen& chosen) {
     answer("{} freed\n", shown_bytes(f.open().clear()));
     return exit_done;
   });
-  cache->footer(
-      "The folder is $TERRAZZO_CACHE, or terrazzo under $XDG_CACHE_HOME, or ~/.cache/terrazzo.\n"
-      "Example:\n  terrazzo cache gc --limit 2G");
 }
 
 }  // namespace terrazzo

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/image_file.h"
 #include "core/suggest.h"
 #include "graphs/document/nodes.h"
 #include "graphs/document/wires.h"
@@ -221,6 +222,7 @@ std::string read_document(const fs::path& path) {
   const fs::file_status status = fs::status(path, failure);
   if (!fs::exists(status)) throw refuse("there is no such graph file" + file_suggestion(path));
   if (fs::is_directory(status)) throw refuse("expected a graph file, found a folder");
+  if (looks_like_image(path)) throw refuse("expected a graph file, found an image; graphs load images by their nodes");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw refuse(fmt::format("the graph file cannot be read: {}", std::strerror(errno)));
   std::string text;

@@ -77,6 +77,15 @@ TEST_CASE("check tells what the document's text shows and what only its plan sho
   }
 }
 
+TEST_CASE("one mistake is said once: what follows an unknown command is that command's, and an image is no graph") {
+  const Workplace w;
+  CHECK(w.run({"synt", "tall", "-o", "out"}).err ==
+        "error: unknown command synt (did you mean \"synth\"?)\n`terrazzo --help` says what it takes.\n");
+  for (const std::string command : {"run", "check"})
+    CHECK(w.run({command, "photo.png"}).err ==
+          "error: photo.png: expected a graph file, found an image; graphs load images by their nodes\n");
+}
+
 TEST_CASE("progress counts the stages that the summary of a failed run counts") {
   const Workplace w;
   write_text(w.path / "fails.json", R"({"terrazzo": 1, "nodes": {
