@@ -114,7 +114,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 10;
+  t.version = 11;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =

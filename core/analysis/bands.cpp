@@ -16,7 +16,9 @@ constexpr double often = 5, often_counts = 0.55;
 constexpr double multiple = 1.5;  // of a period found before, which a longer one must beat clearly
 constexpr double clearly_better = 1.15;
 constexpr double better = 0.005;
-constexpr double near_best = 0.03;  // of a period, within which the most certain one is looked for
+constexpr int slants = 192;          // that are tried from level to diagonal
+constexpr double least_rise = 0.04;  // of lines that are not level
+constexpr double near_best = 0.03;   // of a period, within which the most certain one is looked for
 
 /// How far lines that repeat stand out.
 struct LineRepeats {
@@ -40,22 +42,32 @@ struct LineRepeats {
   }
 };
 
-/// How whole lines correlate with one another.
+/// How whole lines correlate that lie `apart` and rise by so much from pixel to pixel.
+double line_correlation(const Correlation& r, bool courses, double rise, int apart) {
+  const int length = courses ? r.exemplar().width : r.exemplar().height;
+  const int breadth = courses ? r.exemplar().height : r.exemplar().width;
+  const int lags = courses ? r.lags().width : r.lags().height, most = (courses ? r.lags().height : r.lags().width) - 1;
+  const auto at = [&](int along, int across) { return courses ? r.at(along, across) : r.at(across, along); };
+  double sum = 0, pairs = 0;
+  const int begin = r.wraps() ? -(length / 2) : 1 - lags, end = r.wraps() ? length - length / 2 : lags;
+  for (int t = begin; t < end; t++) {
+    double across = apart + rise * t;
+    if (r.wraps()) across -= breadth * std::floor(across / breadth + 0.5);
+    const int low = int(std::floor(across));
+    if (std::abs(across) >= most) continue;
+    const double part = across - low, weight = r.wraps() ? 1 : (length - std::abs(t)) * (breadth - std::abs(across));
+    sum += weight * (part > 0 ? (1 - part) * at(t, low) + part * at(t, low + 1) : at(t, low));
+    pairs += weight;
+  }
+  return pairs > 0 ? sum / pairs : 0;
+}
+
+/// The same of lines any distance apart.
 class LineCorrelation {
  public:
-  LineCorrelation(const Correlation& r, bool courses)
-      : values_(size_t((courses ? r.lags().height : r.lags().width) - 3), 0.0) {
-    const int along = courses ? r.lags().width : r.lags().height;
-    const int length = courses ? r.exemplar().width : r.exemplar().height;
-    for (int d = 0; d < int(values_.size()); d++) {
-      double pairs = 0;
-      for (int t = r.wraps() ? 0 : 1 - along; t < along; t++) {
-        const double weight = r.wraps() ? 1 : length - std::abs(t);
-        values_[size_t(d)] += weight * (courses ? r.at(t, d) : r.at(d, t));
-        pairs += weight;
-      }
-      values_[size_t(d)] /= pairs;
-    }
+  LineCorrelation(const Correlation& r, bool courses, double rise)
+      : values_(size_t((courses ? r.lags().height : r.lags().width) - 3)) {
+    for (int d = 0; d < int(values_.size()); d++) values_[size_t(d)] = line_correlation(r, courses, rise, d);
   }
 
   int size() const { return int(values_.size()); }
@@ -96,10 +108,8 @@ class LineCorrelation {
   std::vector<double> values_;
 };
 
-}  // namespace
-
-Bands bands_of(const Correlation& r, bool courses) {
-  const LineCorrelation lines(r, courses);
+/// Of the period after which lines are most surely alike.
+Bands bands_among(const LineCorrelation& lines, const Correlation& r, bool courses) {
   double best = 0, evidence = 0;
   const auto consider = [&](double period) {
     const double needed = best > 0 && period > multiple * best ? clearly_better * evidence : evidence;
@@ -131,6 +141,49 @@ Bands bands_of(const Correlation& r, bool courses) {
   return {{1, courses ? Vector2{0, best} : Vector2{best, 0}, {}, std::min(1.0, certainty)},
           distinct(found.evidence()),
           lines.alike(best)};
+}
+
+/// Which way lines run.
+struct Slant {
+  bool courses = true;
+  double rise = 0;
+  double differ = 0;  ///< from one another, of all there is
+};
+
+/// That of lines which differ most: along stripes.
+Slant slant_of_stripes(const Correlation& r) {
+  Slant best;
+  for (const bool courses : {true, false})
+    for (int step = -slants; step <= slants; step++) {
+      const double rise = double(step) / slants;
+      if (std::abs(rise) < least_rise) continue;
+      if (const double differ = line_correlation(r, courses, rise, 0); differ > best.differ)
+        best = {courses, rise, differ};
+    }
+  for (double by = 0.5 / slants; by > 1e-5; by /= 2)
+    for (const double rise : {best.rise - by, best.rise + by})
+      if (const double differ = line_correlation(r, best.courses, rise, 0); differ > best.differ)
+        best = {best.courses, rise, differ};
+  return best;
+}
+
+}  // namespace
+
+Bands bands_of(const Correlation& r, bool courses) {
+  return bands_among(LineCorrelation(r, courses, 0), r, courses);
+}
+
+Bands stripes_of(const Correlation& r) {
+  const Slant slant = slant_of_stripes(r);
+  if (slant.differ <= 0) return {};
+  Bands out = bands_among(LineCorrelation(r, slant.courses, slant.rise), r, slant.courses);
+  if (out.lattice.rank == 0) return {};
+  const Vector2 across = out.lattice.first;
+  const double period = std::max(across.x, across.y);
+  const double step = period / (1 + slant.rise * slant.rise);  // along the stripes it is as far as across them
+  const Vector2 along = slant.courses ? Vector2{step, slant.rise * step} : Vector2{slant.rise * step, step};
+  out.lattice = {2, slant.courses ? along : across, slant.courses ? across : along, out.lattice.certainty};
+  return out;
 }
 
 }  // namespace terrazzo

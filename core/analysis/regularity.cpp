@@ -21,6 +21,8 @@ constexpr double least_distinct = 0.15;  // from here on cells say more than the
 // 260 textures of games, plates, tiles and bricks of so few cells are by 0.62 and more, grass and ground by 0.58 and
 // less.)
 constexpr double few_cells = 6.5, least_alike_of_few = 0.6;
+// Stripes may be a part only of what is shown, such as of a door; those that are all of it are surer by far.
+constexpr double least_sure_stripes = 0.6;
 
 Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
   Lattice out = l;
@@ -44,7 +46,8 @@ struct Found {
   double alike = 0;  ///< how much repeats are alike
 };
 
-/// What repeats may be the colours or, where those vary from brick to brick, only the joints. Cells before bands.
+/// What repeats may be the colours or, where those vary from brick to brick, only the joints. Cells before bands, and
+/// level ones before those aslant.
 Found searched(const Correlation& values, const Correlation& joints, double least_certainty) {
   Bands bands;
   Cell cell;
@@ -60,6 +63,10 @@ Found searched(const Correlation& values, const Correlation& joints, double leas
       cell = {without_false_repeats(r == &values ? joints : values, c.lattice), c.distinct};
   }
   if (is_sure(cell, values.exemplar(), least_certainty)) return {cell.lattice, cell.lattice.certainty};
+  if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
+  for (const Correlation* r : {&values, &joints})
+    if (const Bands b = stripes_of(*r); b.lattice.certainty >= least_sure_stripes && b.distinct > bands.distinct)
+      bands = b;
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }

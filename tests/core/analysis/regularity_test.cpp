@@ -241,6 +241,40 @@ TEST_CASE("a herringbone that tiles and comes four times is found") {
   check_cell(lattice_of(f), 0, step, 3 * step, 0);
 }
 
+TEST_CASE(
+    "stripes aslant of an exemplar that tiles are followed, whole or worn; what fades and grain of one direction are "
+    "not") {
+  // Steps of `across` pixels along x after which stripes come again, of `down` along y.
+  const auto stripes = [](Size size, int across, int down, double clear) {
+    return plain_features(make_image(size, 1,
+                                     [=](int x, int y, int) {
+                                       const bool light = part(double(x) / across + double(y) / down) < 0.45;
+                                       const double grain = unit_double(random_bits(4, x / 2, y / 2));
+                                       return float(clear * (light ? 1 : 0) + 0.6 * grain);
+                                     }),
+                          true);
+  };
+  for (const auto& [across, down] : {std::pair{32, 32}, {64, -32}, {-32, 128}}) {
+    CAPTURE(across);
+    CAPTURE(down);
+    for (const double clear : {1.0, 0.5}) {
+      CAPTURE(clear);
+      const Lattice l = lattice_of(stripes({256, 256}, across, down, clear));
+      REQUIRE(l.rank == 2);
+      CHECK(l.certainty > 0.6);
+      for (const Vector2& v : {l.first, l.second}) {
+        const double steps = v.x / across + v.y / down;
+        CHECK(steps == doctest::Approx(std::floor(steps + 0.5)).epsilon(0.02));
+      }
+    }
+  }
+  CHECK(lattice_of(stripes({256, 256}, 32, 32, 0)).rank == 0);
+  const auto slanted_grain = [](int x, int y, int) {
+    return float(unit_double(random_bits(4, wrap(x + y, 256) / 3)) + unit_double(random_bits(5, x / 2, y / 2)));
+  };
+  CHECK(lattice_of(plain_features(make_image({256, 256}, 1, slanted_grain), true)).rank == 0);
+}
+
 TEST_CASE("boards with thin joints are courses, few of them too") {
   for (const int height : {23, 74, 105}) {
     CAPTURE(height);
