@@ -12,7 +12,6 @@
 #include "core/file_io.h"
 #include "core/image_file.h"
 #include "core/image_libraries.h"
-#include "core/node.h"
 #include "core/png_codec.h"
 #include "core/suggest.h"
 #include "core/text.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/task.h"
+#include "core/text.h"
 #include "core/value.h"
 
 /// The node interface. A node type is one descriptor; validation, the JSON schema, the printed reference and the cache
@@ -131,12 +132,6 @@ struct StagedFile {
   std::filesystem::path temporary;
   std::filesystem::path target;
 };
-
-/// How notes begin that are warnings.
-inline constexpr std::string_view warning_mark = "warning: ";
-inline bool is_warning(std::string_view note) {
-  return note.starts_with(warning_mark);
-}
 
 /// What compute gets: inputs, parameters, and a place for the results. Used from one thread at a time (a node may use
 /// many threads inside); `task()` is thread-safe.

@@ -19,4 +19,10 @@ inline std::string counted(int64_t count, std::string_view thing) {
   return std::to_string(count).append(" ").append(thing).append(count == 1 ? "" : "s");
 }
 
+/// How notes begin that are warnings.
+inline constexpr std::string_view warning_mark = "warning: ";
+inline bool is_warning(std::string_view note) {
+  return note.starts_with(warning_mark);
+}
+
 }  // namespace terrazzo

@@ -65,9 +65,8 @@ void compute(NodeContext& node) {
   const Size border{border_pixels(node.number("border"), exemplar.width, options.tile_x),
                     border_pixels(node.number("border"), exemplar.height, options.tile_y)};
   node.note(
-      "the exemplar does not seem to wrap around, so its border is made anew; if it does, set \"tiles\" to \"yes\" "
-      "where "
-      "it is analysed, in the stock graph by --set tiles=yes");
+      "the exemplar does not seem to wrap around, so its border is made anew; if it does, set \"tiles\" to "
+      "\"yes\" where it is analysed, in the stock graph by --set tiles=yes");
   const Lattice& lattice = index->appearance()->lattice();
   const Size fitting =
       lattice.best_fitting(exemplar, options.tile_x, options.tile_y, {2 * border.width, 2 * border.height});

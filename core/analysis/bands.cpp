@@ -108,8 +108,9 @@ class LineCorrelation {
   std::vector<double> values_;
 };
 
-/// Of the period after which lines are most surely alike.
-Bands bands_among(const LineCorrelation& lines, const Correlation& r, bool courses) {
+/// Of the period after which lines that rise so are most surely alike.
+Bands bands_that_rise(const Correlation& r, bool courses, double rise) {
+  const LineCorrelation lines(r, courses, rise);
   double best = 0, evidence = 0;
   const auto consider = [&](double period) {
     const double needed = best > 0 && period > multiple * best ? clearly_better * evidence : evidence;
@@ -170,13 +171,13 @@ Slant slant_of_stripes(const Correlation& r) {
 }  // namespace
 
 Bands bands_of(const Correlation& r, bool courses) {
-  return bands_among(LineCorrelation(r, courses, 0), r, courses);
+  return bands_that_rise(r, courses, 0);
 }
 
 Bands stripes_of(const Correlation& r) {
   const Slant slant = slant_of_stripes(r);
   if (slant.differ <= 0) return {};
-  Bands out = bands_among(LineCorrelation(r, slant.courses, slant.rise), r, slant.courses);
+  Bands out = bands_that_rise(r, slant.courses, slant.rise);
   if (out.lattice.rank == 0) return {};
   const Vector2 across = out.lattice.first;
   const double period = std::max(across.x, across.y);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -154,11 +155,17 @@ bool are_told(const std::vector<ExemplarCourse>& courses, double told, const Dem
   return told >= (boards ? demands.told_of_boards : demands.told_of_bricks);
 }
 
-void find_head_joints(std::vector<ExemplarCourse>& courses, const HeadJoints& head_joints, const Task& task) {
+/// Returns of each course the likeness that it has them by.
+std::vector<std::vector<double>> find_head_joints(std::vector<ExemplarCourse>& courses, const HeadJoints& head_joints,
+                                                  const Task& task) {
+  std::vector<std::vector<double>> likeness(courses.size());
   tbb::parallel_for(size_t{0}, courses.size(), [&](size_t i) {
     task.check();
-    courses[i].joint = head_joints.likeness(courses[i]);
+    likeness[i] = head_joints.likeness(courses[i]);
+    courses[i].joint.clear();
+    for (const double column : likeness[i]) courses[i].joint.push_back(float(std::clamp(column, 0.0, 1.0)));
   });
+  return likeness;
 }
 
 /// The courses of a kind, and what was demanded of them.
@@ -179,9 +186,9 @@ ToldCourses whole_courses(const CourseSheet& sheet, Coursing& m, int kind, const
   const double told = head_joints.told();
   m.told = kind == 0 ? told : std::min(m.told, told);
   if (told < of_joints_like_beds.told_of_boards) return {};
-  find_head_joints(courses, head_joints, task);
+  std::vector<std::vector<double>> likeness = find_head_joints(courses, head_joints, task);
   if (are_told(courses, told, of_joints_like_beds)) return {courses};
-  if (told < least_told_to_learn || !head_joints.learn_from(courses, task)) return {};
+  if (told < least_told_to_learn || !head_joints.learn_from(courses, std::move(likeness))) return {};
   m.told = std::min(m.told, head_joints.told());
   find_head_joints(courses, head_joints, task);
   if (!are_told(courses, head_joints.told(), of_joints_by_themselves)) return {};

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <functional>
 
-#include <tbb/parallel_for.h>
-
 #include "core/linear_algebra.h"
 
 namespace terrazzo {
@@ -200,7 +198,7 @@ void HeadJoints::tell_apart(const Samples& samples) {
   told_ = std::sqrt(squared);
 }
 
-std::vector<double> HeadJoints::all_through(const ExemplarCourse& course) const {
+std::vector<double> HeadJoints::likeness(const ExemplarCourse& course) const {
   const CourseInside inside(course, half_breadth_);
   const int height = inside.end - inside.begin;
   using Sections = std::array<double, sections>;
@@ -230,26 +228,16 @@ std::vector<double> HeadJoints::all_through(const ExemplarCourse& course) const 
   return out;
 }
 
-std::vector<float> HeadJoints::likeness(const ExemplarCourse& course) const {
-  const std::vector<double> columns = all_through(course);
-  std::vector<float> out(columns.size());
-  std::ranges::transform(columns, out.begin(), [](double v) { return float(std::clamp(v, 0.0, 1.0)); });
-  return out;
-}
-
-bool HeadJoints::learn_from(const std::vector<ExemplarCourse>& courses, const Task& task) {
-  std::vector<std::vector<double>> columns(courses.size());
-  tbb::parallel_for(size_t{0}, courses.size(), [&](size_t i) {
-    task.check();
-    columns[i] = all_through(courses[i]);
-    const double usual = percentile(columns[i], 0.5);
-    for (double& likeness : columns[i]) likeness -= usual;
-  });
-  const double least = outstanding_deviations * deviation_of_lesser(columns);
+bool HeadJoints::learn_from(const std::vector<ExemplarCourse>& courses, std::vector<std::vector<double>> likeness) {
+  for (std::vector<double>& columns : likeness) {
+    const double usual = percentile(columns, 0.5);
+    for (double& column : columns) column -= usual;
+  }
+  const double least = outstanding_deviations * deviation_of_lesser(likeness);
   std::vector<std::vector<int>> joints;
   double found = 0;
-  for (const std::vector<double>& of_course : columns) {
-    joints.push_back(peaks(of_course, least, 2 * half_breadth_ + 2));
+  for (const std::vector<double>& columns : likeness) {
+    joints.push_back(peaks(columns, least, 2 * half_breadth_ + 2));
     found += double(joints.back().size());
   }
   if (found < std::max(least_learnt, least_learnt_each * double(courses.size()))) return false;

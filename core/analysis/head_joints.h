@@ -4,7 +4,6 @@
 
 #include "core/analysis/course_sheet.h"
 #include "core/analysis/coursing.h"
-#include "core/task.h"
 
 namespace terrazzo {
 
@@ -17,18 +16,18 @@ class HeadJoints {
 
   /// How far the means of joints and bricks lie apart, in standard deviations.
   double told() const { return told_; }
-  /// Of every column of the sheet how much it looks like a joint all through the course: 0..1.
-  std::vector<float> likeness(const ExemplarCourse& course) const;
+  /// Of every column of the sheet how much it looks like a joint all through the course: 0 as bricks do on average, 1
+  /// as joints do.
+  std::vector<double> likeness(const ExemplarCourse& course) const;
 
   /// Joints across may be narrower, shallower or darker than those along the courses: tells them from then on by those
-  /// columns of these courses that stand out from the others as the likeliest. Returns false, and changes nothing, if
-  /// there are hardly any. Throws Cancelled.
-  bool learn_from(const std::vector<ExemplarCourse>& courses, const Task& task);
+  /// columns of these courses that stand out from the others in `likeness`, which is each course's. Returns false, and
+  /// changes nothing, if there are hardly any.
+  bool learn_from(const std::vector<ExemplarCourse>& courses, std::vector<std::vector<double>> likeness);
 
  private:
   class Samples;
   void tell_apart(const Samples& samples);
-  std::vector<double> all_through(const ExemplarCourse& course) const;
 
   const CourseSheet& sheet_;
   int half_breadth_;

@@ -156,9 +156,8 @@ class Fit {
 
 /// Whether there are lines inside across which windows look as little like the rest as across the seam: joints are such
 /// lines.
-bool lines_fit_as_little(const Fit& fit, bool rows) {
+bool lines_fit_as_little(const Fit& fit, bool rows, double seam) {
   constexpr int lines = 96, enough = 3;
-  const double seam = fit.across_seam(rows);
   int found = 0;
   for (int i = 0; i < lines && found < enough; i++) found += fit.across_line(rows, double(i) / lines) >= seam ? 1 : 0;
   return found >= enough;
@@ -176,17 +175,24 @@ bool borders_fit(const Material& material) {
   const auto all = [&](auto&& holds) {
     return std::ranges::all_of(maps, [&](const ImagePtr& map) { return holds(*map); });
   };
-  // What a joint along the border shows across the seam may come nowhere else: it is then judged by itself.
-  const bool joint = std::ranges::any_of(maps, [](const ImagePtr& map) { return has_joint_along_border(*map); });
-  const Fit fit(maps);
-  const auto fits = [&](bool rows) {
-    const bool like_the_rest = fit.across_seam(rows) <= slack;
-    if (!like_the_rest && !all([&](const Image& map) { return goes_on(map, rows); })) return false;
-    if (!like_the_rest && joint) return true;
-    const auto steps_fit = [&](const Image& map) { return steps_alike(map, rows) || (joint && goes_on(map, rows)); };
-    return all(steps_fit) && (like_the_rest || lines_fit_as_little(fit, rows));
+  // What a joint along the border shows across the seam may come nowhere else: it is then judged by itself. Rarely
+  // asked for.
+  std::optional<bool> joint;
+  const auto has_joint = [&] {
+    if (!joint) joint = std::ranges::any_of(maps, [](const ImagePtr& map) { return has_joint_along_border(*map); });
+    return *joint;
   };
-  return fits(true) && fits(false);
+  const auto steps_fit = [&](bool rows) {
+    return all([&](const Image& map) { return steps_alike(map, rows) || (goes_on(map, rows) && has_joint()); });
+  };
+  if (!steps_fit(true) || !steps_fit(false)) return false;
+  const Fit fit(maps);
+  const auto windows_fit = [&](bool rows) {
+    const double seam = fit.across_seam(rows);
+    return seam <= slack || (all([&](const Image& map) { return goes_on(map, rows); }) &&
+                             (has_joint() || lines_fit_as_little(fit, rows, seam)));
+  };
+  return windows_fit(true) && windows_fit(false);
 }
 
 /// Whether the exemplar's cells, found without regard to its borders, come out uneven around it: an odd number of

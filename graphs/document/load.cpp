@@ -75,11 +75,12 @@ class Loader {
       for (Problem& p : options.look_ahead(faultless(drafts, order))) problems_.push_back(std::move(p));
     finish();
 
-    for (const size_t i : order) out.graph.nodes.push_back(std::move(drafts[i].node));
     for (const Problem& p : conversions) out.conversions.push_back(describe(file_, p));
-    for (const Problem& p : warnings_about(out.graph, substitution)) out.warnings.push_back(describe(file_, p));
-    if (!options.allow_unset && std::ranges::any_of(drafts, [](const NodeDraft& d) { return !d.unset.empty(); }))
-      std::erase_if(out.graph.nodes, [&](const GraphNode& n) { return !wanted.contains(n.name); });
+    for (const Problem& p : warnings_about(drafts, order, substitution)) out.warnings.push_back(describe(file_, p));
+    const bool complete = std::ranges::all_of(drafts, [](const NodeDraft& d) { return d.unset.empty(); });
+    for (const size_t i : order)
+      if (complete || options.allow_unset || wanted.contains(drafts[i].node.name))
+        out.graph.nodes.push_back(std::move(drafts[i].node));
     return out;
   }
 
@@ -118,23 +119,13 @@ class Loader {
     return out;
   }
 
-  /// What only these nodes need, directly or not; of all nodes if there are none or one of them is not there.
+  /// What only these nodes need; all there is if there are none or one of them is not there.
   static std::set<std::string> wanted_nodes(const std::vector<NodeDraft>& drafts,
                                             const std::vector<std::string>& only) {
-    std::map<std::string, const NodeDraft*> by_name;
-    for (const NodeDraft& d : drafts) by_name.emplace(d.node.name, &d);
-    std::vector<std::string> next = only;
-    if (only.empty() || !std::ranges::all_of(only, [&](const std::string& name) { return by_name.contains(name); }))
-      for (const NodeDraft& d : drafts) next.push_back(d.node.name);
-    std::set<std::string> out;
-    while (!next.empty()) {
-      const auto at = by_name.find(next.back());
-      next.pop_back();
-      if (at == by_name.end() || !out.insert(at->first).second) continue;
-      for (const PortWires& p : at->second->ports)
-        for (const WireEnd& w : p.wires) next.push_back(w.node);
-    }
-    return out;
+    std::vector<std::string> all;
+    for (const NodeDraft& d : drafts) all.push_back(d.node.name);
+    const auto is_there = [&](const std::string& name) { return std::ranges::find(all, name) != all.end(); };
+    return needed_nodes(drafts, only.empty() || !std::ranges::all_of(only, is_there) ? all : only);
   }
 
   /// Where all nodes run, also what none of them needs: it is there to be set.
@@ -177,19 +168,22 @@ class Loader {
     return out;
   }
 
-  static std::vector<Problem> warnings_about(const Graph& graph, const Substitution& substitution) {
+  static std::vector<Problem> warnings_about(const std::vector<NodeDraft>& drafts, const std::vector<size_t>& order,
+                                             const Substitution& substitution) {
     std::vector<Problem> out;
     for (const GraphParameter* p : substitution.unused())
       out.push_back({p->place, "parameter " + in_quotes(p->param.name), "no node uses it"});
-    const std::vector<bool> needed = needed_nodes(graph);
-    if (std::find(needed.begin(), needed.end(), true) == needed.end()) {
+    std::vector<std::string> sinks;
+    for (const NodeDraft& d : drafts)
+      if (d.node.type->is_sink()) sinks.push_back(d.node.name);
+    if (sinks.empty()) {
       out.push_back({{}, "", "no node is a sink: a run writes nothing"});
       return out;
     }
-    for (size_t i = 0; i < graph.nodes.size(); i++)
-      if (!needed[i])
-        out.push_back(
-            {graph.nodes[i].place, "node " + in_quotes(graph.nodes[i].name), "no sink reads it; it will not run"});
+    const std::set<std::string> needed = needed_nodes(drafts, sinks);
+    for (const size_t i : order)
+      if (const GraphNode& node = drafts[i].node; !needed.contains(node.name))
+        out.push_back({node.place, "node " + in_quotes(node.name), "no sink reads it; it will not run"});
     return out;
   }
 

@@ -178,17 +178,17 @@ std::vector<size_t> execution_order(const std::vector<NodeDraft>& drafts, std::v
   return Walk(drafts, problems).order();
 }
 
-std::vector<bool> needed_nodes(const Graph& graph) {
-  Positions positions;
-  for (size_t i = 0; i < graph.nodes.size(); i++) positions.emplace(graph.nodes[i].name, i);
-  std::vector<bool> needed(graph.nodes.size());
-  for (size_t i = graph.nodes.size(); i-- > 0;) {
-    needed[i] = needed[i] || graph.nodes[i].type->is_sink();
-    if (!needed[i]) continue;
-    for (const auto& [port, wires] : graph.nodes[i].inputs)
-      for (const Wire& w : wires) needed[positions.find(w.node)->second] = true;
+std::set<std::string> needed_nodes(const std::vector<NodeDraft>& drafts, std::vector<std::string> names) {
+  const Positions positions = positions_of(drafts);
+  std::set<std::string> out;
+  while (!names.empty()) {
+    const auto at = positions.find(names.back());
+    names.pop_back();
+    if (at == positions.end() || !out.insert(std::string(at->first)).second) continue;
+    for (const PortWires& p : drafts[at->second].ports)
+      for (const WireEnd& w : p.wires) names.push_back(w.node);
   }
-  return needed;
+  return out;
 }
 
 }  // namespace terrazzo

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ void connect(std::vector<NodeDraft>& drafts, std::vector<Problem>& problems, std
 /// allows. Each cycle is a problem that names the nodes on it.
 std::vector<size_t> execution_order(const std::vector<NodeDraft>& drafts, std::vector<Problem>& problems);
 
-/// The nodes, by position in the graph, that a sink reads, directly or not; sinks included.
-std::vector<bool> needed_nodes(const Graph& graph);
+/// The names of what these nodes read, directly or not; they are included if they are there.
+std::set<std::string> needed_nodes(const std::vector<NodeDraft>& drafts, std::vector<std::string> names);
 
 }  // namespace terrazzo
