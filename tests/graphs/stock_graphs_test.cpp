@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "graphs/document/load.h"
+#include "test_paths.h"
 
 using namespace terrazzo;
 

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/image_file.h"
 #include "nodes/registry.h"
+#include "test_paths.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;

@@ -5,6 +5,7 @@
 
 #include "runner/cache.h"
 #include "runner/cache_folder.h"
+#include "test_paths.h"
 #include "tests/run_node.h"
 #include "tests/runner/fakes.h"
 #include "tests/sample_values.h"

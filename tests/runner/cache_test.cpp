@@ -12,6 +12,7 @@
 #include "core/bytes.h"
 #include "runner/cache_folder.h"
 #include "runner/cache_records.h"
+#include "test_paths.h"
 #include "tests/run_node.h"
 #include "tests/sample_values.h"
 

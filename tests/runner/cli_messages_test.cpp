@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/image_file.h"
+#include "test_paths.h"
 #include "tests/runner/fakes.h"
 #include "tests/runner/workplace.h"
 

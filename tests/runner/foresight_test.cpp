@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "graphs/document/load.h"
+#include "test_paths.h"
 #include "tests/runner/fakes.h"
 #include "tests/runner/workplace.h"
 

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "test_paths.h"
 #include "tests/runner/fakes.h"
 
 namespace terrazzo::test {

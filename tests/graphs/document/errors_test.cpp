@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "test_paths.h"
 #include "tests/graphs/document/fake_types.h"
 
 using namespace terrazzo;
