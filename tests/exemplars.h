@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/analysis/appearance_space.h"
-#include "core/analysis/similar_sets.h"
-#include "core/analysis/weighting.h"
-#include "core/hash.h"
+#include "core/analysis/space/appearance_space.h"
+#include "core/analysis/space/k_coherence.h"
+#include "core/analysis/space/weighting.h"
+#include "core/base/hash.h"
 #include "tests/run_node.h"
 
 namespace terrazzo::test {

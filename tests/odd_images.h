@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry.h"
+#include "core/base/geometry.h"
 
 /// Image files that our own writer never makes.
 namespace terrazzo::test {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "nodes/registry.h"
+#include "nodes/common/registry.h"
 
 namespace terrazzo::test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/node.h"
+#include "core/node/node.h"
 
 namespace terrazzo::test {
 

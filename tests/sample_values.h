@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/value.h"
+#include "core/node/value.h"
 
 namespace terrazzo::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/metrics/fft.h"
+#include "core/numeric/fft.h"
 
 namespace terrazzo {
 

@@ -7,7 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/linear_algebra.h"
+#include "core/numeric/linear_algebra.h"
 
 namespace terrazzo {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/metrics/planes.h"
-#include "core/task.h"
+#include "core/base/task.h"
+#include "core/image/float_planes.h"
 
 namespace terrazzo {
 

@@ -6,9 +6,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/disjoint_sets.h"
-#include "core/metrics/nearest.h"
+#include "core/base/disjoint_sets.h"
 #include "core/metrics/patches.h"
+#include "core/numeric/nearest.h"
 
 namespace terrazzo {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/metrics/planes.h"
-#include "core/task.h"
+#include "core/base/task.h"
+#include "core/image/float_planes.h"
 
 namespace terrazzo {
 

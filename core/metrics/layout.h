@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/metrics/planes.h"
-#include "core/uv_map.h"
+#include "core/exemplar/uv_map.h"
+#include "core/image/float_planes.h"
 
 namespace terrazzo {
 

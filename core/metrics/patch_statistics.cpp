@@ -8,8 +8,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
-#include "core/metrics/nearest.h"
 #include "core/metrics/patches.h"
+#include "core/numeric/nearest.h"
 
 namespace terrazzo {
 

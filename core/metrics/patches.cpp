@@ -7,8 +7,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/analysis/principal_components.h"
-#include "core/hash.h"
+#include "core/base/hash.h"
+#include "core/numeric/principal_components.h"
 
 namespace terrazzo {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/metrics/planes.h"
-#include "core/task.h"
+#include "core/base/task.h"
+#include "core/image/float_planes.h"
 
 namespace terrazzo {
 

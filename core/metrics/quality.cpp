@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/map_names.h"
+#include "core/material/map_names.h"
 #include "core/metrics/autocorrelation.h"
 #include "core/metrics/cooccurrence.h"
 #include "core/metrics/copies.h"

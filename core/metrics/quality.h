@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "core/material.h"
-#include "core/metrics/planes.h"
-#include "core/task.h"
+#include "core/base/task.h"
+#include "core/image/float_planes.h"
+#include "core/material/material.h"
 
 namespace terrazzo {
 

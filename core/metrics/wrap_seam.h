@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/image.h"
+#include "core/image/image.h"
 
 namespace terrazzo {
 

@@ -1,4 +1,4 @@
-#include "core/exact_math.h"
+#include "core/base/portable_math.h"
 #include "core/procedural/masonry.h"
 #include "core/procedural/pattern_types.h"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/exact_math.h"
+#include "core/base/portable_math.h"
 #include "core/procedural/surface.h"
 
 namespace terrazzo {

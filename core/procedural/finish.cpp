@@ -4,9 +4,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/exact_math.h"
-#include "core/normal.h"
-#include "core/occlusion.h"
+#include "core/base/portable_math.h"
+#include "core/image/normal.h"
+#include "core/image/occlusion.h"
 
 namespace terrazzo {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/image.h"
-#include "core/material.h"
+#include "core/base/task.h"
+#include "core/image/image.h"
+#include "core/material/material.h"
 #include "core/procedural/surface.h"
-#include "core/task.h"
 
 /// From a described surface to a material's maps.
 namespace terrazzo {

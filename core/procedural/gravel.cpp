@@ -1,7 +1,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/exact_math.h"
+#include "core/base/portable_math.h"
 #include "core/procedural/cell_table.h"
 #include "core/procedural/pattern_types.h"
 

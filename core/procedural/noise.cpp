@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/exact_math.h"
+#include "core/base/portable_math.h"
 
 namespace terrazzo {
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/geometry.h"
-#include "core/hash.h"
-#include "core/image.h"
+#include "core/base/geometry.h"
+#include "core/base/hash.h"
+#include "core/image/image.h"
 
 /// Lattice noises over counter-based hashes: a value depends on position and seed alone, so any window of a noise is
 /// the same, bit for bit, as that window of the whole. All functions are thread-safe.

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/procedural/finish.h"
 #include "core/procedural/pattern_types.h"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/material.h"
+#include "core/base/task.h"
+#include "core/material/material.h"
 #include "core/procedural/surface.h"
-#include "core/task.h"
 
 /// Procedural exemplars: materials whose maps all come from one described surface and therefore agree.
 namespace terrazzo {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/exact_math.h"
+#include "core/base/portable_math.h"
 
 namespace terrazzo {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry.h"
+#include "core/base/geometry.h"
 #include "core/procedural/noise.h"
 
 /// What the pattern types share: a canvas of wrapping noises, colours, and the surface that each type describes point

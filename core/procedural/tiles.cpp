@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "core/exact_math.h"
+#include "core/base/portable_math.h"
 #include "core/procedural/pattern_types.h"
 
 namespace terrazzo {

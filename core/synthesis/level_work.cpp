@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image_ops.h"
-#include "core/synthesis/alignment.h"
-#include "core/synthesis/bricklaying.h"
-#include "core/synthesis/mending.h"
-#include "core/synthesis/piece_limits.h"
-#include "core/synthesis/placing.h"
-#include "core/synthesis/refilling.h"
-#include "core/synthesis/reworking.h"
+#include "core/image/image_ops.h"
+#include "core/synthesis/state/piece_limits.h"
+#include "core/synthesis/steps/alignment.h"
+#include "core/synthesis/steps/coherence_repair.h"
+#include "core/synthesis/steps/course_layout.h"
+#include "core/synthesis/steps/graphcut_repair.h"
+#include "core/synthesis/steps/initialize.h"
+#include "core/synthesis/steps/piece_relocation.h"
 
 namespace terrazzo {
 

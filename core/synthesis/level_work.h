@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/synthesis/correction.h"
-#include "core/synthesis/seams.h"
+#include "core/synthesis/steps/correction.h"
+#include "core/synthesis/steps/seams.h"
 #include "core/synthesis/synthesize.h"
 
 namespace terrazzo {

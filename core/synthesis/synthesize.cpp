@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/image_ops.h"
+#include "core/base/error.h"
+#include "core/image/image_ops.h"
 #include "core/synthesis/level_work.h"
 
 namespace terrazzo {

@@ -4,11 +4,11 @@
 #include <string_view>
 #include <vector>
 
-#include "core/appearance.h"
-#include "core/synthesis/control.h"
-#include "core/synthesis/kept.h"
-#include "core/task.h"
-#include "core/uv_map.h"
+#include "core/base/task.h"
+#include "core/exemplar/appearance.h"
+#include "core/exemplar/uv_map.h"
+#include "core/synthesis/state/control.h"
+#include "core/synthesis/state/fixed_pixels.h"
 
 namespace terrazzo {
 

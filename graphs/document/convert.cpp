@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "core/suggest.h"
-#include "core/text.h"
+#include "core/base/suggest.h"
+#include "core/base/text.h"
 #include "graphs/document/format.h"
 
 namespace terrazzo {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "core/node.h"
-#include "graphs/document/complaints.h"
+#include "core/node/node.h"
+#include "graphs/document/diagnostics.h"
 #include "graphs/document/json.h"
 
 /// Between JSON and parameter values, by a parameter's descriptor.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/node.h"
+#include "core/node/node.h"
 
 /// A graph that has been read, expanded and checked: everything the runner needs, nothing of JSON.
 namespace terrazzo {

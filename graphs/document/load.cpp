@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/image_file.h"
-#include "core/suggest.h"
+#include "core/base/suggest.h"
+#include "core/image/image_file.h"
 #include "graphs/document/nodes.h"
 #include "graphs/document/wires.h"
 

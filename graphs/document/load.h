@@ -10,7 +10,7 @@
 #include "graphs/document/migrate.h"
 #include "graphs/document/parameters.h"
 #include "graphs/document/problem.h"
-#include "nodes/registry.h"
+#include "nodes/common/registry.h"
 
 /// From a graph document to a checked graph. Thread-safe.
 namespace terrazzo {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/suggest.h"
+#include "core/base/suggest.h"
 #include "graphs/document/format.h"
 
 namespace terrazzo {

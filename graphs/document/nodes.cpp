@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/suggest.h"
+#include "core/base/suggest.h"
 #include "graphs/document/convert.h"
 
 namespace terrazzo {

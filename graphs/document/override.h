@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "graphs/document/complaints.h"
+#include "graphs/document/diagnostics.h"
 
 namespace terrazzo {
 

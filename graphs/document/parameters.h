@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/node.h"
-#include "graphs/document/complaints.h"
+#include "core/node/node.h"
+#include "graphs/document/diagnostics.h"
 #include "graphs/document/json.h"
 #include "graphs/document/override.h"
 

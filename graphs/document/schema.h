@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/node.h"
-#include "nodes/registry.h"
+#include "core/node/node.h"
+#include "nodes/common/registry.h"
 
 namespace terrazzo {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/suggest.h"
+#include "core/base/suggest.h"
 
 namespace terrazzo {
 

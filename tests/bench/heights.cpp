@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/image_file.h"
-#include "core/uv_image.h"
+#include "core/base/error.h"
+#include "core/exemplar/uv_image.h"
+#include "core/image/image_file.h"
 
 using namespace terrazzo;
 

@@ -5,18 +5,18 @@
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
-#include "core/analysis/appearance_space.h"
-#include "core/analysis/coursing.h"
-#include "core/analysis/principal_components.h"
-#include "core/analysis/similar_sets.h"
-#include "core/analysis/weighting.h"
-#include "core/hash.h"
-#include "core/image_file.h"
-#include "core/lattice.h"
-#include "core/material.h"
+#include "core/analysis/courses/coursing.h"
+#include "core/analysis/space/appearance_space.h"
+#include "core/analysis/space/k_coherence.h"
+#include "core/analysis/space/weighting.h"
+#include "core/base/hash.h"
+#include "core/exemplar/lattice.h"
+#include "core/image/image_file.h"
+#include "core/material/material.h"
+#include "core/numeric/principal_components.h"
 #include "core/procedural/pattern.h"
-#include "core/synthesis/correction.h"
-#include "core/synthesis/pieces.h"
+#include "core/synthesis/state/pieces.h"
+#include "core/synthesis/steps/correction.h"
 #include "core/synthesis/synthesize.h"
 
 using namespace terrazzo;

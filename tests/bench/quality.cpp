@@ -13,9 +13,9 @@
 
 #include <fmt/format.h>
 
-#include "core/contact_sheet.h"
-#include "core/image_file.h"
-#include "nodes/registry.h"
+#include "core/image/image_file.h"
+#include "core/picture/contact_sheet.h"
+#include "nodes/common/registry.h"
 
 namespace fs = std::filesystem;
 using namespace terrazzo;

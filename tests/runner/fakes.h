@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "runner/schedule.h"
+#include "runner/engine/schedule.h"
 #include "tests/run_node.h"
 
 /// Small node types and graphs made in memory, for tests of the runner. Values are images of one pixel.

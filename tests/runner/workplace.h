@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
+#include "core/image/image.h"
 #include "tests/run_node.h"
 #include "tests/runner/program.h"
 

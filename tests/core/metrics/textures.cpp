@@ -1,6 +1,6 @@
 #include "textures.h"
 
-#include "core/hash.h"
+#include "core/base/hash.h"
 
 namespace terrazzo::test {
 

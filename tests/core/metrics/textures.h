@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/metrics/planes.h"
+#include "core/image/float_planes.h"
 
 /// Small textures to measure metrics with, and ways to spoil them.
 namespace terrazzo::test {

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "core/hash.h"
+#include "core/base/hash.h"
 #include "tests/core/metrics/textures.h"
 #include "tests/run_node.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/hash.h"
-#include "core/synthesis/correction.h"
+#include "core/base/hash.h"
+#include "core/synthesis/steps/correction.h"
 
 namespace terrazzo::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/appearance.h"
-#include "core/hash.h"
+#include "core/base/hash.h"
+#include "core/exemplar/appearance.h"
 
 namespace terrazzo::test {
 

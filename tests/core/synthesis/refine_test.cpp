@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/synthesis/synthesize.h"
 #include "tests/exemplars.h"
 

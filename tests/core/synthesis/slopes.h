@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/analysis/padded_level.h"
+#include "core/analysis/space/padded_level.h"
 #include "tests/core/synthesis/noise.h"
 
 namespace terrazzo::test {

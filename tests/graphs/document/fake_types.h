@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/node.h"
+#include "core/node/node.h"
 #include "graphs/document/load.h"
 
 namespace terrazzo::test {

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "core/hash.h"
+#include "core/base/hash.h"
 #include "graphs/document/migrate.h"
 #include "tests/graphs/document/fake_types.h"
 

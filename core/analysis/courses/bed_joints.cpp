@@ -1,0 +1,123 @@
+#include "core/analysis/courses/bed_joints.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "core/base/geometry.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int sections = 16;                             // that a line is divided into,
+constexpr int unlike_sections = 4;                       // of which so many need not show the joint
+constexpr double thicknesses[] = {0, 0.02, 0.04, 0.06};  // half of what a joint may have, of a period
+constexpr double clearly_thicker = 1.1;                  // by so much a thicker one must be clearer
+constexpr double other_joint = 0.6;                      // what of the clearest joint another of the period has
+constexpr double least_course = 0.2;                     // of a period
+
+using Values = std::array<double, CourseSheet::most_channels>;
+/// The mean of each section.
+using Line = std::array<Values, sections>;
+
+std::vector<Line> line_means(const CourseSheet& sheet) {
+  std::vector<Line> out(size_t(sheet.breadth));
+  tbb::parallel_for(0, sheet.breadth, [&](int v) {
+    for (int s = 0; s < sections; s++) {
+      Values& mean = out[size_t(v)][size_t(s)];
+      const int begin = s * sheet.length / sections, end = (s + 1) * sheet.length / sections;
+      for (int u = begin; u < end; u++)
+        for (int c = 0; c < sheet.channels(); c++) mean[size_t(c)] += sheet.at(u, v)[c] / (end - begin);
+    }
+  });
+  return out;
+}
+
+double dot(const Values& a, const Values& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/// How far a strip lies apart from its two sides, in each section in the way in which it does on the whole: what three
+/// in four sections have.
+double ridge(const std::vector<Line>& lines, int middle, int half_breadth) {
+  const auto mean = [&](int at, size_t s, size_t c) {
+    double sum = 0;
+    for (int k = -half_breadth; k <= half_breadth; k++) sum += lines[size_t(at + k)][s][c];
+    return sum / (2 * half_breadth + 1);
+  };
+  const int away = 2 * half_breadth + 2;
+  Line apart{};
+  Values total{};
+  for (size_t s = 0; s < sections; s++)
+    for (size_t c = 0; c < total.size(); c++) {
+      apart[s][c] = mean(middle, s, c) - (mean(middle - away, s, c) + mean(middle + away, s, c)) / 2;
+      total[c] += apart[s][c];
+    }
+  const double length = std::sqrt(dot(total, total));
+  if (length == 0) return 0;
+  std::array<double, sections> along{};
+  for (size_t s = 0; s < sections; s++) along[s] = dot(apart[s], total) / length;
+  std::nth_element(along.begin(), along.begin() + unlike_sections, along.end());
+  return along[unlike_sections];
+}
+
+/// The ridges by their place in the period: a bin per pixel.
+std::vector<double> folded_ridges(const std::vector<Line>& lines, double period, int half_breadth) {
+  const int bins = int(period + 0.5), margin = 3 * half_breadth + 2;
+  std::vector<double> sum(size_t(bins), 0.0), count(size_t(bins), 0.0);
+  for (int v = margin; v < int(lines.size()) - margin; v++) {
+    const double place = v / period;
+    const auto bin = std::min(size_t(bins) - 1, size_t((place - std::floor(place)) * bins));
+    sum[bin] += ridge(lines, v, half_breadth);
+    count[bin]++;
+  }
+  for (size_t i = 0; i < sum.size(); i++) sum[i] /= std::max(1.0, count[i]);
+  return sum;
+}
+
+/// The clearest ridges that lie a course apart.
+std::vector<double> peaks(const std::vector<double>& ridges, double period, int half_breadth) {
+  const int bins = int(ridges.size()), apart = std::max(6 * half_breadth, int(least_course * bins));
+  std::vector<double> places, left = ridges;
+  const double clearest = *std::ranges::max_element(ridges);
+  for (;;) {
+    const int top = int(std::ranges::max_element(left) - left.begin());
+    if (left[size_t(top)] < other_joint * clearest) break;
+    double weights = 0, moment = 0;
+    for (int k = -half_breadth - 1; k <= half_breadth + 1; k++) {
+      const double w = std::max(0.0, ridges[size_t(wrap(top + k, bins))]);
+      weights += w;
+      moment += w * k;
+    }
+    const double place = (top + 0.5 + moment / weights) / bins;
+    places.push_back((place - std::floor(place)) * period);
+    for (int k = -apart; k <= apart; k++) left[size_t(wrap(top + k, bins))] = -1;
+  }
+  std::ranges::sort(places);
+  return places;
+}
+
+}  // namespace
+
+BedJoints find_bed_joints(const CourseSheet& sheet, double period) {
+  const std::vector<Line> lines = line_means(sheet);
+  BedJoints out;
+  double clearest = 0;
+  int half_breadth = -1;
+  for (const double t : thicknesses) {
+    half_breadth = std::max(half_breadth + 1, int(t * period + 0.5));
+    const std::vector<double> ridges = folded_ridges(lines, period, half_breadth);
+    const double clear = *std::ranges::max_element(ridges);
+    if (clear <= clearly_thicker * clearest) continue;
+    clearest = clear;
+    out = {half_breadth, peaks(ridges, period, half_breadth)};
+  }
+  return out;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,235 @@
+#include "core/analysis/courses/coursing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "core/analysis/courses/bed_joints.h"
+#include "core/analysis/courses/head_joints.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr double smallest_period = 14;  // pixels; finer joints are lost
+constexpr double largest_period = 96;   // more is looked at where pixels are larger
+/// How far joints across and what is between them lie apart at least, in deviations, and how many go on in the course
+/// below at most.
+struct Demands {
+  double told_of_bricks, told_of_boards, most_aligned;
+};
+// Courses of boards are cut so seldom that they may be told less. Joints that are known by themselves only were chosen
+// for how they stand out.
+constexpr Demands of_joints_like_beds{1.1, 0.7, 0.3}, of_joints_by_themselves{1.4, 1.4, 0.1};
+constexpr double least_joints = 0.8, least_jointed = 0.4;  // in a course, and courses that have one
+constexpr double least_told_to_learn = 0.8;                // of bed joints
+constexpr double shortest_board = 5;                       // course heights
+constexpr int least_of_kind = 2, least_courses = 3;        // or there is nothing to choose from
+constexpr double least_shown = 0.8;     // of the exemplar: no result shows courses that its border cuts off
+constexpr double least_astray = 0.6;    // joints to each brick of a lattice which do not come again with it
+constexpr double least_between = 0.15;  // share_between_bricks()
+constexpr int least_inside = 3;         // rows of a course that belong to no joint
+
+/// All courses of one kind of which the exemplar shows something, whole or not.
+std::vector<ExemplarCourse> courses_of_kind(const Coursing& m, int kind, int breadth) {
+  std::vector<ExemplarCourse> out;
+  const size_t k = size_t(kind);
+  for (double start = -m.period; start < breadth; start += m.period) {
+    const double begin = start + m.beds[k];
+    const double end = k + 1 < m.beds.size() ? start + m.beds[k + 1] : start + m.period + m.beds[0];
+    if (end > 0 && begin < breadth) out.push_back({begin, end, kind, {}});
+  }
+  return out;
+}
+
+/// What share of so many rows whole courses take.
+double shown_share(const std::vector<ExemplarCourse>& courses, int breadth) {
+  double rows = 0;
+  for (const ExemplarCourse& c : courses) rows += c.end - c.begin;
+  return rows / breadth;
+}
+
+/// How many of the joints go on in a course below.
+double aligned_share(const std::vector<ExemplarCourse>& courses, int half_joint) {
+  int aligned = 0, all = 0;
+  for (const ExemplarCourse& upper : courses)
+    for (const ExemplarCourse& lower : courses) {
+      if (std::abs(lower.begin - upper.end) > 1) continue;
+      const std::vector<double> below = sure_joints(lower);
+      for (const double u : sure_joints(upper)) {
+        aligned += std::ranges::any_of(below, [&](double v) { return std::abs(u - v) <= half_joint + 1; });
+        all++;
+      }
+    }
+  return all > 0 ? double(aligned) / all : 0;
+}
+
+/// How many joints there are for every `step` along the courses that do not come again a step farther on.
+double joints_astray(const std::vector<ExemplarCourse>& courses, double step, int half_joint) {
+  double length = 0;
+  int joints = 0, followed = 0, again = 0;
+  for (const ExemplarCourse& c : courses) {
+    const std::vector<double> sure = sure_joints(c);
+    length += double(c.joint.size());
+    joints += int(sure.size());
+    for (const double u : sure) {
+      if (u + step >= double(c.joint.size()) - half_joint - 1) continue;
+      again += std::ranges::any_of(sure, [&](double v) { return std::abs(u + step - v) <= half_joint + 1; });
+      followed++;
+    }
+  }
+  return followed > 0 ? (1 - double(again) / followed) * joints * step / length : 0;
+}
+
+/// What share of all that bricks vary by is what they differ by as wholes: the intraclass correlation.
+double share_between_bricks(const CourseSheet& sheet, const std::vector<ExemplarCourse>& courses, int half_joint) {
+  const auto channels = size_t(sheet.channels());
+  std::vector<double> sums(channels, 0.0), squares(channels, 0.0), of_means(channels, 0.0);
+  double pixels = 0;
+  const auto add_brick = [&](const CourseInside& inside, int begin, int end) {
+    const double count = double(end - begin) * (inside.end - inside.begin);
+    if (begin >= end) return;
+    pixels += count;
+    for (size_t k = 0; k < channels; k++) {
+      double sum = 0;
+      for (int v = inside.begin; v < inside.end; v++)
+        for (int u = begin; u < end; u++) {
+          const double value = sheet.at(u, v)[k];
+          sum += value;
+          squares[k] += value * value;
+        }
+      sums[k] += sum;
+      of_means[k] += sum * sum / count;
+    }
+  };
+  const int margin = half_joint + 2;
+  for (const ExemplarCourse& c : courses) {
+    const std::vector<double> joints = sure_joints(c);
+    for (size_t i = 1; i < joints.size(); i++)
+      add_brick(CourseInside(c, half_joint), int(joints[i - 1]) + margin, int(joints[i]) + 1 - margin);
+  }
+  double between = 0, all = 0;
+  for (size_t k = 0; k < channels && pixels > 0; k++) {
+    between += of_means[k] - sums[k] * sums[k] / pixels;
+    all += squares[k] - sums[k] * sums[k] / pixels;
+  }
+  return all > 0 ? between / all : 0;
+}
+
+/// Whether bricks are whole where the lattice puts them together: if its steps are theirs, and no one can tell two
+/// halves of theirs that do not belong together. Nor are they better cut at joints of which no one is sure.
+bool lattice_keeps_whole(const CourseSheet& sheet, const Coursing& m, double step) {
+  if (joints_astray(m.courses, step, m.half_joint) >= least_astray) return false;
+  return !m.is_clear() || share_between_bricks(sheet, m.courses, m.half_joint) < least_between;
+}
+
+/// From joint to joint, as most are: where the exemplar shows few bricks from end to end, the mean of all.
+double usual_brick(const std::vector<ExemplarCourse>& courses) {
+  std::vector<double> bricks;
+  double joints = 0, length = 0;
+  for (const ExemplarCourse& c : courses) {
+    const std::vector<double> sure = sure_joints(c);
+    for (size_t i = 1; i < sure.size(); i++) bricks.push_back(sure[i] - sure[i - 1]);
+    joints += double(sure.size());
+    length += double(c.joint.size());
+  }
+  if (bricks.size() < courses.size()) return length / joints;
+  const auto middle = bricks.begin() + std::ptrdiff_t(bricks.size() / 2);
+  std::ranges::nth_element(bricks, middle);
+  return *middle;
+}
+
+/// Whether joints can be told from bricks, and bricks do end.
+bool are_told(const std::vector<ExemplarCourse>& courses, double told, const Demands& demands) {
+  double joints = 0, jointed = 0;
+  for (const ExemplarCourse& c : courses) {
+    const size_t of_course = sure_joints(c).size();
+    joints += double(of_course);
+    jointed += of_course > 0 ? 1 : 0;
+  }
+  const auto count = double(courses.size());
+  if (joints < least_joints * count || jointed < least_jointed * count) return false;
+  const bool boards = usual_brick(courses) >= shortest_board * (courses[0].end - courses[0].begin);
+  return told >= (boards ? demands.told_of_boards : demands.told_of_bricks);
+}
+
+/// Returns of each course the likeness that it has them by.
+std::vector<std::vector<double>> find_head_joints(std::vector<ExemplarCourse>& courses, const HeadJoints& head_joints,
+                                                  const Task& task) {
+  std::vector<std::vector<double>> likeness(courses.size());
+  tbb::parallel_for(size_t{0}, courses.size(), [&](size_t i) {
+    task.check();
+    likeness[i] = head_joints.likeness(courses[i]);
+    courses[i].joint.clear();
+    for (const double column : likeness[i]) courses[i].joint.push_back(float(std::clamp(column, 0.0, 1.0)));
+  });
+  return likeness;
+}
+
+/// The courses of a kind, and what was demanded of them.
+struct ToldCourses {
+  std::vector<ExemplarCourse> courses;
+  Demands met = of_joints_like_beds;
+};
+
+/// Nothing if joints cannot be told from bricks, or bricks hardly end.
+ToldCourses whole_courses(const CourseSheet& sheet, Coursing& m, int kind, const Task& task) {
+  std::vector<ExemplarCourse> courses = courses_of_kind(m, kind, sheet.breadth);
+  HeadJoints head_joints(sheet, courses, m.half_joint);
+  std::erase_if(courses, [&](const ExemplarCourse& c) {
+    const CourseInside inside(c, m.half_joint);
+    return inside.begin < 0 || inside.end > sheet.breadth || inside.end - inside.begin < least_inside;
+  });
+  if (int(courses.size()) < least_of_kind) return {};
+  const double told = head_joints.told();
+  m.told = kind == 0 ? told : std::min(m.told, told);
+  if (told < of_joints_like_beds.told_of_boards) return {};
+  std::vector<std::vector<double>> likeness = find_head_joints(courses, head_joints, task);
+  if (are_told(courses, told, of_joints_like_beds)) return {courses};
+  if (told < least_told_to_learn || !head_joints.learn_from(courses, std::move(likeness))) return {};
+  m.told = std::min(m.told, head_joints.told());
+  find_head_joints(courses, head_joints, task);
+  if (!are_told(courses, head_joints.told(), of_joints_by_themselves)) return {};
+  return {courses, of_joints_by_themselves};
+}
+
+}  // namespace
+
+Coursing find_coursing(const Appearance& appearance, const Task& task) {
+  Coursing out;
+  Vector2 along = appearance.lattice().along_bands(true);
+  out.axes = {along.x == 0, along.x == 0 ? 0 : along.y / along.x};
+  if (out.axes.upright) along = appearance.lattice().along_bands(false);
+  if (out.axes.upright && along.y != 0) out.axes.rise = along.x / along.y;
+  const Lattice bands = appearance.lattice().level_bands(!out.axes.upright);
+  if (bands.rank == 0) return {};
+  out.period = std::abs(out.axes.upright ? bands.first.x : bands.first.y);
+  while (out.period > largest_period && out.level + 1 < int(appearance.levels().size())) {
+    out.period /= 2;
+    out.level++;
+  }
+  if (out.period < smallest_period) return {};
+  const CourseSheet sheet(appearance.levels()[size_t(out.level)], out.axes);
+  const BedJoints beds = find_bed_joints(sheet, out.period);
+  out.beds = beds.places;
+  out.half_joint = beds.half_breadth;
+  double most_aligned = 1;
+  for (int kind = 0; kind < int(out.beds.size()); kind++) {
+    task.check();
+    const ToldCourses told = whole_courses(sheet, out, kind, task);
+    if (told.courses.empty()) return {};
+    out.courses.insert(out.courses.end(), told.courses.begin(), told.courses.end());
+    most_aligned = std::min(most_aligned, told.met.most_aligned);
+  }
+  if (int(out.courses.size()) < least_courses || shown_share(out.courses, sheet.breadth) < least_shown) return {};
+  // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and whole, by
+  // themselves.
+  if (aligned_share(out.courses, out.half_joint) > most_aligned) return {};
+  const double step = std::abs(out.axes.upright ? along.y : along.x) / (1 << out.level);
+  if (appearance.lattice().rank == 2 && lattice_keeps_whole(sheet, out, step)) return {};
+  return out;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,263 @@
+#include "core/analysis/courses/head_joints.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "core/numeric/linear_algebra.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr double regularised = 1e-3;  // of the mean variance
+constexpr int most_samples = 1 << 17, stagger = 7;
+constexpr double surely_bed = 0.6;            // of a joint's half breadth
+constexpr int sections = 6;                   // that a course is divided into across,
+constexpr int unlike_sections = 1;            // of which so many need not look like the joint
+constexpr float sure = 0.75f, unsure = 0.4f;  // of a joint
+constexpr double outstanding_deviations = 4;  // of a course's columns
+constexpr double least_learnt = 3;            // joints, and
+constexpr double least_learnt_each = 0.5;     // so many in a course
+
+/// What a pixel is told by: itself, what is around it, and how much that varies.
+constexpr int most_traits = 2 * CourseSheet::most_channels + 1;
+using Traits = std::array<double, most_traits>;
+
+int trait_count(const CourseSheet& sheet) {
+  return 2 * sheet.channels() + 1;
+}
+
+Traits traits_of(const CourseSheet& sheet, int along, int across, int radius) {
+  const auto channels = size_t(sheet.channels());
+  Traits out{};
+  double squares = 0;
+  int n = 0;
+  for (int v = std::max(0, across - radius); v <= std::min(sheet.breadth - 1, across + radius); v++)
+    for (int u = std::max(0, along - radius); u <= std::min(sheet.length - 1, along + radius); u++, n++)
+      for (size_t c = 0; c < channels; c++) {
+        const double value = sheet.at(u, v)[c];
+        out[channels + c] += value;
+        squares += value * value;
+      }
+  double of_means = 0;
+  for (size_t c = 0; c < channels; c++) {
+    out[c] = sheet.at(along, across)[c];
+    out[channels + c] /= n;
+    of_means += out[channels + c] * out[channels + c];
+  }
+  out[2 * channels] = std::sqrt(std::max(0.0, squares / n - of_means));
+  return out;
+}
+
+/// The mean and the covariance of traits, as they are added.
+class Moments {
+ public:
+  explicit Moments(int traits) : n_(traits) {}
+
+  void add(const Traits& f) {
+    weight_++;
+    for (int i = 0; i < n_; i++) {
+      sum_[size_t(i)] += f[size_t(i)];
+      for (int j = 0; j <= i; j++) products_[size_t(i * n_ + j)] += f[size_t(i)] * f[size_t(j)];
+    }
+  }
+  bool empty() const { return weight_ == 0; }
+  double mean(int i) const { return sum_[size_t(i)] / weight_; }
+  double covariance(int i, int j) const {
+    return products_[size_t(std::max(i, j) * n_ + std::min(i, j))] / weight_ - mean(i) * mean(j);
+  }
+
+ private:
+  int n_;
+  double weight_ = 0;
+  Traits sum_{};
+  std::array<double, size_t(most_traits) * most_traits> products_{};
+};
+
+double percentile(std::vector<double> values, double share) {
+  const auto at = values.begin() + std::ptrdiff_t(share * double(values.size()));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
+/// By how much values lie below 0, where what is far above has no say.
+double deviation_of_lesser(const std::vector<std::vector<double>>& values) {
+  constexpr double tenth_percentile = 1.2816;  // of the normal distribution, in deviations
+  std::vector<double> all;
+  for (const std::vector<double>& some : values) all.insert(all.end(), some.begin(), some.end());
+  return -percentile(std::move(all), 0.1) / tenth_percentile;
+}
+
+/// Where there is at least so much, and most of all that is nearer than `apart`.
+std::vector<int> peaks(const std::vector<double>& values, double least, int apart) {
+  std::vector<int> candidates, out;
+  for (int u = 0; u < int(values.size()); u++)
+    if (values[size_t(u)] > least) candidates.push_back(u);
+  std::ranges::stable_sort(candidates, std::greater{}, [&](int u) { return values[size_t(u)]; });
+  for (const int u : candidates)
+    if (std::ranges::none_of(out, [&](int other) { return std::abs(u - other) < apart; })) out.push_back(u);
+  return out;
+}
+
+int radius_of(int half_breadth) {
+  return std::max(1, half_breadth);
+}
+
+}  // namespace
+
+CourseInside::CourseInside(const ExemplarCourse& course, int half_breadth) {
+  const double margin = std::max(1.6 * half_breadth + 1, 0.12 * (course.end - course.begin));
+  begin = int(std::floor(course.begin + margin));
+  end = int(std::floor(course.end - margin));
+}
+
+/// What joints and bricks look like, by some of their pixels.
+class HeadJoints::Samples {
+ public:
+  Samples(const CourseSheet& sheet, int half_breadth)
+      : joints(trait_count(sheet)),
+        bricks(trait_count(sheet)),
+        sheet_(sheet),
+        radius_(radius_of(half_breadth)),
+        surely_(int(surely_bed * half_breadth + 0.5)),
+        surely_not_(2 * half_breadth + 2),
+        step_(std::max(1, int(int64_t{sheet.length} * sheet.breadth / most_samples))) {}
+
+  /// Those of these rows that a pattern has which shows every column.
+  void add_rows(int begin, int end, Moments& to) {
+    for (int v = begin; v < end; v++)
+      for (int u = first_of(v); u < sheet_.length; u += step_) add(u, v, to);
+  }
+
+  /// All of the joints, of which there are few, and of the others those that the pattern has.
+  void add_columns(const CourseInside& rows, const std::vector<int>& middles) {
+    std::vector<int> from_joint(size_t(sheet_.length), sheet_.length);
+    for (int u = 0; u < sheet_.length; u++)
+      for (const int middle : middles) from_joint[size_t(u)] = std::min(from_joint[size_t(u)], std::abs(u - middle));
+    for (int v = rows.begin; v < rows.end; v++) {
+      for (int u = 0; u < sheet_.length; u++)
+        if (from_joint[size_t(u)] <= surely_) add(u, v, joints);
+      for (int u = first_of(v); u < sheet_.length; u += step_)
+        if (from_joint[size_t(u)] > surely_not_) add(u, v, bricks);
+    }
+  }
+
+  Moments joints, bricks;
+
+ private:
+  int first_of(int across) const { return across * stagger % step_; }
+  void add(int along, int across, Moments& to) {
+    if (sheet_.usable(along, across)) to.add(traits_of(sheet_, along, across, radius_));
+  }
+
+  const CourseSheet& sheet_;
+  int radius_, surely_, surely_not_;  // from the middle of a joint
+  int step_;
+};
+
+HeadJoints::HeadJoints(const CourseSheet& sheet, const std::vector<ExemplarCourse>& courses, int half_breadth)
+    : sheet_(sheet), half_breadth_(half_breadth) {
+  Samples samples(sheet, half_breadth);
+  for (const ExemplarCourse& c : courses) {
+    for (const double bed : {c.begin, c.end}) {
+      const int first = int(std::floor(bed - surely_bed * half_breadth + 0.5));
+      const int last = int(std::floor(bed + surely_bed * half_breadth + 0.5));
+      if (first >= 0 && last < sheet.breadth) samples.add_rows(first, last + 1, samples.joints);
+    }
+    const CourseInside inside(c, half_breadth);
+    samples.add_rows(std::max(0, inside.begin), std::min(sheet.breadth, inside.end), samples.bricks);
+  }
+  tell_apart(samples);
+}
+
+void HeadJoints::tell_apart(const Samples& samples) {
+  const Moments &joints = samples.joints, &bricks = samples.bricks;
+  if (joints.empty() || bricks.empty()) return;
+  const int n = trait_count(sheet_);
+  std::vector<double> spread(size_t(n * n)), apart(static_cast<size_t>(n));
+  double variance = 0;
+  for (int i = 0; i < n; i++) {
+    apart[size_t(i)] = joints.mean(i) - bricks.mean(i);
+    for (int j = 0; j < n; j++) spread[size_t(i * n + j)] = joints.covariance(i, j) + bricks.covariance(i, j);
+    variance += spread[size_t(i * n + i)] / n;
+  }
+  if (!(variance > 0)) return;
+  for (int i = 0; i < n; i++) spread[size_t(i * n + i)] += regularised * variance;
+  weights_ = solve_positive_definite(std::move(spread), apart);
+  double squared = 0, of_bricks = 0;
+  for (int i = 0; i < n; i++) {
+    squared += weights_[size_t(i)] * apart[size_t(i)];
+    of_bricks += weights_[size_t(i)] * bricks.mean(i);
+  }
+  if (!(squared > 0)) return;
+  // The mean joint is 1, the mean brick 0.
+  for (double& w : weights_) w /= squared;
+  offset_ = -of_bricks / squared;
+  told_ = std::sqrt(squared);
+}
+
+std::vector<double> HeadJoints::likeness(const ExemplarCourse& course) const {
+  const CourseInside inside(course, half_breadth_);
+  const int height = inside.end - inside.begin;
+  using Sections = std::array<double, sections>;
+  std::vector<Sections> columns(size_t(sheet_.length));
+  const auto of = [&](int u, int v) {
+    const Traits f = traits_of(sheet_, u, v, radius_of(half_breadth_));
+    double sum = offset_;
+    for (size_t i = 0; i < weights_.size(); i++) sum += weights_[i] * f[i];
+    return sum;
+  };
+  for (int u = 0; u < sheet_.length; u++)
+    for (int s = 0; s < sections; s++) {
+      const int first = inside.begin + s * height / sections;
+      const int end = std::max(first + 1, inside.begin + (s + 1) * height / sections);
+      for (int v = first; v < end; v++) columns[size_t(u)][size_t(s)] += of(u, v) / (end - first);
+    }
+  std::vector<double> out(size_t(sheet_.length), 0.0);
+  const int reach = half_breadth_ / 2;
+  for (int u = 0; u < sheet_.length; u++) {
+    const int begin = std::max(0, u - reach), end = std::min(sheet_.length, u + reach + 1);
+    Sections mean{};
+    for (int k = begin; k < end; k++)
+      for (size_t s = 0; s < sections; s++) mean[s] += columns[size_t(k)][s] / (end - begin);
+    std::ranges::nth_element(mean, mean.begin() + unlike_sections);
+    out[size_t(u)] = mean[unlike_sections];
+  }
+  return out;
+}
+
+bool HeadJoints::learn_from(const std::vector<ExemplarCourse>& courses, std::vector<std::vector<double>> likeness) {
+  for (std::vector<double>& columns : likeness) {
+    const double usual = percentile(columns, 0.5);
+    for (double& column : columns) column -= usual;
+  }
+  const double least = outstanding_deviations * deviation_of_lesser(likeness);
+  std::vector<std::vector<int>> joints;
+  double found = 0;
+  for (const std::vector<double>& columns : likeness) {
+    joints.push_back(peaks(columns, least, 2 * half_breadth_ + 2));
+    found += double(joints.back().size());
+  }
+  if (found < std::max(least_learnt, least_learnt_each * double(courses.size()))) return false;
+
+  Samples samples(sheet_, half_breadth_);
+  for (size_t i = 0; i < courses.size(); i++) samples.add_columns(CourseInside(courses[i], half_breadth_), joints[i]);
+  tell_apart(samples);
+  return true;
+}
+
+std::vector<double> sure_joints(const ExemplarCourse& course) {
+  std::vector<double> out;
+  const size_t length = course.joint.size();
+  for (size_t u = 0; u < length; u++) {
+    const size_t begin = u;
+    float most = 0;
+    for (; u < length && course.joint[u] >= unsure; u++) most = std::max(most, course.joint[u]);
+    if (most >= sure) out.push_back(double(begin + u) / 2);
+  }
+  return out;
+}
+
+}  // namespace terrazzo

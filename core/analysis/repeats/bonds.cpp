@@ -1,0 +1,62 @@
+#include "core/analysis/repeats/bonds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include "core/analysis/repeats/cell_search.h"
+#include "core/analysis/repeats/lag_correlation.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr double averaged = 0.6;         // of a band's breadth: most of it, but little of the next
+constexpr double least_distinct = 0.15;  // bricks of all widths have half of that
+constexpr double most_off = 0.1;         // of a band, that a step may be off a whole number of them
+// Fewer cells of an exemplar, and steps over more bands, are alike by chance.
+constexpr double fewest_cells = 6, most_bands = 4;
+
+/// How much lines across the bands differ from the next, all channels together, as one channel. Grain differs at random
+/// and cancels out.
+ExemplarPlanes joints_across(const ExemplarPlanes& in, const Lattice& bands) {
+  const bool courses = bands.first.y != 0;
+  const int reach = int(averaged / 2 * (courses ? bands.first.y : bands.first.x));
+  ExemplarPlanes out{in.size, 1, in.wraps, std::vector<float>(size_t(in.size.area()))};
+  tbb::parallel_for(0, in.size.height, [&](int y) {
+    std::vector<float> sum(size_t(in.channels));
+    for (int x = 0; x < in.size.width; x++) {
+      std::fill(sum.begin(), sum.end(), 0.0f);
+      for (int k = -reach; k <= reach; k++) {
+        const int u = courses ? 0 : k, v = courses ? k : 0, i = courses ? 1 : 0, j = courses ? 0 : 1;
+        const float* before = in.at(in.column(x + u - i), in.row(y + v - j));
+        const float* after = in.at(in.column(x + u + i), in.row(y + v + j));
+        for (int c = 0; c < in.channels; c++) sum[size_t(c)] += after[c] - before[c];
+      }
+      float squares = 0;
+      for (const float v : sum) squares += v * v;
+      *out.at(x, y) = std::sqrt(squares);
+    }
+  });
+  return out;
+}
+
+}  // namespace
+
+Lattice bond_of(const ExemplarPlanes& planes, const Lattice& bands, const Task& task) {
+  const Cell cell = best_cell(correlate(joints_across(planes, bands), {}, task), {});
+  if (cell.lattice.rank != 2 || cell.distinct < least_distinct) return bands;
+  const double breadth = bands.first.x + bands.first.y;
+  Lattice out = cell.lattice;
+  for (Vector2* v : {&out.first, &out.second}) {
+    double& across = bands.first.y != 0 ? v->y : v->x;
+    const double steps = std::floor(across / breadth + 0.5);
+    if (std::abs(across / breadth - steps) > most_off || std::abs(steps) > most_bands) return bands;
+    across = steps * breadth;
+  }
+  return out.cell_area() * fewest_cells <= double(planes.size.area()) && out.is_valid() ? out : bands;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,59 @@
+#include "core/analysis/repeats/exemplar_view.h"
+
+#include <algorithm>
+
+#include "core/base/bounds.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int most_side = 256;     // periods are found to a fraction of a pixel; more resolution brings nothing
+constexpr int smallest_side = 16;  // less has no room for repeats
+
+Rect allowed_within(const std::vector<uint8_t>& allowed, Size exemplar, const Rect& part) {
+  const auto index = [&](size_t i) {
+    return size_t(part.y + int(i / size_t(part.width))) * size_t(exemplar.width) + part.x + i % size_t(part.width);
+  };
+  const Rect inside = bounds({part.width, part.height}, [&](size_t i) { return allowed[index(i)] != 0; });
+  return {part.x + inside.x, part.y + inside.y, inside.width, inside.height};
+}
+
+void halve(ExemplarView& view) {
+  view.planes = halved(view.planes);
+  if (!view.counts.values.empty()) view.counts = halved(view.counts);
+  view.scale *= 2;
+}
+
+}  // namespace
+
+bool ExemplarView::empty() const {
+  return std::min(planes.size.width, planes.size.height) < smallest_side;
+}
+
+ExemplarView view_of(const ExemplarPlanes& exemplar, const std::vector<uint8_t>& allowed, const Rect& part) {
+  ExemplarView view{part, {}, {}};
+  if (!allowed.empty()) {
+    view.seen = allowed_within(allowed, exemplar.size, part);
+    view.counts = cropped({exemplar.size, 1, exemplar.wraps, {allowed.begin(), allowed.end()}}, view.seen);
+    if (std::ranges::all_of(view.counts.values, [](float v) { return v == 1; })) view.counts = {};
+  }
+  view.planes = cropped(exemplar, view.seen);
+  while (!view.empty() && std::max(view.planes.size.width, view.planes.size.height) > most_side) halve(view);
+  return view;
+}
+
+std::vector<ExemplarView> views_at_one_scale(const ExemplarPlanes& exemplar, const std::vector<uint8_t>& allowed,
+                                             const std::vector<Rect>& parts) {
+  std::vector<ExemplarView> views;
+  double scale = 1;
+  for (const Rect& part : parts) {
+    views.push_back(view_of(exemplar, allowed, part));
+    scale = std::max(scale, views.back().scale);
+  }
+  for (ExemplarView& view : views)
+    while (!view.empty() && view.scale < scale) halve(view);
+  return views;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,108 @@
+#include "core/analysis/repeats/lag_correlation.h"
+
+#include "core/image/float_planes.h"
+#include "core/metrics/autocorrelation.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr double grain = 0.8;  // pixels; a light blur keeps noise from drowning what repeats
+
+/// Details only: what varies over more than a tenth of the exemplar would drown the repeats.
+Planes without_gradients(const ExemplarPlanes& in) {
+  Planes out = Planes::zeros(in.size, in.channels);
+  out.values = in.values;
+  out = blurred(out, grain);
+  const Planes coarse = blurred(out, std::max(2.0, std::min(in.size.width, in.size.height) / 10.0));
+  for (size_t i = 0; i < out.values.size(); i++) out.values[i] -= coarse.values[i];
+  return out;
+}
+
+/// Of an exemplar that tiles: each lag's pairs within the exemplar and those across its borders.
+std::vector<double> around_borders(const Correlogram& r, Size size) {
+  const auto sum = [&](int dx, int dy) {
+    if (dx < 0) {
+      dx = -dx;
+      dy = -dy;
+    }
+    const double pairs = double(size.width - dx) * (size.height - std::abs(dy));
+    return pairs <= 0 ? 0.0 : r.at(dx, dy) * pairs / double(size.area());
+  };
+  std::vector<double> out;
+  for (int dy = 1 - size.height; dy < size.height; dy++)
+    for (int dx = 0; dx < size.width; dx++) {
+      const int other_y = dy > 0 ? dy - size.height : dy + size.height;
+      out.push_back(sum(dx, dy) + sum(dx - size.width, dy) + sum(dx, other_y) + sum(dx - size.width, other_y));
+    }
+  return out;
+}
+
+}  // namespace
+
+Correlation correlate(const ExemplarPlanes& planes, const std::vector<float>& counts, const Task& task) {
+  Planes details = without_gradients(planes);
+  if (!counts.empty())
+    for (size_t i = 0; i < details.values.size(); i++) details.values[i] *= counts[i / planes.channels];
+  const Size size = planes.size;
+  const Size within = planes.wraps ? size : Size{size.width * 5 / 6, size.height * 5 / 6};
+  std::vector<double> variance(planes.channels, 0.0);
+  for (size_t i = 0; i < details.values.size(); i++)
+    variance[i % planes.channels] += double(details.values[i]) * details.values[i];
+  double total = 1e-12;
+  for (const double v : variance) total += v;
+  std::vector<double> sum;
+  const std::vector<Correlogram> all = correlograms(details, within, task);
+  for (int c = 0; c < planes.channels; c++) {
+    const std::vector<double> values = planes.wraps ? around_borders(all[c], size) : all[c].values;
+    sum.resize(values.size(), 0.0);
+    for (size_t i = 0; i < sum.size(); i++) sum[i] += values[i] * variance[c] / total;
+  }
+  return {std::move(sum), within, size, planes.wraps};
+}
+
+Correlation pooled(const std::vector<Correlation>& all) {
+  if (all.size() == 1) return all.front();
+  Size lags, exemplar;
+  for (const Correlation& r : all) {
+    lags = {std::max(lags.width, r.lags().width), std::max(lags.height, r.lags().height)};
+    exemplar = {std::max(exemplar.width, r.exemplar().width), std::max(exemplar.height, r.exemplar().height)};
+  }
+  std::vector<double> values;
+  values.reserve(size_t(lags.width) * size_t(2 * lags.height - 1));
+  for (int dy = 1 - lags.height; dy < lags.height; dy++)
+    for (int dx = 0; dx < lags.width; dx++) {
+      double sum = 0, pairs = 0;
+      for (const Correlation& r : all) {
+        if (dx >= r.lags().width || std::abs(dy) >= r.lags().height) continue;
+        const double own = double(r.exemplar().width - dx) * (r.exemplar().height - std::abs(dy));
+        sum += own * r.at(dx, dy);
+        pairs += own;
+      }
+      values.push_back(pairs > 0 ? sum / pairs : 0);
+    }
+  return {std::move(values), lags, exemplar, false};
+}
+
+ExemplarPlanes outlines(const ExemplarPlanes& in) {
+  Planes values = Planes::zeros(in.size, in.channels);
+  values.values = in.values;
+  values = blurred(values, grain);
+  ExemplarPlanes out{in.size, 1, in.wraps, std::vector<float>(size_t(in.size.area()))};
+  const auto at = [&](int x, int y) { return &values.values[(size_t(y) * in.size.width + x) * in.channels]; };
+  const auto inside = [&](int i, int n) { return in.wraps ? wrap(i, n) : std::clamp(i, 0, n - 1); };
+  for (int y = 0; y < in.size.height; y++)
+    for (int x = 0; x < in.size.width; x++) {
+      const float *left = at(inside(x - 1, in.size.width), y), *right = at(inside(x + 1, in.size.width), y);
+      const float *up = at(x, inside(y - 1, in.size.height)), *down = at(x, inside(y + 1, in.size.height));
+      float sum = 0;
+      for (int c = 0; c < in.channels; c++) {
+        const float dx = right[c] - left[c], dy = down[c] - up[c];
+        sum += dx * dx + dy * dy;
+      }
+      out.values[size_t(y) * in.size.width + x] = std::sqrt(sum);
+    }
+  return out;
+}
+
+}  // namespace terrazzo

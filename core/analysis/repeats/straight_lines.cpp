@@ -1,0 +1,88 @@
+#include "core/analysis/repeats/straight_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace terrazzo {
+
+namespace {
+
+// Of all variance, what differs from line to line. Layers of rock have up to a tenth, along one axis.
+constexpr double least_crossing = 0.1, least_parallel = 0.4;
+constexpr int most_repeats = 8;      // of lines in an exemplar
+constexpr double same_lines = 0.7;   // correlation of lines that repeat
+constexpr double other_lines = 0.3;  // and of those that do not
+
+/// What of all variance is differences between lines along one axis, and after how many pixels lines come again.
+struct Lines {
+  double share = 0;
+  double period = 0;
+  std::vector<double> profile;
+};
+
+double correlation_around(const std::vector<double>& profile, double lag) {
+  const auto n = int(profile.size());
+  const auto at_lag = [&](int d) {
+    double sum = 0;
+    for (int i = 0; i < n; i++) sum += profile[i] * profile[(i + d) % n];
+    return sum;
+  };
+  const int d = int(std::floor(lag + 0.5));
+  const double most = std::max({at_lag(d + n - 1), at_lag(d), at_lag(d + 1)});
+  return most / std::max(1e-12, at_lag(0));
+}
+
+/// Without the period.
+Lines shares_of(const ExemplarPlanes& plane, bool rows) {
+  const int width = plane.size.width, height = plane.size.height;
+  const double mean = std::accumulate(plane.values.begin(), plane.values.end(), 0.0) / double(plane.values.size());
+  std::vector<double> profile(size_t(rows ? height : width), 0.0);
+  double variance = 0;
+  for (int y = 0; y < height; y++)
+    for (int x = 0; x < width; x++) {
+      const double v = plane.values[size_t(y) * width + x] - mean;
+      variance += v * v;
+      profile[size_t(rows ? y : x)] += v;
+    }
+  const double length = rows ? width : height, count = double(profile.size());
+  double between = 0;
+  for (const double v : profile) between += v * v / length;
+  return {between / std::max(1e-12, variance), count, std::move(profile)};
+}
+
+Lines lines_of(const ExemplarPlanes& plane, bool rows) {
+  Lines out = shares_of(plane, rows);
+  const std::vector<double>& profile = out.profile;
+  const double count = out.period;
+  for (int n = 2; n <= most_repeats; n++) {
+    double least = 1;
+    for (int k = 1; k < n; k++) least = std::min(least, correlation_around(profile, k * count / n));
+    if (least >= same_lines) out.period = count / n;
+  }
+  return out;
+}
+
+}  // namespace
+
+Lattice lattice_of_lines(const ExemplarPlanes& outlines, const Lattice& found) {
+  const Lines rows = lines_of(outlines, true), columns = lines_of(outlines, false);
+  const Vector2 down{0, rows.period}, right{columns.period, 0};
+  const bool courses = rows.share >= least_parallel;
+  const double both = std::min(rows.share, columns.share);
+  if (found.rank < 2 && both >= std::max(least_crossing, found.certainty)) return {2, right, down, both};
+  const Lines& lines = courses ? rows : columns;
+  if (lines.share < least_parallel || found.rank > 1) return {};
+  // Bands found otherwise stay, unless lines deny them.
+  const double period = courses ? found.first.y : found.first.x;
+  if (found.rank == 1 && (period == 0 || correlation_around(lines.profile, period) > other_lines)) return {};
+  return {1, courses ? down : right, {}, lines.share};
+}
+
+bool lines_cross(const ExemplarPlanes& outlines) {
+  return std::min(shares_of(outlines, true).share, shares_of(outlines, false).share) >= least_crossing;
+}
+
+}  // namespace terrazzo

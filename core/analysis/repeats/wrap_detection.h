@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/base/task.h"
+#include "core/material/material.h"
+
+namespace terrazzo {
+
+/// Whether opposite borders of every map fit together: windows across them resemble the rest of the map about as much
+/// as windows inside it do, and cells of a regular one come out even. Throws Cancelled.
+bool seems_to_tile(const Material& material, const Task& task);
+
+}  // namespace terrazzo

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/exemplar/appearance.h"
+
+namespace terrazzo {
+
+/// One appearance level with a margin around it, so that windows need no bounds checks. Beyond the border the level is
+/// mirrored, at its outermost pixels, whether the exemplar tiles or not: what lies across then seldom fits, and neither
+/// does the border pixel itself, so that pieces end where the exemplar does instead of going on or being drawn out.
+class PaddedLevel {
+ public:
+  static constexpr int margin = 4;
+  PaddedLevel(const AppearanceLevel& level, bool wraps);
+
+  Size size() const { return size_; }
+  int stride() const { return stride_; }
+  /// Valid for coordinates up to `margin` outside the level.
+  const AppearanceVector* at(int x, int y) const {
+    return &vectors_[size_t(y + margin) * stride_ + size_t(x + margin)];
+  }
+  /// Whether only some pixels are usable.
+  bool masked() const { return masked_; }
+  /// Brings a position that a shift may have moved out of the exemplar back to where a window fits, `keep_off()` pixels
+  /// inside the border. Not around an exemplar that tiles either: what lies across its border fits, but no exemplar
+  /// shows the two sides together, and results are nearer to it the fewer such places they have.
+  [[gnu::always_inline]] void settle_inside(int& x, int& y) const {
+    x = within(x, keep_off_, size_.width - 1 - keep_off_);
+    y = within(y, keep_off_, size_.height - 1 - keep_off_);
+  }
+  /// Brings a position any number of times around an exemplar that tiles back into it; leaves those of others alone.
+  void unwind(int& x, int& y) const {
+    if (!wraps_) return;
+    if (x < 0 || x >= size_.width) x = wrap(x, size_.width);
+    if (y < 0 || y >= size_.height) y = wrap(y, size_.height);
+  }
+  /// The same as settle_inside, and then to the nearest usable pixel.
+  void settle(int& x, int& y) const {
+    settle_inside(x, y);
+    if (masked_) settle_usable(x, y);
+  }
+  /// Whether synthesis may take a position inside the level.
+  bool is_usable(int x, int y) const {
+    const size_t at = size_t(y) * size_.width + x;
+    return !masked_ || nearest_usable_[at] == at;
+  }
+  /// As settle_inside; false if the position is not usable.
+  bool settles(int& x, int& y) const {
+    settle_inside(x, y);
+    return is_usable(x, y);
+  }
+  /// Whether synthesis may take a position, which may lie outside, just as it is.
+  bool holds(int x, int y) const {
+    int u = x, v = y;
+    return settles(u, v) && u == x && v == y;
+  }
+  /// A usable position for 64 random bits, all equally likely.
+  std::array<int, 2> place(uint64_t bits) const {
+    if (masked_) return usable_place(bits);
+    return {int(below(uint32_t(bits), size_.width)), int(below(uint32_t(bits >> 32), size_.height))};
+  }
+  /// How far positions keep off the border: 0 if the exemplar tiles. Of others, a window nearer to it sees continued
+  /// pixels: at coarse levels one row of those is better than to lose so much of the exemplar.
+  int keep_off() const { return keep_off_; }
+
+ private:
+  // As std::clamp, but by value: its references may be taken through memory.
+  [[gnu::always_inline]] static int within(int v, int least, int most) {
+    const int raised = v < least ? least : v;
+    return raised > most ? most : raised;
+  }
+  void settle_usable(int& x, int& y) const;
+  std::array<int, 2> usable_place(uint64_t bits) const;
+
+  Size size_;
+  bool wraps_;
+  int keep_off_;
+  bool masked_;
+  int stride_;
+  std::vector<AppearanceVector> vectors_;
+  std::vector<uint32_t> usable_;          // positions y * width + x; both are empty if all pixels are usable
+  std::vector<uint32_t> nearest_usable_;  // for every pixel
+};
+
+/// Squared distance of two appearance vectors. (The compiler makes vector instructions of it, as all differences fit 16
+/// bits, unless it unrolls the loop first, which it does within other loops.)
+inline int squared_distance(const AppearanceVector& a, const AppearanceVector& b) {
+  int sum = 0;
+#pragma GCC unroll 1
+  for (int d = 0; d < appearance_dimensions; d++) {
+    const auto difference = int16_t(a[d] - b[d]);
+    sum += difference * difference;
+  }
+  return sum;
+}
+
+}  // namespace terrazzo

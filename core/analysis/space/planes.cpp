@@ -1,0 +1,163 @@
+#include "core/analysis/space/planes.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/analysis/space/mask_pyramid.h"
+#include "core/base/error.h"
+#include "core/numeric/distance_transform.h"
+#include "core/numeric/principal_components.h"
+
+namespace terrazzo {
+
+namespace {
+
+// Standard deviations below this are quantisation noise of an 8-bit map rather than structure.
+constexpr double least_deviation = 0.02;
+
+struct Moments {
+  std::vector<double> mean;
+  double deviation = 0;  ///< root of the weighted channels' summed variance
+};
+
+/// `allowed`: which pixels count; empty: all.
+Moments moments(const Image& image, const std::vector<double>& weights, const std::vector<uint8_t>& allowed) {
+  const int channels = image.channels();
+  int64_t count = 0;
+  std::vector<double> sum(channels, 0.0), squares(channels, 0.0);
+  for_each_strip(image, [&](const Rect& r, const float* v) {
+    const int64_t first = int64_t{r.y} * r.width;
+    for (int64_t i = 0; i < r.area(); i++) {
+      if (!allowed.empty() && !allowed[first + i]) continue;
+      count++;
+      for (int c = 0; c < channels; c++) {
+        const double d = v[i * channels + c];
+        sum[c] += d;
+        squares[c] += d * d;
+      }
+    }
+  });
+  const auto n = double(count);
+  Moments m;
+  double variance = 0;
+  for (int c = 0; c < channels; c++) {
+    m.mean.push_back(sum[c] / n);
+    if (weights[c] > 0) variance += std::max(0.0, squares[c] / n - m.mean[c] * m.mean[c]);
+  }
+  m.deviation = std::sqrt(variance);
+  return m;
+}
+
+/// Writes an image's weighted channels into the planes from channel `first` on.
+void add_image(const Image& image, const std::vector<double>& weights, const std::vector<uint8_t>& allowed,
+               ExemplarPlanes& planes, int first) {
+  const Moments m = moments(image, weights, allowed);
+  const double unit = 1.0 / std::max(m.deviation, least_deviation);
+  const int channels = image.channels();
+  for_each_strip(image, [&](const Rect& r, const float* v) {
+    for (int y = 0; y < r.height; y++)
+      for (int x = 0; x < r.width; x++, v += channels) {
+        float* out = planes.at(x, r.y + y) + first;
+        for (int c = 0; c < channels; c++)
+          if (weights[c] > 0) *out++ = float((v[c] - m.mean[c]) * (weights[c] * unit));
+      }
+  });
+}
+
+/// Pixels that are not allowed continue the nearest that is, so that they do not show through at coarse levels.
+void fill_forbidden(ExemplarPlanes& planes, const std::vector<uint8_t>& allowed) {
+  if (allowed.empty() || planes.channels == 0) return;
+  const std::vector<uint32_t> nearest = nearest_set(allowed, planes.size, planes.wraps);
+  const int n = planes.channels;
+  for (size_t i = 0; i < nearest.size(); i++)
+    if (!allowed[i]) std::copy_n(&planes.values[size_t(nearest[i]) * n], n, &planes.values[i * n]);
+}
+
+ExemplarPlanes empty(Size size, int channels, bool wraps) {
+  return {size, channels, wraps, std::vector<float>(size_t(size.area()) * channels)};
+}
+
+}  // namespace
+
+ExemplarPlanes weighted_planes(const Features& features, const Task& task) {
+  const std::vector<uint8_t> allowed = allowed_pixels(features);
+  ExemplarPlanes planes = empty(features.size(), features.channel_count(), features.wraps());
+  int first = 0;
+  for (const FeatureImage& f : features.images()) {
+    task.check();
+    add_image(*f.image, f.weights, allowed, planes, first);
+    for (const double w : f.weights) first += w > 0;
+  }
+  fill_forbidden(planes, allowed);
+  return planes;
+}
+
+ExemplarPlanes guidance_planes(const Features& features, const std::vector<ImagePtr>& guidance, const Task& task) {
+  const Size size = features.size();
+  const std::vector<uint8_t> allowed = allowed_pixels(features);
+  int channels = 0;
+  for (const ImagePtr& g : guidance) {
+    if (g->size() != size)
+      throw Error("guidance", fmt::format("guidance must have the features' size, {}x{}; this image has {}x{}",
+                                          size.width, size.height, g->width(), g->height()));
+    channels += g->channels();
+  }
+  ExemplarPlanes planes = empty(size, channels, features.wraps());
+  int first = 0;
+  for (const ImagePtr& g : guidance) {
+    task.check();
+    add_image(*g, std::vector<double>(g->channels(), 1.0), allowed, planes, first);
+    first += g->channels();
+  }
+  fill_forbidden(planes, allowed);
+  return planes;
+}
+
+ExemplarPlanes cropped(const ExemplarPlanes& planes, const Rect& part) {
+  ExemplarPlanes out = empty({part.width, part.height}, planes.channels, planes.wraps && part == whole(planes.size));
+  for (int y = 0; y < part.height; y++)
+    std::copy_n(planes.at(part.x, part.y + y), size_t(part.width) * planes.channels, out.at(0, y));
+  return out;
+}
+
+ExemplarPlanes halved(const ExemplarPlanes& in) {
+  const Size size{(in.size.width + 1) / 2, (in.size.height + 1) / 2};
+  ExemplarPlanes out = empty(size, in.channels, in.wraps);
+  constexpr float kernel[4] = {0.125f, 0.375f, 0.375f, 0.125f};
+  const int n = in.channels;
+  tbb::parallel_for(0, size.height, [&](int y) {
+    // Vertically first, into one row; then horizontally.
+    std::vector<float> row(size_t(in.size.width) * n, 0.0f);
+    for (int j = 0; j < 4; j++) {
+      const float* v = in.at(0, in.row(2 * y + j - 1));
+      for (size_t i = 0; i < row.size(); i++) row[i] += kernel[j] * v[i];
+    }
+    for (int x = 0; x < size.width; x++) {
+      float* o = out.at(x, y);
+      for (int i = 0; i < 4; i++) {
+        const float* v = row.data() + size_t(in.column(2 * x + i - 1)) * n;
+        for (int c = 0; c < n; c++) o[c] += kernel[i] * v[c];
+      }
+    }
+  });
+  return out;
+}
+
+std::vector<float> leading_component(const ExemplarPlanes& planes, const Task& task) {
+  const int n = planes.channels;
+  const std::vector<float> axis = principal_components(planes.values, n, 1, task).components;
+  const double sign = axis.front() < 0 ? -1 : 1;
+  std::vector<float> out(size_t(planes.size.area()));
+  tbb::parallel_for(0, planes.size.height, [&](int y) {
+    for (int x = 0; x < planes.size.width; x++) {
+      double sum = 0;
+      for (int c = 0; c < n; c++) sum += double(axis[c]) * double(planes.at(x, y)[c]);
+      out[size_t(y) * planes.size.width + x] = float(sign * sum);
+    }
+  });
+  return out;
+}
+
+}  // namespace terrazzo

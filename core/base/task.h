@@ -1,0 +1,34 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "core/base/error.h"
+
+namespace terrazzo {
+
+/// What a long computation owes its caller: to say how far it is, and to stop when told. Thread-safe.
+class Task {
+ public:
+  Task() = default;
+  /// `cancelled` may be null; `progress` is called with values in [0, 1], from any thread, and must be quick.
+  Task(const std::atomic<bool>* cancelled, std::function<void(double)> progress)
+      : cancelled_(cancelled), progress_(std::move(progress)) {}
+
+  bool cancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
+  /// Throws Cancelled once the run has been cancelled. Call at least every 100 ms or so.
+  void check() const {
+    if (cancelled()) throw Cancelled();
+  }
+  /// Reports the fraction done, then check().
+  void progress(double fraction) const {
+    if (progress_) progress_(fraction);
+    check();
+  }
+
+ private:
+  const std::atomic<bool>* cancelled_ = nullptr;
+  std::function<void(double)> progress_;
+};
+
+}  // namespace terrazzo

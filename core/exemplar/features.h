@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/exemplar/repeats.h"
+#include "core/image/image.h"
+
+namespace terrazzo {
+
+/// One image's part in the features: its channels in analysis space (perceptual colour, unit normals, plain values),
+/// scaled by the weights.
+struct FeatureImage {
+  ImagePtr image;               ///< already in analysis space
+  std::vector<double> weights;  ///< one per channel, >= 0; 0 leaves a channel out
+};
+
+class Features;
+using FeaturesPtr = std::shared_ptr<const Features>;
+
+/// The weighted, concatenated channels of an exemplar, not yet reduced. Images are pulled lazily. Immutable.
+class Features {
+ public:
+  /// All images must have `size`. Throws Error if every weight is 0. `wraps`: the exemplar tiles in x and y. `mask`:
+  /// where its first channel exceeds 0.5 the exemplar may be sampled; null: everywhere.
+  static FeaturesPtr make(Size size, std::vector<FeatureImage> images, bool wraps, const Repeats& repeats = {},
+                          ImagePtr mask = nullptr);
+  /// The same features of an exemplar that is known to repeat.
+  FeaturesPtr with(const Repeats& repeats) const { return make(size_, images_, wraps_, repeats, mask_); }
+
+  Size size() const { return size_; }
+  bool wraps() const { return wraps_; }
+  const Repeats& repeats() const { return repeats_; }  ///< of rank 0 unless they have been looked for and found
+  const std::vector<FeatureImage>& images() const { return images_; }
+  const ImagePtr& mask() const { return mask_; }  ///< null: all of the exemplar may be sampled
+  /// Channels of non-zero weight.
+  int channel_count() const;
+  const Digest& digest() const { return digest_; }
+
+ private:
+  Features() = default;
+  Size size_;
+  bool wraps_ = false;
+  Repeats repeats_;
+  std::vector<FeatureImage> images_;
+  ImagePtr mask_;
+  Digest digest_;
+};
+
+}  // namespace terrazzo

@@ -1,0 +1,135 @@
+#include "core/file/atomic_file.h"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <optional>
+#include <vector>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/hash.h"
+#include "core/file/file_io.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto trusted_age = std::chrono::hours(24);
+constexpr std::string_view mark = "terrazzo";
+
+/// The processes that can be told dead from here: those of this host that are counted together with this one.
+std::string neighbourhood() {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  std::error_code missing;
+  const fs::path processes = fs::read_symlink("/proc/self/ns/pid", missing);
+  return Hasher().add(std::string_view(host.data())).add(processes.native()).digest().hex().substr(0, 8);
+}
+
+struct Owner {
+  std::string neighbourhood;
+  pid_t process = 0;
+};
+
+/// From a name as `temporary_beside` makes it: .STEM.terrazzo-NEIGHBOURHOOD-PROCESS-COUNT.EXTENSION
+std::optional<Owner> owner_of(const fs::path& file) {
+  const std::string name = file.filename().replace_extension().string();
+  const std::string start = fmt::format(".{}-", mark);
+  const size_t at = name.rfind(start);
+  if (!name.starts_with('.') || at == std::string::npos || at == 0) return std::nullopt;
+  const std::string rest = name.substr(at + start.size());
+  const size_t first = rest.find('-'), second = rest.rfind('-');
+  if (first != 8 || second <= first + 1 || second + 1 == rest.size()) return std::nullopt;
+  Owner owner{rest.substr(0, first), 0};
+  unsigned count = 0;
+  const auto is_number = [&](size_t begin, size_t end, auto& out) {
+    const auto read = std::from_chars(rest.data() + begin, rest.data() + end, out);
+    return read.ec == std::errc() && read.ptr == rest.data() + end;
+  };
+  const bool whole = is_number(first + 1, second, owner.process) && is_number(second + 1, rest.size(), count);
+  return whole && owner.process > 0 ? std::optional(owner) : std::nullopt;
+}
+
+bool is_running(pid_t process) {
+  return ::kill(process, 0) == 0 || errno != ESRCH;
+}
+
+bool is_abandoned(const fs::directory_entry& entry) {
+  const std::optional<Owner> owner = owner_of(entry.path());
+  std::error_code failure;
+  if (!owner || entry.is_symlink(failure) || !entry.is_regular_file(failure)) return false;
+  if (owner->neighbourhood == neighbourhood()) return !is_running(owner->process);
+  const fs::file_time_type written = entry.last_write_time(failure);
+  return !failure && fs::file_time_type::clock::now() - written > trusted_age;
+}
+
+/// The system's number of the error with which a file, or a folder, could not be made in a folder that is there; 0 if
+/// it could. Permissions do not tell: root has them all, and /proc takes nothing even so. A file without a name is as
+/// good as one and leaves the folder's time alone; not all file systems have them.
+int error_of_making(bool file, const fs::path& folder) {
+  const int nameless = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (nameless >= 0) {
+    ::close(nameless);
+    return 0;
+  }
+  const fs::path name = temporary_beside(folder / "trial");
+  if (!file) return ::mkdir(name.c_str(), 0700) == 0 && ::rmdir(name.c_str()) == 0 ? 0 : errno;
+  const int made = ::open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+  if (made < 0) return errno;
+  ::close(made);
+  ::unlink(name.c_str());
+  return 0;
+}
+
+}  // namespace
+
+std::string why_not_writable(const fs::path& folder, const std::string& name) {
+  fs::path there = folder.empty() ? fs::path(".") : folder;
+  std::error_code failure;
+  fs::file_status status = fs::status(there, failure);
+  const bool is_there = fs::exists(status);
+  while (status.type() == fs::file_type::not_found && there != there.parent_path()) {
+    if (fs::is_symlink(fs::symlink_status(there, failure)))
+      return fmt::format("the folder {} is a link to {}, which is not there", there.string(),
+                         fs::read_symlink(there, failure).string());
+    there = there.has_parent_path() ? there.parent_path() : fs::path(".");
+    status = fs::status(there, failure);
+  }
+  if (failure) return fmt::format("cannot look into {}: {}", there.string(), failure.message());
+  if (!fs::is_directory(status)) return fmt::format("expected a folder to write to, found the file {}", there.string());
+  const bool forbidden = ::faccessat(AT_FDCWD, there.c_str(), W_OK | X_OK, AT_EACCESS) != 0;
+  if (const int error = forbidden ? errno : error_of_making(is_there, there); error != 0)
+    return fmt::format("cannot write into the folder {}: {}; write to another folder", there.string(),
+                       error == ENOENT ? "nothing can be made there" : system_message(error));
+  if (!name.empty() && fs::is_directory(folder / name, failure))
+    return fmt::format("expected the name of a file to write, found the folder {}", (folder / name).string());
+  return "";
+}
+
+fs::path temporary_beside(const fs::path& target) {
+  static std::atomic<unsigned> count{0};
+  // Names have at most 255 bytes; the beginning is for people only.
+  const std::string beginning = target.stem().string().substr(0, 100);
+  return target.parent_path() / fmt::format(".{}.{}-{}-{}-{}{}", beginning, mark, neighbourhood(), ::getpid(), count++,
+                                            target.extension().string());
+}
+
+void remove_abandoned(const fs::path& folder) {
+  std::vector<fs::path> abandoned;
+  std::error_code ended;
+  for (fs::directory_iterator at(folder, ended), end; !ended && at != end; at.increment(ended))
+    if (is_abandoned(*at)) abandoned.push_back(at->path());
+  for (const fs::path& file : abandoned) fs::remove(file, ended);
+}
+
+}  // namespace terrazzo

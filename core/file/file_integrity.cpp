@@ -1,0 +1,149 @@
+#include "core/file/file_integrity.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+namespace terrazzo {
+
+namespace {
+
+constexpr uint8_t start_of_image = 0xd8, end_of_image = 0xd9, app1 = 0xe1;
+
+bool is_frame_header(uint8_t marker) {
+  return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+}
+
+bool stands_alone(uint8_t marker) {
+  return marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8);
+}
+
+/// Reads numbers out of a file; past its end everything is 0.
+class Numbers {
+ public:
+  explicit Numbers(const std::filesystem::path& path) : in_(path, std::ios::binary | std::ios::ate) {
+    size_ = uint64_t(std::max<std::streamoff>(0, in_.tellg()));
+  }
+  void set_big_endian(bool is_big_endian) { is_big_endian_ = is_big_endian; }
+  uint64_t size() const { return size_; }
+  uint64_t number(uint64_t at, int bytes) {
+    uint8_t raw[8] = {};
+    in_.clear();
+    if (at + uint64_t(bytes) <= size_) {
+      in_.seekg(std::streamoff(at));
+      in_.read(reinterpret_cast<char*>(raw), bytes);
+    }
+    uint64_t v = 0;
+    for (int i = 0; i < bytes; i++) v |= uint64_t{raw[i]} << 8 * (is_big_endian_ ? bytes - 1 - i : i);
+    return v;
+  }
+
+ private:
+  std::ifstream in_;
+  uint64_t size_ = 0;
+  bool is_big_endian_ = true;
+};
+
+constexpr uint64_t png_signature = 0x89504e470d0a1a0a;
+
+/// "II" or "MM" and 42, or 43 for BigTIFF, in the byte order that the letters say.
+bool is_tiff(uint64_t start) {
+  return start == 0x49492a00 || start == 0x49492b00 || start == 0x4d4d002a || start == 0x4d4d002b;
+}
+
+int bytes_of_type(uint64_t type) {
+  constexpr uint64_t tiff_short = 3, tiff_long8 = 16, tiff_ifd8 = 18;
+  return type == tiff_short ? 2 : type == tiff_long8 || type == tiff_ifd8 ? 8 : 4;
+}
+
+/// The numbers of one directory entry, which begins with its tag at `entry`.
+std::vector<uint64_t> entry_numbers(Numbers& file, uint64_t entry, bool is_big_tiff) {
+  const int bytes = bytes_of_type(file.number(entry + 2, 2));
+  const int word = is_big_tiff ? 8 : 4;
+  const uint64_t count = file.number(entry + 4, word);
+  uint64_t at = entry + 4 + word;
+  if (count > file.size() / bytes) return {UINT64_MAX / 2};  // more than the file can hold
+  if (count * bytes > uint64_t(word)) at = file.number(at, word);
+  std::vector<uint64_t> out(count);
+  for (uint64_t i = 0; i < count; i++) out[i] = file.number(at + i * bytes, bytes);
+  return out;
+}
+
+}  // namespace
+
+JpegFacts read_jpeg_facts(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  JpegFacts facts;
+  if (in.get() != 0xff || in.get() != start_of_image) return facts;
+  const std::vector<char> file((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const auto byte = [&](size_t i) { return static_cast<uint8_t>(file[i]); };
+  const auto word = [&](size_t i) { return byte(i) << 8 | byte(i + 1); };
+  size_t i = 0;
+  while (i + 1 < file.size()) {
+    // Outside segments lies entropy-coded data, in which 0xff is followed by 0.
+    if (byte(i) != 0xff || byte(i + 1) == 0 || byte(i + 1) == 0xff) {
+      i++;
+      continue;
+    }
+    const uint8_t marker = byte(i + 1);
+    i += 2;
+    if (marker == end_of_image) {
+      facts.complete = true;
+      break;
+    }
+    if (stands_alone(marker)) continue;
+    if (i + 1 >= file.size()) break;
+    if (is_frame_header(marker) && i + 7 < file.size()) {
+      facts.bits = byte(i + 2);
+      facts.size = {word(i + 5), word(i + 3)};
+      facts.components = byte(i + 7);
+    }
+    facts.has_exif |= marker == app1;
+    i += size_t(word(i));
+  }
+  return facts;
+}
+
+bool png_is_complete(const std::filesystem::path& path) {
+  constexpr uint64_t end_mark = 0x49454e44, around = 12;  // "IEND"; a chunk's length, name and checksum
+  Numbers file(path);
+  if (file.size() >= around && file.number(file.size() - around, 8) == end_mark) return true;
+  for (uint64_t at = 8; at + around <= file.size();) {
+    const uint64_t next = at + around + file.number(at, 4);
+    if (file.number(at + 4, 4) == end_mark) return next <= file.size();
+    at = next;
+  }
+  return false;
+}
+
+bool tiff_is_complete(const std::filesystem::path& path) {
+  Numbers file(path);
+  file.set_big_endian(file.number(0, 1) == 'M');
+  const bool is_big_tiff = file.number(2, 2) == 43;
+  const uint64_t directory = is_big_tiff ? file.number(8, 8) : file.number(4, 4);
+  const uint64_t entries = file.number(directory, is_big_tiff ? 8 : 2);
+  const uint64_t first = directory + (is_big_tiff ? 8 : 2), entry_size = is_big_tiff ? 20 : 12;
+  if (entries > file.size() / entry_size) return false;
+  std::vector<uint64_t> offsets, byte_counts;
+  for (uint64_t i = 0; i < entries; i++) {
+    const uint64_t entry = first + i * entry_size;
+    const uint64_t tag = file.number(entry, 2);
+    if (tag == 273 || tag == 324) offsets = entry_numbers(file, entry, is_big_tiff);
+    if (tag == 279 || tag == 325) byte_counts = entry_numbers(file, entry, is_big_tiff);
+  }
+  for (size_t i = 0; i < offsets.size(); i++)
+    if (offsets[i] > file.size() || (i < byte_counts.size() && byte_counts[i] > file.size() - offsets[i])) return false;
+  return true;
+}
+
+bool seems_complete(const std::filesystem::path& path) {
+  Numbers file(path);
+  if (file.number(0, 8) == png_signature) return png_is_complete(path);
+  if (file.number(0, 2) == (0xff00 | start_of_image))
+    return file.number(file.size() - 2, 2) == (0xff00 | end_of_image) || read_jpeg_facts(path).complete;
+  return !is_tiff(file.number(0, 4)) || tiff_is_complete(path);
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/base/geometry.h"
+
+/// Facts about image files that the image library does not report or notice, read from the files' own structure.
+namespace terrazzo {
+
+/// What the markers of a JPEG file (ITU T.81, annex B) say; decoders fill in for missing data without a word.
+struct JpegFacts {
+  int components = 0;     ///< 1 grey, 3 colour, 4 CMYK; 0 if no frame header was found
+  int bits = 0;           ///< of each component
+  Size size{};            ///< as stored, before it is turned
+  bool has_exif = false;  ///< it may have to be turned
+  bool complete = false;  ///< the end-of-image marker is there
+};
+JpegFacts read_jpeg_facts(const std::filesystem::path& path);
+
+/// Whether the chunks of a PNG file go on to its end mark.
+bool png_is_complete(const std::filesystem::path& path);
+
+/// Whether all strips or tiles of a TIFF or BigTIFF file's first image lie inside the file.
+bool tiff_is_complete(const std::filesystem::path& path);
+
+/// False if the end of a PNG, JPEG or TIFF file is missing. Reads little, and so takes a cut-off JPEG file that by
+/// chance ends like a whole one for whole; true for files of other formats.
+bool seems_complete(const std::filesystem::path& path);
+
+}  // namespace terrazzo

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/base/error.h"
+
+namespace terrazzo {
+
+/// The operating system refused: no such file, no permission, no space. code() is its error number.
+class FileError : public Error {
+ public:
+  FileError(const std::string& message, int code) : Error(message), code_(code) {}
+  int code() const { return code_; }
+
+ private:
+  int code_;
+};
+
+/// An open file descriptor, closed with the object.
+class File {
+ public:
+  File() = default;
+  explicit File(int descriptor) : descriptor_(descriptor) {}
+  File(File&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  File& operator=(File&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+  }
+  ~File();
+
+  /// Opens with the flags of open(2), close-on-exec added. Not ok() on failure; errno says why.
+  static File open(const std::filesystem::path& path, int flags);
+
+  bool ok() const { return descriptor_ >= 0; }
+  int descriptor() const { return descriptor_; }
+  /// Bytes. Throws FileError naming `path`.
+  uint64_t size(const std::filesystem::path& path) const;
+  /// Reads up to `size` bytes from `offset`, fewer only at the end of the file. Throws FileError naming `path`.
+  /// Thread-safe.
+  size_t read_at(uint64_t offset, void* out, size_t size, const std::filesystem::path& path) const;
+  /// Writes all bytes at `offset`. Throws FileError naming `path`.
+  void write_at(uint64_t offset, const void* data, size_t size, const std::filesystem::path& path) const;
+  /// Throws FileError naming `path`: some file systems find only now that there was no room.
+  void close(const std::filesystem::path& path);
+  /// Waits until the content is on the disk, then closes. Throws FileError naming `path`.
+  void sync_and_close(const std::filesystem::path& path);
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// What the operating system says about an error number ("No space left on device").
+std::string system_message(int code);
+
+/// Throws FileError "cannot <verb> <path>: <what the system says>".
+[[noreturn]] void throw_system_error(std::string_view verb, const std::filesystem::path& path, int code);
+
+}  // namespace terrazzo

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/task.h"
+#include "core/image/image.h"
+
+namespace terrazzo {
+
+/// How often each value occurs in one channel of an image. Values are gathered in 65536 equal steps of the channel's
+/// range, so the values of 8- and 16-bit maps stay apart and exact. Immutable; the same for any number of threads.
+class Distribution {
+ public:
+  struct Atom {
+    float value = 0;
+    uint64_t count = 0;
+  };
+
+  /// One per channel. Looks at all pixels twice, in parallel, strip by strip.
+  static std::vector<Distribution> of(const Image& image, const Task& task);
+  /// Several as one: what `per channel` is not.
+  static Distribution merged(const std::vector<Distribution>& parts);
+
+  /// Ascending in value; at least one.
+  const std::vector<Atom>& atoms() const { return atoms_; }
+  float min() const { return atoms_.front().value; }
+  float max() const { return atoms_.back().value; }
+  double mean() const;
+  double deviation() const;
+
+  /// The fraction of pixels below an atom, half of its own included; ascending.
+  const std::vector<double>& ranks() const { return ranks_; }
+  /// The value at a rank in [0, 1], linear between atoms.
+  double quantile(double rank) const;
+  /// The value that parts low from high with the greatest variance between the two (Otsu, A threshold selection method
+  /// from gray-level histograms, 1979): halfway between the atoms on either side.
+  double otsu_threshold() const;
+
+ private:
+  explicit Distribution(std::vector<Atom> atoms);
+  std::vector<Atom> atoms_;
+  std::vector<double> ranks_;
+};
+
+/// A curve through points of ascending x, linear in between and constant outside.
+class Curve {
+ public:
+  Curve(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)) {}
+  double operator()(double x) const;
+
+ private:
+  std::vector<double> x_, y_;
+};
+
+/// The curve that gives values distributed like `from` the distribution `to`: each goes to the value of equal rank
+/// (exact histogram specification by quantiles).
+Curve matching_curve(const Distribution& from, const Distribution& to);
+
+}  // namespace terrazzo

@@ -1,0 +1,238 @@
+#include "core/image/image.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+
+#include <Imath/half.h>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace terrazzo {
+
+namespace {
+
+class FloatPixels : public PixelSource {
+ public:
+  FloatPixels(const ImageInfo& info, std::vector<float> pixels)
+      : stride_(size_t(info.size.width) * info.channels), channels_(info.channels), pixels_(std::move(pixels)) {}
+  void read(const Rect& r, float* out) const override {
+    const size_t row = size_t(r.width) * channels_;
+    for (int y = 0; y < r.height; y++)
+      std::memcpy(out + y * row, &pixels_[size_t(r.y + y) * stride_ + size_t(r.x) * channels_], row * sizeof(float));
+  }
+  const float* in_memory() const override { return pixels_.data(); }
+
+ private:
+  size_t stride_;
+  int channels_;
+  std::vector<float> pixels_;
+};
+
+class HalfPixels : public PixelSource {
+ public:
+  HalfPixels(const ImageInfo& info, std::vector<uint16_t> pixels)
+      : stride_(size_t(info.size.width) * info.channels), channels_(info.channels), pixels_(std::move(pixels)) {}
+  void read(const Rect& r, float* out) const override {
+    const size_t row = size_t(r.width) * channels_;
+    for (int y = 0; y < r.height; y++) {
+      const uint16_t* in = &pixels_[size_t(r.y + y) * stride_ + size_t(r.x) * channels_];
+      for (size_t i = 0; i < row; i++) out[y * row + i] = imath_half_to_float(in[i]);
+    }
+  }
+
+ private:
+  size_t stride_;
+  int channels_;
+  std::vector<uint16_t> pixels_;
+};
+
+class FunctionPixels : public PixelSource {
+ public:
+  explicit FunctionPixels(std::function<void(const Rect&, float*)> read) : read_(std::move(read)) {}
+  void read(const Rect& r, float* out) const override { read_(r, out); }
+
+ private:
+  std::function<void(const Rect&, float*)> read_;
+};
+
+void check(const ImageInfo& info) {
+  if (info.size.width <= 0 || info.size.height <= 0 || info.channels < 1 || info.channels > 4)
+    throw Error(fmt::format("an image of {}x{} pixels and {} cannot be; it needs at least 1x1 and 1 to 4 channels",
+                            info.size.width, info.size.height, counted(info.channels, "channel")));
+}
+
+size_t value_count(const ImageInfo& info) {
+  return size_t(info.size.area()) * info.channels;
+}
+
+template <typename T>
+Digest content_digest(const ImageInfo& info, const std::vector<T>& pixels) {
+  Hasher h;
+  h.add("image");
+  info.add_to(h);
+  h.bytes(pixels.data(), pixels.size() * sizeof(T));
+  return h.digest();
+}
+
+}  // namespace
+
+std::optional<Semantic> semantic_from(std::string_view name) {
+  const auto at = std::find(semantic_names.begin(), semantic_names.end(), name);
+  if (at == semantic_names.end()) return std::nullopt;
+  return static_cast<Semantic>(at - semantic_names.begin());
+}
+
+std::string_view name_of(Depth depth) {
+  constexpr std::array<std::string_view, 4> names = {"uint8", "uint16", "half", "float"};
+  return names[static_cast<size_t>(depth)];
+}
+
+void ImageInfo::add_to(Hasher& h) const {
+  h.add(size.width)
+      .add(size.height)
+      .add(channels)
+      .add(int(semantic))
+      .add(color_space)
+      .add(int(depth))
+      .add(int(normal_y));
+}
+
+Image::Image(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSource> source)
+    : info_(std::move(info)), digest_(digest), source_(std::move(source)) {}
+
+ImagePtr Image::from_floats(ImageInfo info, std::vector<float> pixels) {
+  check(info);
+  if (pixels.size() != value_count(info)) throw std::logic_error("pixel count does not match the image's size");
+  const Digest digest = content_digest(info, pixels);
+  auto source = std::make_shared<FloatPixels>(info, std::move(pixels));
+  return ImagePtr(new Image(std::move(info), digest, std::move(source)));
+}
+
+ImagePtr Image::from_halfs(ImageInfo info, std::vector<uint16_t> pixels) {
+  check(info);
+  if (pixels.size() != value_count(info)) throw std::logic_error("pixel count does not match the image's size");
+  const Digest digest = content_digest(info, pixels);
+  auto source = std::make_shared<HalfPixels>(info, std::move(pixels));
+  return ImagePtr(new Image(std::move(info), digest, std::move(source)));
+}
+
+ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::shared_ptr<const PixelSource> source) {
+  check(info);
+  Hasher h;
+  h.add("computed image");
+  info.add_to(h);
+  h.add(recipe);
+  return ImagePtr(new Image(std::move(info), h.digest(), std::move(source)));
+}
+
+ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::function<void(const Rect&, float*)> read) {
+  return computed(std::move(info), recipe, std::make_shared<FunctionPixels>(std::move(read)));
+}
+
+ImagePtr Image::with_digest(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSource> source) {
+  check(info);
+  return ImagePtr(new Image(std::move(info), digest, std::move(source)));
+}
+
+ImagePtr Image::redescribed(const ImagePtr& image, ImageInfo info) {
+  if (info == image->info()) return image;
+  if (info.size != image->size() || info.channels != image->channels())
+    throw std::logic_error("another description must keep size and channels");
+  Hasher h;
+  h.add("redescribed image").add(image->digest());
+  info.add_to(h);
+  return ImagePtr(new Image(std::move(info), h.digest(), image->source_));
+}
+
+std::vector<float> Image::read(const Rect& region) const {
+  std::vector<float> out(size_t(region.area()) * channels());
+  read(region, out.data());
+  return out;
+}
+
+namespace {
+
+/// Consecutive positions along one axis of a padded region that are read from consecutive positions of the image, or
+/// all from one.
+struct Run {
+  int at = 0;      ///< in the region
+  int source = 0;  ///< in the image
+  int count = 0;
+  bool repeats = false;  ///< all show the position `source`
+};
+
+std::vector<Run> runs_of(int first, int count, int length, Outside outside) {
+  std::vector<Run> runs;
+  for (int i = 0; i < count;) {
+    const int v = first + i;
+    Run run{i, outside == Outside::wrap ? wrap(v, length) : std::clamp(v, 0, length - 1), 0, false};
+    run.repeats = outside == Outside::clamp && (v < 0 || v >= length);
+    run.count = std::min(count - i, !run.repeats ? length - run.source : v < 0 ? -v : count - i);
+    runs.push_back(run);
+    i += run.count;
+  }
+  return runs;
+}
+
+}  // namespace
+
+std::vector<float> read_padded(const Image& image, const Rect& region, Outside outside) {
+  const int c = image.channels();
+  if (intersect(region, whole(image.size())) == region) return image.read(region);
+  std::vector<float> out(size_t(region.area()) * c);
+  const std::vector<Run> columns = runs_of(region.x, region.width, image.width(), outside);
+  for (const Run& rows : runs_of(region.y, region.height, image.height(), outside))
+    for (const Run& run : columns) {
+      // One read for the whole block: the image may be computed, and its own surroundings read with every block.
+      const Rect block{run.source, rows.source, run.repeats ? 1 : run.count, rows.repeats ? 1 : rows.count};
+      const std::vector<float> pixels = image.read(block);
+      for (int y = 0; y < rows.count; y++)
+        for (int x = 0; x < run.count; x++)
+          std::copy_n(&pixels[(size_t(rows.repeats ? 0 : y) * block.width + (run.repeats ? 0 : x)) * c], c,
+                      &out[(size_t(rows.at + y) * region.width + run.at + x) * c]);
+    }
+  return out;
+}
+
+namespace {
+int strip_rows(const Image& image) {
+  return std::max<int>(1, int((int64_t{1} << 20) / (int64_t{image.width()} * image.channels())));
+}
+}  // namespace
+
+void for_each_strip(const Image& image, const std::function<void(const Rect&, const float*)>& visit) {
+  const int rows = strip_rows(image);
+  std::vector<float> buffer;
+  for (int y = 0; y < image.height(); y += rows) {
+    const Rect r{0, y, image.width(), std::min(rows, image.height() - y)};
+    if (const float* all = image.in_memory()) {
+      visit(r, all + size_t(y) * image.width() * image.channels());
+      continue;
+    }
+    buffer.resize(size_t(r.area()) * image.channels());
+    image.read(r, buffer.data());
+    visit(r, buffer.data());
+  }
+}
+
+ImagePtr materialized(const ImagePtr& image, const Task& task) {
+  if (image->in_memory()) return image;
+  const ImageInfo& info = image->info();
+  std::vector<float> pixels(value_count(info));
+  const int rows = std::min(64, strip_rows(*image));
+  const int strips = (info.size.height + rows - 1) / rows;
+  std::atomic<int> done{0};
+  tbb::parallel_for(0, strips, [&](int strip) {
+    task.progress(double(done++) / strips);
+    const int y = strip * rows;
+    image->read({0, y, info.size.width, std::min(rows, info.size.height - y)},
+                &pixels[size_t(y) * info.size.width * info.channels]);
+  });
+  return Image::from_floats(info, std::move(pixels));
+}
+
+}  // namespace terrazzo

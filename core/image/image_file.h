@@ -1,0 +1,77 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/image/image.h"
+
+/// Image files, through OpenImageIO. All functions are thread-safe and throw Error with the path, what was expected and
+/// what was found.
+namespace terrazzo {
+
+/// The formats that can be written.
+enum class FileFormat : uint8_t { png, tiff, exr, jpeg };
+
+/// What a file says of itself without its pixels being read.
+struct FileInfo {
+  Size size;
+  int channels = 0;
+  Depth depth = Depth::u8;
+};
+
+/// Whether the name ends like an image file that can be read.
+bool looks_like_image(const std::filesystem::path& path);
+
+/// Throws unless there is a file that may be read; what is in it is not looked at.
+void require_image_file(const std::filesystem::path& path);
+
+/// Throws for what reading the file would fail at, as far as this shows in little time, before anything is decoded:
+/// there is no such file, what it takes to read it is not installed, or its end is missing.
+void require_readable_image(const std::filesystem::path& path);
+
+FileInfo read_image_info(const std::filesystem::path& path);
+
+/// Reads the first image of the file into memory. 1..4 channels come through; palettes are expanded; CMYK and images of
+/// more channels are refused, as are empty, truncated and absurdly large files (over 2^31 pixel values). Alpha is never
+/// multiplied in or divided out of formats that keep it apart. An EXR file comes as its display window, an image with
+/// an orientation mark as it is meant to be seen. Values of 8 bits are exactly k / 255, of 16 bits k / 65535; halfs
+/// stay halfs; integers of other depths become floats. Pixels that are not finite become 0. Normals stored as signed
+/// numbers are encoded. `warn` is told whatever the user should know, a sentence each, beginning with warning_mark
+/// if it is about values that are lost. `info` gives semantic, colour
+/// space and normal convention; size, channels and depth are taken from the file.
+ImagePtr read_image(const std::filesystem::path& path, const ImageInfo& info,
+                    const std::function<void(const std::string&)>& warn);
+
+struct WriteOptions {
+  FileFormat format = FileFormat::png;
+  Depth depth = Depth::u8;  ///< must be one the format can hold, see `holds`
+  int jpeg_quality = 95;
+  std::string description{};  ///< stored in the file if not empty
+};
+std::string_view name_of(FileFormat format);
+bool holds(FileFormat format, Depth depth);
+/// From the name's extension; nullopt if it is none of the formats that can be written.
+std::optional<FileFormat> format_from(const std::filesystem::path& path);
+
+/// Values outside 0..1 that an integer depth cannot hold.
+struct Clipping {
+  int64_t values = 0;         ///< how many
+  int64_t all = 0;            ///< of how many
+  float least = 0, most = 0;  ///< those that were clipped
+};
+
+/// Writes strip by strip, pulling the image's pixels as it goes; `progress` is called with the fraction done and may
+/// throw to stop. No dithering: a value read from a file of the same depth is written back exactly. The same pixels
+/// give the same bytes. JPEG has no alpha channel and leaves it out. Throws FileError where the operating system
+/// refuses (no space, no permission), Error where the format does; the file is then incomplete and the caller's to
+/// remove.
+Clipping write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
+                     const std::function<void(double)>& progress);
+
+/// The image as an 8-bit PNG file in memory; otherwise as write_image.
+std::vector<uint8_t> png_of(const Image& image);
+
+}  // namespace terrazzo

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/image/image.h"
+#include "core/image/image_file.h"
+
+/// What terrazzo uses of OpenImageIO and OpenColorIO. The two bring some 250 shared libraries along, and linking those
+/// takes ten times as long as a run that finds everything cached. So what uses them (core/libraries/) is a module of
+/// its own, which is loaded when something is first asked of it. The module knows nothing of the rest of terrazzo but
+/// headers. Every function throws Error with the library's own reason.
+namespace terrazzo {
+
+/// What an image file says of itself.
+struct StoredImage {
+  std::string format;  ///< the library's name for it: "png", "jpeg", "tiff", "openexr", ...
+  Rect stored;         ///< the pixels that are stored, in the image's coordinates
+  Size size;           ///< of the image as stored, before it is turned
+  int slices = 1;
+  int orientation = 1;  ///< as in EXIF
+  std::vector<std::string> channels;
+  Depth depth = Depth::u8;  ///< the smallest that holds every value
+  std::string type;         ///< of the stored values; "mixed depth" if channels differ
+  bool exact = true;        ///< the stored values are of just that depth
+  bool deep = false;        ///< several samples per pixel
+  bool inks = false;        ///< the colours are printing inks
+};
+
+/// An open image file.
+class ImageDecoder {
+ public:
+  virtual ~ImageDecoder() = default;
+  virtual const StoredImage& header() const = 0;
+  virtual bool has_more_images() = 0;
+  /// Reads the stored pixels of the first image, all channels of each together.
+  virtual void read(Depth as, void* out) = 0;
+};
+
+/// Where an encoder puts bytes; it may go back to what it has written.
+class ByteSink {
+ public:
+  virtual ~ByteSink() = default;
+  /// False if they could not be written.
+  virtual bool write(uint64_t offset, const void* data, size_t size) = 0;
+};
+
+/// What an encoder is to write.
+struct EncodedImage {
+  Size size;
+  int channels = 1;
+  bool has_alpha = false;  ///< in the last channel
+  std::string color_space{};
+  WriteOptions options{};
+};
+
+class ImageEncoder {
+ public:
+  virtual ~ImageEncoder() = default;
+  /// The next rows, values of the file's depth.
+  virtual void write_rows(int first, int end, const void* values) = 0;
+  virtual void finish() = 0;
+};
+
+/// Colour spaces by name. Thread-safe.
+class ColorConfiguration {
+ public:
+  /// Converts `count` pixels in place, the first three of `channels` values of each.
+  using Conversion = std::function<void(float* pixels, int channels, int64_t count)>;
+
+  virtual ~ColorConfiguration() = default;
+  virtual std::vector<std::string> names() const = 0;
+  /// What the configuration calls a space that may go by an alias or a role; empty if it has none of that name.
+  virtual std::string find(const std::string& name) const = 0;
+  virtual Conversion conversion(const std::string& from, const std::string& to) const = 0;
+  virtual std::vector<std::string> search_paths() const = 0;
+};
+
+struct ImageLibraries {
+  std::unique_ptr<ImageDecoder> (*open_image)(const std::string& path);
+  /// For TIFF, EXR and JPEG. Writes to `sink`, or to the file `name` if that is null.
+  std::unique_ptr<ImageEncoder> (*create_image)(const std::string& name, const EncodedImage& image, ByteSink* sink);
+  /// A filter of OpenImageIO's Filter1D, as a function of the distance from its centre.
+  std::function<float(float)> (*filter_kernel)(const std::string& name, float width);
+  /// An OpenColorIO configuration file; the spaces of core/image/color.h if the path is empty.
+  std::shared_ptr<const ColorConfiguration> (*load_colors)(const std::string& path);
+};
+
+/// Throws Error if the module is missing; does not load it.
+void require_image_libraries();
+
+/// Loads the module when it is first called. Throws Error if it cannot be loaded. Thread-safe.
+const ImageLibraries& image_libraries();
+
+}  // namespace terrazzo

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/image/image.h"
+
+/// Tangent-space normals: x to the right, y up the image, z out of the surface. Stored encoded, n * 0.5 + 0.5, with y
+/// reversed where an image's normal_y is down. Thread-safe.
+namespace terrazzo {
+
+using Vector3 = std::array<float, 3>;
+
+/// The unit vector of the same direction; (0, 0, 1) for a vector without one.
+Vector3 normalized(const Vector3& v);
+
+/// An encoded normal as a vector, y up, not normalised.
+Vector3 decode_normal(const float* pixel, NormalY normal_y);
+void encode_normal(const Vector3& normal, NormalY normal_y, float* pixel);
+
+/// Makes encoded normals unit length in place: the first three of each pixel's `channels` values.
+void renormalize(float* pixels, int channels, int64_t count);
+
+/// `detail` laid over `base` by rotating it into the base's tangent frame: reoriented normal mapping (Barre-Brisebois
+/// and Hill, Blending in Detail, 2012). A flat detail leaves the base, a flat base gives the detail.
+Vector3 reoriented(const Vector3& base, const Vector3& detail);
+
+/// How slopes are estimated from a 3x3 neighbourhood: smoothing across by 1 2 1 (Sobel), by 3 10 3 (Scharr 2000, the
+/// most even over directions), or not at all.
+enum class SlopeFilter : uint8_t { sobel, scharr, central };
+
+/// Normals of a height field, encoded, one for each pixel of `region`, which lies inside the image. `height_scale`: how
+/// many pixels tall a height of 1 is.
+void normals_from_height(const Image& height, const Rect& region, double height_scale, SlopeFilter filter,
+                         Outside outside, NormalY normal_y, float* out);
+
+}  // namespace terrazzo

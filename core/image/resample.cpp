@@ -1,0 +1,160 @@
+#include "core/image/resample.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "core/image/image_libraries.h"
+#include "core/image/pixel_space.h"
+
+namespace terrazzo {
+
+namespace {
+
+void make_sum_one(std::vector<double>& weights, Taps& taps) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  taps.weights.resize(weights.size());
+  std::transform(weights.begin(), weights.end(), taps.weights.begin(), [sum](double w) { return float(w / sum); });
+}
+
+AxisFilter copying(std::function<int(int)> position) {
+  return {[position](int i) { return Taps{position(i), {1.0f}}; }, true, false};
+}
+
+std::vector<Taps> taps_of(const AxisFilter& filter, int first, int count) {
+  std::vector<Taps> taps(count);
+  for (int i = 0; i < count; i++) taps[i] = filter.taps(first + i);
+  return taps;
+}
+
+/// The source positions that any of the taps touch: first and one past the last.
+std::pair<int, int> span_of(const std::vector<Taps>& taps) {
+  int first = taps.front().first, last = first;
+  for (const Taps& t : taps) {
+    first = std::min(first, t.first);
+    last = std::max(last, t.first + int(t.weights.size()));
+  }
+  return {first, last};
+}
+
+template <int channels>
+void filter_row(const float* in, int left, const std::vector<Taps>& taps, float* out) {
+  for (const Taps& t : taps) {
+    const float* p = in + size_t(t.first - left) * channels;
+    float sum[channels] = {};
+    for (const float weight : t.weights)
+      for (int c = 0; c < channels; c++) sum[c] += weight * *p++;
+    out = std::copy_n(sum, channels, out);
+  }
+}
+
+void filter_row(const float* in, int left, int channels, const std::vector<Taps>& taps, float* out) {
+  constexpr std::array by_channels = {filter_row<1>, filter_row<2>, filter_row<3>, filter_row<4>};
+  by_channels[channels - 1](in, left, taps, out);
+}
+
+void add_weighted(const float* in, float weight, size_t count, float* out) {
+  for (size_t i = 0; i < count; i++) out[i] += weight * in[i];
+}
+
+void filter_rows(const Image& source, const AxisFilter& filter, Outside outside, const Rect& region, bool linear,
+                 float* out) {
+  const int channels = source.channels();
+  const std::vector<Taps> taps = taps_of(filter, region.x, region.width);
+  const auto [left, right] = span_of(taps);
+  const Rect from{left, region.y, right - left, region.height};
+  std::vector<float> pixels = read_padded(source, from, outside);
+  if (linear) to_linear(source.info(), pixels.data(), from.area());
+  const size_t row_values = size_t(region.width) * channels;
+  for (int y = 0; y < region.height; y++) {
+    const float* in = &pixels[size_t(y) * from.width * channels];
+    if (!filter.slides) {
+      filter_row(in, left, channels, taps, out + y * row_values);
+      continue;
+    }
+    std::fill_n(out + y * row_values, row_values, 0.0f);
+    for (const float weight : taps.front().weights) {
+      add_weighted(in, weight, row_values, out + y * row_values);
+      in += channels;
+    }
+  }
+}
+
+void filter_columns(const Image& source, const AxisFilter& filter, Outside outside, const Rect& region, float* out) {
+  const std::vector<Taps> taps = taps_of(filter, region.y, region.height);
+  const auto [top, bottom] = span_of(taps);
+  const std::vector<float> pixels = read_padded(source, {region.x, top, region.width, bottom - top}, outside);
+  const size_t row_values = size_t(region.width) * source.channels();
+  std::fill_n(out, row_values * region.height, 0.0f);
+  for (int y = 0; y < region.height; y++)
+    for (size_t t = 0; t < taps[y].weights.size(); t++)
+      add_weighted(&pixels[(taps[y].first - top + t) * row_values], taps[y].weights[t], row_values,
+                   out + y * row_values);
+}
+
+}  // namespace
+
+const std::vector<std::string>& scaling_filter_names() {
+  static const std::vector<std::string> names = {"auto", "nearest", "box", "triangle", "mitchell", "lanczos3"};
+  return names;
+}
+
+AxisFilter scaling_filter(const std::string& name, int from, int to) {
+  if (from == to) return copying([](int i) { return i; });
+  if (name == "nearest")
+    return copying([from, to](int i) { return int((int64_t{2} * i + 1) * from / (int64_t{2} * to)); });
+  const std::string kernel_name = name != "auto" ? name : to < from ? "lanczos3" : "mitchell";
+  const float width = kernel_name == "box" ? 1 : kernel_name == "triangle" ? 2 : kernel_name == "mitchell" ? 4 : 6;
+  const std::function<float(float)> kernel = image_libraries().filter_kernel(kernel_name, width);
+  const auto taps_at = [from, to, width, kernel](int i) {
+    const double ratio = double(from) / to, spread = std::max(1.0, ratio);
+    const double centre = (i + 0.5) * ratio - 0.5, reach = width * 0.5 * spread;
+    Taps taps{int(std::ceil(centre - reach)), {}};
+    std::vector<double> weights;
+    for (int p = taps.first; p <= centre + reach; p++) weights.push_back(kernel(float((p - centre) / spread)));
+    make_sum_one(weights, taps);
+    return taps;
+  };
+  return {taps_at, false, false};
+}
+
+AxisFilter gaussian_filter(double sigma) {
+  if (sigma <= 0) return scaling_filter("nearest", 1, 1);
+  const int reach = int(std::ceil(3 * sigma));
+  Taps kernel{-reach, {}};
+  std::vector<double> weights;
+  for (int p = -reach; p <= reach; p++) weights.push_back(std::exp(-0.5 * p * p / (sigma * sigma)));
+  make_sum_one(weights, kernel);
+  return {[kernel](int i) { return Taps{kernel.first + i, kernel.weights}; }, false, true};
+}
+
+ImagePtr filtered(const ImagePtr& source, const ImageInfo& info, const Digest& recipe, const AxisFilter& horizontal,
+                  const AxisFilter& vertical, Outside outside, const Task* keep_rows) {
+  const bool copies = horizontal.copies && vertical.copies;
+  ImageInfo between;
+  between.size = {info.size.width, source->height()};
+  between.channels = info.channels;
+  Hasher rows_recipe;
+  rows_recipe.add("filtered horizontally").add(recipe);
+  ImagePtr rows = Image::computed(between, rows_recipe.digest(), [=](const Rect& region, float* out) {
+    filter_rows(*source, horizontal, outside, region, !copies, out);
+  });
+  if (keep_rows && !vertical.copies) rows = materialized(rows, *keep_rows);
+  return Image::computed(info, recipe, [=](const Rect& region, float* out) {
+    filter_columns(*rows, vertical, outside, region, out);
+    if (!copies) to_stored(info, out, region.area());
+  });
+}
+
+ImagePtr resampled(const ImagePtr& source, Size size, const std::string& filter, Outside outside,
+                   const Digest& recipe) {
+  if (size == source->size()) return source;
+  ImageInfo info = source->info();
+  info.size = size;
+  const std::string name = filter == "auto" && !can_be_averaged(info) ? "nearest" : filter;
+  return filtered(source, info, recipe, scaling_filter(name, source->width(), size.width),
+                  scaling_filter(name, source->height(), size.height), outside);
+}
+
+}  // namespace terrazzo

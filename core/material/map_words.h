@@ -1,0 +1,131 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/image/image.h"
+
+/// The vocabulary of core/material_files: which words in file names stand for which maps.
+namespace terrazzo {
+
+/// How much a word says by itself.
+enum class WordStrength : uint8_t {
+  full,     ///< telling wherever it stands: "roughness"
+  ending,   ///< only as the last word, numbers aside: "rough", which may also be part of an asset's name
+  initial,  ///< only as the last word and after another: "N" in T_Wall_N
+};
+
+/// One map in a file: all of it, or some of its channels.
+struct WordPart {
+  Semantic semantic = Semantic::data;
+  std::string_view map;       ///< the map's name, where it is not the semantic's
+  std::string_view channels;  ///< empty: the file is this map alone
+  bool inverted = false;
+};
+
+/// A word, or several written together, in lower case without separators.
+struct MapWord {
+  std::string_view word;
+  WordStrength strength;
+  int least_channels;  ///< a file of fewer channels cannot be this
+  std::array<WordPart, 4> parts;
+  int part_count;
+};
+
+constexpr MapWord one(std::string_view word, WordStrength strength, Semantic semantic, std::string_view map = "",
+                      bool inverted = false) {
+  return {word, strength, 1, {WordPart{semantic, map, "", inverted}}, 1};
+}
+
+constexpr MapWord packed(std::string_view word, int least_channels, int count, WordPart a, WordPart b, WordPart c = {},
+                         WordPart d = {}, WordStrength strength = WordStrength::full) {
+  return {word, strength, least_channels, {a, b, c, d}, count};
+}
+
+constexpr WordPart occlusion_in(std::string_view c) {
+  return {Semantic::ambient_occlusion, "", c};
+}
+constexpr WordPart roughness_in(std::string_view c) {
+  return {Semantic::roughness, "", c};
+}
+constexpr WordPart smoothness_in(std::string_view c) {
+  return {Semantic::roughness, "", c, true};
+}
+constexpr WordPart metallic_in(std::string_view c) {
+  return {Semantic::metallic, "", c};
+}
+
+/// For each word the entry that asks for most channels comes first. The maps of a file that is some other semantic's
+/// stand-in (a bump map for height, gloss for roughness) are told by `inverted` and by `stands_in`.
+inline constexpr auto map_words = [] {
+  using enum Semantic;
+  constexpr auto full = WordStrength::full, ending = WordStrength::ending, initial = WordStrength::initial;
+  return std::to_array<MapWord>({
+      one("basecolor", full, base_color),
+      one("basecolour", full, base_color),
+      one("albedo", full, base_color),
+      one("diffuse", full, base_color),
+      one("color", full, base_color),
+      one("colour", full, base_color),
+      one("base", ending, base_color),
+      one("diff", ending, base_color),
+      one("alb", ending, base_color),
+      one("col", ending, base_color),
+      one("bc", initial, base_color),
+      one("d", initial, base_color),
+      packed("albedotransparency", 4, 2, {base_color, "", "rgb"}, {opacity, "", "a"}),
+      one("albedotransparency", full, base_color),
+      packed("basecoloropacity", 4, 2, {base_color, "", "rgb"}, {opacity, "", "a"}),
+      one("normal", full, normal),
+      one("normals", full, normal),
+      one("nor", ending, normal),
+      one("norm", ending, normal),
+      one("nrm", ending, normal),
+      one("nml", ending, normal),
+      one("n", initial, normal),
+      one("height", full, height),
+      one("displacement", full, height),
+      one("disp", ending, height),
+      one("depth", ending, height),
+      one("bump", ending, height),
+      one("h", initial, height),
+      one("roughness", full, roughness),
+      one("rough", ending, roughness),
+      one("rgh", ending, roughness),
+      one("r", initial, roughness),
+      one("glossiness", full, roughness, "", true),
+      one("smoothness", full, roughness, "", true),
+      one("gloss", ending, roughness, "", true),
+      one("metallic", full, metallic),
+      one("metalness", full, metallic),
+      one("metal", initial, metallic),
+      one("met", initial, metallic),
+      one("m", initial, metallic),
+      one("ambientocclusion", full, ambient_occlusion),
+      one("occlusion", full, ambient_occlusion),
+      one("ao", full, ambient_occlusion),
+      one("occ", ending, ambient_occlusion),
+      one("opacity", full, opacity),
+      one("alpha", ending, opacity),
+      one("transparency", full, opacity),
+      one("emission", full, emission),
+      one("emissive", full, emission),
+      one("emit", ending, emission),
+      one("e", initial, emission),
+      one("specular", full, specular),
+      one("spec", ending, specular),
+      one("cavity", full, data, "data_cavity"),
+      one("mask", ending, mask),
+      packed("metallicroughness", 3, 2, roughness_in("g"), metallic_in("b")),
+      packed("occlusionroughnessmetallic", 3, 3, occlusion_in("r"), roughness_in("g"), metallic_in("b")),
+      packed("orm", 3, 3, occlusion_in("r"), roughness_in("g"), metallic_in("b")),
+      packed("arm", 3, 3, occlusion_in("r"), roughness_in("g"), metallic_in("b"), {}, ending),
+      packed("rma", 3, 3, roughness_in("r"), metallic_in("g"), occlusion_in("b"), {}, ending),
+      packed("metallicsmoothness", 4, 2, metallic_in("r"), smoothness_in("a")),
+      one("metallicsmoothness", full, metallic),
+      packed("metallicgloss", 4, 2, metallic_in("r"), smoothness_in("a")),
+      packed("maskmap", 4, 4, metallic_in("r"), occlusion_in("g"), {mask, "mask_detail", "b"}, smoothness_in("a")),
+  });
+}();
+
+}  // namespace terrazzo

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/image/image.h"
+
+namespace terrazzo {
+
+/// One map of a material. The name is how graphs, file patterns and weights speak of it: the semantic's name, or
+/// the semantic's name with a suffix where a material has several ("mask_moss").
+struct Map {
+  std::string name;
+  ImagePtr image;
+};
+
+class Material;
+using MaterialPtr = std::shared_ptr<const Material>;
+
+/// A named, ordered set of images that share one uv domain: the same relative position is the same point of the surface
+/// in every map. Sizes may differ. Immutable.
+class Material {
+ public:
+  /// Throws Error if there is no map, or if two maps have the same name.
+  static MaterialPtr make(std::string name, std::vector<Map> maps);
+  /// A material of one map, named after the image's semantic.
+  static MaterialPtr of(const ImagePtr& image);
+
+  const std::string& name() const { return name_; }
+  const std::vector<Map>& maps() const { return maps_; }
+  /// Null if there is no such map.
+  ImagePtr find(std::string_view map) const;
+  /// The first map of that meaning; null if there is none.
+  ImagePtr find(Semantic semantic) const;
+  /// The size in which the material is analysed and synthesized: that of its largest map.
+  Size size() const;
+  /// The names of the maps, comma separated, for messages.
+  std::string map_names() const;
+  const Digest& digest() const { return digest_; }
+
+ private:
+  Material(std::string name, std::vector<Map> maps);
+  std::string name_;
+  std::vector<Map> maps_;
+  Digest digest_;
+};
+
+}  // namespace terrazzo

@@ -1,0 +1,94 @@
+#include "core/material/material_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/image/color.h"
+
+namespace terrazzo {
+
+namespace {
+
+bool is_one_value(Semantic s) {
+  return !is_color(s) && s != Semantic::normal && s != Semantic::data && s != Semantic::guidance;
+}
+
+/// Whether channel c of an image never differs from `value(pixel)` by more than `tolerance`.
+template <typename Value>
+bool channel_is(const Image& image, int c, float tolerance, Value value) {
+  bool same = true;
+  for_each_strip(image, [&](const Rect& r, const float* p) {
+    for (int64_t i = 0; same && i < r.area(); i++, p += image.channels()) same = std::abs(p[c] - value(p)) <= tolerance;
+  });
+  return same;
+}
+
+ImagePtr channels_of(const ImagePtr& image, ImageInfo info, const std::vector<int>& channels, bool inverted) {
+  info.channels = int(channels.size());
+  if (!inverted && info.channels == image->channels()) return Image::redescribed(image, info);
+  std::vector<float> out;
+  out.reserve(size_t(info.size.area()) * channels.size());
+  for_each_strip(*image, [&](const Rect& r, const float* p) {
+    for (int64_t i = 0; i < r.area(); i++, p += image->channels())
+      for (const int c : channels) out.push_back(inverted ? 1.0f - p[c] : p[c]);
+  });
+  return Image::from_floats(info, std::move(out));
+}
+
+int index_of_channel(char c) {
+  return c == 'r' ? 0 : c == 'g' ? 1 : c == 'b' ? 2 : 3;
+}
+
+/// The channels of the file that make the map. Grey maps stored in colour are reduced to one channel; alpha is left out
+/// of everything but colours.
+std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::vector<std::string>& notes) {
+  require_channels(m, file.channels());
+  std::vector<int> channels;
+  for (const char c : m.channels) channels.push_back(index_of_channel(c));
+  if (!channels.empty()) return channels;
+  const int colors = file.channels() - (file.channels() % 2 == 0 ? 1 : 0);  // without alpha
+  if (is_one_value(m.semantic)) {
+    constexpr float compression_noise = 8.0f / 255.0f;
+    for (int c = 1; c < colors; c++)
+      if (!channel_is(file, c, compression_noise, [](const float* p) { return p[0]; })) {
+        notes.push_back(fmt::format("{} has different channels in {}; the first is taken", m.map, m.file));
+        break;
+      }
+    return {0};
+  }
+  for (int c = 0; c < colors; c++) channels.push_back(c);
+  return channels;
+}
+
+}  // namespace
+
+void require_channels(const RecognisedMap& source, int file_channels) {
+  for (const char c : source.channels)
+    if (index_of_channel(c) >= file_channels)
+      throw Error("maps", fmt::format("{} is to be channel {} of {}, which has only {}", source.map, c, source.file,
+                                      counted(file_channels, "channel")));
+}
+
+ImagePtr map_of_file(const RecognisedMap& source, const ImagePtr& file, const std::string& color_space,
+                     std::vector<std::string>& notes) {
+  ImageInfo info = file->info();
+  info.semantic = source.semantic;
+  info.color_space = color_space;
+  return channels_of(file, info, channels_for(source, *file, notes), source.inverted);
+}
+
+ImagePtr opacity_of(const ImagePtr& file) {
+  if (file->channels() % 2 != 0) return nullptr;
+  const int alpha = file->channels() - 1;
+  if (channel_is(*file, alpha, 0, [](const float*) { return 1.0f; })) return nullptr;
+  ImageInfo info = file->info();
+  info.semantic = Semantic::opacity;
+  info.color_space = "raw";
+  return channels_of(file, info, {alpha}, false);
+}
+
+}  // namespace terrazzo

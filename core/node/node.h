@@ -1,0 +1,218 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/base/task.h"
+#include "core/base/text.h"
+#include "core/node/value.h"
+
+/// The node interface. A node type is one descriptor; validation, the JSON schema, the printed reference and the cache
+/// key are all made from it. Nodes are pure: their outputs depend on inputs, parameters and the files that
+/// `files_read` names, and on nothing else.
+namespace terrazzo {
+
+/// Numbers by name, one or several each: {"normal": 2, "base_color": [1, 1, 0.5]}.
+using NumberMap = std::map<std::string, std::vector<double>>;
+/// Texts by name: {"r": "ambient_occlusion.r"}.
+using TextMap = std::map<std::string, std::string>;
+using Numbers = std::vector<double>;
+using Texts = std::vector<std::string>;
+
+/// Alternatives are in the order of ParamType; choice, path and color_space are texts.
+using ParamValue = std::variant<bool, int64_t, double, std::string, Size, Numbers, Texts, NumberMap, TextMap>;
+
+enum class ParamType : uint8_t {
+  boolean,
+  integer,
+  number,
+  text,
+  size,        ///< [width, height], or "512x512", or one number for a square
+  numbers,     ///< a list of numbers
+  texts,       ///< a list of texts
+  number_map,  ///< numbers by name
+  text_map,    ///< texts by name
+  choice,      ///< a text out of `choices`
+  path,        ///< a file or folder; made absolute before the node sees it
+};
+std::string_view name_of(ParamType type);
+
+struct Param {
+  std::string name;
+  ParamType type = ParamType::number;
+  std::optional<ParamValue> fallback{};  ///< the default; a parameter without one must be given
+  std::string help{};                    ///< one or two sentences
+  std::optional<double> min{}, max{};    ///< for integer, number, and every element of size, numbers, number_map
+  std::string unit{};                    ///< "pixels", "degrees", ... or empty
+  std::vector<std::string> choices{};    ///< for choice; for number_map and text_map the allowed names, if not empty
+  int min_count = 0, max_count = 0;      ///< for numbers and texts; 0 = no limit
+};
+
+/// All of a node's parameters by name, defaults filled in, checked against the descriptor.
+using Params = std::map<std::string, ParamValue>;
+
+/// Feeds parameters into a key: by name and value, independent of order and of how the document wrote them.
+void add_to(Hasher& hasher, const Params& params);
+
+struct Port {
+  std::string name;
+  ValueType type = ValueType::image;
+  std::string help{};
+  bool optional = false;
+  bool list = false;  ///< takes a list of wires
+};
+
+/// What becomes of a node's outputs.
+enum class Persist : uint8_t {
+  payload,  ///< costly: outputs are stored in the cache
+  digest,   ///< quick: only the outputs' digests are stored; they are made again when a reader must run
+  derived,  ///< lazy: outputs are recipes, named by the node's key; never stored
+};
+
+/// A file that a sink is going to write.
+struct FutureFile {
+  std::string param;  ///< the parameter that says where
+  std::filesystem::path folder;
+  std::string name;    ///< empty as long as it is not known; `folder` is then where it will lie, or deeper
+  std::string what{};  ///< what it is to hold, for messages
+};
+
+/// What can be told of a node's results before anything runs.
+struct Forecast {
+  std::vector<std::string> maps{};  ///< that its material will have
+  /// Maps that it may have besides; none if there is no telling which.
+  std::optional<std::vector<std::string>> possible_maps{};
+  std::map<std::string, Size> sizes{};  ///< of maps, where they are known
+  std::vector<FutureFile> files{};      ///< of a sink
+};
+/// Of a node's inputs: by connected port, one for each wire.
+using InputForecasts = std::map<std::string, std::vector<Forecast>>;
+
+class NodeContext;
+
+struct NodeType {
+  std::string name;
+  int version = 1;       ///< raise it whenever the same inputs would give other outputs
+  std::string category;  ///< source, image, analysis, synthesis, sink
+  std::string summary;   ///< one line
+  std::string help{};    ///< as long as it takes: what it does, when to use it, where the method comes from
+  std::vector<Port> inputs;
+  std::vector<Port> outputs;
+  std::vector<Param> params;
+  Persist persist = Persist::payload;
+  std::function<void(NodeContext&)> compute;
+  /// The files the node reads, given its parameters; their content goes into the key. Empty for most nodes. A missing
+  /// file may be listed: the key then says "missing", and compute reports it properly.
+  std::function<std::vector<std::filesystem::path>(const Params&)> files_read;
+  /// Bytes of memory that compute will need beside its inputs, roughly; lets the scheduler keep to its budget.
+  std::function<size_t(const NodeContext&)> memory_hint;
+  /// Checks that involve several parameters; returns one message per problem, each starting with the parameter's name
+  /// in quotes. Called when a document is checked, before anything runs.
+  std::function<std::vector<std::string>(const Params&)> check;
+  /// Looks ahead while a plan is made, so that mistakes are found before hours of work: throws Error, or Errors, for
+  /// what compute would refuse (a folder that is not there), and says what is known of the results. Quick; may look at
+  /// files that `files_read` names. What it says must be true whatever runs; nothing need be said.
+  std::function<Forecast(const Params&, const InputForecasts&)> foresee;
+
+  const Port* find_input(std::string_view port) const;
+  const Port* find_output(std::string_view port) const;
+  const Param* find_param(std::string_view param) const;
+  /// Sinks write files and run even if nothing reads them.
+  bool is_sink() const { return category == "sink"; }
+};
+
+/// A file that a sink has finished under a temporary name beside its target.
+struct StagedFile {
+  std::filesystem::path temporary;
+  std::filesystem::path target;
+};
+
+/// What compute gets: inputs, parameters, and a place for the results. Used from one thread at a time (a node may use
+/// many threads inside); `task()` is thread-safe.
+class NodeContext {
+ public:
+  NodeContext(const NodeType& type, Params params, std::map<std::string, std::vector<Value>> inputs, Digest key,
+              Task task);
+
+  const NodeType& type() const { return type_; }
+  const Task& task() const { return task_; }
+  /// The stage's key: the recipe digest for lazily computed outputs (see Image::computed).
+  const Digest& key() const { return key_; }
+
+  /// A connected input of a required port.
+  template <typename T>
+  std::shared_ptr<const T> input(std::string_view port) const {
+    return std::get<std::shared_ptr<const T>>(single(port));
+  }
+  /// Null if nothing is connected.
+  template <typename T>
+  std::shared_ptr<const T> optional_input(std::string_view port) const {
+    const std::vector<Value>& v = values(port);
+    return v.empty() ? nullptr : std::get<std::shared_ptr<const T>>(v.front());
+  }
+  /// All wires of a list port, in the document's order.
+  template <typename T>
+  std::vector<std::shared_ptr<const T>> list(std::string_view port) const {
+    std::vector<std::shared_ptr<const T>> out;
+    for (const Value& v : values(port)) out.push_back(std::get<std::shared_ptr<const T>>(v));
+    return out;
+  }
+
+  const Params& params() const { return params_; }
+  bool flag(std::string_view param) const { return get<bool>(param); }
+  int64_t integer(std::string_view param) const { return get<int64_t>(param); }
+  double number(std::string_view param) const { return get<double>(param); }
+  const std::string& text(std::string_view param) const { return get<std::string>(param); }  ///< text, choice, path
+  Size size(std::string_view param) const { return get<Size>(param); }
+  const Numbers& numbers(std::string_view param) const { return get<Numbers>(param); }
+  const Texts& texts(std::string_view param) const { return get<Texts>(param); }
+  const NumberMap& number_map(std::string_view param) const { return get<NumberMap>(param); }
+  const TextMap& text_map(std::string_view param) const { return get<TextMap>(param); }
+
+  /// Every declared output must be set before compute returns.
+  void output(std::string_view port, Value value);
+  /// Something the user should know (what was recognised, what was ignored); printed, and repeated from the cache.
+  void note(std::string message) { notes_.push_back(std::move(message)); }
+  /// The same for what is likely to be a mistake, or costs what the user would not want to lose. Shown where it cannot
+  /// be overlooked.
+  void warn(const std::string& message) { notes_.push_back(std::string(warning_mark) + message); }
+
+  /// For sinks: a temporary name beside `target` (folders are made, and what killed runs left in them is removed) to
+  /// write to. The runner renames all staged files once compute has returned, and removes them and the folders if it
+  /// throws: a failed run leaves no partial file.
+  std::filesystem::path stage(const std::filesystem::path& target);
+
+  // What the runner takes away.
+  std::map<std::string, Value>& outputs() { return outputs_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+  const std::vector<StagedFile>& staged() const { return staged_; }
+  /// The folders that `stage` has made, outer ones first.
+  const std::vector<std::filesystem::path>& made_folders() const { return made_folders_; }
+
+ private:
+  const std::vector<Value>& values(std::string_view port) const;
+  const Value& single(std::string_view port) const;
+  template <typename T>
+  const T& get(std::string_view param) const {
+    return std::get<T>(value(param));
+  }
+  const ParamValue& value(std::string_view param) const;
+
+  const NodeType& type_;
+  Params params_;
+  std::map<std::string, std::vector<Value>> inputs_;
+  Digest key_;
+  Task task_;
+  std::map<std::string, Value> outputs_;
+  std::vector<std::string> notes_;
+  std::vector<StagedFile> staged_;
+  std::vector<std::filesystem::path> made_folders_;
+};
+
+}  // namespace terrazzo

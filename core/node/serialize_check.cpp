@@ -1,0 +1,70 @@
+#include "core/node/serialize_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/file/bytes.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int window = 25;           // pixels of a neighbourhood
+constexpr int smallest_side = 5;     // one whole neighbourhood
+constexpr int largest_side = 65536;  // ExemplarPixel counts no further
+
+void require(bool condition, const char* otherwise) {
+  if (!condition) throw DamagedFile(otherwise);
+}
+
+bool all_finite(const std::vector<float>& values) {
+  return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+}
+
+void check_level(const AppearanceLevel& level, int channels) {
+  require(std::min(level.size.width, level.size.height) >= smallest_side &&
+              std::max(level.size.width, level.size.height) <= largest_side,
+          "an exemplar in it is too small or too large");
+  const size_t inputs = level.mean.size();
+  require(inputs > 0 && inputs % window == 0 && inputs / window <= size_t(channels),
+          "a basis in it does not belong to its channels");
+  require(all_finite(level.mean) && all_finite(level.basis), "a basis in it holds something that is not a number");
+  require(level.scale > 0, "a scale in it is not positive");
+}
+
+void check_lattice(const Lattice& lattice) {
+  for (const double v : {lattice.first.x, lattice.first.y, lattice.second.x, lattice.second.y})
+    require(std::abs(v) <= largest_side, "a lattice in it is larger than any exemplar");
+}
+
+bool is_inside(const Rect& r, Size size) {
+  const auto fits = [](int first, int length, int all) {
+    return first >= 0 && length > 0 && length <= all && first <= all - length;
+  };
+  return fits(r.x, r.width, size.width) && fits(r.y, r.height, size.height);
+}
+
+}  // namespace
+
+void check_levels(const std::vector<AppearanceLevel>& levels, int channels) {
+  for (size_t i = 0; i < levels.size(); i++) {
+    check_level(levels[i], channels);
+    if (i == 0) continue;
+    const Size finer = levels[i - 1].size;
+    require(levels[i].size == Size{(finer.width + 1) / 2, (finer.height + 1) / 2},
+            "a level in it does not have half the size of the one before");
+  }
+}
+
+void check_repeats(const Repeats& repeats, Size exemplar) {
+  check_lattice(repeats.lattice);
+  for (const LatticePart& p : repeats.parts) {
+    check_lattice(p.lattice);
+    check_lattice(p.shown);
+    require(p.lattice.rank == p.shown.rank, "a part of it repeats in another way than it is shown");
+    require(is_inside(p.place, exemplar), "a part of it lies outside the exemplar");
+    require(std::max(std::abs(p.start.x), std::abs(p.start.y)) <= largest_side, "a part of it starts too far away");
+  }
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include "core/file/block_file.h"
+#include "core/image/image.h"
+
+namespace terrazzo {
+
+/// The pixels of an image that lies in stream number `stream` of a block file, which must hold exactly its samples, row
+/// by row. Blocks are read, verified and decoded when a region needs them; the blocks of a band of rows are kept.
+/// read() throws DamagedFile or Error, naming the file.
+std::shared_ptr<const PixelSource> stored_pixels(std::shared_ptr<const BlockFile> file, uint32_t stream, Size size,
+                                                 int channels);
+
+}  // namespace terrazzo

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string_view>
+#include <variant>
+
+#include "core/exemplar/appearance.h"
+#include "core/exemplar/features.h"
+#include "core/exemplar/uv_map.h"
+#include "core/image/image.h"
+#include "core/material/material.h"
+#include "core/node/report.h"
+
+namespace terrazzo {
+
+/// What travels on a wire; shared, never copied.
+using Value = std::variant<ImagePtr, MaterialPtr, FeaturesPtr, AppearancePtr, IndexPtr, UvMapPtr, ReportPtr>;
+
+/// In the order of Value's alternatives.
+enum class ValueType : uint8_t { image, material, features, appearance, index, uv_map, report };
+
+inline constexpr std::array<std::string_view, 7> value_type_names = {"image", "material", "features", "appearance",
+                                                                     "index", "uv_map",   "report"};
+inline std::string_view name_of(ValueType type) {
+  return value_type_names[static_cast<size_t>(type)];
+}
+inline ValueType type_of(const Value& value) {
+  return static_cast<ValueType>(value.index());
+}
+inline const Digest& digest_of(const Value& value) {
+  return std::visit([](const auto& v) -> const Digest& { return v->digest(); }, value);
+}
+
+/// Whether a wire may join the two: the same type, or the lossless image -> material of one map.
+inline bool converts(ValueType from, ValueType to) {
+  return from == to || (from == ValueType::image && to == ValueType::material);
+}
+/// `value` as the type asked for; `converts` must hold.
+inline Value converted(const Value& value, ValueType to) {
+  if (type_of(value) == to) return value;
+  return Material::of(std::get<ImagePtr>(value));
+}
+
+}  // namespace terrazzo

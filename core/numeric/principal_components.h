@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/task.h"
+
+namespace terrazzo {
+
+/// The leading principal components of a set of vectors.
+struct PrincipalComponents {
+  std::vector<float> mean;        ///< length n
+  std::vector<float> components;  ///< count rows of n, orthonormal, largest variance first, sign fixed
+  std::vector<double> variances;  ///< count, descending
+  double total_variance = 0;
+};
+
+/// Computes the `count` leading components of vectors of length n by subspace iteration on the covariance matrix
+/// (Golub & Van Loan, Matrix Computations, section 8.2). `samples` holds the vectors one after the other. Arithmetic is
+/// done in one fixed order, so the result has the same bits on every machine and thread count.
+/// Throws Cancelled.
+PrincipalComponents principal_components(const std::vector<float>& samples, int n, int count, const Task& task = {});
+
+}  // namespace terrazzo

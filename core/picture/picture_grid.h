@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/task.h"
+#include "core/image/image.h"
+
+namespace terrazzo {
+
+/// How pictures are laid out by `picture_grid`.
+struct GridSpec {
+  int columns = 4;                    ///< at most; fewer pictures make a narrower sheet
+  Size cell{256, 256};                ///< room for each picture, in pixels
+  int gap = 8;                        ///< around cells, in pixels
+  bool enlarge = false;               ///< scale smaller pictures up to their cells
+  std::vector<std::string> captions;  ///< below the pictures, in their order; may be fewer, and empty
+};
+
+/// Throws Error unless a sheet of that many pictures can be made.
+void require_grid(size_t pictures, const GridSpec& spec);
+
+/// The size of the sheet for that many pictures.
+Size grid_size(size_t pictures, const GridSpec& spec);
+
+/// Pictures of any sizes and kinds row by row in cells of one size, each scaled to fit and centred, as one 8-bit sRGB
+/// image. Colours are converted from their colour space; a picture of one or two channels is shown by its first as
+/// grey, a fourth channel is left out; values are clamped to [0, 1]. Captions too long for their cell are cut. Throws
+/// Error if there is no picture, more captions than pictures, or the sheet would be wider or higher than 32768 pixels.
+ImagePtr picture_grid(const std::vector<ImagePtr>& pictures, const GridSpec& spec, const Task& task);
+
+}  // namespace terrazzo

@@ -1,0 +1,180 @@
+#include "core/picture/render/preview.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include <tbb/parallel_for.h>
+
+#include "core/base/portable_math.h"
+#include "core/image/srgb.h"
+#include "core/picture/contact_sheet.h"
+#include "core/picture/render/relief.h"
+#include "core/picture/render/shading.h"
+#include "core/picture/render/textures.h"
+
+namespace terrazzo {
+
+namespace {
+
+using namespace render;
+
+/// Where a ray meets the shape: the place on the material and the frame of the surface there.
+struct Hit {
+  double x = 0, y = 0;  ///< in widths of the material, y downwards
+  Vec tangent{1, 0, 0}, bitangent{0, 1, 0}, normal{0, 0, 1};
+  Vec view{0, 0, 1};
+};
+
+/// The part of the rays of one picture that depends on the shape. `x`, `y`: pixels, not necessarily at centres.
+class Camera {
+ public:
+  Camera(const PreviewSpec& spec, double aspect) : spec_(spec), aspect_(aspect) {}
+
+  std::optional<Hit> hit(double x, double y) const {
+    return spec_.shape == PreviewShape::plane ? on_plane(x, y) : on_sphere(x, y);
+  }
+
+ private:
+  Hit on_plane(double x, double y) const {
+    const double turns = spec_.tilt / 360, c = exact::cos_turns(turns), s = exact::sin_turns(turns);
+    Hit h;
+    const double middle = 0.5 * spec_.size.height;
+    h.x = x / spec_.size.width * spec_.tile;
+    h.y = (middle + (y - middle) / c) / spec_.size.width * spec_.tile;
+    h.bitangent = {0, c, -s};
+    h.normal = {0, s, c};
+    return h;
+  }
+
+  std::optional<Hit> on_sphere(double x, double y) const {
+    // The ball's outline is seen at asin(1 / distance); let it fill nine tenths of the shorter side.
+    const double d = spec_.distance, outline = 1 / std::sqrt(d * d - 1);
+    const double half = 0.5 * std::min(spec_.size.width, spec_.size.height);
+    const double scale = outline / (0.9 * half);
+    const Vec ray = unit({(x - 0.5 * spec_.size.width) * scale, (0.5 * spec_.size.height - y) * scale, -1});
+    const double b = -ray.z * d, disc = b * b - (d * d - 1);
+    if (disc < 0) return std::nullopt;
+    Hit h;
+    h.normal = Vec{0, 0, d} + ray * (b - std::sqrt(disc));
+    h.view = ray * -1;
+    // Unrolled from the point that faces the viewer; the frame turns along with the surface.
+    const Vec& n = h.normal;
+    const double sine = std::sqrt(n.x * n.x + n.y * n.y);
+    const double arc = sine > 1e-6 ? angle(sine, n.z) / sine : 1;
+    const double per_radius = spec_.tile / 3.14159265358979324;
+    h.x = 0.5 + n.x * arc * per_radius;
+    h.y = 0.5 * aspect_ - n.y * arc * per_radius;
+    const double k = 1 / (1 + n.z);
+    h.tangent = {1 - n.x * n.x * k, -n.x * n.y * k, -n.x};
+    h.bitangent = {-n.x * n.y * k, 1 - n.y * n.y * k, -n.y};
+    return h;
+  }
+
+  /// The angle whose sine and cosine these are, in [0, pi / 2] for what faces the viewer.
+  static double angle(double sine, double cosine) {
+    // Halving the angle twice brings the series (odd powers of the tangent) quickly to its end.
+    const double t = sine / (1 + cosine), q = t / (1 + std::sqrt(1 + t * t)), q2 = q * q;
+    double sum = 0;
+    for (int n = 21; n >= 1; n -= 2) sum = 1.0 / n - q2 * sum;
+    return 4 * q * sum;
+  }
+
+  const PreviewSpec& spec_;
+  double aspect_;
+};
+
+class Renderer {
+ public:
+  Renderer(const PreviewSpec& spec, const Textures& textures)
+      : spec_(spec), textures_(textures), camera_(spec, textures.aspect), stops_(exact::exp2(spec.exposure)) {
+    for (const double azimuth : spec.lights) {
+      const double flat = exact::cos_turns(spec.elevation / 360);
+      lights_.push_back({flat * exact::cos_turns(azimuth / 360), flat * exact::sin_turns(azimuth / 360),
+                         exact::sin_turns(spec.elevation / 360)});
+    }
+    const double* b = spec.background;
+    background_ = {decode_srgb(b[0]), decode_srgb(b[1]), decode_srgb(b[2])};
+  }
+
+  /// Display-linear colour of a pixel under one light.
+  Vec pixel(int x, int y, size_t light) const {
+    const bool flat = spec_.shape == PreviewShape::plane && spec_.tilt == 0;
+    const int samples = flat ? 1 : 2;
+    Vec sum;
+    for (int j = 0; j < samples; j++)
+      for (int i = 0; i < samples; i++) {
+        const std::optional<Hit> hit = camera_.hit(x + (i + 0.5) / samples, y + (j + 0.5) / samples);
+        sum = sum + (hit ? tone_mapped(shade(*hit, lights_[light]) * stops_) : background_);
+      }
+    return sum * (1.0 / (samples * samples));
+  }
+
+ private:
+  Vec shade(const Hit& hit, const Vec& light) const {
+    const auto local = [&](const Vec& v) {
+      return Vec{dot(v, hit.tangent), dot(v, hit.bitangent), dot(v, hit.normal)};
+    };
+    const Vec view = local(hit.view), to_light = local(light);
+    const ReliefPoint at = visible_point(textures_, hit.x, hit.y, view);
+    const ShadedPoint p = textures_.at(at.x, at.y / textures_.aspect);
+    Vec color = reflected_ambient(p, view, local({0, 1, 0})) * spec_.ambient + p.emission;
+    if (to_light.z > 0)
+      color = color + reflected(p, view, to_light) * (spec_.intensity * light_reaching(textures_, at, to_light));
+    return color;
+  }
+
+  const PreviewSpec& spec_;
+  const Textures& textures_;
+  Camera camera_;
+  double stops_;
+  std::vector<Vec> lights_;
+  Vec background_;
+};
+
+float stored(double linear) {
+  return float(exact::floor_int(exact::saturate(encode_srgb(linear)) * 255 + 0.5)) / 255.0f;
+}
+
+ImagePtr rendered(const Renderer& renderer, Size size, size_t light, const Task& task) {
+  std::vector<float> out(size_t(size.area()) * 3);
+  tbb::parallel_for(0, size.height, [&](int y) {
+    task.check();
+    for (int x = 0; x < size.width; x++) {
+      const Vec c = renderer.pixel(x, y, light);
+      float* pixel = &out[(size_t(y) * size.width + x) * 3];
+      pixel[0] = stored(c.x);
+      pixel[1] = stored(c.y);
+      pixel[2] = stored(c.z);
+    }
+  });
+  ImageInfo info{.size = size, .channels = 3, .semantic = Semantic::base_color, .depth = Depth::u8};
+  info.color_space = "srgb_texture";
+  return Image::from_floats(info, std::move(out));
+}
+
+/// Row by row, as square as it gets.
+ImagePtr sheet_of(const std::vector<ImagePtr>& pictures) {
+  size_t columns = 1;
+  while (columns * columns < pictures.size()) columns++;
+  std::vector<std::vector<ImagePtr>> rows;
+  for (size_t i = 0; i < pictures.size(); i++) {
+    if (i % columns == 0) rows.emplace_back();
+    rows.back().push_back(pictures[i]);
+  }
+  return contact_sheet(rows, std::numeric_limits<int>::max());
+}
+
+}  // namespace
+
+ImagePtr render_preview(const Material& material, const PreviewSpec& spec, const Task& task) {
+  const Textures textures =
+      load_textures(material, int(std::max(1.0, spec.size.width / std::max(spec.tile, 1e-3))), spec.relief, task);
+  const Renderer renderer(spec, textures);
+  std::vector<ImagePtr> pictures;
+  for (size_t light = 0; light < spec.lights.size(); light++)
+    pictures.push_back(rendered(renderer, spec.size, light, task));
+  return pictures.size() == 1 ? pictures.front() : sheet_of(pictures);
+}
+
+}  // namespace terrazzo

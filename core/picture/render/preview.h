@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/task.h"
+#include "core/image/image.h"
+#include "core/material/material.h"
+
+namespace terrazzo {
+
+/// plane: the material from above, texel for pixel if picture and material have one size; sphere: a ball of it, with
+/// the material wrapped around the side one sees (azimuthal equidistant, so without poles).
+enum class PreviewShape : uint8_t { plane, sphere };
+
+struct PreviewSpec {
+  PreviewShape shape = PreviewShape::plane;
+  Size size{512, 512};              ///< of the picture of one light
+  std::vector<double> lights{135};  ///< azimuths in degrees, counter-clockwise from the right; one picture each
+  double elevation = 45;            ///< of the light above the picture plane, degrees, 0..90
+  double intensity = 1;             ///< a facing white surface under light 1 is white
+  double ambient = 0.25;            ///< brightness of the surroundings
+  double exposure = 0;              ///< in stops
+  double relief = 1;                ///< depth of parallax and shadows, as a multiple of what the normals say
+  double tile = 1;                  ///< repeats of the material across the picture or the ball
+  double tilt = 0;                  ///< plane only: leaned back by so many degrees, 0..75
+  double distance = 4;              ///< sphere only: of the camera from the centre, in radii, above 1
+  double background[3] = {0.12, 0.12, 0.13};  ///< sRGB, 0..1
+};
+
+/// Renders the material under a directional light and even surroundings: GGX, normal mapping in either convention,
+/// occlusion, metals, emission, parallax and shadows from the height map. Several lights give a sheet of pictures, row
+/// by row, as square as it gets, with thin borders. Uses what maps there are; a material with neither colour, normal
+/// nor height is a grey surface. The result is an 8-bit base_color in srgb_texture, the same on every machine.
+ImagePtr render_preview(const Material& material, const PreviewSpec& spec, const Task& task);
+
+}  // namespace terrazzo

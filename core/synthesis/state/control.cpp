@@ -1,0 +1,258 @@
+#include "core/synthesis/state/control.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "core/image/distribution.h"
+#include "core/image/image_ops.h"
+#include "core/image/resample.h"
+#include "core/synthesis/state/labels.h"
+
+namespace terrazzo {
+
+namespace {
+
+// What the largest difference of values costs, relative to missing a label.
+constexpr double values_factor = 8;
+// Of the exemplar's longer side: features that are not to be taken apart for the sake of their values.
+constexpr double feature_side = 1.0 / 16;
+// Ranks of the exemplar's values beyond which all are alike: of the few pixels of the extremes no surface can be made.
+constexpr double extreme_ranks = 0.05;
+
+using Plane = std::vector<float>;
+
+/// The control's plain numbers at another size.
+ImagePtr values_at_size(const ImagePtr& image, Size size, const Task& task) {
+  ImageInfo info = image->info();
+  info.semantic = Semantic::data;
+  info.color_space = "raw";
+  const ImagePtr plain = Image::redescribed(image, info);
+  if (image->size() == size) return materialized(plain, task);
+  info.size = size;
+  const AxisFilter across = scaling_filter("triangle", image->width(), size.width);
+  const AxisFilter down = scaling_filter("triangle", image->height(), size.height);
+  return materialized(filtered(plain, info, Digest{}, across, down, Outside::clamp), task);
+}
+
+/// Puts bytes made from each pixel's values into channels [first, first + count) of the planes.
+template <typename Encode>
+void put(const Image& image, ControlPlanes& planes, int first, const Encode& encode) {
+  const float* values = image.in_memory();
+  tbb::parallel_for(0, planes.size.height, [&](int y) {
+    for (int x = 0; x < planes.size.width; x++) {
+      const int64_t i = int64_t{y} * planes.size.width + x;
+      encode(values + i * image.channels(), &planes.values[size_t(i) * planes.channels + first]);
+    }
+  });
+}
+
+/// How a channel's values become bytes.
+struct ByteScale {
+  double low, high;    ///< become 0 and 255
+  double least, most;  ///< what lies beyond them is taken for them
+  uint8_t operator()(double v) const {
+    return uint8_t(std::floor(255 * std::clamp((std::clamp(v, least, most) - low) / (high - low), 0.0, 1.0) + 0.5));
+  }
+};
+
+constexpr double least_range = 1.0 / 255;
+
+void put_values(const Control& control, ControlPlanes& exemplar, ControlPlanes& target, int first, const Task& task) {
+  const ImagePtr has = values_at_size(control.exemplar, exemplar.size, task);
+  const ImagePtr wants = values_at_size(control.target, target.size, task);
+  const std::vector<Distribution> own = Distribution::of(*has, task), wanted = Distribution::of(*wants, task);
+  std::vector<ByteScale> scales;
+  std::vector<Curve> curves;
+  for (size_t c = 0; c < own.size(); c++) {
+    double low = own[c].min(), high = own[c].max();
+    if (control.match == Control::Match::none) {
+      low = std::min<double>(low, wanted[c].min());
+      high = std::max<double>(high, wanted[c].max());
+    }
+    const bool by_rank = control.match == Control::Match::histogram;
+    scales.push_back({low, std::max(high, low + least_range), by_rank ? own[c].quantile(extreme_ranks) : low,
+                      by_rank ? own[c].quantile(1 - extreme_ranks) : high});
+    if (by_rank)
+      curves.push_back(matching_curve(wanted[c], own[c]));
+    else if (control.match == Control::Match::range)
+      curves.push_back(
+          Curve({wanted[c].min(), std::max<double>(wanted[c].max(), wanted[c].min() + least_range)}, {low, high}));
+  }
+  put(*has, exemplar, first, [&](const float* in, uint8_t* out) {
+    for (size_t c = 0; c < scales.size(); c++) out[c] = scales[c](in[c]);
+  });
+  put(*wants, target, first, [&](const float* in, uint8_t* out) {
+    for (size_t c = 0; c < scales.size(); c++) out[c] = scales[c](curves.empty() ? in[c] : curves[c](in[c]));
+  });
+}
+
+void put_labels(const std::vector<uint8_t>& bytes, const ControlPyramid::Part& part, ControlPlanes& planes) {
+  for (size_t i = 0; i < size_t(planes.size.area()); i++)
+    std::copy_n(&bytes[i * size_t(part.count)], part.count, &planes.values[i * size_t(planes.channels) + part.first]);
+}
+
+ControlPlanes empty(Size size, int channels) {
+  return {size, channels, std::vector<uint8_t>(size_t(size.area()) * channels)};
+}
+
+/// The rounded mean of the up to four pixels below.
+ControlPlanes halved(const ControlPlanes& in) {
+  ControlPlanes out = empty({(in.size.width + 1) / 2, (in.size.height + 1) / 2}, in.channels);
+  tbb::parallel_for(0, out.size.height, [&](int y) {
+    const int below[2] = {2 * y, std::min(2 * y + 1, in.size.height - 1)};
+    for (int x = 0; x < out.size.width; x++) {
+      const int beside[2] = {2 * x, std::min(2 * x + 1, in.size.width - 1)};
+      for (int c = 0; c < in.channels; c++) {
+        int sum = 2;
+        for (const int v : below)
+          for (const int u : beside) sum += in.at(int64_t{v} * in.size.width + u)[c];
+        out.values[(size_t(y) * out.size.width + x) * out.channels + c] = uint8_t(sum / 4);
+      }
+    }
+  });
+  return out;
+}
+
+void check(const Control& control, Size exemplar) {
+  require_shape("exemplar_control", *control.exemplar, "the exemplar", exemplar);
+  if (control.mode == Control::Mode::values && control.exemplar->channels() != control.target->channels())
+    throw Error("target", fmt::format("expected as many channels as \"exemplar_control\", {}; found {}; put "
+                                      "\"grayscale\" before both, say",
+                                      describe(*control.exemplar), describe(*control.target)));
+}
+
+/// How much the channels [first, end) vary within a feature: their mean deviation in windows of its size.
+double deviation_within_features(const ControlPlanes& planes, int first, int end) {
+  constexpr int windows = 512;
+  const Size size = planes.size;
+  const int reach = std::max(1, int(std::max(size.width, size.height) * feature_side / 2));
+  double total = 0;
+  for (int i = 0; i < windows; i++) {
+    const int x = int(below(uint32_t(random_bits(33, i)), uint32_t(size.width)));
+    const int y = int(below(uint32_t(random_bits(34, i)), uint32_t(size.height)));
+    const int left = std::max(0, x - reach), right = std::min(size.width - 1, x + reach);
+    const int top = std::max(0, y - reach), bottom = std::min(size.height - 1, y + reach);
+    const double count = double(right - left + 1) * (bottom - top + 1);
+    for (int c = first; c < end; c++) {
+      double sum = 0, squares = 0;
+      for (int v = top; v <= bottom; v++)
+        for (int u = left; u <= right; u++) {
+          const double value = planes.at(int64_t{v} * size.width + u)[c];
+          sum += value;
+          squares += value * value;
+        }
+      total += std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)));
+    }
+  }
+  return total / windows / (end - first);
+}
+
+/// The mean distance of appearance vectors that have nothing to do with each other.
+double typical_distance(const PaddedLevel& level) {
+  constexpr int pairs = 1024;
+  int64_t sum = 0;
+  for (int i = 0; i < pairs; i++) {
+    const auto [x, y] = level.place(random_bits(31, i));
+    const auto [u, v] = level.place(random_bits(32, i));
+    sum += squared_distance(*level.at(x, y), *level.at(u, v));
+  }
+  return double(sum) / pairs;
+}
+
+}  // namespace
+
+ControlPyramid::ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size output, int levels,
+                               const Task& task) {
+  if (controls.empty()) return;
+  int channels = 0;
+  std::vector<PaintedLabels> labels;
+  for (const Control& control : controls) {
+    check(control, exemplar);
+    const bool is_labels = control.mode == Control::Mode::labels;
+    labels.push_back(is_labels ? painted_labels(control, exemplar, output, task) : PaintedLabels{});
+    const int count = is_labels ? labels.back().count : control.exemplar->channels();
+    parts_.push_back({channels, count, control.strength, is_labels});
+    channels += count;
+  }
+  exemplar_.push_back(terrazzo::empty(exemplar, channels));
+  target_.push_back(terrazzo::empty(output, channels));
+  for (size_t i = 0; i < controls.size(); i++) {
+    task.check();
+    if (parts_[i].labels) {
+      put_labels(wanted_labels(labels[i].exemplar, labels[i].count, exemplar, 0, task), parts_[i], exemplar_[0]);
+      put_labels(wanted_labels(labels[i].target, labels[i].count, output, controls[i].leeway, task), parts_[i],
+                 target_[0]);
+    } else {
+      put_values(controls[i], exemplar_[0], target_[0], parts_[i].first, task);
+    }
+  }
+  for (int l = 1; l < levels; l++) {
+    exemplar_.push_back(halved(exemplar_.back()));
+    target_.push_back(halved(target_.back()));
+  }
+}
+
+LevelControl::LevelControl(const ControlPyramid& pyramid, int level, const PaddedLevel& exemplar)
+    : exemplar_(pyramid.exemplar(level)), target_(pyramid.target(level)) {
+  const double typical = typical_distance(exemplar);
+  for (const ControlPyramid::Part& part : pyramid.parts()) {
+    // Two labels differ in two channels.
+    const double whole = 255.0 * 255 * (part.labels ? 2 : part.count);
+    const double factor = part.strength * typical * (part.labels ? 1 : values_factor) / whole;
+    const double weight = std::min(factor * (1 << weight_bits), 1e9);
+    const int end = part.first + part.count;
+    // Else the few places that have the wanted value all around them would be shown again and again.
+    const double slack =
+        part.labels ? 0
+                    : deviation_within_features(exemplar_, part.first, end) / std::sqrt(std::max(1.0, part.strength));
+    parts_.push_back(
+        {part.first, end, uint64_t(std::floor(weight + 0.5)), part.labels, int(slack), part.count == 1 ? 4 : 2});
+    influence_ = std::max(influence_, std::min(1.0, part.strength));
+  }
+}
+
+uint64_t LevelControl::key(const uint8_t* values) const {
+  uint64_t key = 0;
+  for (const Part& part : parts_) {
+    if (part.labels)  // Coarse pixels mix them; few would have to serve all borders if mixtures were told apart.
+      key = random_bits(key, uint64_t(std::max_element(values + part.first, values + part.end) - values));
+    else
+      for (int c = part.first; c < part.end; c++) key = random_bits(key, values[c] >> (8 - part.bin_bits));
+  }
+  return key;
+}
+
+std::vector<double> LevelControl::demand(const std::vector<uint8_t>& usable) const {
+  struct Counts {
+    int64_t has = 0, wants = 0;
+  };
+  // Pixels that nothing like is wanted may still be needed in between.
+  constexpr double least = 0.05;
+  std::map<uint64_t, Counts> bins;
+  std::vector<double> demand(size_t(exemplar_.size.area()));
+  const auto is_usable = [&](size_t i) { return usable.empty() || usable[i]; };
+  int64_t has = 0, wants = 0;
+  for (size_t i = 0; i < demand.size(); i++)
+    if (is_usable(i)) bins[key(exemplar_.at(int64_t(i)))].has++, has++;
+  for (int64_t i = 0; i < target_.size.area(); i++) {
+    const auto bin = bins.find(key(target_.at(i)));
+    if (bin != bins.end()) bin->second.wants++, wants++;
+  }
+  for (size_t i = 0; i < demand.size(); i++) {
+    if (!is_usable(i)) continue;
+    const Counts& bin = bins.at(key(exemplar_.at(int64_t(i))));
+    const double ratio = wants > 0 ? double(bin.wants) / double(wants) * double(has) / double(bin.has) : 1.0;
+    demand[i] = 1 + influence_ * (std::max(least, ratio) - 1);
+  }
+  return demand;
+}
+
+}  // namespace terrazzo

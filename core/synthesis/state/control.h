@@ -1,0 +1,115 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "core/analysis/space/padded_level.h"
+#include "core/base/task.h"
+#include "core/image/image.h"
+
+namespace terrazzo {
+
+/// Steers which part of the exemplar goes where (texture transfer, Efros & Freeman 2001; layouts painted with labels,
+/// Hertzmann et al. 2001): places of the exemplar are preferred where the exemplar's control is like the target's.
+struct Control {
+  enum class Mode : uint8_t {
+    values,  ///< grey values or colours: the nearer, the better
+    labels,  ///< every value is a thing of its own: the same or not
+  };
+  enum class Match : uint8_t {
+    none,       ///< the target's values mean what the exemplar's mean
+    range,      ///< its darkest and lightest values become the exemplar control's, per channel
+    histogram,  ///< its values become the exemplar control's values of equal rank, per channel
+  };
+  ImagePtr exemplar;  ///< of the exemplar's shape
+  ImagePtr target;    ///< as many channels, but that labels may be grey or colours; stretched over the output
+  double strength = 1;
+  Mode mode = Mode::values;
+  Match match = Match::histogram;  ///< only for values
+  double leeway = 0;               ///< only for labels: how many pixels of the output borders may run elsewhere
+};
+
+/// Control values of the exemplar or the output at one level: bytes, all controls' channels interleaved.
+struct ControlPlanes {
+  Size size;
+  int channels = 0;
+  std::vector<uint8_t> values;
+  const uint8_t* at(int64_t pixel) const { return &values[size_t(pixel) * channels]; }
+};
+
+/// All controls of a synthesis, at every level.
+class ControlPyramid {
+ public:
+  /// Throws Error about "exemplar_control" or "target" if an image does not suit. Levels have half the size, rounded
+  /// up, of the one before and average what is below: of labels, how much each covers.
+  ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size output, int levels, const Task& task);
+
+  /// The channels of one control.
+  struct Part {
+    int first = 0;
+    int count = 0;
+    double strength = 1;
+    bool labels = false;
+  };
+  bool empty() const { return parts_.empty(); }
+  const std::vector<Part>& parts() const { return parts_; }
+  const ControlPlanes& exemplar(int level) const { return exemplar_[level]; }
+  const ControlPlanes& target(int level) const { return target_[level]; }
+
+ private:
+  std::vector<Part> parts_;
+  std::vector<ControlPlanes> exemplar_, target_;
+};
+
+/// The controls of one level as a cost.
+class LevelControl {
+ public:
+  LevelControl(const ControlPyramid& pyramid, int level, const PaddedLevel& exemplar);
+
+  const uint8_t* target(int64_t pixel) const { return target_.at(pixel); }
+  /// At the border of the level beyond it.
+  const uint8_t* target_near(int x, int y) const {
+    const Size size = target_.size;
+    return target_.at(int64_t{std::min(y, size.height - 1)} * size.width + std::min(x, size.width - 1));
+  }
+  /// The cost of showing an exemplar pixel where `target` is wanted, on the scale of one compared vector: at strength
+  /// 1, to miss a label costs as much as a random place's surroundings would. Values may differ at no cost by as much
+  /// as they do within the exemplar's features.
+  uint64_t cost(int x, int y, const uint8_t* target) const {
+    const uint8_t* has = exemplar_.at(int64_t{y} * exemplar_.size.width + x);
+    uint64_t sum = 0;
+    for (const Part& part : parts_) {
+      uint32_t squares = 0;
+      for (int c = part.first; c < part.end; c++) {
+        const int off = std::max(0, std::abs(has[c] - target[c]) - part.slack);
+        squares += uint32_t(off * off);
+      }
+      sum += squares * part.weight;
+    }
+    return std::min<uint64_t>(sum >> weight_bits, most);
+  }
+  /// How often each exemplar pixel is wanted relative to the others; 0 for pixels that are not usable.
+  std::vector<double> demand(const std::vector<uint8_t>& usable) const;
+
+ private:
+  struct Part {
+    int first;
+    int end;
+    uint64_t weight;
+    bool labels;
+    int slack;     ///< by how much values may differ at no cost
+    int bin_bits;  ///< leading bits of a value that tell it from others when demand is counted
+  };
+  uint64_t key(const uint8_t* values) const;
+  static constexpr int weight_bits = 16;
+  static constexpr uint64_t most = uint64_t{1} << 27;  // with a window's 24 vectors still within 32 bits
+  const ControlPlanes& exemplar_;
+  const ControlPlanes& target_;
+  std::vector<Part> parts_;
+  double influence_ = 0;
+};
+
+}  // namespace terrazzo

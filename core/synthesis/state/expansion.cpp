@@ -1,0 +1,142 @@
+#include "core/synthesis/state/expansion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <tbb/parallel_for.h>
+
+namespace terrazzo {
+
+namespace {
+
+// What a joint differs from what lies beside it: about a deviation of the first component.
+constexpr double edge = appearance_limit / 5.0;
+// What of a mismatch no edge hides: between alike tiles a seam may as well be anywhere.
+constexpr double seen_on_edges = 0.1;
+
+double distance(const AppearanceVector* a, const AppearanceVector* b) {
+  return std::sqrt(double(squared_distance(*a, *b)));
+}
+
+}  // namespace
+
+void ExpansionGround::find_edges() {
+  const PaddedLevel& e = level.exemplar;
+  const AppearanceVector* first = e.at(-1, -1);
+  for (std::vector<float>& edges : edges_) edges.resize(size_t(e.at(e.size().width, e.size().height) - first) + 1);
+  tbb::parallel_for(-1, e.size().height + 1, [&](int y) {
+    for (int x = -1; x <= e.size().width; x++) {
+      const AppearanceVector* v = e.at(x, y);
+      edges_[0][size_t(v - first)] = float(distance(v, v + 1));
+      edges_[1][size_t(v - first)] = float(distance(v, v + e.stride()));
+    }
+  });
+}
+
+bool ExpansionGround::continues(ExemplarPixel a, ExemplarPixel b, int side) const {
+  int u = a.x + sides[side][0] * block, v = a.y + sides[side][1] * block;
+  if (block == 1) level.exemplar.settle_inside(u, v);
+  return u == b.x && v == b.y;
+}
+
+int64_t ExpansionGround::mismatch(ExemplarPixel a, ExemplarPixel b, int side) const {
+  if (continues(a, b, side)) return 0;
+  const PaddedLevel& e = level.exemplar;
+  const int dx = sides[side][0], dy = sides[side][1];
+  const ptrdiff_t step = dy * e.stride() + dx;
+  double sum = 0;
+  for (int k = 0; k < block; k++) {
+    const AppearanceVector* here = on_side(a, dx, dy, k);
+    const AppearanceVector* there = on_side(b, -dx, -dy, k);
+    // Roots make it a metric, without which a cut is not the best way to expand.
+    double shows = distance(here, there - step) + distance(here + step, there);
+    if (along_edges) {
+      const double hiding = 1 + (edge_at(here, step) + edge_at(there - step, step)) / edge;
+      shows *= seen_on_edges + (1 - seen_on_edges) / (hiding * std::sqrt(hiding));
+    }
+    sum += shows;
+  }
+  return int64_t(sum * mismatch_unit);
+}
+
+uint64_t ExpansionGround::control_cost(int pixel, ExemplarPixel shown) const {
+  const int x = level.window.x(pixel % field.size.width) * block, y = level.window.y(pixel / field.size.width) * block;
+  uint64_t sum = 0;
+  for (int j = 0; j < block; j++)
+    for (int i = 0; i < block; i++) {
+      int u = shown.x + i, v = shown.y + j;
+      level.exemplar.settle_inside(u, v);
+      sum += level.control->cost(u, v, level.control->target_near(x + i, y + j));
+    }
+  return sum;
+}
+
+double ExpansionGround::edge_at(const AppearanceVector* v, ptrdiff_t step) const {
+  const bool along_row = std::abs(step) == 1;
+  return edges_[along_row ? 0 : 1][size_t((step < 0 ? v + step : v) - level.exemplar.at(-1, -1))];
+}
+
+const AppearanceVector* ExpansionGround::on_side(ExemplarPixel p, int dx, int dy, int k) const {
+  int u = p.x + (dx == 0 ? k : dx > 0 ? block - 1 : 0), v = p.y + (dy == 0 ? k : dy > 0 ? block - 1 : 0);
+  if (block > 1) level.exemplar.settle_inside(u, v);
+  return level.exemplar.at(u, v);
+}
+
+void Expansion::keep(int pixel) {
+  ground_.node[size_t(pixel)] = ExpansionGround::kept;
+  kept_.push_back(pixel);
+}
+
+bool Expansion::offer(int pixel, ExemplarPixel shown, int32_t pressure) {
+  const FixedPixels& fixed = ground_.level.fixed;
+  const ExemplarPixel above{uint16_t(shown.x / ground_.block), uint16_t(shown.y / ground_.block)};
+  if (ground_.node[size_t(pixel)] != ExpansionGround::untouched || ground_.field.pixels[size_t(pixel)] == shown ||
+      fixed.at(size_t(pixel)) || fixed.is_past(size_t(pixel), above) || ground_.strays(pixel, shown))
+    return false;
+  ground_.node[size_t(pixel)] = int(free_.size());
+  free_.push_back({pixel, shown, pressure});
+  return true;
+}
+
+void Expansion::apply() {
+  cut_.reset(int(free_.size()));
+  for (size_t n = 0; n < free_.size(); n++) connect(int(n));
+  cut_.solve();
+  for (size_t n = 0; n < free_.size(); n++) {
+    if (cut_.on_source_side(int(n))) {
+      ground_.field.pixels[free_[n].pixel] = free_[n].offered;
+      if (!ground_.pressure.empty()) ground_.pressure[free_[n].pixel] = free_[n].pressure;
+    }
+    ground_.node[free_[n].pixel] = ExpansionGround::untouched;
+  }
+  for (const int i : kept_) ground_.node[size_t(i)] = ExpansionGround::untouched;
+  free_.clear();
+  kept_.clear();
+}
+
+void Expansion::connect(int n) {
+  const Free& f = free_[size_t(n)];
+  const ExemplarPixel kept = ground_.field.pixels[f.pixel];
+  const PlaneWindow& window = ground_.level.window;
+  if (!ground_.pressure.empty()) cut_.prefer_source(n, ground_.pressure[f.pixel] - f.pressure);
+  for (int side = 0; side < 4; side++) {
+    const int64_t m = pixel_beside(ground_.field.size, f.pixel, side, window.closed_x, window.closed_y);
+    if (m < 0) continue;
+    const ExemplarPixel other = ground_.field.pixels[size_t(m)];
+    const int node = ground_.node[size_t(m)];
+    if (node < 0) {
+      cut_.prefer_source(n, ground_.mismatch(kept, other, side) - ground_.mismatch(f.offered, other, side));
+    } else if (side < 2) {  // free as well; each pair once
+      const ExemplarPixel offered = free_[size_t(node)].offered;
+      const int64_t neither = ground_.mismatch(kept, other, side), first = ground_.mismatch(f.offered, other, side),
+                    second = ground_.mismatch(kept, offered, side), both = ground_.mismatch(f.offered, offered, side);
+      cut_.prefer_source(n, neither - first);
+      cut_.prefer_source(node, first - both);
+      cut_.join(n, side, node, 0);
+      cut_.join(node, side + 2, n, std::max<int64_t>(0, first + second - neither - both));
+    }
+  }
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "core/synthesis/state/field.h"
+#include "core/synthesis/state/plane_window.h"
+
+namespace terrazzo {
+
+/// Jobs on parts of a field that are done one after the other, put into rounds: those of a round lie so far apart that
+/// it does not matter which comes first, and all that come earlier and lie near are in earlier rounds.
+class Rounds {
+ public:
+  /// The pixels of two jobs of one round lie more than three times `reach` apart.
+  Rounds(const Field& field, const PlaneWindow& window, int reach)
+      : size_(field.size),
+        window_(window),
+        side_(reach + 1),
+        cells_{(size_.width + side_ - 1) / side_, (size_.height + side_ - 1) / side_},
+        last_(size_t(cells_.area()), 0) {}
+
+  void add(int job, std::span<const int> pixels) {
+    int round = 0;
+    for_each_near(pixels, [&](size_t cell) { round = std::max(round, last_[cell]); });
+    for_each_near(pixels, [&](size_t cell) { last_[cell] = round + 1; });
+    if (round == int(rounds_.size())) rounds_.emplace_back();
+    rounds_[size_t(round)].push_back(job);
+  }
+  const std::vector<std::vector<int>>& all() const { return rounds_; }
+
+ private:
+  /// Calls `visit` for the cells of the pixels and two more on each side. As jobs both look and mark there, four cells
+  /// lie between those of a round, or three and a narrow one where the field wraps around.
+  template <typename Visit>
+  void for_each_near(std::span<const int> pixels, const Visit& visit) const {
+    int previous = -1;
+    for (const int i : pixels) {
+      const int cx = i % size_.width / side_, cy = i / size_.width / side_, cell = cy * cells_.width + cx;
+      if (cell == previous) continue;
+      previous = cell;
+      for (int dy = -2; dy <= 2; dy++)
+        for (int dx = -2; dx <= 2; dx++) {
+          const int64_t n = pixel_index(cells_, cx + dx, cy + dy, window_.closed_x, window_.closed_y);
+          if (n >= 0) visit(size_t(n));
+        }
+    }
+  }
+
+  Size size_;
+  const PlaneWindow& window_;
+  int side_;
+  Size cells_;
+  std::vector<int> last_;  // the round after the last of each cell
+  std::vector<std::vector<int>> rounds_;
+};
+
+}  // namespace terrazzo

@@ -1,0 +1,136 @@
+#include "core/synthesis/state/window_coherence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <tbb/parallel_for.h>
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int reach = Likeness::reach, side = Likeness::side;
+constexpr double usual_share = 0.95;
+constexpr double asked_windows = 1024;  // of the exemplar, at most about so many
+// Distances below and above the usual one between which unlikeness rises.
+constexpr double alike = 0.8, unlike = 1.2;
+constexpr int64_t no_distance = std::numeric_limits<int64_t>::max();
+
+/// The squared distance of a window's row and what lies side by side from `first` on.
+int64_t row_distance(const AppearanceVector* const* row, const AppearanceVector* first) {
+  int64_t sum = 0;
+  for (int x = 0; x < side; x++) sum += squared_distance(*row[x], first[x]);
+  return sum;
+}
+
+/// Looks for the exemplar's window that is most like one, and nearer than a limit.
+class NearestWindow {
+ public:
+  NearestWindow(const CorrectionLevel& level, const Likeness::Window& shown, int64_t limit = no_distance)
+      : level_(level), shown_(shown), least_(limit) {
+    for (size_t i = 0; i < shown.size(); i++) wanted_[i] = level.exemplar.at(shown[i].x, shown[i].y);
+  }
+  /// That to the nearest so far; the limit if there is none.
+  int64_t distance() const { return least_; }
+
+  /// The windows that the window's pixels go on with, until one is near enough.
+  void consider_continued(int64_t enough) {
+    constexpr int middle = side * side / 2;
+    continue_with(middle);
+    for (int i = 0; i < side * side && least_ > enough; i++) continue_with(i);
+  }
+
+  /// Those that similar pixels of some of the window's suggest.
+  void consider_similar(int64_t enough) {
+    const int width = level_.exemplar.size().width;
+    for (int dy = -reach; dy <= reach && least_ > enough; dy += reach)
+      for (int dx = -reach; dx <= reach; dx += reach) {
+        if ((dx == 0) != (dy == 0)) continue;  // corners and the middle are enough
+        const ExemplarPixel p = shown_[(dy + reach) * side + dx + reach];
+        const size_t first = (size_t(p.y) * width + p.x) * size_t(level_.per_pixel);
+        for (int k = 0; k < level_.per_pixel; k++) {
+          const ExemplarPixel q = level_.similar[first + size_t(k)];
+          consider(q.x - dx, q.y - dy);
+        }
+      }
+  }
+
+  /// The window around a place.
+  void consider(int u, int v) {
+    const Size size = level_.exemplar.size();
+    if (u < reach || v < reach || u >= size.width - reach || v >= size.height - reach) return;
+    if (!level_.exemplar.is_usable(u, v)) return;
+    const uint32_t place = uint32_t(v) << 16 | uint32_t(u);
+    if (std::find(tried_.begin(), tried_.begin() + count_, place) != tried_.begin() + count_) return;
+    tried_[count_++] = place;
+    const AppearanceVector* first = level_.exemplar.at(u - reach, v - reach);
+    int64_t sum = 0;
+    for (int y = 0; y < side && sum < least_; y++, first += level_.exemplar.stride())
+      sum += row_distance(&wanted_[size_t(y) * side], first);
+    least_ = std::min(least_, sum);
+  }
+
+  /// Leaves a place out.
+  void forget(int u, int v) { tried_[count_++] = uint32_t(v) << 16 | uint32_t(u); }
+
+ private:
+  void continue_with(int i) { consider(shown_[i].x - (i % side - reach), shown_[i].y - (i / side - reach)); }
+
+  const CorrectionLevel& level_;
+  const Likeness::Window& shown_;
+  std::array<const AppearanceVector*, side * side> wanted_;
+  std::array<uint32_t, side * side + 5 * most_similar + 5> tried_;
+  ptrdiff_t count_ = 0;
+  int64_t least_;
+};
+
+/// How much the exemplar's window around a place differs from those most like it.
+int64_t own_distance(const CorrectionLevel& level, int u, int v) {
+  Likeness::Window window;
+  for (int i = 0; i < side * side; i++) window[i] = {uint16_t(u + i % side - reach), uint16_t(v + i / side - reach)};
+  NearestWindow nearest(level, window);
+  nearest.forget(u, v);
+  for (const auto& [dx, dy] : sides) nearest.consider(u + dx, v + dy);
+  nearest.consider_similar(0);
+  return nearest.distance();
+}
+
+double usual_distance(const CorrectionLevel& level) {
+  const Size size = level.exemplar.size();
+  const int step = std::max(1, int(std::sqrt(double(size.area()) / asked_windows)));
+  const int columns = (size.width - 2 * reach + step - 1) / step, rows = (size.height - 2 * reach + step - 1) / step;
+  if (columns <= 0 || rows <= 0) return 0;
+  std::vector<int64_t> distances(size_t(columns) * rows);
+  tbb::parallel_for(0, rows, [&](int row) {
+    for (int column = 0; column < columns; column++)
+      distances[size_t(row) * columns + column] = own_distance(level, reach + column * step, reach + row * step);
+  });
+  std::erase(distances, no_distance);
+  if (distances.empty()) return 0;
+  const auto usual = distances.begin() + ptrdiff_t(usual_share * double(distances.size()));
+  std::nth_element(distances.begin(), usual, distances.end());
+  return double(*usual);
+}
+
+}  // namespace
+
+Likeness::Likeness(const CorrectionLevel& level) : level_(level), usual_(usual_distance(level)) {}
+
+int32_t Likeness::unlikeness(const Window& shown) const {
+  if (usual_ == 0) return 0;
+  const ExemplarPixel first = shown[0];
+  bool continuous = true;
+  for (int i = 1; i < side * side && continuous; i++)
+    continuous = shown[i].x == first.x + i % side && shown[i].y == first.y + i / side;
+  if (continuous) return 0;
+  const auto enough = int64_t(usual_ * alike * alike), limit = int64_t(usual_ * unlike * unlike);
+  NearestWindow nearest(level_, shown, limit);
+  nearest.consider_continued(enough);
+  nearest.consider_similar(enough);
+  if (nearest.distance() >= limit) return most;
+  const double rise = (std::sqrt(double(nearest.distance()) / usual_) - alike) / (unlike - alike);
+  return int32_t(std::clamp(rise, 0.0, 1.0) * most);
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,98 @@
+#include "core/synthesis/steps/exemplar_courses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <tbb/parallel_for.h>
+
+namespace terrazzo {
+
+namespace {
+
+// What it costs to go over to or from another place of the exemplar in a joint and in the middle of a brick, in units
+// and course heights, and which columns are surely either.
+constexpr double cut_joint = 0.5, cut_brick = 6;
+constexpr double surely_brick = 0.5, surely_joint = 0.9;
+
+/// A course may reach into the exemplar's border, which is not shown: there the result stays as it is.
+bool shows(const BlockSource& source, const Coursing& coursing, int along, int across) {
+  const int scale = 1 << coursing.level;
+  auto [x, y] = coursing.axes.at(along * scale + scale / 2, across * scale + scale / 2);
+  int inside_x = x, inside_y = y;
+  source.exemplar.settle_inside(inside_x, inside_y);
+  (coursing.axes.upright ? x : y) = coursing.axes.upright ? inside_x : inside_y;
+  return source.exemplar.holds(x, y);
+}
+
+/// Joints are cut in or near their middle; bricks now and then, for want of anything better.
+std::vector<CourseColumns::Cut> cuts_of(const ExemplarCourse& course, double height) {
+  constexpr int far = CourseColumns::farthest_off_middle;
+  const int length = int(course.joint.size()), often = std::max(1, int((course.end - course.begin) / 4));
+  std::map<int, CourseColumns::Cut> out;
+  const auto add = [&](int u, double brick, int off_middle) {
+    out[u] = {u, int32_t((cut_joint + (cut_brick - cut_joint) * brick) * cost_unit * height), off_middle};
+  };
+  for (int u = 0; u < length; u += often) add(u, 1, 0);
+  for (int begin = 0, end = 0; begin < length; begin = end + 1) {
+    double sum = 0, moment = 0;
+    float most = 0;
+    for (end = begin; end < length && course.joint[size_t(end)] >= surely_brick; end++) {
+      most = std::max(most, course.joint[size_t(end)]);
+      sum += course.joint[size_t(end)];
+      moment += course.joint[size_t(end)] * (end + 0.5);
+    }
+    if (begin == end) continue;
+    // Of a joint at the exemplar's border no one knows the middle.
+    const int middle = begin == 0 ? 0 : end == length ? length : int(moment / sum + 0.5);
+    const double brick = std::max(0.0, (surely_joint - most) / (surely_joint - surely_brick));
+    for (int u = std::max(begin, middle - far); u <= std::min(end, middle + far); u++) add(u, brick, u - middle);
+  }
+  std::vector<CourseColumns::Cut> cuts;
+  for (const auto& [u, cut] : out) cuts.push_back(cut);
+  return cuts;
+}
+
+CourseColumns columns_of(const AppearanceLevel& looks, const Coursing& coursing, const BlockSource& source, int step,
+                         const ExemplarCourse& course) {
+  CourseColumns out;
+  const int begin = int(std::floor(course.begin + 0.5)), end = int(std::floor(course.end + 0.5));
+  for (int u = 0; u < int(course.joint.size()); u++) {
+    StripMeans means(course.begin, course.end);
+    bool usable = true;
+    for (int v = begin; v < end; v++) {
+      const auto [x, y] = coursing.axes.at(u, v);
+      if (x >= 0 && y >= 0 && x < looks.size.width && y < looks.size.height)
+        means.add(v + 0.5, looks.vectors[size_t(y) * looks.size.width + x]);
+      usable &= shows(source, coursing, u, v);
+    }
+    out.looks.push_back(means.means());
+    out.usable.push_back(usable);
+  }
+  out.cuts = cuts_of(course, (course.end - course.begin) / step);
+  return out;
+}
+
+}  // namespace
+
+std::vector<CourseColumns> exemplar_courses(const AppearanceLevel& looks, const Coursing& coursing,
+                                            const BlockSource& source, int step) {
+  std::vector<CourseColumns> out(coursing.courses.size());
+  tbb::parallel_for(size_t{0}, out.size(),
+                    [&](size_t c) { out[c] = columns_of(looks, coursing, source, step, coursing.courses[c]); });
+  return out;
+}
+
+double cost_per_difference(const std::vector<CourseColumns>& columns, const Coursing& coursing) {
+  double sum = 0, count = 0;
+  for (size_t a = 0; a < columns.size(); a++)
+    for (size_t b = a; b < columns.size(); b++) {
+      if (coursing.courses[a].kind != coursing.courses[b].kind) continue;
+      const std::vector<ColumnLook>&p = columns[a].looks, &q = columns[b].looks;
+      // Some of all pairs.
+      for (size_t i = 0; i < p.size(); i += 7, count++) sum += difference(p[i], q[(i * 13 + 5) % q.size()]);
+    }
+  return sum > 0 ? cost_unit * count / sum : 0;
+}
+
+}  // namespace terrazzo

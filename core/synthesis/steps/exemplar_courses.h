@@ -1,0 +1,55 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/analysis/courses/coursing.h"
+#include "core/analysis/space/padded_level.h"
+#include "core/synthesis/steps/course_fitting.h"
+
+namespace terrazzo {
+
+/// What two columns of one kind of course differ by on average. Costs are multiples of it.
+inline constexpr int cost_unit = 256;
+
+/// The means of a column's strips, added pixel by pixel.
+class StripMeans {
+ public:
+  StripMeans(double begin, double end) : begin_(begin), end_(end) {}
+  /// `across`: the middle of a pixel, between the course's begin and end.
+  void add(double across, const AppearanceVector& v) {
+    const auto strip =
+        size_t(std::clamp(int((across - begin_) / (end_ - begin_) * course_strips), 0, course_strips - 1));
+    count_[strip]++;
+    for (size_t d = 0; d < v.size(); d++) sum_[strip][d] += v[d];
+  }
+  ColumnLook means() const {
+    ColumnLook out{};
+    for (size_t s = 0; s < out.size(); s++)
+      for (size_t d = 0; d < out[s].size(); d++) out[s][d] = int16_t(sum_[s][d] / std::max(1, count_[s]));
+    return out;
+  }
+
+ private:
+  double begin_, end_;
+  std::array<int, course_strips> count_{};
+  std::array<std::array<int, appearance_dimensions>, course_strips> sum_{};
+};
+
+/// Where a result may take blocks of pixels from.
+struct BlockSource {
+  const PaddedLevel& exemplar;  ///< the finest level
+  int block = 1;                ///< pixels along each side
+  bool holds(int x, int y) const { return exemplar.holds(x, y) && exemplar.holds(x + block - 1, y + block - 1); }
+};
+
+/// The columns of all the exemplar's courses, and where they can be cut. `looks`: of the coursing's level. `step`:
+/// columns of the exemplar to one of the result.
+std::vector<CourseColumns> exemplar_courses(const AppearanceLevel& looks, const Coursing& coursing,
+                                            const BlockSource& source, int step);
+
+/// The factor on differences that makes one between two columns of one kind cost_unit on average.
+double cost_per_difference(const std::vector<CourseColumns>& columns, const Coursing& coursing);
+
+}  // namespace terrazzo

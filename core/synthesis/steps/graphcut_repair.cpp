@@ -1,0 +1,54 @@
+#include "core/synthesis/steps/graphcut_repair.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "core/synthesis/state/patches.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// The mismatch of every pixel with its right and its lower neighbour.
+std::vector<int32_t> mismatches(const ExpansionGround& ground) {
+  const Size size = ground.field.size;
+  const PlaneWindow& window = ground.level.window;
+  std::vector<int32_t> out(ground.field.pixels.size(), 0);
+  tbb::parallel_for(0, size.height, [&](int y) {
+    for (int x = 0; x < size.width; x++) {
+      const int i = y * size.width + x;
+      for (int side = 0; side < 2; side++) {
+        const int64_t n = pixel_beside(size, i, side, window.closed_x, window.closed_y);
+        if (n >= 0) out[i] += int32_t(ground.mismatch(ground.field.pixels[i], ground.field.pixels[size_t(n)], side));
+      }
+    }
+  });
+  return out;
+}
+
+/// The middles of windows whose seams show more, or much more, than they do on average, the worst first.
+std::vector<int> worst_windows(const ExpansionGround& ground) {
+  const Size size = ground.field.size;
+  const std::vector<int32_t> values = mismatches(ground);
+  int64_t total = 0;
+  for (const int32_t v : values) total += v;
+  const int64_t average = total * (2 * Patches::core + 1) * (2 * Patches::core + 1) / size.area();
+  return worst_first(core_sums(values, size, ground.level.window),
+                     average * (ground.level.level <= Patches::many_pixels ? 3 : 1), size);
+}
+
+}  // namespace
+
+void mend_seams(Field& field, const CorrectionLevel& level, Occupancy& occupancy, uint64_t seed, const Task& task) {
+  occupancy.recount(field, level.fixed);
+  ExpansionGround ground(field, level);
+  task.check();
+  const std::vector<int> windows = worst_windows(ground);
+  task.check();
+  tbb::enumerable_thread_specific<Patches> patches([&] { return Patches(ground, occupancy, seed); });
+  for_each_window(windows, field, level.window, task, [&](int x, int y) {
+    for (const uint32_t place : patches.local().fitting(x, y, 1)) patches.local().lay(x, y, place);
+  });
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,206 @@
+#include "core/synthesis/steps/initialize.h"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include "core/base/hash.h"
+
+namespace terrazzo {
+
+namespace {
+
+// Of a block: where a mask or controls make some places better than others, and where none does.
+constexpr int steered_draws = 16, free_draws = 4;
+constexpr int near_blocks = 3;  // so far off what a block shows had better not show again
+
+/// The exemplar position from which a block starts.
+std::array<int, 2> random_start(const PaddedLevel& exemplar, int side, uint64_t bits) {
+  if (exemplar.masked()) {
+    const auto [u, v] = exemplar.place(bits);
+    return {u - side / 2, v - side / 2};
+  }
+  const int keep_off = exemplar.keep_off();
+  const auto start = [&](uint32_t half, int n) {
+    return keep_off + int(below(half, uint32_t(std::max(1, n - side - 2 * keep_off))));
+  };
+  return {start(uint32_t(bits), exemplar.size().width), start(uint32_t(bits >> 32), exemplar.size().height)};
+}
+
+/// Places one block after the other, each at the best of some random places.
+class BlockPlacing {
+ public:
+  BlockPlacing(const Plane& plane, const PaddedLevel& exemplar, const LevelControl* control, const PartPhases& phase,
+               uint64_t seed)
+      : plane_(plane),
+        exemplar_(exemplar),
+        control_(control),
+        phase_(phase),
+        seed_(seed),
+        side_(std::max(4, std::min(exemplar.size().width, exemplar.size().height) / 4)),
+        columns_((plane.size.width + side_ - 1) / side_),
+        rows_((plane.size.height + side_ - 1) / side_) {}
+
+  Field field() {
+    Field field{plane_.size, std::vector<ExemplarPixel>(size_t(plane_.size.area()))};
+    for (int row = 0; row < rows_; row++)
+      for (int column = 0; column < columns_; column++) {
+        starts_.push_back(best_start(column, row));
+        const Rect block = this->block(column, row);
+        for (int y = 0; y < block.height; y++)
+          for (int x = 0; x < block.width; x++) {
+            int u = starts_.back()[0] + x, v = starts_.back()[1] + y;
+            exemplar_.settle(u, v);
+            field.at(block.x + x, block.y + y) = {uint16_t(u), uint16_t(v)};
+          }
+      }
+    return field;
+  }
+
+ private:
+  using Start = std::array<int, 2>;  // the exemplar position of a block's first pixel
+
+  bool steered() const { return control_ || exemplar_.masked(); }
+  Rect block(int column, int row) const {
+    return intersect(whole(plane_.size), {column * side_, row * side_, side_, side_});
+  }
+
+  Start best_start(int column, int row) const {
+    const uint64_t bits = random_bits(seed_, Purpose::blocks, column, row);
+    Start best = start(column, row, bits);
+    if (!steered() && phase_.active()) return best;  // a cell that comes again is what a lattice is
+    double least = misfit(column, row, best);
+    for (int draw = 1; draw < (steered() ? steered_draws : free_draws) && least > 0; draw++) {
+      const Start other = start(column, row, random_bits(bits, draw));
+      const double misfit = this->misfit(column, row, other);
+      if (misfit >= least) continue;
+      least = misfit;
+      best = other;
+    }
+    return best;
+  }
+
+  Start start(int column, int row, uint64_t bits) const {
+    Start start = random_start(exemplar_, side_, bits);
+    phase_.snap(column * side_, row * side_, start[0], start[1]);
+    exemplar_.unwind(start[0], start[1]);
+    return start;
+  }
+
+  double misfit(int column, int row, const Start& start) const {
+    return steered() ? steered_misfit(block(column, row), start) : shown_near(column, row, start);
+  }
+
+  /// What a mask and controls have against a block's pixels.
+  double steered_misfit(const Rect& block, const Start& start) const {
+    uint64_t misfit = 0;
+    for (int y = 0; y < block.height; y++)
+      for (int x = 0; x < block.width; x++) {
+        int u = start[0] + x, v = start[1] + y;
+        exemplar_.settle(u, v);
+        const int64_t pixel = int64_t{block.y + y} * plane_.size.width + block.x + x;
+        if (control_) misfit += control_->cost(u, v, control_->target(pixel));
+        misfit += u != start[0] + x || v != start[1] + y;
+      }
+    return double(misfit);
+  }
+
+  /// How many of a block's pixels blocks show that are there already, the nearer they show the more.
+  double shown_near(int column, int row, const Start& start) const {
+    double sum = 0;
+    for (int down = -near_blocks; down <= near_blocks; down++)
+      for (int across = -near_blocks; across <= near_blocks; across++) {
+        const int64_t other = pixel_index({columns_, rows_}, column + across, row + down, plane_.tile_x, plane_.tile_y);
+        if (other < 0 || other >= int64_t(starts_.size())) continue;
+        const int du = starts_[size_t(other)][0] - start[0], dv = starts_[size_t(other)][1] - start[1];
+        const int width = side_ - std::abs(du), height = side_ - std::abs(dv);
+        if (width <= 0 || height <= 0) continue;
+        const double dx = across * side_ - du, dy = down * side_ - dv;  // from a pixel to where it shows again
+        sum += double(width) * height * std::max(0.0, 1 - std::sqrt(dx * dx + dy * dy) / (near_blocks * side_));
+      }
+    return sum;
+  }
+
+  const Plane& plane_;
+  const PaddedLevel& exemplar_;
+  const LevelControl* control_;
+  const PartPhases& phase_;
+  uint64_t seed_;
+  int side_;
+  int columns_, rows_;
+  std::vector<Start> starts_;  // of the blocks that are placed
+};
+
+/// Moves a position by up to `amplitude` pixels each way, any number of times around an exemplar that tiles.
+void displace(int& u, int& v, const PaddedLevel& exemplar, double amplitude, uint64_t bits) {
+  u += int(std::floor(amplitude * (2 * unit_double(bits << 32) - 1) + 0.5));
+  v += int(std::floor(amplitude * (2 * unit_double(bits) - 1) + 0.5));
+  exemplar.unwind(u, v);
+}
+
+/// Brings the first pixel of a block to where all four lie in the exemplar and continue one another.
+void settle_block(int& u, int& v, const PaddedLevel& exemplar) {
+  u++, v++;
+  exemplar.settle_inside(u, v);
+  u--, v--;
+  exemplar.settle_inside(u, v);
+}
+
+}  // namespace
+
+Field random_blocks(const Plane& plane, const PaddedLevel& exemplar, const LevelControl* control,
+                    const PartPhases& phase, uint64_t seed) {
+  return BlockPlacing(plane, exemplar, control, phase, seed).field();
+}
+
+void scatter(Field& field, const PaddedLevel& exemplar, double amplitude, uint64_t seed, int level) {
+  if (amplitude <= 0) return;
+  for (int y = 0; y < field.size.height; y++)
+    for (int x = 0; x < field.size.width; x++) {
+      int u = field.at(x, y).x, v = field.at(x, y).y;
+      displace(u, v, exemplar, amplitude, random_bits(seed, Purpose::jitter, level, x, y));
+      exemplar.settle(u, v);
+      field.at(x, y) = {uint16_t(u), uint16_t(v)};
+    }
+}
+
+Field block_starts(const Field& parent, const PlaneWindow& window, const PaddedLevel& exemplar, const PartPhases& phase,
+                   double amplitude, uint64_t seed, int level) {
+  Field starts{parent.size, std::vector<ExemplarPixel>(parent.pixels.size())};
+  tbb::parallel_for(0, parent.size.height, [&](int row) {
+    for (int column = 0; column < parent.size.width; column++) {
+      const ExemplarPixel p = parent.at(column, row);
+      const int x = window.x(column), y = window.y(row);
+      int u = 2 * p.x, v = 2 * p.y;
+      if (amplitude > 0) displace(u, v, exemplar, amplitude, random_bits(seed, Purpose::jitter, level, x, y));
+      // At the finest level pieces fit one another already; to round each to the lattice would undo that, unless the
+      // lattice is right to the pixel.
+      if (level > 0 || amplitude > 0 || phase.is_whole()) phase.snap(2 * x, 2 * y, u, v);
+      exemplar.unwind(u, v);
+      settle_block(u, v, exemplar);
+      starts.at(column, row) = {uint16_t(u), uint16_t(v)};
+    }
+  });
+  return starts;
+}
+
+Field expanded(std::span<const ExemplarPixel> starts, const PlaneWindow& from, const PlaneWindow& to,
+               const PaddedLevel& exemplar) {
+  Field field{to.size(), std::vector<ExemplarPixel>(size_t(to.part.area()))};
+  tbb::parallel_for(0, to.part.height, [&](int row) {
+    const int y = to.part.y + row;
+    const ExemplarPixel* line = &starts[size_t(from.row(y >> 1)) * from.part.width];
+    for (int column = 0; column < to.part.width; column++) {
+      const int x = to.part.x + column;
+      const ExemplarPixel p = line[from.column(x >> 1)];
+      int u = p.x + (x & 1), v = p.y + (y & 1);
+      exemplar.settle(u, v);
+      field.at(column, row) = {uint16_t(u), uint16_t(v)};
+    }
+  });
+  return field;
+}
+
+}  // namespace terrazzo

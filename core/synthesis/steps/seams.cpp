@@ -1,0 +1,124 @@
+#include "core/synthesis/steps/seams.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "core/synthesis/state/expansion.h"
+#include "core/synthesis/state/pieces.h"
+#include "core/synthesis/state/rounds.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int smallest_piece = 2;  // pixels; smaller ones only give way
+constexpr int sweeps = 2;
+// What it costs each of its pixels that a piece is of a fair size, in units of appearance space, and how many times as
+// much it can be.
+constexpr double fair_pressure = appearance_limit / 55.0;
+constexpr double most_pressure = 3;
+
+class SeamMover {
+ public:
+  SeamMover(ExpansionGround& ground, const Field& before, const SeamMoves& moves)
+      : ground_(ground),
+        before_(before),
+        reach_(moves.reach),
+        stay_(int32_t(moves.stay * mismatch_unit)),
+        expansion_(ground) {}
+
+  /// Offers what is left of the piece to the pixels in its reach, under that pressure and more with every pixel away.
+  void spread(std::span<const int> piece, int32_t pressure) {
+    std::vector<Reached> rim, next;
+    for (const int i : piece) {
+      if (!(ground_.field.pixels[i] == before_.pixels[i])) continue;
+      expansion_.keep(i);
+      rim.push_back({i, before_.pixels[i]});
+    }
+    for (int r = 0; r < reach_; r++) {
+      next.clear();
+      for (const Reached& from : rim)
+        for (int side = 0; side < 4; side++) {
+          const int64_t n = beside(from.pixel, side);
+          if (n < 0) continue;
+          Reached reached{int(n), from.shown};
+          if (step(reached.shown, side) && expansion_.offer(reached.pixel, reached.shown, pressure + (r + 1) * stay_))
+            next.push_back(reached);
+        }
+      rim.swap(next);
+    }
+    expansion_.apply();
+  }
+
+ private:
+  struct Reached {
+    int pixel;
+    ExemplarPixel shown;
+  };
+
+  int64_t beside(int pixel, int side) const {
+    const PlaneWindow& window = ground_.level.window;
+    return pixel_beside(ground_.field.size, pixel, side, window.closed_x, window.closed_y);
+  }
+
+  /// Whether the exemplar goes on there; moves to it.
+  bool step(ExemplarPixel& p, int side) const {
+    const int block = ground_.block, x = p.x + sides[side][0] * block, y = p.y + sides[side][1] * block;
+    const PaddedLevel& e = ground_.level.exemplar;
+    if (!e.holds(x, y) || !e.holds(x + block - 1, y + block - 1)) return false;
+    p = {uint16_t(x), uint16_t(y)};
+    return true;
+  }
+
+  ExpansionGround& ground_;
+  const Field& before_;
+  int reach_;
+  int32_t stay_;
+  Expansion expansion_;
+};
+
+/// What is kept is as large as it is.
+std::vector<int32_t> pressures(const Pieces& pieces, double fair, const FixedPixels& fixed) {
+  std::vector<int32_t> out(size_t(pieces.count()), 0);
+  if (fair <= 0) return out;
+  for (int piece = 0; piece < pieces.count(); piece++) {
+    const bool kept =
+        fixed.any() && std::ranges::any_of(pieces.members(piece), [&](int i) { return fixed.at(size_t(i)); });
+    out[size_t(piece)] =
+        int32_t(fair_pressure * mismatch_unit * (kept ? 1 : std::min(most_pressure, pieces.area(piece) / fair)));
+  }
+  return out;
+}
+
+void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
+  const Pieces pieces(field, moves.block, level.window.closed_x, level.window.closed_y);
+  std::vector<int> order(size_t(pieces.count()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.area(a) > pieces.area(b); });
+  Rounds rounds(field, level.window, moves.reach);
+  for (const int piece : order)
+    if (pieces.area(piece) >= smallest_piece) rounds.add(piece, pieces.members(piece));
+  const Field before = field;
+  const std::vector<int32_t> pressure = pressures(pieces, moves.fair_piece, level.fixed);
+  ExpansionGround ground(field, level, moves.block, true);
+  ground.pressure.resize(field.pixels.size());
+  for (size_t i = 0; i < field.pixels.size(); i++) ground.pressure[i] = pressure[size_t(pieces.of(int(i)))];
+  tbb::enumerable_thread_specific<SeamMover> movers([&] { return SeamMover(ground, before, moves); });
+  for (const std::vector<int>& round : rounds.all())
+    tbb::parallel_for(0, int(round.size()), [&](int i) {
+      task.check();
+      const int piece = round[size_t(i)];
+      movers.local().spread(pieces.members(piece), pressure[size_t(piece)]);
+    });
+}
+
+}  // namespace
+
+void move_seams(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
+  for (int i = 0; i < sweeps; i++) sweep(field, level, moves, task);
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/image/image_ops.h"
+#include "core/numeric/distance_transform.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+std::vector<uint8_t> set_pixels(const Image& mask, float threshold) {
+  std::vector<uint8_t> out(size_t(mask.size().area()));
+  for_each_strip(mask, [&](const Rect& strip, const float* v) {
+    uint8_t* row = &out[size_t(strip.y) * size_t(mask.width())];
+    for (int64_t i = 0; i < strip.area(); i++) row[i] = v[i] >= threshold;
+  });
+  return out;
+}
+
+std::vector<float> distances(const std::vector<uint8_t>& set, Size size, bool wraps, bool is_signed, float limit) {
+  if (is_signed) return signed_distances(set, size, wraps, limit);
+  std::vector<float> out;
+  for (const int64_t squared : squared_distances(set, size, wraps))
+    out.push_back(std::min(limit, float(std::sqrt(double(squared)))));
+  return out;
+}
+
+void compute(NodeContext& node) {
+  const ImagePtr mask = node.input<Image>("mask");
+  require_one_channel("mask", *mask);
+  const std::vector<uint8_t> set = set_pixels(*mask, float(node.number("threshold")));
+  if (std::find(set.begin(), set.end(), 1) == set.end())
+    node.note("no pixel is at or above the threshold: all are as far as can be");
+  const double limit = node.number("limit");
+  const float most = limit > 0 ? float(limit) : std::numeric_limits<float>::max();
+  std::vector<float> out = distances(set, mask->size(), edges_of(node) == Outside::wrap, node.flag("signed"), most);
+  if (node.flag("normalized")) {
+    float unit = float(limit);
+    if (!(limit > 0))
+      for (const float v : out) unit = std::max(unit, std::fabs(v));
+    if (unit > 0)
+      for (float& v : out) v /= unit;
+  }
+  const ImageInfo info{.size = mask->size(), .channels = 1, .semantic = Semantic::guidance};
+  node.output("distance", Image::from_floats(info, std::move(out)));
+}
+
+}  // namespace
+
+NodeType distance_node() {
+  NodeType t;
+  t.name = "distance";
+  t.category = "analysis";
+  t.summary = "Distance to what a mask marks";
+  t.help =
+      "The exact Euclidean distance from every pixel's centre to the nearest pixel that is set (Meijster, Roerdink & "
+      "Hesselink 2000). Signed, it is the distance to the outline, negative inside: it then tells apart the middle and "
+      "the rim on both sides. Feed it to pca as guidance, or through \"levels\" to make rims, wear and contact "
+      "shadows. \"guidance\" does the same from edges that it finds itself.";
+  t.inputs = {image_port("mask", "1 channel; pixels at or above the threshold are set")};
+  t.outputs = {image_port("distance", "1 channel: 0 on set pixels; signed, 0 on their outline and negative inside")};
+  t.params = {
+      {.name = "threshold", .type = ParamType::number, .fallback = 0.5, .help = "From which value on a pixel is set."},
+      {.name = "signed",
+       .type = ParamType::boolean,
+       .fallback = false,
+       .help = "Measures inside too: half a pixel less than to the nearest pixel of the other kind."},
+      {.name = "limit",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "Distances are limited to this; 0 for no limit.",
+       .min = 0,
+       .max = 131072,
+       .unit = "pixels"},
+      {.name = "normalized",
+       .type = ParamType::boolean,
+       .fallback = false,
+       .help = "Divides by the limit, or without one by the greatest distance: 0..1, or -1..1 if signed. Else "
+               "distances are in pixels."},
+      edges_param()};
+  t.memory_hint = [](const NodeContext& node) { return size_t(node.input<Image>("mask")->size().area()) * 32; };
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,88 @@
+#include "core/analysis/space/filter_bank.h"
+
+#include "core/analysis/space/weighting.h"
+#include "core/image/color.h"
+#include "core/image/image_ops.h"
+#include "nodes/common/exemplar_tiles.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// The map that "map" names, as grey values: lightness of colours, else the first channel.
+ImagePtr grey_map(const NodeContext& node, const Material& material) {
+  const std::string& name = node.text("map");
+  ImagePtr map = name.empty() ? material.find(Semantic::base_color) : require_map("map", material, name);
+  if (!map) map = material.maps().front().image;
+  require_no_normals("map", *map);
+  return analysis_image(map);
+}
+
+void compute(NodeContext& node) {
+  const auto material = node.input<Material>("material");
+  require_one_shape("material", *material);
+  const bool wraps = exemplar_tiles(node, *material);
+  const ImagePtr grey = nearest_at_size(grey_map(node, *material), material->size());
+  std::vector<double> first_only(size_t(grey->channels()), 0.0);
+  first_only.front() = 1;
+  const FeaturesPtr features = Features::make(grey->size(), {{grey, first_only}}, wraps);
+  const ExemplarPlanes planes = weighted_planes(*features, node.task());
+  FilterResponses responses = mr8_responses(planes, node.number("scale"), node.task());
+  ImageInfo info{.size = grey->size(), .channels = 3, .semantic = Semantic::guidance};
+  node.output("edges", Image::from_floats(info, std::move(responses.edges)));
+  node.output("bars", Image::from_floats(info, std::move(responses.bars)));
+  info.channels = 2;
+  node.output("blobs", Image::from_floats(info, std::move(responses.blobs)));
+}
+
+}  // namespace
+
+NodeType filter_bank_node() {
+  NodeType t;
+  t.name = "filter_bank";
+  t.version = 4;
+  t.category = "analysis";
+  t.summary = "Responses to edges, lines and blobs of several sizes (MR8)";
+  t.help =
+      "The maximum response filter bank MR8 (Varma & Zisserman 2005): of 38 filters, the edge and line filters of 6 "
+      "orientations count only with their strongest, which leaves 8 responses that tell local structure apart whatever "
+      "way it runs. As guidance they keep lines and grain whole; with \"cluster\" they part a picture into regions of "
+      "different texture. The map is first brought to zero mean and unit deviation; filters have zero mean and an L1 "
+      "norm of 1. Values are positive and negative: use \"levels\" or \"normalize\" to look at them.";
+  t.inputs = {material_port("material", "the exemplar, or an image")};
+  t.outputs = {image_port("edges", "3 channels: strength of edges at deviations of 1, 2 and 4 pixels, never negative"),
+               image_port("bars", "3 channels, at the same scales: light lines are positive, dark ones negative"),
+               image_port("blobs",
+                          "2 channels: lighter than the surroundings, as Gaussian and as its Laplacian, 10 "
+                          "pixels in deviation")};
+  t.params = {{.name = "map",
+               .type = ParamType::text,
+               .fallback = "",
+               .help = "The map to look at, by its lightness or first channel; empty for the base colour, or else the "
+                       "first map."},
+              {.name = "scale",
+               .type = ParamType::number,
+               .fallback = 1.0,
+               .help = "Factor on the size of all filters, which is 49 pixels.",
+               .min = 0.25,
+               .max = 4},
+              tiles_param()};
+  t.files_read = [](const Params&) { return color_config_files(); };
+  t.memory_hint = [](const NodeContext& node) {
+    // Spectra of 19 pairs of filters, and the responses.
+    const double side = std::max(256.0, 256 * node.number("scale"));
+    return size_t(19 * 16 * side * side) + size_t(node.input<Material>("material")->size().area()) * 40;
+  };
+  t.compute = compute;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    const std::string& map = std::get<std::string>(params.at("map"));
+    const Texts wanted = map.empty() ? Texts{} : Texts{map};
+    check_all([&] { foresee_maps("map", wanted, inputs.at("material").front()); },
+              [&] { foresee_one_shape("material", inputs); });
+    return Forecast{};
+  };
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include "core/analysis/space/feature_distance.h"
+#include "core/analysis/space/weighting.h"
+#include "core/image/color.h"
+#include "core/image/image_ops.h"
+#include "nodes/common/exemplar_tiles.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+void compute(NodeContext& node) {
+  const auto material = node.input<Material>("material");
+  require_one_shape("material", *material);
+  EdgeOptions options;
+  options.maps = node.texts("maps");
+  if (node.number("threshold") > 0) options.threshold = node.number("threshold");
+  options.smoothing = node.number("smoothing");
+  options.wraps = exemplar_tiles(node, *material);
+  options.mask = node.optional_input<Image>("mask");
+  const Size size = material->size();
+  const Edges edges = find_edges(*material, options, node.task());
+  node.task().check();
+  const double limit = node.number("reach") * std::min(size.width, size.height);
+  node.output("distance", feature_distance(edges, size, options.wraps, float(limit)));
+  const ImageInfo mask{.size = size, .channels = 1, .semantic = Semantic::mask, .depth = Depth::u8};
+  node.output("gradients",
+              Image::from_floats({.size = size, .channels = 2, .semantic = Semantic::guidance}, edges.gradients));
+  node.output("edges", Image::from_floats(mask, {edges.mask.begin(), edges.mask.end()}));
+  if (!options.threshold)
+    node.note(fmt::format("edges are where strength exceeds {:.3f} (chosen automatically)", edges.threshold));
+}
+
+}  // namespace
+
+NodeType guidance_node() {
+  NodeType t;
+  t.name = "guidance";
+  t.version = 6;
+  t.category = "analysis";
+  t.summary = "Extracts edges and the signed feature distance from a material's maps";
+  t.help =
+      "Colours alone cannot tell the middle of a brick from its rim. The distance to the nearest edge can: fed to pca "
+      "as "
+      "guidance, it keeps bricks, cracks and joints whole (signed feature distance, Lefebvre & Hoppe 2006; edges from "
+      "any map of a material, Rudolph 2018). Look at the edges output to judge the threshold.";
+  t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}, mask_port()};
+  t.outputs = {
+      {.name = "distance", .type = ValueType::image, .help = "pixels to the nearest edge, negative inside edges"},
+      {.name = "edges", .type = ValueType::image, .help = "the edges, 1 on an edge"},
+      {.name = "gradients",
+       .type = ValueType::image,
+       .help = "slopes along x and y of what the maps vary in most: a further guide, which tells a rim's sides apart"}};
+  t.params = {
+      {.name = "maps",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "The maps to look for edges in; empty for all, by their default weights."},
+      {.name = "threshold",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "Edge strength, relative to the strongest, above which a pixel is an edge; 0 chooses it automatically.",
+       .min = 0,
+       .max = 1},
+      {.name = "smoothing",
+       .type = ParamType::number,
+       .fallback = 1.0,
+       .help = "Blur before looking for edges; more ignores finer detail.",
+       .min = 0,
+       .max = 16,
+       .unit = "pixels"},
+      {.name = "reach",
+       .type = ParamType::number,
+       .fallback = 0.1,
+       .help = "Distances are limited to this fraction of the exemplar's shorter side.",
+       .min = 0.005,
+       .max = 1},
+      tiles_param(),
+  };
+  t.files_read = [](const Params&) { return color_config_files(); };
+  t.compute = compute;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    check_all([&] { foresee_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front()); },
+              [&] { foresee_one_shape("material", inputs); });
+    return Forecast{};
+  };
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include "core/analysis/space/appearance_space.h"
+#include "core/base/text.h"
+#include "core/node/node.h"
+
+namespace terrazzo {
+
+namespace {
+
+void compute(NodeContext& node) {
+  AppearanceOptions options;
+  options.dimensions = int(node.integer("dimensions"));
+  options.retained_variance = node.number("retained_variance");
+  options.guidance_weight = node.number("guidance_weight");
+  const AppearancePtr appearance =
+      make_appearance(*node.input<Features>("features"), node.list<Image>("guidance"), options, node.task());
+  std::string text;
+  for (const AppearanceLevel& l : appearance->levels())
+    text += fmt::format("{}{}x{}: {} {} {:.1f} %", text.empty() ? "" : "; ", l.size.width, l.size.height,
+                        counted(l.dimensions, "dimension"), l.dimensions == 1 ? "keeps" : "keep", 100 * l.retained);
+  node.note(text);
+  node.output("appearance", appearance);
+}
+
+}  // namespace
+
+NodeType pca_node() {
+  NodeType t;
+  t.name = "pca";
+  t.category = "analysis";
+  t.summary = "Brings features into appearance space";
+  t.help =
+      "Every pixel's 5x5 neighbourhood over all weighted channels is reduced to a few principal components, per level "
+      "of a "
+      "Gaussian pyramid (appearance space; Lefebvre & Hoppe 2006). Comparing two pixels then compares their "
+      "neighbourhoods.";
+  t.inputs = {{.name = "features", .type = ValueType::features, .help = "the exemplar's weighted channels"},
+              {.name = "guidance",
+               .type = ValueType::image,
+               .help = "images of the exemplar's size that steer coarse levels, such as a feature distance",
+               .optional = true,
+               .list = true}};
+  t.outputs = {{.name = "appearance", .type = ValueType::appearance, .help = "the exemplar in appearance space"}};
+  t.params = {
+      {.name = "dimensions",
+       .type = ParamType::integer,
+       .fallback = appearance_dimensions,
+       .help = "Principal components kept, at most.",
+       .min = 1,
+       .max = appearance_dimensions},
+      {.name = "retained_variance",
+       .type = ParamType::number,
+       .fallback = 1.0,
+       .help = "Keep only as many components as explain this part of the variance.",
+       .min = 0.01,
+       .max = 1},
+      {.name = "guidance_weight",
+       .type = ParamType::number,
+       .fallback = 0.25,
+       .help = "Weight of the guidance at the coarsest level; it fades to 0 at the finest.",
+       .min = 0,
+       .max = 100},
+  };
+  t.compute = compute;
+  t.memory_hint = [](const NodeContext& node) {
+    const auto features = node.input<Features>("features");
+    return size_t(features->size().area()) * (8 * features->channel_count() + 48);
+  };
+  return t;
+}
+
+}  // namespace terrazzo

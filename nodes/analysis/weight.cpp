@@ -1,0 +1,58 @@
+#include "core/analysis/space/weighting.h"
+#include "core/image/color.h"
+#include "core/image/image_ops.h"
+#include "nodes/common/exemplar_tiles.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+void compute(NodeContext& node) {
+  const auto material = node.input<Material>("material");
+  require_one_shape("material", *material);
+  const bool wraps = exemplar_tiles(node, *material);
+  node.output("features",
+              weighted_features(*material, node.number_map("weights"), wraps, node.optional_input<Image>("mask")));
+}
+
+}  // namespace
+
+NodeType weight_node() {
+  NodeType t;
+  t.name = "weight";
+  t.version = 5;
+  t.category = "analysis";
+  t.summary = "Weights the maps of a material for analysis";
+  t.help =
+      "Says how much each map, or each channel of a map, counts when neighbourhoods are compared. Colours are compared "
+      "in "
+      "Oklab, normals as unit vectors; each map is first brought to the same variance, so that 1 means the same for "
+      "all. Unless given, base colour counts 1, height and opacity 0.7, normal, metallic, emission and masks 0.5, "
+      "roughness, occlusion and specular 0.3.";
+  t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}, mask_port()};
+  t.outputs = {{.name = "features", .type = ValueType::features, .help = "its weighted channels"}};
+  t.params = {
+      {.name = "weights",
+       .type = ParamType::number_map,
+       .fallback = NumberMap{},
+       .help = "By map name, one weight or one per channel: {\"normal\": 2, \"base_color\": [1, 0.5, 0.5]}. 0 leaves a "
+               "map out.",
+       .min = 0,
+       .max = 100},
+      tiles_param(),
+  };
+  t.persist = Persist::digest;
+  t.files_read = [](const Params&) { return color_config_files(); };
+  t.compute = compute;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    std::vector<std::string> weighted;
+    for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) weighted.push_back(name);
+    check_all([&] { foresee_maps("weights", weighted, inputs.at("material").front()); },
+              [&] { foresee_one_shape("material", inputs); });
+    return Forecast{};
+  };
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,57 @@
+#include "nodes/common/exemplar_atlas.h"
+
+#include <fmt/format.h>
+
+#include "core/base/text.h"
+#include "core/image/image_ops.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+std::vector<Port> atlas_outputs() {
+  return {
+      material_port("material", "the exemplars side by side"),
+      image_port("mask", "1 where an exemplar may be sampled, 0 in gaps: for \"weight\""),
+      image_port("labels", "which exemplar, from 0 for the first to 1 for the last in equal steps: i / (count - 1)")};
+}
+
+std::vector<Param> atlas_params() {
+  Param edges = edges_param();
+  edges.help =
+      "What fills gaps, and the corners of rotated copies: the border pixels go on (clamp), or the exemplar repeats "
+      "(wrap; for exemplars that tile, whose corners can then be sampled too).";
+  return {{.name = "gap",
+           .type = ParamType::integer,
+           .fallback = int64_t{8},
+           .help = "Least distance between exemplars.",
+           .min = 0,
+           .max = 1024,
+           .unit = "pixels"},
+          edges};
+}
+
+void output_atlas(NodeContext& node, const std::vector<Exemplar>& exemplars, const std::string& how_to_shrink) {
+  constexpr int64_t quick = int64_t{2048} * 2048;
+  const Atlas atlas = make_atlas(exemplars, int(node.integer("gap")), edges_of(node));
+  const Size size = atlas.material->size();
+  std::string note = fmt::format("{} in {} pixels", counted(int64_t(exemplars.size()), "exemplar"), describe(size));
+  if (size.area() > quick)
+    note +=
+        fmt::format("; analysis of so many takes long and much memory: {}, or \"resize\" before this, make it smaller",
+                    how_to_shrink);
+  node.note(note);
+  node.output("material", atlas.material);
+  node.output("mask", atlas.mask);
+  node.output("labels", atlas.labels);
+}
+
+Exemplar masked_exemplar(const MaterialPtr& material, const std::string& port, const ImagePtr& mask) {
+  if (!mask) return {material, nullptr};
+  require_one_channel(port, *mask);
+  require_shape(port, *mask, "its material", material->size());
+  ImageInfo info = mask->info();
+  info.semantic = Semantic::mask;
+  return {material, Image::redescribed(mask, info)};
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,54 @@
+#include "nodes/common/exemplar_tiles.h"
+
+#include <map>
+#include <mutex>
+
+#include "core/analysis/repeats/wrap_detection.h"
+
+namespace terrazzo {
+
+Param tiles_param() {
+  return {.name = "tiles",
+          .type = ParamType::choice,
+          .fallback = "auto",
+          .help =
+              "Whether the exemplar tiles, so that what lies beyond a border is the other side. \"auto\" compares "
+              "opposite borders.",
+          .choices = {"auto", "yes", "no"}};
+}
+
+Port mask_port() {
+  return {.name = "mask",
+          .type = ValueType::image,
+          .help =
+              "where the exemplar may be sampled: above 0.5 (white) it may, elsewhere it does not count and is never "
+              "shown. Of the exemplar's shape, at any size; if it has several channels, the first counts",
+          .optional = true};
+}
+
+namespace {
+
+/// Several nodes ask it of the same exemplar, often at once; the first finds out.
+bool found_to_tile(const Material& material, const Task& task) {
+  constexpr size_t most_known = 64;
+  static std::mutex mutex;
+  static std::map<Digest, bool> known;
+  const std::lock_guard lock(mutex);
+  const auto at = known.find(material.digest());
+  if (at != known.end()) return at->second;
+  const bool tiles = seems_to_tile(material, task);
+  if (known.size() == most_known) known.clear();
+  return known[material.digest()] = tiles;
+}
+
+}  // namespace
+
+bool exemplar_tiles(NodeContext& node, const Material& material) {
+  const std::string& tiles = node.text("tiles");
+  if (tiles != "auto") return tiles == "yes";
+  const bool fits = found_to_tile(material, node.task());
+  if (fits) node.note("the exemplar tiles: its opposite borders are treated as neighbours");
+  return fits;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,138 @@
+#include "nodes/common/node_helpers.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/error.h"
+#include "core/material/map_names.h"
+
+namespace terrazzo {
+
+Param edges_param() {
+  return {.name = "edges",
+          .type = ParamType::choice,
+          .fallback = "clamp",
+          .help =
+              "What lies beyond the border: the border pixels go on (clamp), or the image repeats (wrap; for maps "
+              "that tile).",
+          .choices = {"clamp", "wrap"}};
+}
+
+Outside edges_of(const NodeContext& node) {
+  return node.text("edges") == "wrap" ? Outside::wrap : Outside::clamp;
+}
+
+Param normal_y_param() {
+  return {.name = "normal_y",
+          .type = ParamType::choice,
+          .fallback = "up",
+          .help = "Green channel of the normals: up as in OpenGL, down as in DirectX.",
+          .choices = {"up", "down"}};
+}
+
+NormalY normal_y_of(const NodeContext& node) {
+  return node.text("normal_y") == "down" ? NormalY::down : NormalY::up;
+}
+
+Param height_scale_param() {
+  return {.name = "height_scale",
+          .type = ParamType::number,
+          .fallback = 16.0,
+          .help = "How many pixels tall a height of 1 is; negative turns hills into pits.",
+          .min = -10000,
+          .max = 10000,
+          .unit = "pixels"};
+}
+
+Param sample_param(const std::string& name, double fallback, const std::string& help) {
+  return {.name = name,
+          .type = ParamType::number,
+          .fallback = fallback,
+          .help = help,
+          .min = -largest_sample,
+          .max = largest_sample};
+}
+
+Port image_port(const std::string& name, const std::string& help) {
+  return {.name = name, .type = ValueType::image, .help = help};
+}
+
+Port material_port(const std::string& name, const std::string& help) {
+  return {.name = name, .type = ValueType::material, .help = help};
+}
+
+std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const std::string& port) {
+  return [port](const Params&, const InputForecasts& inputs) {
+    const Forecast& input = inputs.at(port).front();
+    return Forecast{.maps = input.maps, .possible_maps = input.possible_maps};
+  };
+}
+
+void foresee_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
+                  const std::string& whose) {
+  if (!material.possible_maps) return;
+  std::vector<std::string> surely_wrong = wanted;
+  std::erase_if(surely_wrong, [&](const std::string& name) {
+    return std::find(material.possible_maps->begin(), material.possible_maps->end(), name) !=
+           material.possible_maps->end();
+  });
+  require_maps(param, surely_wrong, material.maps, whose);
+}
+
+void foresee_one_shape(const std::string& port, const InputForecasts& inputs) {
+  const Forecast& material = inputs.at(port).front();
+  std::vector<std::pair<std::string, Size>> maps;
+  for (const std::string& name : material.maps)
+    if (const auto size = material.sizes.find(name); size != material.sizes.end()) maps.push_back(*size);
+  if (!maps.empty()) require_one_shape(port, maps);
+}
+
+Digest map_recipe(const NodeContext& node, const Image& map) {
+  Hasher h;
+  h.add("map of").add(node.type().name).add(node.type().version);
+  add_to(h, node.params());
+  h.add(map.digest());
+  return h.digest();
+}
+
+void warn_of_smaller_maps(NodeContext& node, const Material& material, const Material* known) {
+  const Size size = material.size();
+  std::vector<std::string> smaller;
+  for (const Map& m : material.maps()) {
+    const bool is_old = known && known->size() == size && known->find(m.name) == m.image;
+    if (m.image->size() != size && !is_old)
+      smaller.push_back(fmt::format("{} ({})", m.name, describe(m.image->size())));
+  }
+  if (smaller.empty()) return;
+  node.warn(
+      fmt::format("the material has {} pixels, the size of its largest map; {} {} scaled up to that. Bring the "
+                  "maps to one size if this is not meant",
+                  describe(size), fmt::join(smaller, ", "), smaller.size() == 1 ? "is" : "are"));
+}
+
+ImagePtr require_map(const std::string& param, const Material& material, const std::string& map) {
+  require_maps(param, {map}, names_of(material.maps()));
+  return material.find(map);
+}
+
+MaterialPtr with_maps_changed(const MaterialPtr& material, const Texts& maps,
+                              const std::function<ImagePtr(const Map&)>& change) {
+  require_maps("maps", maps, names_of(material->maps()));
+  std::vector<Map> changed = material->maps();
+  for (Map& m : changed)
+    if (maps.empty() || std::find(maps.begin(), maps.end(), m.name) != maps.end()) m.image = change(m);
+  return Material::make(material->name(), std::move(changed));
+}
+
+std::vector<double> per_channel(const NodeContext& node, const std::string& param, int channels) {
+  const Numbers& given = node.numbers(param);
+  if (given.size() == 1) return std::vector<double>(channels, given.front());
+  if (int(given.size()) == channels) return given;
+  throw Error(param, fmt::format("expected one number, or one for each of the image's channels without coverage, {}; "
+                                 "found {}",
+                                 channels, given.size()));
+}
+
+}  // namespace terrazzo

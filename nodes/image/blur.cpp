@@ -1,0 +1,49 @@
+#include "core/image/resample.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// From here on the horizontal pass is done once and kept, rather than anew around every strip that is pulled.
+constexpr double tall_radius = 8;
+
+void compute(NodeContext& node) {
+  const ImagePtr image = node.input<Image>("image");
+  const double radius = node.number("radius");
+  const AxisFilter filter = gaussian_filter(radius);
+  node.output("image", filtered(image, image->info(), node.key(), filter, filter, edges_of(node),
+                                radius >= tall_radius ? &node.task() : nullptr));
+}
+
+}  // namespace
+
+NodeType blur_node() {
+  NodeType t;
+  t.name = "blur";
+  t.category = "image";
+  t.summary = "Gaussian blur";
+  t.help =
+      "Colours stored as srgb_texture are blurred in linear light, normals as vectors that are made unit length again, "
+      "everything else as it is. Small blurs are computed when their pixels are read.";
+  t.inputs = {image_port("image", "the image to blur")};
+  t.outputs = {image_port("image", "the blurred image")};
+  t.params = {
+      {.name = "radius",
+       .type = ParamType::number,
+       .fallback = 2.0,
+       .help = "How far it blurs: the standard deviation (sigma) of the Gaussian, which reaches three times as far.",
+       .min = 0,
+       .max = 1000,
+       .unit = "pixels"},
+      edges_param()};
+  t.persist = Persist::digest;
+  t.memory_hint = [](const NodeContext& node) -> size_t {
+    const ImagePtr image = node.input<Image>("image");
+    return node.number("radius") < tall_radius ? 0 : size_t(image->size().area()) * image->channels() * sizeof(float);
+  };
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

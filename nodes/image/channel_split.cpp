@@ -1,0 +1,48 @@
+#include "core/image/image_ops.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr std::array<const char*, 4> channel_names = {"r", "g", "b", "a"};
+
+ImagePtr one_channel(const NodeContext& node, const ImagePtr& image, int channel) {
+  ImageInfo info = image->info();
+  const int channels = info.channels;
+  const float missing = channel == 3 ? 1.0f : 0.0f;
+  info.channels = 1;
+  info.semantic = Semantic::data;
+  info.color_space = "raw";
+  Hasher recipe;
+  recipe.add(node.key()).add(channel);
+  return pixel_by_pixel(info, recipe.digest(), {image}, [=](auto in, float* out, int64_t count) {
+    for (int64_t i = 0; i < count; i++) out[i] = channel < channels ? in[0][i * channels + channel] : missing;
+  });
+}
+
+void compute(NodeContext& node) {
+  const ImagePtr image = node.input<Image>("image");
+  for (int c = 0; c < 4; c++) node.output(channel_names[c], one_channel(node, image, c));
+}
+
+}  // namespace
+
+NodeType channel_split_node() {
+  NodeType t;
+  t.name = "channel_split";
+  t.category = "image";
+  t.summary = "The channels of an image, one by one";
+  t.help =
+      "Values stay as they are stored; what they mean is not known any more, so each output is raw data (say what it "
+      "is "
+      "with \"make_material\"). A channel that the image does not have is 0, and a missing a is 1: opaque.";
+  t.inputs = {image_port("image", "1 to 4 channels")};
+  t.outputs = {image_port("r", "first channel"), image_port("g", "second channel, or 0"),
+               image_port("b", "third channel, or 0"), image_port("a", "fourth channel, or 1")};
+  t.persist = Persist::derived;
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/image/color.h"
+#include "core/material/map_names.h"
+#include "nodes/common/exemplar_atlas.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+void require_masks(size_t masks, size_t materials) {
+  if (masks == 0 || masks == materials) return;
+  throw Error("masks", fmt::format("expected {}, one for each material, or none; found {}",
+                                   counted(int64_t(materials), "mask"), masks));
+}
+
+void compute(NodeContext& node) {
+  const auto materials = node.list<Material>("materials");
+  const auto masks = node.list<Image>("masks");
+  require_masks(masks.size(), materials.size());
+  std::vector<Exemplar> exemplars;
+  for (size_t i = 0; i < materials.size(); i++)
+    exemplars.push_back(masked_exemplar(materials[i], "masks", masks.empty() ? nullptr : masks[i]));
+  output_atlas(node, exemplars, "fewer materials");
+}
+
+Forecast foresee(const Params& params, const InputForecasts& inputs) {
+  std::vector<KnownMaps> materials;
+  for (const Forecast& f : inputs.at("materials")) materials.push_back({"", f.maps, f.possible_maps});
+  const auto masks = inputs.find("masks");
+  check_all([&] { require_same_maps("materials", materials); },
+            [&] { require_masks(masks == inputs.end() ? 0 : masks->second.size(), materials.size()); });
+  return same_maps_as("materials")(params, inputs);
+}
+
+}  // namespace
+
+NodeType combine_node() {
+  NodeType t;
+  t.name = "combine";
+  t.category = "image";
+  t.summary = "Lays several exemplars side by side as one";
+  t.help =
+      "One result can draw on several exemplars of a surface: photographs of neighbouring spots, say, or a clean and a "
+      "worn one. This lays them out in one material, which everything that takes an exemplar takes: weight, guidance, "
+      "resolve_uv. Give its mask to \"weight\", so that nothing is taken from across the gaps, and set \"tiles\" to no "
+      "there and in other analysis; give its labels to \"regularity\", so that it finds each exemplar's own lattice "
+      "and "
+      "the joints of bricks and tiles meet. Exemplars must have the same maps; sizes may differ. All pixels stay as "
+      "they "
+      "are, but that colours and normals are brought to the first exemplar's colour space and convention. \"labels\" "
+      "tells "
+      "exemplars apart when a target steers which is used where.";
+  t.inputs = {{.name = "materials", .type = ValueType::material, .help = "the exemplars", .list = true},
+              {.name = "masks",
+               .type = ValueType::image,
+               .help = "for each exemplar where it may be sampled (above 0.5), 1 channel",
+               .optional = true,
+               .list = true}};
+  t.outputs = atlas_outputs();
+  t.params = atlas_params();
+  t.persist = Persist::derived;
+  t.files_read = [](const Params&) { return color_config_files(); };
+  t.compute = compute;
+  t.foresee = foresee;
+  return t;
+}
+
+}  // namespace terrazzo

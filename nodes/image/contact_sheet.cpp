@@ -1,0 +1,76 @@
+#include "core/image/color.h"
+#include "core/node/node.h"
+#include "core/picture/picture_grid.h"
+
+namespace terrazzo {
+
+namespace {
+
+GridSpec spec_of(const Params& params) {
+  return {int(std::get<int64_t>(params.at("columns"))), std::get<Size>(params.at("cell")),
+          int(std::get<int64_t>(params.at("gap"))), std::get<bool>(params.at("enlarge")),
+          std::get<Texts>(params.at("captions"))};
+}
+
+void compute(NodeContext& node) {
+  node.output("image", picture_grid(node.list<Image>("images"), spec_of(node.params()), node.task()));
+}
+
+}  // namespace
+
+NodeType contact_sheet_node() {
+  NodeType t;
+  t.name = "contact_sheet";
+  t.category = "image";
+  t.summary = "Lays pictures out in rows, with captions";
+  t.help =
+      "For comparing variants of one graph at a glance. Pictures may differ in size and kind: each is scaled down to "
+      "fit its cell and centred; colours are shown as sRGB, one or two channels as grey by the first, and a fourth "
+      "channel is left out. Values beyond 0 and 1 are cut off: put \"normalize\" before images of other ranges. "
+      "Materials go through \"preview\" first, which lights them.";
+  t.inputs = {{.name = "images", .type = ValueType::image, .help = "the pictures, in reading order", .list = true}};
+  t.outputs = {{.name = "image", .type = ValueType::image, .help = "8-bit colour picture"}};
+  t.params = {{.name = "columns",
+               .type = ParamType::integer,
+               .fallback = int64_t{4},
+               .help = "Pictures in a row, at most.",
+               .min = 1,
+               .max = 256},
+              {.name = "cell",
+               .type = ParamType::size,
+               .fallback = Size{256, 256},
+               .help = "Room for each picture.",
+               .min = 8,
+               .max = 8192,
+               .unit = "pixels"},
+              {.name = "gap",
+               .type = ParamType::integer,
+               .fallback = int64_t{8},
+               .help = "Space around the cells.",
+               .min = 0,
+               .max = 256,
+               .unit = "pixels"},
+              {.name = "enlarge",
+               .type = ParamType::boolean,
+               .fallback = false,
+               .help = "Scale pictures up that are smaller than their cell. Else they keep their size, so that "
+                       "exemplar and result stand side by side at one scale."},
+              {.name = "captions",
+               .type = ParamType::texts,
+               .fallback = Texts{},
+               .help = "What stands below the pictures, in their order, in capitals; \"\" for none."}};
+  t.persist = Persist::payload;
+  t.files_read = [](const Params&) { return color_config_files(); };
+  t.memory_hint = [](const NodeContext& node) {
+    const size_t pictures = node.list<Image>("images").size();
+    return size_t(grid_size(pictures, spec_of(node.params())).area()) * 3 * sizeof(float);
+  };
+  t.compute = compute;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    require_grid(inputs.at("images").size(), spec_of(params));
+    return Forecast{};
+  };
+  return t;
+}
+
+}  // namespace terrazzo

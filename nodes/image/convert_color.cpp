@@ -1,0 +1,56 @@
+#include "core/image/color.h"
+#include "nodes/common/color_space.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+void compute(NodeContext& node) {
+  ImagePtr image = node.input<Image>("image");
+  ImageInfo info = image->info();
+  const std::string& config = node.text("config");
+  if (node.text("from") != "auto") info.color_space = color_space_of(node, "from", config);
+  image = Image::redescribed(image, info);
+  if (info.color_space == "raw") node.note("the image is raw and stays as it is; give \"from\" to convert it");
+  node.output("image", convert_color(image, color_space_of(node, "to", config), config));
+}
+
+std::vector<std::string> check(const Params& params) {
+  const std::string& config = std::get<std::string>(params.at("config"));
+  std::vector<std::string> problems = color_space_problems(params, "to", "", config);
+  for (std::string& p : color_space_problems(params, "from", "auto", config)) problems.push_back(std::move(p));
+  return problems;
+}
+
+}  // namespace
+
+NodeType convert_color_node() {
+  NodeType t;
+  t.name = "convert_color";
+  t.category = "image";
+  t.summary = "Converts an image to another colour space";
+  t.help =
+      "Through OpenColorIO. The built-in configuration knows srgb_texture, lin_rec709, acescg and raw; the "
+      "environment's "
+      "OCIO, or a configuration given here, replaces it. Raw images are data and are never converted. A fourth channel "
+      "stays. Computed when its pixels are read.";
+  t.inputs = {image_port("image", "the image; its description says which space it is in")};
+  t.outputs = {image_port("image", "the image in the space asked for")};
+  t.params = {{.name = "to", .type = ParamType::text, .fallback = "lin_rec709", .help = "The colour space wanted."},
+              {.name = "from",
+               .type = ParamType::text,
+               .fallback = "auto",
+               .help = "The colour space the image is in, if its description is wrong; auto goes by the description."},
+              {.name = "config",
+               .type = ParamType::path,
+               .fallback = "",
+               .help = "An OpenColorIO configuration file; empty for the environment's OCIO or the built-in one."}};
+  t.persist = Persist::digest;
+  t.files_read = [](const Params& params) { return color_config_files(std::get<std::string>(params.at("config"))); };
+  t.check = check;
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/image/image_ops.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// The rectangle in pixels of the material's size.
+Rect asked_rect(const NodeContext& node, Size material) {
+  const int x = int(node.integer("x")), y = int(node.integer("y"));
+  const Size size = node.size("size");
+  const Rect rect{x, y, size.width ? size.width : material.width - x, size.height ? size.height : material.height - y};
+  if (rect.empty())
+    throw Error("size", fmt::format("nothing is left of a material of {} from x {}, y {}", describe(material), x, y));
+  if (node.text("edges") == "none" && intersect(rect, whole(material)) != rect)
+    throw Error("size", fmt::format("expected a rectangle inside the material of {}, found {} at x {}, y {}; set "
+                                    "\"edges\" to clamp or wrap to reach beyond its border",
+                                    describe(material), describe({rect.width, rect.height}), x, y));
+  return rect;
+}
+
+/// A length in pixels of the material, in pixels of one of its maps.
+int in_map(int length, int map_side, int material_side, const Map& map, Size material) {
+  const int64_t product = int64_t{length} * map_side;
+  if (product % material_side == 0) return int(product / material_side);
+  throw Error("size",
+              fmt::format("the rectangle does not fall on whole pixels of map \"{}\", which has {} where the material "
+                          "has {}; use multiples of {} pixels, or put \"resize\" before it",
+                          map.name, describe(map.image->size()), describe(material),
+                          material_side / std::gcd(material_side, map_side)));
+}
+
+ImagePtr cropped(const NodeContext& node, const Map& map, const Rect& rect, Size material) {
+  const Size size = map.image->size();
+  const Rect own{in_map(rect.x, size.width, material.width, map, material),
+                 in_map(rect.y, size.height, material.height, map, material),
+                 in_map(rect.width, size.width, material.width, map, material),
+                 in_map(rect.height, size.height, material.height, map, material)};
+  ImageInfo info = map.image->info();
+  info.size = {own.width, own.height};
+  const Outside outside = edges_of(node);
+  return Image::computed(
+      info, map_recipe(node, *map.image), [image = map.image, own, outside](const Rect& region, float* out) {
+        const std::vector<float> pixels =
+            read_padded(*image, {own.x + region.x, own.y + region.y, region.width, region.height}, outside);
+        std::copy(pixels.begin(), pixels.end(), out);
+      });
+}
+
+void compute(NodeContext& node) {
+  const MaterialPtr material = node.input<Material>("material");
+  const Size size = material->size();
+  const Rect rect = asked_rect(node, size);
+  node.output("material", with_maps_changed(material, {}, [&](const Map& m) { return cropped(node, m, rect, size); }));
+}
+
+}  // namespace
+
+NodeType crop_node() {
+  NodeType t;
+  t.name = "crop";
+  t.category = "image";
+  t.summary = "Cuts a rectangle out of a material";
+  t.help =
+      "Cuts the same part out of every map, pixels unchanged. The rectangle is given in pixels of the largest map; it "
+      "must fall on whole pixels of smaller ones, so that the maps stay aligned. With edges wrap, a material that "
+      "tiles "
+      "can be shifted or repeated.";
+  t.inputs = {material_port("material", "the maps to cut; an image is taken as a material of one map")};
+  t.outputs = {material_port("material", "the same part of every map")};
+  Param edges = edges_param();
+  edges.choices.insert(edges.choices.begin(), "none");
+  edges.fallback = "none";
+  edges.help =
+      "Beyond the border: nothing may be asked for (none), the border pixels go on (clamp), or the maps repeat "
+      "(wrap).";
+  t.params = {
+      {.name = "x",
+       .type = ParamType::integer,
+       .fallback = int64_t{0},
+       .help = "Left edge of the rectangle.",
+       .min = -65536,
+       .max = 65536,
+       .unit = "pixels"},
+      {.name = "y",
+       .type = ParamType::integer,
+       .fallback = int64_t{0},
+       .help = "Top edge of the rectangle; y grows downwards.",
+       .min = -65536,
+       .max = 65536,
+       .unit = "pixels"},
+      {.name = "size",
+       .type = ParamType::size,
+       .fallback = Size{0, 0},
+       .help = "Size of the rectangle; a side of 0 reaches to the material's right or bottom edge.",
+       .min = 0,
+       .max = 65536,
+       .unit = "pixels"},
+      edges,
+  };
+  t.persist = Persist::derived;
+  t.compute = compute;
+  t.foresee = same_maps_as("material");
+  return t;
+}
+
+}  // namespace terrazzo

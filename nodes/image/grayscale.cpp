@@ -1,0 +1,73 @@
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/image/image_ops.h"
+#include "core/image/pixel_space.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+std::vector<double> weights_of(const NodeContext& node, int channels) {
+  const std::string& method = node.text("method");
+  if (method == "luminance" && channels == 3) return {0.2126, 0.7152, 0.0722};
+  if (method != "weights") return std::vector<double>(channels, 1.0 / channels);
+  const Numbers& weights = node.numbers("weights");
+  if (int(weights.size()) != channels)
+    throw Error("weights", fmt::format("expected {}, one for each of the image's channels without coverage; found {}",
+                                       counted(channels, "weight"), weights.size()));
+  return weights;
+}
+
+void compute(NodeContext& node) {
+  const ImagePtr image = node.input<Image>("image");
+  require_no_normals("image", *image);
+  const ImageInfo from = image->info();
+  const std::vector<double> weights = weights_of(node, value_channels(from));
+  ImageInfo info = from;
+  info.channels = 1;
+  node.output("image", pixel_by_pixel(info, node.key(), {image}, [=](auto in, float* out, int64_t count) {
+                std::vector<float> linear(in[0], in[0] + count * from.channels);
+                to_linear(from, linear.data(), count);
+                for (int64_t i = 0; i < count; i++) {
+                  const float* p = &linear[i * from.channels];
+                  out[i] = float(std::inner_product(weights.begin(), weights.end(), p, 0.0));
+                }
+                to_stored(info, out, count);
+              }));
+}
+
+}  // namespace
+
+NodeType grayscale_node() {
+  NodeType t;
+  t.name = "grayscale";
+  t.category = "image";
+  t.summary = "One channel out of several";
+  t.help =
+      "The weighted sum of the channels; colours stored as srgb_texture are summed in linear light and encoded again. "
+      "The coverage of colours is dropped. Semantic and colour space stay. To take one channel as it is, use "
+      "\"channel_split\".";
+  t.inputs = {image_port("image", "the image; not a normal map")};
+  t.outputs = {image_port("image", "1 channel")};
+  t.params = {{.name = "method",
+               .type = ParamType::choice,
+               .fallback = "luminance",
+               .help = "luminance: Rec.709 weights for 3 channels, the average for fewer or more. average. weights: as "
+                       "given.",
+               .choices = {"luminance", "average", "weights"}},
+              {.name = "weights",
+               .type = ParamType::numbers,
+               .fallback = Numbers{1.0},
+               .help = "With method weights: the factor of each channel.",
+               .max_count = 4}};
+  t.persist = Persist::derived;
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,125 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/suggest.h"
+#include "core/base/text.h"
+#include "core/material/map_names.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+void require_one_each(const std::string& param, const Texts& texts, size_t images) {
+  if (texts.empty() || texts.size() == images) return;
+  throw Error(param, fmt::format("expected {}, one for each image, or none; found {}", counted(int64_t(images), "text"),
+                                 texts.size()));
+}
+
+void require_known(const Texts& semantics) {
+  for (const std::string& s : semantics)
+    if (s != "keep" && !semantic_from(s))
+      throw Error("semantics",
+                  fmt::format("expected keep or one of {}; found \"{}\"{}", fmt::join(semantic_names, ", "), s,
+                              did_you_mean(s, {semantic_names.begin(), semantic_names.end()})));
+}
+
+void require_different(const Texts& names) {
+  for (size_t i = 0; i < names.size(); i++) {
+    if (names[i].empty()) throw Error("names", "expected a name for each map, found an empty one");
+    if (std::find(names.begin(), names.begin() + i, names[i]) != names.begin() + i)
+      throw Error("names",
+                  fmt::format("expected a different name for each map, found \"{0}\" twice; give \"names\", such "
+                              "as \"{0}\" and \"{0}_2\"",
+                              names[i]));
+  }
+}
+
+void require_right_texts(const Params& params, size_t images) {
+  const Texts &names = std::get<Texts>(params.at("names")), &semantics = std::get<Texts>(params.at("semantics"));
+  check_all([&] { require_one_each("names", names, images); }, [&] { require_different(names); },
+            [&] { require_one_each("semantics", semantics, images); }, [&] { require_known(semantics); });
+}
+
+ImagePtr with_semantic(const ImagePtr& image, const std::string& semantic) {
+  if (semantic == "keep") return image;
+  ImageInfo info = image->info();
+  info.semantic = *semantic_from(semantic);
+  return Image::redescribed(image, info);
+}
+
+void compute(NodeContext& node) {
+  const auto images = node.list<Image>("images");
+  require_right_texts(node.params(), images.size());
+  const Texts& semantics = node.texts("semantics");
+  std::vector<Map> added;
+  for (size_t i = 0; i < images.size(); i++) {
+    const ImagePtr image = with_semantic(images[i], semantics.empty() ? "keep" : semantics[i]);
+    const Texts& names = node.texts("names");
+    added.push_back({names.empty() ? std::string(name_of(image->info().semantic)) : names[i], image});
+  }
+  require_different(names_of(added));
+
+  const MaterialPtr base = node.optional_input<Material>("material");
+  std::vector<Map> maps = base ? base->maps() : std::vector<Map>{};
+  for (Map& m : added) {
+    const auto same = std::find_if(maps.begin(), maps.end(), [&](const Map& old) { return old.name == m.name; });
+    if (same == maps.end())
+      maps.push_back(std::move(m));
+    else
+      same->image = m.image;
+  }
+  const std::string& name = node.text("name");
+  const MaterialPtr material = Material::make(name.empty() && base ? base->name() : name, std::move(maps));
+  warn_of_smaller_maps(node, *material, base.get());
+  node.output("material", material);
+}
+
+Forecast foresee(const Params& params, const InputForecasts& inputs) {
+  require_right_texts(params, inputs.at("images").size());
+  const Texts& names = std::get<Texts>(params.at("names"));
+  Forecast out{.possible_maps = Texts{}};
+  if (const auto base = inputs.find("material"); base != inputs.end())
+    out = {.maps = base->second.front().maps, .possible_maps = base->second.front().possible_maps};
+  for (const std::string& name : names)
+    if (std::find(out.maps.begin(), out.maps.end(), name) == out.maps.end()) out.maps.push_back(name);
+  if (names.empty()) out.possible_maps.reset();  // what the images mean will name them
+  return out;
+}
+
+}  // namespace
+
+NodeType make_material_node() {
+  NodeType t;
+  t.name = "make_material";
+  t.category = "image";
+  t.summary = "Puts images together into a material";
+  t.help =
+      "Makes a material of a list of images. With a material connected, its maps come first, and an image of the same "
+      "name takes the place of that map: so one map can be taken out with \"get_map\", changed, and put back.";
+  t.inputs = {{.name = "images", .type = ValueType::image, .help = "the maps", .list = true},
+              {.name = "material", .type = ValueType::material, .help = "maps to start from", .optional = true}};
+  t.outputs = {material_port("material", "the images as one material")};
+  t.params = {
+      {.name = "name",
+       .type = ParamType::text,
+       .fallback = "",
+       .help = "The material's name; empty keeps the connected material's."},
+      {.name = "names",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "A name for each image, in their order. Empty: each is named after its semantic."},
+      {.name = "semantics",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "What each image means from now on (height, roughness, mask, ...), or keep. Empty keeps all."},
+  };
+  t.persist = Persist::digest;
+  t.compute = compute;
+  t.foresee = foresee;
+  return t;
+}
+
+}  // namespace terrazzo

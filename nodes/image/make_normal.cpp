@@ -1,0 +1,56 @@
+#include "core/image/image_ops.h"
+#include "core/image/normal.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+SlopeFilter slope_filter(const std::string& name) {
+  return name == "sobel" ? SlopeFilter::sobel : name == "scharr" ? SlopeFilter::scharr : SlopeFilter::central;
+}
+
+void compute(NodeContext& node) {
+  const ImagePtr height = node.input<Image>("height");
+  require_one_channel("height", *height);
+  ImageInfo info = height->info();
+  info.channels = 3;
+  info.semantic = Semantic::normal;
+  info.color_space = "raw";
+  info.normal_y = normal_y_of(node);
+  const double scale = node.number("height_scale");
+  const SlopeFilter filter = slope_filter(node.text("filter"));
+  const Outside outside = edges_of(node);
+  node.output("normal", Image::computed(info, node.key(), [=](const Rect& region, float* out) {
+                normals_from_height(*height, region, scale, filter, outside, info.normal_y, out);
+              }));
+}
+
+}  // namespace
+
+NodeType make_normal_node() {
+  NodeType t;
+  t.name = "make_normal";
+  t.category = "image";
+  t.summary = "Makes a normal map from a height map";
+  t.help =
+      "The normal is that of the plane through a pixel's neighbours: n = (-dh/dx, -dh/dy, 1), made unit length. "
+      "Computed "
+      "when its pixels are read.";
+  t.inputs = {image_port("height", "the height map, 1 channel")};
+  t.outputs = {image_port("normal", "tangent-space normals, in the height map's bit depth")};
+  t.params = {height_scale_param(),
+              {.name = "filter",
+               .type = ParamType::choice,
+               .fallback = "scharr",
+               .help = "How slopes are measured: over 3x3 pixels (sobel; scharr is the most even over directions), or "
+                       "between the two neighbours (central; the sharpest).",
+               .choices = {"scharr", "sobel", "central"}},
+              edges_param(),
+              normal_y_param()};
+  t.persist = Persist::derived;
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,60 @@
+#include "core/image/image_ops.h"
+#include "core/image/occlusion.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+void compute(NodeContext& node) {
+  const ImagePtr height = node.input<Image>("height");
+  require_one_channel("height", *height);
+  ImageInfo info = height->info();
+  info.semantic = Semantic::ambient_occlusion;
+  info.color_space = "raw";
+  const OcclusionOptions options{.height_scale = node.number("height_scale"),
+                                 .radius = int(node.integer("radius")),
+                                 .strength = node.number("strength"),
+                                 .outside = edges_of(node)};
+  const ImagePtr occlusion = Image::computed(
+      info, node.key(), [=](const Rect& region, float* out) { occlusion_from_height(*height, region, options, out); });
+  node.output("occlusion", materialized(occlusion, node.task()));
+}
+
+}  // namespace
+
+NodeType make_occlusion_node() {
+  NodeType t;
+  t.name = "make_occlusion";
+  t.category = "image";
+  t.summary = "Makes an ambient occlusion map from a height map";
+  t.help =
+      "How much of the sky each point sees: along 16 directions the horizon is looked for up to the radius, and the "
+      "part of a cosine-weighted sky above it counts (horizon-based ambient occlusion; Bavoil and Sainz 2008). Use the "
+      "height_scale of \"make_normal\" for the same surface.";
+  t.inputs = {image_port("height", "the height map, 1 channel")};
+  t.outputs = {image_port("occlusion", "1 where all of the sky is seen, 0 where none is")};
+  t.params = {height_scale_param(),
+              {.name = "radius",
+               .type = ParamType::integer,
+               .fallback = int64_t{32},
+               .help = "How far occluders are looked for; their effect fades toward it. The time taken grows with it.",
+               .min = 1,
+               .max = 512,
+               .unit = "pixels"},
+              {.name = "strength",
+               .type = ParamType::number,
+               .fallback = 1.0,
+               .help = "Factor on the darkening; 1 is as computed.",
+               .min = 0,
+               .max = 4},
+              edges_param()};
+  t.persist = Persist::payload;
+  t.memory_hint = [](const NodeContext& node) {
+    return size_t(node.input<Image>("height")->size().area()) * sizeof(float);
+  };
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

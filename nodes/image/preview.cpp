@@ -1,0 +1,126 @@
+#include "core/picture/render/preview.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/image/color.h"
+#include "core/material/map_names.h"
+#include "core/node/node.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// Seen from above, a picture of another shape than the material shows some of it twice or leaves some out, which is
+/// surprising unless the number of repeats has been chosen.
+void note_other_shape(NodeContext& node, const PreviewSpec& spec, Size material) {
+  if (spec.shape != PreviewShape::plane || spec.tilt != 0 || spec.tile != 1) return;
+  const int whole = std::max(1, int(std::lround(double(spec.size.width) * material.height / material.width)));
+  if (std::abs(whole - spec.size.height) <= 1) return;
+  node.note(
+      fmt::format("the material has the shape of {}, the picture that of {}: its width is filled once, its height "
+                  "{:.2f} times; a size of {} shows the material once and whole",
+                  describe(material), describe(spec.size), double(spec.size.height) / whole,
+                  describe(Size{spec.size.width, whole})));
+}
+
+void compute(NodeContext& node) {
+  PreviewSpec s;
+  s.shape = node.text("shape") == "sphere" ? PreviewShape::sphere : PreviewShape::plane;
+  s.size = node.size("size");
+  s.lights = node.numbers("lights");
+  if (s.lights.empty()) s.lights = {node.number("azimuth")};
+  s.elevation = node.number("elevation");
+  s.intensity = node.number("intensity");
+  s.ambient = node.number("ambient");
+  s.exposure = node.number("exposure");
+  s.relief = node.number("relief");
+  s.tile = node.number("repeats");
+  s.tilt = node.number("tilt");
+  s.distance = node.number("distance");
+  std::copy_n(node.numbers("background").begin(), 3, s.background);
+  const MaterialPtr material = node.input<Material>("material");
+  note_other_shape(node, s, material->size());
+  node.output("image", render_preview(*material, s, node.task()));
+}
+
+Param number(std::string name, double fallback, double min, double max, std::string unit, std::string help) {
+  return {.name = std::move(name),
+          .type = ParamType::number,
+          .fallback = fallback,
+          .help = std::move(help),
+          .min = min,
+          .max = max,
+          .unit = std::move(unit)};
+}
+
+}  // namespace
+
+NodeType preview_node() {
+  NodeType t;
+  t.name = "preview";
+  t.version = 2;
+  t.category = "image";
+  t.summary = "Renders a material under a movable light";
+  t.help =
+      "GGX reflection (Walter et al. 2007, Heitz 2014) with normal mapping in either convention, ambient occlusion, "
+      "metals, emission, and parallax and shadows marched through the height map. The depth of the relief is read from "
+      "the normals; without a normal map it is a twentieth of the material's width, and normals come from the height. "
+      "With several lights, maps that do not fit together show at once: bumps must be lit from the side of the light.";
+  t.inputs = {{.name = "material", .type = ValueType::material, .help = "any maps; what is missing is made up for"}};
+  t.outputs = {{.name = "image", .type = ValueType::image, .help = "8-bit colour picture"}};
+  t.params = {
+      {.name = "shape",
+       .type = ParamType::choice,
+       .fallback = "plane",
+       .help = "From above, pixel for texel where sizes agree, or wrapped around a ball.",
+       .choices = {"plane", "sphere"}},
+      {.name = "size",
+       .type = ParamType::size,
+       .fallback = Size{512, 512},
+       .help = "Size of the picture; with several lights, of each picture on the sheet. Seen from above, the material "
+               "fills the picture's width, and repeats or is cut off below if their shapes differ; a note says so.",
+       .min = 1,
+       .max = 8192,
+       .unit = "pixels"},
+      number("azimuth", 135, -360, 360, "degrees", "Where the light stands: 0 right, 90 above, 180 left, 270 below."),
+      number("elevation", 40, 0, 90, "degrees", "How high the light stands over the picture plane; 90 is frontal."),
+      {.name = "lights",
+       .type = ParamType::numbers,
+       .fallback = Numbers{},
+       .help = "Several azimuths, one picture each on a sheet, row by row; replaces azimuth.",
+       .min = -360,
+       .max = 360,
+       .unit = "degrees",
+       .max_count = 64},
+      number("intensity", 1, 0, 100, "", "Brightness of the light; at 1 a white surface that faces it is white."),
+      number("ambient", 0.25, 0, 100, "", "Brightness of the even surroundings."),
+      number("exposure", 0, -10, 10, "stops", "Brightness of the whole picture."),
+      number("relief", 1, 0, 20, "", "Depth of parallax and shadows, times what the normals say; 0 switches them off."),
+      number("repeats", 1, 0.01, 64, "", "Repeats of the material across the picture, or across the side of the ball."),
+      number("tilt", 0, 0, 75, "degrees", "Plane only: how far it leans back."),
+      number("distance", 4, 1.1, 100, "radii", "Sphere only: from the camera to the ball's centre."),
+      {.name = "background",
+       .type = ParamType::numbers,
+       .fallback = Numbers{0.12, 0.12, 0.13},
+       .help = "Behind the ball: red, green, blue in sRGB.",
+       .min = 0,
+       .max = 1,
+       .min_count = 3,
+       .max_count = 3},
+  };
+  t.persist = Persist::payload;
+  t.files_read = [](const Params&) { return color_config_files(); };
+  t.memory_hint = [](const NodeContext& node) {
+    // The pictures and their sheet, and at most four texels per pixel of one picture, of 13 channels.
+    const size_t area = size_t(node.size("size").area());
+    return area * std::max<size_t>(1, node.numbers("lights").size()) * 6 * sizeof(float) +
+           area * 4 * 13 * sizeof(float);
+  };
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/image/resample.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+int scaled(int length, double factor) {
+  return std::max(1, int(std::lround(length * factor)));
+}
+
+/// What a map becomes. `material` is the size that a side of 0 takes its proportions from.
+Size target_size(const NodeContext& node, Size map, Size material) {
+  const Size asked = node.size("size");
+  if (asked.width && asked.height) return asked;
+  if (asked.width) return {asked.width, scaled(material.height, double(asked.width) / material.width)};
+  if (asked.height) return {scaled(material.width, double(asked.height) / material.height), asked.height};
+  return {scaled(map.width, node.number("scale")), scaled(map.height, node.number("scale"))};
+}
+
+ImagePtr resized(const NodeContext& node, const ImagePtr& map, Size material) {
+  return resampled(map, target_size(node, map->size(), material), node.text("filter"), edges_of(node),
+                   map_recipe(node, *map));
+}
+
+void compute(NodeContext& node) {
+  const MaterialPtr material = node.input<Material>("material");
+  const Size size = material->size();
+  node.output("material", with_maps_changed(material, node.texts("maps"),
+                                            [&](const Map& m) { return resized(node, m.image, size); }));
+}
+
+std::vector<std::string> check(const Params& params) {
+  const Size size = std::get<Size>(params.at("size"));
+  if ((size.width || size.height) && std::get<double>(params.at("scale")) != 1)
+    return {"\"scale\" and \"size\" cannot both be given; leave one of them out"};
+  return {};
+}
+
+}  // namespace
+
+NodeType resize_node() {
+  NodeType t;
+  t.name = "resize";
+  t.category = "image";
+  t.summary = "Scales the maps of a material";
+  t.help =
+      "Scales to a given size, or by a factor. Colours stored as srgb_texture are filtered in linear light, normals as "
+      "vectors that are made unit length again, everything else as it is. The pixels are computed when they are read.";
+  t.inputs = {material_port("material", "the maps to scale; an image is taken as a material of one map")};
+  t.outputs = {material_port("material", "the same maps, scaled")};
+  t.params = {
+      {.name = "size",
+       .type = ParamType::size,
+       .fallback = Size{0, 0},
+       .help = "The size all maps get. One side 0: it follows from the proportions of the material. Both 0: see scale.",
+       .min = 0,
+       .max = 65536,
+       .unit = "pixels"},
+      {.name = "scale",
+       .type = ParamType::number,
+       .fallback = 1.0,
+       .help = "Factor on each map's own size, rounded to whole pixels; used when no size is given.",
+       .min = 0.0001,
+       .max = 256},
+      {.name = "filter",
+       .type = ParamType::choice,
+       .fallback = "auto",
+       .help =
+           "auto: lanczos3 to shrink, mitchell to enlarge, nearest for masks. Shrinking covers every pixel, whatever "
+           "the filter, but with nearest.",
+       .choices = scaling_filter_names()},
+      edges_param(),
+      {.name = "maps", .type = ParamType::texts, .fallback = Texts{}, .help = "The maps to scale; empty for all."},
+  };
+  t.persist = Persist::derived;
+  t.compute = compute;
+  t.check = check;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    foresee_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front());
+    return same_maps_as("material")(params, inputs);
+  };
+  return t;
+}
+
+}  // namespace terrazzo

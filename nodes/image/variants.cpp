@@ -1,0 +1,109 @@
+#include "core/material/variants.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "nodes/common/exemplar_atlas.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr size_t most_variants = 64;
+
+double within_a_turn(double degrees) {
+  const double rest = std::fmod(degrees, 360.0);
+  return rest < 0 ? rest + 360 : rest;
+}
+
+/// The original first; none twice.
+std::vector<Variant> asked_variants(const Params& params) {
+  const std::string& mirror = std::get<std::string>(params.at("mirror"));
+  std::vector<Variant> all;
+  const auto add = [&](double scale, bool x, bool y, double rotation) {
+    const Variant v{scale, x, y, within_a_turn(rotation)};
+    if (std::find(all.begin(), all.end(), v) == all.end()) all.push_back(v);
+  };
+  Numbers rotations{0}, scales{1};
+  for (const double r : std::get<Numbers>(params.at("rotations"))) rotations.push_back(r);
+  for (const double s : std::get<Numbers>(params.at("scales"))) scales.push_back(s);
+  for (const double scale : scales)
+    for (const bool y : {false, true})
+      for (const bool x : {false, true}) {
+        if ((x && mirror.find('x') == mirror.npos) || (y && mirror.find('y') == mirror.npos)) continue;
+        for (const double rotation : rotations) add(scale, x, y, rotation);
+      }
+  return all;
+}
+
+std::vector<std::string> check(const Params& params) {
+  const size_t count = asked_variants(params).size();
+  if (count <= most_variants) return {};
+  return {fmt::format("\"rotations\", \"scales\" and \"mirror\" together ask for {} copies; at most {} are made", count,
+                      most_variants)};
+}
+
+void compute(NodeContext& node) {
+  const Exemplar original =
+      masked_exemplar(node.input<Material>("material"), "mask", node.optional_input<Image>("mask"));
+  std::vector<Exemplar> exemplars;
+  for (const Variant& v : asked_variants(node.params())) exemplars.push_back(varied(original, v, edges_of(node)));
+  output_atlas(node, exemplars, "fewer `rotations` or `scales`");
+}
+
+}  // namespace
+
+NodeType variants_node() {
+  NodeType t;
+  t.name = "variants";
+  t.category = "image";
+  t.summary = "Adds turned, mirrored and scaled copies of an exemplar";
+  t.help =
+      "A small exemplar offers more to choose from when it may also appear turned, mirrored or at another scale. This "
+      "lays the original and its copies, every rotation of every scale and mirroring, side by side in one material, as "
+      "\"combine\" does: give the mask to \"weight\", set \"tiles\" to no there, and give the labels to "
+      "\"regularity\". "
+      "Normals turn with the surface. "
+      "Scaling is that of the whole body: slopes and so normals stay, and heights part from their mean by that factor "
+      "(clipped to 0..1 in maps of 8 and 16 bit: leave headroom with \"levels\" for scales above 1). Multiples of 90 "
+      "degrees move pixels and change none; other rotations interpolate (cubic convolution), and their empty corners "
+      "are left out of the mask. Do not turn what has an up and a down, or a direction of light. Mirrored copies meet "
+      "the original in butterflies where it is made of large features.";
+  t.inputs = {material_port("material", "the exemplar"),
+              {.name = "mask",
+               .type = ValueType::image,
+               .help = "where the exemplar may be sampled (above 0.5), 1 channel",
+               .optional = true}};
+  t.outputs = atlas_outputs();
+  t.params = {{.name = "rotations",
+               .type = ParamType::numbers,
+               .fallback = Numbers{90, 180, 270},
+               .help = "Angles of copies beside the original, counter-clockwise; [] for none.",
+               .min = -360,
+               .max = 360,
+               .unit = "degrees",
+               .max_count = 16},
+              {.name = "scales",
+               .type = ParamType::numbers,
+               .fallback = Numbers{},
+               .help = "Sizes of copies, relative to the original.",
+               .min = 0.1,
+               .max = 10,
+               .max_count = 16},
+              {.name = "mirror",
+               .type = ParamType::choice,
+               .fallback = "none",
+               .help = "Adds copies with left and right exchanged (x), top and bottom (y), or both and each (xy).",
+               .choices = {"none", "x", "y", "xy"}}};
+  for (Param& p : atlas_params()) t.params.push_back(std::move(p));
+  t.persist = Persist::derived;
+  t.check = check;
+  t.compute = compute;
+  t.foresee = same_maps_as("material");
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/metrics/layout.h"
+#include "core/metrics/quality.h"
+#include "core/metrics/wrap_seam.h"
+#include "core/node/node.h"
+#include "core/picture/contact_sheet.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// Six decimals: all that means something, and the same text everywhere.
+double rounded(double v) {
+  return std::round(v * 1e6) / 1e6;
+}
+
+void add_pixel_figures(const Quality& q, std::vector<Report::Figure>& out) {
+  out.push_back({"swd", rounded(q.swd),
+                 "distance of the patch distributions, all scales; lower is better, 0 = the same patches as often"});
+  out.push_back({"cooccurrence", rounded(q.cooccurrence),
+                 "difference in which values stand beside one another, 0 to 1; lower is better"});
+  out.push_back(
+      {"coherence", rounded(q.coherence),
+       "how far output patches are from the exemplar's (broken features, seams); lower is better, 1 = as far as "
+       "exemplar patches from one another"});
+  out.push_back(
+      {"completeness", rounded(q.completeness),
+       "how far exemplar patches are from the output's (lost features); lower is better, 1 = as far as exemplar "
+       "patches from one another"});
+  out.push_back(
+      {"broken", rounded(q.broken),
+       "share of output patches unlike anything in the exemplar (cut features, hard seams); lower is better"});
+  out.push_back({"acf", rounded(q.acf),
+                 "difference of the autocorrelations (long-range structure: courses, weaves); lower is better"});
+}
+
+void add_layout_figures(const LayoutFigures& f, std::vector<Report::Figure>& out) {
+  out.push_back({"largest_copy", rounded(f.largest_copy),
+                 "area of the largest region copied in one piece over the exemplar's area; lower is more varied"});
+  out.push_back({"usage_entropy", rounded(f.usage_entropy),
+                 "how evenly the exemplar is used, 0 to 1; higher is better, 1 = every part as often"});
+  out.push_back({"seam_share", rounded(f.seam_share),
+                 "share of neighbouring pixels that are not neighbours in the exemplar; lower is more coherent"});
+  out.push_back({"seam_difference", rounded(f.seam_difference),
+                 "mean difference across those seams in standard deviations; lower is better, 0 = invisible"});
+  out.push_back({"seam_energy", rounded(f.seam_energy),
+                 "seam_share times seam_difference: what the seams cost in all; lower is better"});
+}
+
+/// The directions in which the output should wrap around.
+UvWraps expected_wraps(const std::string& tileable, const UvMap* uv) {
+  if (tileable == "auto") return uv ? uv->wraps() : UvWraps{};
+  return {tileable == "x" || tileable == "xy", tileable == "y" || tileable == "xy", false};
+}
+
+void add_wrap_figures(const Material& output, const std::vector<std::string>& maps, const UvWraps& wraps,
+                      std::vector<Report::Figure>& out) {
+  if (!wraps.x && !wraps.y) return;
+  struct Worst {
+    double ratio = 0;
+    std::string map;
+  } x, y;
+  for (const std::string& name : maps) {
+    const WrapSeam seam = wrap_seam(*output.find(std::string_view(name)));
+    if (seam.x > x.ratio) x = {seam.x, name};
+    if (seam.y > y.ratio) y = {seam.y, name};
+  }
+  const auto help = [](const char* borders, const Worst& worst) {
+    return fmt::format("gradient from {} border over the interior's, worst map ({}); about 1 is good, higher is a seam",
+                       borders, worst.map);
+  };
+  if (wraps.x) out.push_back({"wrap_seam_x", rounded(x.ratio), help("right to left", x)});
+  if (wraps.y) out.push_back({"wrap_seam_y", rounded(y.ratio), help("bottom to top", y)});
+}
+
+void check_layout(const UvMap& uv, const Material& exemplar, const Material& output) {
+  const auto same_ratio = [](int a, int b, int c, int d) { return int64_t{a} * d == int64_t{b} * c; };
+  const Size from = exemplar.size(), to = output.size();
+  const bool fits = same_ratio(from.width, uv.exemplar().width, to.width, uv.size().width) &&
+                    same_ratio(from.height, uv.exemplar().height, to.height, uv.size().height);
+  if (!fits)
+    throw Error("uv",
+                fmt::format("the uv map must be the one the output was resolved from; it makes {}x{} out of {}x{} "
+                            "pixels, but the exemplar has {}x{} and the output {}x{}",
+                            uv.size().width, uv.size().height, uv.exemplar().width, uv.exemplar().height, from.width,
+                            from.height, to.width, to.height));
+}
+
+void compute(NodeContext& node) {
+  const MaterialPtr exemplar = node.input<Material>("exemplar"), output = node.input<Material>("output");
+  const UvMapPtr uv = node.optional_input<UvMap>("uv");
+  if (uv) check_layout(*uv, *exemplar, *output);
+  const std::vector<std::string> maps = compared_maps(*exemplar, *output, node.texts("maps"));
+  ComparedPlanes planes = compared_planes(*exemplar, *output, maps);
+  for (const auto& [name, material] : {std::pair("exemplar", exemplar), std::pair("output", output)})
+    if (std::max(material->size().width, material->size().height) > largest_measured)
+      node.note(fmt::format("of the {}'s {}x{} pixels the {}x{} at the top left were measured", name,
+                            material->size().width, material->size().height,
+                            std::min(material->size().width, largest_measured),
+                            std::min(material->size().height, largest_measured)));
+
+  std::optional<LayoutFigures> layout;
+  if (uv) layout = layout_figures(*uv, planes.exemplar, node.flag("wraps") || uv->wraps().exemplar);
+  const QualityParts parts{.verbatim = !layout};
+  const Quality q = measure_quality(std::move(planes.exemplar), std::move(planes.output), parts, node.task());
+
+  std::vector<Report::Figure> figures;
+  add_pixel_figures(q, figures);
+  figures.push_back(
+      {"verbatim", rounded(layout ? layout->verbatim : q.verbatim),
+       fmt::format("typical side of a region copied in one piece over the exemplar's side, {}; lower is more "
+                   "varied, plain tiling gives 0.7 to 1",
+                   layout ? "from the uv map" : "found from the pixels")});
+  figures.push_back(
+      {"repeat", rounded(q.repeat), "how much stronger the output repeats itself than the exemplar; lower is better"});
+  if (layout) add_layout_figures(*layout, figures);
+  add_wrap_figures(*output, maps, expected_wraps(node.text("tileable"), uv.get()), figures);
+
+  const ImagePtr sheet = comparison_sheet(*exemplar, *output, maps, int(node.integer("sheet_size")));
+  node.output("sheet", sheet);
+  node.output("report", Report::make(fmt::format("{} against its exemplar: {}", output->name(), fmt::join(maps, ", ")),
+                                     std::move(figures), {{"sheet", sheet}}));
+}
+
+size_t memory_hint(const NodeContext& node) {
+  size_t pixels = 0;
+  for (const char* port : {"exemplar", "output"}) {
+    const MaterialPtr material = node.input<Material>(port);
+    const Size size = material->size();
+    const size_t measured = size_t(std::min(size.width, largest_measured)) * std::min(size.height, largest_measured);
+    // Stacked and filtered channels as floats, and two complex grids of four times the area.
+    pixels += measured * (3 * 4 * 3 * material->maps().size() + 2 * 16 * 4);
+  }
+  return pixels;
+}
+
+}  // namespace
+
+NodeType compare_node() {
+  NodeType t;
+  t.name = "compare";
+  t.version = 4;
+  t.category = "sink";
+  t.summary = "Scores a result against its exemplar";
+  t.help =
+      "Measures how well an output shows its exemplar's texture, without learned weights: patch statistics over "
+      "several "
+      "scales (sliced Wasserstein distance), co-occurrence of values, bidirectional patch similarity (Simakov et al. "
+      "2008), autocorrelation, repetition and verbatim copies; with the uv map also seams, evenness of use and the "
+      "exact size of copies. Read the figures together: plain tiling wins every one but verbatim and repeat.";
+  t.inputs = {
+      {.name = "exemplar", .type = ValueType::material, .help = "what the output should look like"},
+      {.name = "output", .type = ValueType::material, .help = "what was synthesized"},
+      {.name = "uv",
+       .type = ValueType::uv_map,
+       .help = "the uv map the output was resolved from: adds the figures about its layout",
+       .optional = true},
+  };
+  t.outputs = {
+      {.name = "report", .type = ValueType::report, .help = "the figures, each with what it means"},
+      {.name = "sheet", .type = ValueType::image, .help = "exemplar and output side by side, maps in columns"},
+  };
+  t.params = {
+      {.name = "maps",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "The maps to compare, by name. Empty: all that exemplar and output share."},
+      {.name = "wraps",
+       .type = ParamType::boolean,
+       .fallback = false,
+       .help = "The exemplar tiles: where the uv map goes over its edge, there is no seam. Most uv maps say so "
+               "themselves."},
+      {.name = "tileable",
+       .type = ParamType::choice,
+       .fallback = "auto",
+       .help = "Directions in which the output should wrap around, for the figures wrap_seam_x and wrap_seam_y. "
+               "\"auto\": as the uv map does; none without one.",
+       .choices = {"auto", "none", "x", "y", "xy"}},
+      {.name = "sheet_size",
+       .type = ParamType::integer,
+       .fallback = int64_t{1536},
+       .help = "The most the contact sheet may measure, in width and height.",
+       .min = 256,
+       .max = 16384,
+       .unit = "pixels"},
+  };
+  t.memory_hint = memory_hint;
+  t.compute = compute;
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    for (const char* side : {"exemplar", "output"})
+      foresee_maps("maps", std::get<Texts>(params.at("maps")), inputs.at(side).front(), fmt::format("the {}", side));
+    return Forecast{};
+  };
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,360 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include "core/base/paths.h"
+#include "core/exemplar/uv_image.h"
+#include "core/file/file_io.h"
+#include "core/image/color.h"
+#include "core/image/image_file.h"
+#include "core/material/map_names.h"
+#include "core/node/node.h"
+#include "nodes/common/color_space.h"
+#include "nodes/sink/export_paths.h"
+#include "nodes/sink/export_report.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One file to write.
+struct Job {
+  std::string name;  ///< for notes
+  ImagePtr image;
+  fs::path target;
+  fs::path temporary;
+  WriteOptions options{};
+  Clipping clipped{};
+};
+
+std::optional<Depth> depth_from(const std::string& name) {
+  for (const Depth d : {Depth::u8, Depth::u16, Depth::f16, Depth::f32})
+    if (name == name_of(d)) return d;
+  return std::nullopt;
+}
+
+std::string depths_of(FileFormat format) {
+  std::vector<std::string_view> names;
+  for (const Depth d : {Depth::u8, Depth::u16, Depth::f16, Depth::f32})
+    if (holds(format, d)) names.push_back(name_of(d));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void require_depth(FileFormat format, const std::string& depth) {
+  const std::optional<Depth> wanted = depth_from(depth);
+  if (wanted && !holds(format, *wanted))
+    throw Error("depth", fmt::format("{} files hold {}, not {}; TIFF holds all depths", name_of(format),
+                                     depths_of(format), depth));
+}
+
+/// The format's depth that is nearest to what the map has, and does not lose by it if there is one.
+Depth nearest_depth(FileFormat format, Depth have) {
+  if (holds(format, have)) return have;
+  switch (format) {
+    case FileFormat::png:
+      return Depth::u16;
+    case FileFormat::jpeg:
+      return Depth::u8;
+    case FileFormat::exr:
+      return have == Depth::u8 ? Depth::f16 : Depth::f32;
+    case FileFormat::tiff:
+      break;
+  }
+  return have;
+}
+
+bool loses(Depth have, Depth written) {
+  return have != written && !(have == Depth::u8) && written != Depth::f32;
+}
+
+ImagePtr with_normals(const ImagePtr& image, const std::string& wish) {
+  ImageInfo info = image->info();
+  const NormalY wanted = wish == "down" ? NormalY::down : NormalY::up;
+  if (wish == "keep" || info.semantic != Semantic::normal || info.normal_y == wanted || info.channels < 2) return image;
+  info.normal_y = wanted;
+  const Digest recipe = Hasher().add("flipped green").add(image->digest()).digest();
+  return Image::computed(info, recipe, [image](const Rect& region, float* out) {
+    image->read(region, out);
+    const int64_t values = region.area() * image->channels();
+    for (int64_t i = 1; i < values; i += image->channels()) out[i] = 1.0f - out[i];
+  });
+}
+
+std::vector<Map> chosen_maps(const NodeContext& node, const Material& material) {
+  const Texts& only = node.texts("maps");
+  if (only.empty()) return material.maps();
+  require_maps("maps", only, names_of(material.maps()));
+  std::vector<Map> chosen;
+  for (const std::string& name : only)
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const Map& m) { return m.name == name; }))
+      chosen.push_back({name, material.find(name)});
+  return chosen;
+}
+
+/// Colours as asked for. Kept ones are linear in float files and sRGB in others, as whoever opens them will take them
+/// to be; other spaces have to be told to readers in any case.
+ImagePtr with_colors(const ImagePtr& image, const std::string& wish, Depth written) {
+  const ImageInfo& info = image->info();
+  if (!is_color(info.semantic)) return image;
+  if (wish != "keep") return convert_color(image, wish);
+  const bool usual = info.color_space == "srgb_texture" || info.color_space == "lin_rec709";
+  return usual ? convert_color(image, assumed_color_space(info.semantic, written)) : image;
+}
+
+/// The image as it goes to the file, with the depth it gets there.
+Job job_for(NodeContext& node, const std::string& name, const ImagePtr& image, const fs::path& target) {
+  Job job{.name = name, .image = with_normals(image, node.text("normal_y")), .target = target, .temporary = {}};
+  job.options.format = required_format("path", target);
+  require_depth(job.options.format, node.text("depth"));
+  job.options.jpeg_quality = int(node.integer("jpeg_quality"));
+  const Depth have = image->info().depth;
+  const std::optional<Depth> wanted = depth_from(node.text("depth"));
+  job.options.depth = wanted ? *wanted : nearest_depth(job.options.format, have);
+  job.image = with_colors(job.image, node.text("color_space"), job.options.depth);
+  if (loses(have, job.options.depth))
+    node.note(fmt::format("{}: {} values are written as {}{}", name, name_of(have), name_of(job.options.depth),
+                          wanted ? "" : fmt::format(", the nearest that {} holds", name_of(job.options.format))));
+  if (job.options.format == FileFormat::jpeg && image->channels() % 2 == 0)
+    node.note(fmt::format("{}: JPEG has no alpha channel; it is left out", name));
+  return job;
+}
+
+void add_material(NodeContext& node, const Material& material, std::vector<Job>& jobs) {
+  const std::string& pattern = node.text("path");
+  const std::vector<Map> maps = chosen_maps(node, material);
+  const auto target_of = [&](const Map& m) {
+    return filled("path", pattern,
+                  {{"map", m.name},
+                   {"material", material.name()},
+                   {"width", fmt::format("{}", m.image->width())},
+                   {"height", fmt::format("{}", m.image->height())}});
+  };
+  target_of(maps.front());  // says what is wrong with the pattern itself
+  std::vector<std::string> names;
+  for (const Map& m : maps) names.push_back(m.name);
+  require_pattern_for(pattern, names);
+  for (const Map& m : maps) jobs.push_back(job_for(node, m.name, m.image, target_of(m)));
+}
+
+fs::path uv_target(const NodeContext& node, const UvMap& uv, const std::string& material) {
+  const char* param = param_of_uv(node.params());
+  const fs::path target = filled(param, node.text(param),
+                                 {{"map", "uv"},
+                                  {"material", material},
+                                  {"width", fmt::format("{}", uv.size().width)},
+                                  {"height", fmt::format("{}", uv.size().height)}});
+  if (required_format("uv_path", target) == FileFormat::jpeg)
+    throw Error("uv_path", fmt::format("the uv map is exact and JPEG is not; expected .exr, .png or .tif, found \"{}\"",
+                                       target.filename().string()));
+  return target;
+}
+
+void add_uv(NodeContext& node, const UvMapPtr& uv, const std::string& material, std::vector<Job>& jobs) {
+  Job job{.name = "uv", .image = nullptr, .target = uv_target(node, *uv, material), .temporary = {}};
+  job.options.format = *format_from(job.target);
+  const bool fractions = job.options.format == FileFormat::exr;
+  job.image = fractions ? uv_as_fractions(uv) : uv_as_integers(uv);
+  job.options.depth = fractions ? Depth::f32 : Depth::u16;
+  job.options.description =
+      fmt::format("uv map into an exemplar of {}x{} pixels: {}", uv->exemplar().width, uv->exemplar().height,
+                  fractions ? "u = (x + 0.5) / width, v = (y + 0.5) / height, from the top left"
+                            : "red = x, green = y, from the top left");
+  jobs.push_back(std::move(job));
+}
+
+void add_pictures(const Report& report, const fs::path& path, std::vector<Job>& jobs) {
+  for (const Report::Picture& p : report.pictures()) {
+    Job job{.name = p.name, .image = p.image, .target = path, .temporary = {}};
+    job.target.replace_filename(fmt::format("{}_{}.png", path.stem().string(), p.name));
+    jobs.push_back(std::move(job));
+  }
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw Error(fmt::format("cannot write {}: is the disk full?", path.string()));
+}
+
+/// No two files may have the same name.
+void require_distinct(const std::vector<Job>& jobs) {
+  std::map<fs::path, std::string> names;
+  for (const Job& job : jobs) {
+    const auto [at, is_new] = names.emplace(place_of_file(job.target), job.name);
+    if (!is_new)
+      throw Error("path",
+                  fmt::format("{} and {} would both be written to {}", at->second, job.name, job.target.string()));
+  }
+}
+
+/// Loud, unless it is no more than what filters overshoot by.
+void tell_of_clipping(NodeContext& node, const Job& job) {
+  constexpr float overshoot = 0.01f;
+  const Clipping& c = job.clipped;
+  if (c.values == 0) return;
+  const std::string what = fmt::format(
+      "{}: {:.3g} % of its values lie outside 0..1 (from {:.4g} to {:.4g}) and were "
+      "clipped by {}",
+      job.name, 100.0 * double(c.values) / double(c.all), c.least, c.most, name_of(job.options.depth));
+  if (c.least >= -overshoot && c.most <= 1 + overshoot)
+    node.note(what);
+  else
+    node.warn(what +
+              "; write it as .exr, which keeps them, or bring them into 0..1 before, with \"normalize\" or "
+              "\"levels\"");
+}
+
+/// Writes all files, several at once; progress is their mean.
+void write_all(NodeContext& node, std::vector<Job>& jobs) {
+  std::mutex mutex;
+  std::vector<double> done(jobs.size());
+  tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
+    jobs[i].clipped = write_image(*jobs[i].image, jobs[i].temporary, jobs[i].options, [&](double fraction) {
+      double sum = 0;
+      {
+        const std::lock_guard lock(mutex);
+        done[i] = fraction;
+        for (const double d : done) sum += d;
+      }
+      node.task().progress(sum / double(jobs.size()));
+    });
+  });
+  for (const Job& job : jobs) tell_of_clipping(node, job);
+}
+
+void compute(NodeContext& node) {
+  const auto material = node.optional_input<Material>("material");
+  const auto uv = node.optional_input<UvMap>("uv");
+  const auto report = node.optional_input<Report>("report");
+  require_some_input(material || uv || report);
+  std::vector<Job> jobs;
+  if (material) add_material(node, *material, jobs);
+  if (uv) add_uv(node, uv, material ? material->name() : "", jobs);
+  const fs::path report_path = node.text("report_path");
+  if (report) {
+    require_report_path(report_path);
+    add_pictures(*report, report_path, jobs);
+  }
+  require_distinct(jobs);
+  for (Job& job : jobs) job.temporary = node.stage(job.target);
+  if (report)
+    write_text(node.stage(report_path), is_csv(report_path) ? report_as_csv(*report) : report_as_json(*report));
+  write_all(node, jobs);
+}
+
+/// What can be said of the parameters before anything runs.
+std::vector<std::string> check(const Params& params) {
+  const auto text = [&](const char* name) { return std::get<std::string>(params.at(name)); };
+  std::vector<std::string> problems;
+  const auto attempt = [&](const auto& test) {
+    try {
+      test();
+    } catch (const Error& e) {
+      problems.push_back(fmt::format("\"{}\": {}", e.about(), e.what()));
+    }
+  };
+  for (const char* param : {"path", "uv_path"}) {
+    if (text(param).empty()) continue;
+    attempt([&] {
+      const FileFormat format = required_format(
+          param,
+          filled(param, text(param), {{"map", "map"}, {"material", "material"}, {"width", "1"}, {"height", "1"}}));
+      if (std::string_view(param) == "path") require_depth(format, text("depth"));
+    });
+  }
+  if (!text("report_path").empty()) attempt([&] { is_csv(text("report_path")); });
+  for (std::string& p : color_space_problems(params, "color_space", "keep")) problems.push_back(std::move(p));
+  return problems;
+}
+
+std::vector<Param> params() {
+  return {
+      {.name = "path",
+       .type = ParamType::path,
+       .fallback = "",
+       .help = "Where the maps go: a pattern with {map} for the map's name, and if wanted {material}, {width} and "
+               "{height}. The extension decides the format: png, tif or tiff, exr, jpg or jpeg. Needed if a material "
+               "is connected."},
+      {.name = "depth",
+       .type = ParamType::choice,
+       .fallback = "keep",
+       .help = "The depth of the values. \"keep\": each map's own, or the nearest the format holds.",
+       .choices = {"keep", "uint8", "uint16", "half", "float"}},
+      {.name = "color_space",
+       .type = ParamType::text,
+       .fallback = "keep",
+       .help = "\"keep\", or a colour space that the colour maps are converted to. Data maps are never converted. "
+               "\"keep\" writes sRGB and linear Rec.709 colours as readers of the file take them: linear in half and "
+               "float, sRGB in 8 and 16 bits."},
+      {.name = "normal_y",
+       .type = ParamType::choice,
+       .fallback = "keep",
+       .help = "Green channel of normal maps: as it is (keep), up as in OpenGL, or down as in DirectX.",
+       .choices = {"keep", "up", "down"}},
+      {.name = "jpeg_quality",
+       .type = ParamType::integer,
+       .fallback = int64_t{95},
+       .help = "The quality of JPEG files.",
+       .min = 1,
+       .max = 100},
+      {.name = "maps", .type = ParamType::texts, .fallback = Texts{}, .help = "The maps to write; empty for all."},
+      {.name = "uv_path",
+       .type = ParamType::path,
+       .fallback = "",
+       .help =
+           "Where the uv map goes. EXR holds float fractions u = (x + 0.5) / exemplar width and v likewise from the "
+           "top; 16-bit PNG and TIFF hold the integer coordinates, x in red and y in green. Empty: as `path`, with "
+           "\"uv\" for the map's name."},
+      {.name = "report_path",
+       .type = ParamType::path,
+       .fallback = "",
+       .help = "Where the report's figures go, as .json or .csv; its pictures are written beside it."},
+  };
+}
+
+}  // namespace
+
+NodeType export_node() {
+  NodeType t;
+  t.name = "export";
+  t.version = 2;
+  t.category = "sink";
+  t.summary = "Writes maps, a uv map and a report to files";
+  t.help =
+      "Writes PNG (8 and 16 bit), TIFF, EXR (half and float) and JPEG, strip by strip, so that a result never has to "
+      "fit "
+      "in memory. Every map keeps its depth, colour space and normal convention unless told otherwise; values read "
+      "from "
+      "a file of the same depth are written back exactly. Files appear complete or not at all. At least one of the "
+      "inputs must be connected.";
+  t.inputs = {
+      {.name = "material", .type = ValueType::material, .help = "the maps to write", .optional = true},
+      {.name = "uv", .type = ValueType::uv_map, .help = "a uv map to write", .optional = true},
+      {.name = "report", .type = ValueType::report, .help = "a report to write", .optional = true},
+  };
+  t.params = params();
+  t.persist = Persist::digest;
+  t.compute = compute;
+  t.files_read = [](const Params& p) {
+    return std::get<std::string>(p.at("color_space")) == "keep" ? std::vector<fs::path>() : color_config_files();
+  };
+  t.memory_hint = [](const NodeContext& node) {
+    const auto material = node.optional_input<Material>("material");
+    constexpr size_t per_file = size_t{12} << 20;  // a strip as floats, and as the file's values
+    return per_file * (1 + (material ? material->maps().size() : 0));
+  };
+  t.check = check;
+  t.foresee = foresee_export;
+  return t;
+}
+
+}  // namespace terrazzo

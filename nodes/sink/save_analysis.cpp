@@ -1,0 +1,28 @@
+#include "core/node/node.h"
+#include "core/node/serialize.h"
+
+namespace terrazzo {
+
+NodeType save_analysis_node() {
+  NodeType t;
+  t.name = "save_analysis";
+  t.category = "sink";
+  t.summary = "Writes an index as one portable file";
+  t.help =
+      "The file holds all that synthesis needs, and none of the exemplar's pixels: it can be made once, kept with the "
+      "material and given to others. load_analysis reads it on any machine. It is compressed, carries its format's "
+      "version, and every byte of it lies under a checksum.";
+  t.inputs = {{.name = "index", .type = ValueType::index, .help = "the analysed exemplar"}};
+  t.params = {
+      {.name = "path", .type = ParamType::path, .help = "The file to write; bricks.analysis, say. Any name will do."}};
+  t.compute = [](NodeContext& node) {
+    save_value(node.input<Index>("index"), node.stage(node.text("path")), node.task());
+  };
+  t.foresee = [](const Params& params, const InputForecasts&) {
+    const std::filesystem::path path = std::get<std::string>(params.at("path"));
+    return Forecast{.files = {{"path", path.parent_path(), path.filename().string()}}};
+  };
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include "core/image/color.h"
+#include "core/image/image_file.h"
+#include "core/image/image_ops.h"
+#include "core/node/node.h"
+#include "nodes/common/color_space.h"
+
+namespace terrazzo {
+
+namespace {
+
+std::vector<std::string> semantic_choices() {
+  return {semantic_names.begin(), semantic_names.end()};
+}
+
+/// A mask painted as transparency would silently be all white or all black.
+void note_transparency(NodeContext& node, const Image& mask) {
+  const int channels = mask.channels();
+  if (channels != 2 && channels != 4) return;
+  bool transparent = false;
+  for_each_strip(mask, [&](const Rect& r, const float* v) {
+    for (int64_t i = 0; i < r.area() && !transparent; i++) transparent = v[(i + 1) * channels - 1] < 1;
+  });
+  if (transparent)
+    node.warn(
+        fmt::format("the mask's first channel counts, not its transparency; for that take output \"{}\" of "
+                    "channel_split",
+                    channels == 2 ? "g" : "a"));
+}
+
+void compute(NodeContext& node) {
+  ImageInfo info;
+  info.semantic = *semantic_from(node.text("semantic"));
+  info.normal_y = node.text("normal_y") == "down" ? NormalY::down : NormalY::up;
+  const std::string& path = node.text("path");
+  info.color_space = node.text("color_space") == "auto"
+                         ? assumed_color_space(info.semantic, read_image_info(path).depth)
+                         : color_space_of(node, "color_space");
+  const ImagePtr image = read_image(path, info, [&](const std::string& warning) { node.note(warning); });
+  if (info.semantic == Semantic::mask) note_transparency(node, *image);
+  node.output("image", image);
+}
+
+}  // namespace
+
+NodeType load_map_node() {
+  NodeType t;
+  t.name = "load_map";
+  t.version = 2;
+  t.category = "source";
+  t.summary = "Reads one image file as a map";
+  t.help =
+      "Reads PNG, TIFF, EXR, JPEG and whatever else OpenImageIO reads. Pixels stay as they are in the file (normals "
+      "stored as signed numbers are encoded, numbers that are not finite become 0); semantic, colour space and normal "
+      "convention say how later nodes read them.";
+  t.outputs = {{.name = "image", .type = ValueType::image, .help = "the map"}};
+  t.params = {
+      {.name = "path", .type = ParamType::path, .help = "The image file."},
+      {.name = "semantic",
+       .type = ParamType::choice,
+       .fallback = "base_color",
+       .help = "What the map means; decides how it is weighted, filtered and written.",
+       .choices = semantic_choices()},
+      {.name = "color_space",
+       .type = ParamType::text,
+       .fallback = "auto",
+       .help =
+           "A colour space of the configuration. \"auto\": srgb_texture for colours in 8 and 16 bit, lin_rec709 for "
+           "colours in float files, raw for everything else."},
+      {.name = "normal_y",
+       .type = ParamType::choice,
+       .fallback = "up",
+       .help = "Green channel of a normal map: up as in OpenGL, down as in DirectX.",
+       .choices = {"up", "down"}},
+  };
+  t.persist = Persist::digest;
+  t.files_read = [](const Params& p) {
+    std::vector<std::filesystem::path> files = {std::get<std::string>(p.at("path"))};
+    for (std::filesystem::path& f : color_config_files()) files.push_back(std::move(f));
+    return files;
+  };
+  t.memory_hint = [](const NodeContext& node) {
+    try {
+      const FileInfo info = read_image_info(node.text("path"));
+      return size_t(info.size.area()) * info.channels * 2 * sizeof(float);
+    } catch (const Error&) {
+      return size_t{0};  // compute reports it
+    }
+  };
+  t.check = [](const Params& p) { return color_space_problems(p, "color_space", "auto"); };
+  t.foresee = [](const Params& p, const InputForecasts&) {
+    require_readable_image(std::get<std::string>(p.at("path")));
+    return Forecast{};
+  };
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

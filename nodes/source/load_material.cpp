@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include "core/image/color.h"
+#include "core/image/image_file.h"
+#include "core/image/normal_convention.h"
+#include "core/material/material_maps.h"
+#include "core/node/node.h"
+#include "nodes/common/color_space.h"
+#include "nodes/common/node_helpers.h"
+#include "nodes/source/material_folder.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file that has been read, with what the reader said of it.
+struct Source {
+  ImagePtr image;
+  std::vector<std::string> warnings;
+};
+
+/// Reads each file once, several at a time.
+std::map<std::string, Source> read_sources(NodeContext& node, const fs::path& folder,
+                                           const std::vector<RecognisedMap>& maps) {
+  std::map<std::string, Source> sources;
+  std::map<std::string, Semantic> semantics;
+  for (const RecognisedMap& m : maps) {
+    sources[m.file];
+    semantics.emplace(m.file, m.semantic);
+  }
+  std::vector<std::pair<const std::string, Source>*> entries;
+  for (auto& entry : sources) entries.push_back(&entry);
+  tbb::parallel_for(size_t{0}, entries.size(), [&](size_t i) {
+    node.task().check();
+    auto& [file, source] = *entries[i];
+    ImageInfo info;
+    info.semantic = semantics.at(file);
+    source.image = read_image(folder / file, info, [&](const std::string& w) { source.warnings.push_back(w); });
+  });
+  for (const auto& [file, source] : sources)
+    for (const std::string& warning : source.warnings) node.note(warning);
+  return sources;
+}
+
+/// The opacity map that hides in a base colour's alpha channel.
+void add_alpha(const RecognisedMap& m, const ImagePtr& file, std::vector<Map>& maps, std::vector<std::string>& notes) {
+  if (m.semantic != Semantic::base_color || !m.channels.empty()) return;
+  const ImagePtr opacity = opacity_of(file);
+  if (!opacity) return;
+  const bool have = std::any_of(maps.begin(), maps.end(), [](const Map& k) { return k.name == "opacity"; });
+  if (have) {
+    notes.push_back(fmt::format("the alpha channel of {} is left out: there is an opacity map", m.file));
+    return;
+  }
+  maps.push_back({"opacity", opacity});
+  notes.push_back(fmt::format("opacity: {} (alpha channel)", m.file));
+}
+
+std::string_view name_of_convention(NormalY y) {
+  return y == NormalY::up ? "up (OpenGL)" : "down (DirectX)";
+}
+
+/// What the pixels say about the convention, and how that was found out.
+struct Judgement {
+  std::optional<NormalY> normal_y;
+  std::string grounds;
+};
+
+Judgement judged(const Image& normal, const ImagePtr& height) {
+  if (height) {
+    const ConventionEvidence e = convention_from_height(normal, *height);
+    if (e.normal_y)
+      return {e.normal_y,
+              fmt::format("judged by the height map (correlation with its slopes x {:.2f}, y {:.2f}){}", e.along_x,
+                          e.along_y,
+                          e.height_inverted ? "; the height map seems to be dark where the surface is high" : "")};
+  }
+  const ConventionEvidence e = convention_from_curl(normal);
+  return {e.normal_y, fmt::format("judged by the normals themselves (correlation {:.2f})", e.along_y)};
+}
+
+/// Finds out by looking; says what it found.
+NormalY detect_convention(const Image& normal, const ImagePtr& height, std::vector<std::string>& notes) {
+  const Judgement found = judged(normal, height);
+  if (found.normal_y) {
+    notes.push_back(fmt::format("normal: green points {}, {}", name_of_convention(*found.normal_y), found.grounds));
+    return *found.normal_y;
+  }
+  notes.push_back(
+      "normal: neither its name nor its pixels say whether green points up (OpenGL) or down (DirectX); up is assumed. "
+      "Set `normal_y` if that is wrong");
+  return NormalY::up;
+}
+
+/// A name is believed, but not silently if the pixels speak against it.
+void check_named_convention(const RecognisedMap& source, const Image& normal, const ImagePtr& height,
+                            std::vector<std::string>& notes) {
+  const Judgement found = judged(normal, height);
+  if (found.normal_y && *found.normal_y != *source.normal_y)
+    notes.push_back(
+        fmt::format("normal: the name {} says that green points {}, but it looks as if it pointed {}, {}. "
+                    "The name is believed; set `normal_y` to \"{}\" if it is wrong",
+                    source.file, name_of_convention(*source.normal_y), name_of_convention(*found.normal_y),
+                    found.grounds, *found.normal_y == NormalY::up ? "up" : "down"));
+}
+
+void settle_conventions(NodeContext& node, const std::vector<RecognisedMap>& sources, std::vector<Map>& maps) {
+  ImagePtr height;
+  for (const Map& m : maps)
+    if (m.image->info().semantic == Semantic::height) height = m.image;
+  const std::string& wish = node.text("normal_y");
+  std::vector<std::string> notes;
+  for (Map& m : maps) {
+    if (m.image->info().semantic != Semantic::normal) continue;
+    ImageInfo info = m.image->info();
+    const auto source =
+        std::find_if(sources.begin(), sources.end(), [&](const RecognisedMap& s) { return s.map == m.name; });
+    if (wish != "auto")
+      info.normal_y = wish == "up" ? NormalY::up : NormalY::down;
+    else if (source->normal_y) {
+      info.normal_y = *source->normal_y;
+      check_named_convention(*source, *m.image, height, notes);
+    } else
+      info.normal_y = detect_convention(*m.image, height, notes);
+    m.image = Image::redescribed(m.image, info);
+  }
+  for (std::string& n : notes) node.note(std::move(n));
+}
+
+void compute(NodeContext& node) {
+  const fs::path folder = folder_of(node.params());
+  const std::string given_space = node.text("color_space") == "auto" ? "" : color_space_of(node, "color_space");
+  std::vector<std::string> notes;
+  const std::vector<RecognisedMap> found = find_maps(node.params(), notes);
+  for (std::string& n : notes) node.note(std::move(n));
+  notes.clear();
+  const std::map<std::string, Source> sources = read_sources(node, folder, found);
+  std::vector<Map> maps;
+  for (const RecognisedMap& m : found) {
+    const ImagePtr& file = sources.at(m.file).image;
+    const bool space_given = m.semantic == Semantic::base_color && !given_space.empty();
+    maps.push_back(
+        {m.map,
+         map_of_file(m, file, space_given ? given_space : assumed_color_space(m.semantic, file->info().depth), notes)});
+  }
+  for (const RecognisedMap& m : found) add_alpha(m, sources.at(m.file).image, maps, notes);
+  for (std::string& n : notes) node.note(std::move(n));
+  settle_conventions(node, found, maps);
+  const MaterialPtr material = Material::make(folder.filename().string(), std::move(maps));
+  warn_of_smaller_maps(node, *material);
+  node.output("material", material);
+}
+
+std::vector<fs::path> files_read(const Params& params) {
+  std::vector<fs::path> files = files_of_material(params);
+  for (fs::path& f : color_config_files()) files.push_back(std::move(f));
+  return files;
+}
+
+std::vector<std::string> check(const Params& params) {
+  std::vector<std::string> problems = color_space_problems(params, "color_space", "auto");
+  for (std::string& p : problems_with_map_names(params)) problems.push_back(std::move(p));
+  return problems;
+}
+
+Forecast foresee(const Params& params, const InputForecasts&) {
+  Texts ignored_notes;
+  Forecast out{.possible_maps = Texts{}};
+  std::set<std::string> troubles;
+  for (const RecognisedMap& m : find_maps(params, ignored_notes)) {
+    out.maps.push_back(m.map);
+    try {
+      require_readable_image(folder_of(params) / m.file);
+      const FileInfo file = read_image_info(folder_of(params) / m.file);
+      out.sizes[m.map] = file.size;
+      if (m.semantic == Semantic::base_color && file.channels % 2 == 0) out.possible_maps->push_back("opacity");
+    } catch (const Error& e) {
+      troubles.insert(e.what());
+    }
+  }
+  if (!troubles.empty()) throw Error(fmt::format("{}", fmt::join(troubles, "; ")));
+  return out;
+}
+
+}  // namespace
+
+NodeType load_material_node() {
+  NodeType t;
+  t.name = "load_material";
+  t.version = 4;
+  t.category = "source";
+  t.summary = "Reads a folder of maps as one material";
+  t.help =
+      "Finds the maps in a folder by the naming conventions of ambientCG, Poly Haven, Substance, Quixel Megascans, "
+      "Unreal, Unity and glTF, and by plain names; the last telling word of a name counts. Packed files (ORM, ARM, "
+      "metallicRoughness, MaskMap, MetallicSmoothness, AlbedoTransparency) are split into their channels, gloss and "
+      "smoothness maps inverted into roughness, grey maps stored in colour reduced to one channel, and a base colour's "
+      "alpha becomes the opacity map. Of several files for one map the OpenGL normal, the larger and the lossless one "
+      "is "
+      "taken. Maps may differ in size as long as they show the same area; a warning names those that are smaller than "
+      "the largest and so will be scaled up. The notes say what was recognised and what was left out.";
+  t.outputs = {
+      {.name = "material", .type = ValueType::material, .help = "the maps found, named after their semantics"}};
+  t.params = {
+      {.name = "path", .type = ParamType::path, .help = "The folder of the maps."},
+      {.name = "normal_y",
+       .type = ParamType::choice,
+       .fallback = "auto",
+       .help =
+           "Green channel of the normal map: up as in OpenGL, down as in DirectX. \"auto\" takes it from the file's "
+           "name, else from the slopes of the height map, else from the normals themselves.",
+       .choices = {"auto", "up", "down"}},
+      {.name = "maps",
+       .type = ParamType::text_map,
+       .fallback = TextMap{},
+       .help =
+           "Files by map name, where the names do not say it: {\"height\": \"scan.tif\", \"roughness\": "
+           "\"packed.png:g\"}; relative to the folder, with the channels after a colon. An empty text leaves the map "
+           "out."},
+      {.name = "ignore",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "File names to leave out; * and ? stand for any characters."},
+      {.name = "color_space",
+       .type = ParamType::text,
+       .fallback = "auto",
+       .help =
+           "The colour space of the base colour. \"auto\": srgb_texture in 8 and 16 bit, lin_rec709 in float files."},
+  };
+  t.persist = Persist::digest;
+  t.compute = compute;
+  t.files_read = files_read;
+  t.memory_hint = [](const NodeContext& node) {
+    size_t bytes = 0;
+    for (const std::string& name : image_names(folder_of(node.params()))) try {
+        const FileInfo info = read_image_info(folder_of(node.params()) / name);
+        bytes += size_t(info.size.area()) * info.channels * sizeof(float);
+      } catch (const Error&) {
+        continue;  // compute reports it
+      }
+    return bytes;
+  };
+  t.foresee = foresee;
+  t.check = check;
+  return t;
+}
+
+}  // namespace terrazzo

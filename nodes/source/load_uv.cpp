@@ -1,0 +1,59 @@
+#include "core/exemplar/uv_image.h"
+#include "core/image/image_file.h"
+#include "core/node/node.h"
+
+namespace terrazzo {
+
+namespace {
+
+void compute(NodeContext& node) {
+  const std::string& path = node.text("path");
+  const std::string& tileable = node.text("tileable");
+  const UvWraps wraps{.x = tileable == "x" || tileable == "xy",
+                      .y = tileable == "y" || tileable == "xy",
+                      .exemplar = node.flag("wraps")};
+  const ImagePtr image = read_image(path, {}, [&](const std::string& warning) { node.note(warning); });
+  try {
+    node.output("uv", uv_from_image(*image, node.input<Material>("exemplar")->size(), wraps));
+  } catch (const Error& e) {
+    throw Error("path", path + ": " + e.what());
+  }
+}
+
+}  // namespace
+
+NodeType load_uv_node() {
+  NodeType t;
+  t.name = "load_uv";
+  t.category = "source";
+  t.summary = "Reads a uv map that export wrote";
+  t.help =
+      "Takes up a result again: to resolve other maps through it, to measure it with compare, or to work on from it. "
+      "EXR holds fractions of the exemplar's size, 16-bit PNG and TIFF its pixels; both come back exactly.";
+  t.inputs = {{.name = "exemplar",
+               .type = ValueType::material,
+               .help = "what the uv map was made for, in the size that was analysed"}};
+  t.outputs = {{.name = "uv", .type = ValueType::uv_map, .help = "the exemplar pixel of every output pixel"}};
+  t.params = {{.name = "path", .type = ParamType::path, .help = "The image file."},
+              {.name = "tileable",
+               .type = ParamType::choice,
+               .fallback = "none",
+               .help = "Directions in which the result wraps around; the file does not say.",
+               .choices = {"none", "x", "y", "xy"}},
+              {.name = "wraps",
+               .type = ParamType::boolean,
+               .fallback = false,
+               .help = "The exemplar tiles: going over its edge is no seam."}};
+  t.persist = Persist::digest;
+  t.files_read = [](const Params& params) {
+    return std::vector<std::filesystem::path>{std::get<std::string>(params.at("path"))};
+  };
+  t.foresee = [](const Params& p, const InputForecasts&) {
+    require_readable_image(std::get<std::string>(p.at("path")));
+    return Forecast{};
+  };
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

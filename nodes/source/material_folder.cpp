@@ -1,0 +1,210 @@
+#include "nodes/source/material_folder.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/paths.h"
+#include "core/base/suggest.h"
+#include "core/image/image_file.h"
+#include "core/material/material_maps.h"
+
+namespace terrazzo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A link to a missing file counts, so that reading it complains: without it the material would silently lack a map.
+bool is_file_or_broken_link(const fs::directory_entry& entry) {
+  std::error_code failure;
+  return entry.is_regular_file(failure) || (entry.is_symlink(failure) && !entry.exists(failure));
+}
+
+/// The map that a name of the `maps` parameter stands for: a semantic's name, or one with a suffix.
+std::optional<Semantic> semantic_of_map(const std::string& map) {
+  for (const std::string_view name : semantic_names)
+    if (map == name || map.starts_with(std::string(name) + "_")) return semantic_from(name);
+  return std::nullopt;
+}
+
+/// "file.png", or "file.png:g" for one channel.
+RecognisedMap given_map(const std::string& map, const std::string& text) {
+  RecognisedMap m{.map = map, .semantic = *semantic_of_map(map), .file = text, .channels = ""};
+  const size_t colon = text.rfind(':');
+  if (colon != std::string::npos && text.find_first_not_of("rgba", colon + 1) == std::string::npos) {
+    m.file = text.substr(0, colon);
+    m.channels = text.substr(colon + 1);
+  }
+  return m;
+}
+
+/// Throws if the file that the `maps` parameter gives for a map is not there or has not the channels asked for.
+void require_given_map(const fs::path& folder, const std::string& map, const std::string& text) {
+  const RecognisedMap given = given_map(map, text);
+  const size_t colon = text.rfind(':');
+  std::error_code missing;
+  if (given.file == text && colon != std::string::npos && !fs::exists(folder / text, missing) &&
+      fs::is_regular_file(folder / text.substr(0, colon), missing))
+    throw Error(fmt::format("{} is to be channel {} of {}, but channels are called r, g, b and a", map,
+                            text.substr(colon + 1), text.substr(0, colon)));
+  require_image_file(folder / given.file);
+  if (!given.channels.empty()) require_channels(given, read_image_info(folder / given.file).channels);
+}
+
+/// Says at once all that is wrong with the files that the parameter `maps` gives.
+void require_given_maps(const Params& params) {
+  std::string troubles;
+  for (const auto& [map, text] : std::get<TextMap>(params.at("maps"))) try {
+      if (!text.empty()) require_given_map(folder_of(params), map, text);
+    } catch (const Error& e) {
+      troubles += fmt::format("{}{}", troubles.empty() ? "" : "; ", e.what());
+    }
+  if (!troubles.empty()) throw Error("maps", troubles);
+}
+
+void require_folder(const fs::path& folder) {
+  std::error_code failure;
+  const fs::file_status status = fs::status(folder, failure);
+  if (fs::is_directory(status)) fs::directory_iterator(folder, failure);
+  if (failure && status.type() != fs::file_type::not_found)
+    throw Error("path", fmt::format("cannot read the folder {}: {}", folder.string(), failure.message()));
+  if (fs::is_directory(status)) return;
+  if (fs::exists(status))
+    throw Error("path", fmt::format("expected a folder with the material's maps, found the file {}; {}",
+                                    folder.string(), advice_on_one_file));
+  std::vector<std::string> siblings;
+  for (const fs::directory_entry& e : fs::directory_iterator(folder.parent_path(), failure))
+    if (e.is_directory(failure)) siblings.push_back(e.path().filename().string());
+  std::sort(siblings.begin(), siblings.end());
+  throw Error("path", fmt::format("there is no folder {}{}", folder.string(),
+                                  did_you_mean(folder.filename().string(), siblings)));
+}
+
+std::string all_words() {
+  std::string words;
+  for (const std::string_view name : semantic_names) {
+    const Semantic s = *semantic_from(name);
+    if (const std::string w = known_words(s); !w.empty())
+      words += fmt::format("{}{}: {}", words.empty() ? "" : "; ", name, w);
+  }
+  return words;
+}
+
+[[noreturn]] void fail_nothing_recognised(const fs::path& folder, const Recognition& recognition) {
+  std::vector<std::string> present;
+  std::error_code failure;
+  for (const fs::directory_entry& e : fs::directory_iterator(folder, failure))
+    present.push_back(e.path().filename().string());
+  std::sort(present.begin(), present.end());
+  constexpr size_t shown = 20;
+  const size_t more = present.size() > shown ? present.size() - shown : 0;
+  present.resize(present.size() - more);
+  std::string found = present.empty() ? "the folder is empty" : fmt::format("it holds {}", fmt::join(present, ", "));
+  if (more) found += fmt::format(" and {} more", more);
+  for (const std::string& note : recognition.notes) found += "; " + note;
+  throw Error("path",
+              fmt::format("no maps recognised in {}: {}. File names say what a map is by a word at their end ({}); {}",
+                          folder.string(), found, all_words(), advice_on_map_names));
+}
+
+/// Names the folder's files, the ignored ones taken out.
+std::vector<MapFile> files_to_recognise(const Params& params, const std::set<std::string>& taken, Texts& notes) {
+  const fs::path folder = folder_of(params);
+  std::vector<std::string> names = image_names(folder);
+  for (const std::string& pattern : std::get<Texts>(params.at("ignore"))) {
+    const size_t before = names.size();
+    std::erase_if(names, [&](const std::string& n) { return matches_pattern(n, pattern); });
+    if (names.size() == before)
+      notes.push_back(
+          fmt::format("the pattern \"{}\" of the parameter `ignore` matches no image in the folder", pattern));
+  }
+  std::vector<MapFile> files;
+  for (const std::string& name : names) {
+    if (taken.count(name)) continue;
+    MapFile f{.name = name, .size = {}};
+    try {
+      const FileInfo info = read_image_info(folder / name);
+      f.size = info.size;
+      f.channels = info.channels;
+    } catch (const Error&) {
+      // If the file is chosen all the same, reading it says what is wrong.
+    }
+    files.push_back(std::move(f));
+  }
+  return files;
+}
+
+}  // namespace
+
+fs::path folder_of(const Params& params) {
+  return without_trailing_slash(std::get<std::string>(params.at("path")));
+}
+
+std::vector<std::string> image_names(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code failure;
+  for (const fs::directory_entry& e : fs::directory_iterator(folder, failure)) {
+    const std::string name = e.path().filename().string();
+    if (name[0] != '.' && is_file_or_broken_link(e) && looks_like_image(e.path())) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> problems_with_map_names(const Params& params) {
+  std::vector<std::string> problems;
+  const std::vector<std::string> known(semantic_names.begin(), semantic_names.end());
+  for (const auto& [map, file] : std::get<TextMap>(params.at("maps")))
+    if (!semantic_of_map(map))
+      problems.push_back(
+          fmt::format("\"maps\": there is no map \"{}\"{}; maps are {}, or one of these with a suffix as in mask_moss",
+                      map, did_you_mean(map, known), fmt::join(known, ", ")));
+  return problems;
+}
+
+std::vector<RecognisedMap> find_maps(const Params& params, Texts& notes) {
+  const fs::path folder = folder_of(params);
+  require_folder(folder);
+  require_given_maps(params);
+  const TextMap& given = std::get<TextMap>(params.at("maps"));
+  std::vector<RecognisedMap> maps;
+  std::set<std::string> taken;
+  for (const auto& [map, text] : given) {
+    if (text.empty()) continue;
+    maps.push_back(given_map(map, text));
+    if (maps.back().channels.empty()) taken.insert(maps.back().file);
+  }
+  const Recognition recognition = recognise_maps(files_to_recognise(params, taken, notes));
+  for (const RecognisedMap& m : recognition.maps)
+    if (!given.count(m.map)) maps.push_back(m);
+  if (maps.empty()) fail_nothing_recognised(folder, recognition);
+  std::stable_sort(maps.begin(), maps.end(),
+                   [](const RecognisedMap& a, const RecognisedMap& b) { return a.semantic < b.semantic; });
+  for (const RecognisedMap& m : maps) {
+    std::string from = m.file;
+    if (!m.channels.empty()) from += fmt::format(" (channel {})", m.channels);
+    notes.push_back(fmt::format("{}: {}", m.map, from));
+  }
+  notes.insert(notes.end(), recognition.notes.begin(), recognition.notes.end());
+  if (!recognition.ignored.empty())
+    notes.push_back(fmt::format("ignored, the name says nothing: {}. Known words are {}",
+                                fmt::join(recognition.ignored, ", "), all_words()));
+  return maps;
+}
+
+std::vector<fs::path> files_of_material(const Params& params) {
+  const fs::path folder = folder_of(params);
+  std::vector<fs::path> files;
+  for (const std::string& name : image_names(folder)) files.push_back(folder / name);
+  for (const auto& [map, text] : std::get<TextMap>(params.at("maps")))
+    if (!text.empty() && semantic_of_map(map)) files.push_back(folder / given_map(map, text).file);
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/material/material_files.h"
+#include "core/node/node.h"
+
+/// Which files the node `load_material` reads, by its parameters `path`, `maps` and `ignore`.
+namespace terrazzo {
+
+/// What messages of find_maps advise those who write a graph.
+inline constexpr std::string_view advice_on_map_names = "the parameter `maps` names files outright";
+inline constexpr std::string_view advice_on_one_file = "load_map reads a single file";
+
+std::filesystem::path folder_of(const Params& params);
+
+/// The names of a folder's image files, sorted.
+std::vector<std::string> image_names(const std::filesystem::path& folder);
+
+/// One sentence for each name in `maps` that is no map's.
+std::vector<std::string> problems_with_map_names(const Params& params);
+
+/// Which file of the folder is which map. Throws Error about the parameter to blame if the folder or files named in
+/// `maps` are not there, or if nothing is recognised. Adds what the user should know to `notes`.
+std::vector<RecognisedMap> find_maps(const Params& params, Texts& notes);
+
+/// All files that decide what the material is, sorted: the folder's images and those named in `maps`.
+std::vector<std::filesystem::path> files_of_material(const Params& params);
+
+}  // namespace terrazzo

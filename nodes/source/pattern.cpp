@@ -1,0 +1,117 @@
+#include "core/procedural/pattern.h"
+
+#include <fmt/format.h>
+
+#include "core/node/node.h"
+
+namespace terrazzo {
+
+namespace {
+
+std::string palette_names(const PatternType& type) {
+  std::string names;
+  for (const Palette& p : type.palettes) names += (names.empty() ? "" : ", ") + p.name;
+  return names;
+}
+
+PatternSpec spec_of(const Params& params) {
+  PatternSpec s;
+  s.type = std::get<std::string>(params.at("kind"));
+  s.size = std::get<Size>(params.at("size"));
+  s.seed = uint64_t(std::get<int64_t>(params.at("seed")));
+  s.scale = std::get<double>(params.at("scale"));
+  s.irregularity = std::get<double>(params.at("irregularity"));
+  s.wear = std::get<double>(params.at("wear"));
+  s.relief = std::get<double>(params.at("relief"));
+  s.palette = std::get<std::string>(params.at("palette"));
+  s.tileable = std::get<bool>(params.at("tileable"));
+  return s;
+}
+
+std::vector<std::string> check(const Params& params) {
+  const PatternType* type = find_pattern_type(std::get<std::string>(params.at("kind")));
+  const std::string& palette = std::get<std::string>(params.at("palette"));
+  if (!type || find_palette(*type, palette)) return {};
+  return {fmt::format("\"palette\": {} come in {}, not in \"{}\"", type->name, palette_names(*type), palette)};
+}
+
+}  // namespace
+
+NodeType pattern_node() {
+  NodeType t;
+  t.name = "pattern";
+  t.category = "source";
+  t.summary = "Makes a procedural material: bricks, stones, cloth ... with all maps consistent";
+  t.help =
+      "Describes a surface and derives every map from it: base colour, normal (green up), height, roughness and "
+      "ambient "
+      "occlusion agree at every pixel. Useful as an exemplar when none is at hand, for examples and for tests. Kinds:";
+  std::string palettes = "The colours it comes in; empty for the kind's first. ";
+  std::vector<std::string> names;
+  for (const PatternType& p : pattern_types()) {
+    names.push_back(p.name);
+    t.help += fmt::format(" {} ({}; {:g} across);", p.name, p.summary, p.scale);
+    palettes += fmt::format("{}: {}; ", p.name, palette_names(p));
+  }
+  t.help.back() = '.';
+  palettes.replace(palettes.size() - 2, 2, ".");
+  t.outputs = {{.name = "material",
+                .type = ValueType::material,
+                .help = "base_color, normal, height, roughness, ambient_occlusion, all of one size"}};
+  t.params = {
+      {.name = "kind", .type = ParamType::choice, .fallback = "bricks", .help = "What to make.", .choices = names},
+      {.name = "size",
+       .type = ParamType::size,
+       .fallback = Size{512, 512},
+       .help = "Size of every map.",
+       .min = 1,
+       .max = 16384,
+       .unit = "pixels"},
+      {.name = "seed",
+       .type = ParamType::integer,
+       .fallback = int64_t{1},
+       .help = "Another seed gives another piece of the same material.",
+       .min = 0},
+      {.name = "scale",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "Pieces (bricks, stones, yarns ...) across the image; 0 for the kind's own number. Rounded to whole "
+               "pieces where the material tiles.",
+       .min = 0,
+       .max = 200},
+      {.name = "irregularity",
+       .type = ParamType::number,
+       .fallback = 0.5,
+       .help = "How much pieces differ in place, size and shape.",
+       .min = 0,
+       .max = 1},
+      {.name = "wear",
+       .type = ParamType::number,
+       .fallback = 0.5,
+       .help = "Chips, pits, dirt and stains.",
+       .min = 0,
+       .max = 1},
+      {.name = "relief",
+       .type = ParamType::number,
+       .fallback = 1.0,
+       .help = "Depth as a multiple of the kind's natural one; steepens normals and deepens occlusion.",
+       .min = 0,
+       .max = 10},
+      {.name = "palette", .type = ParamType::text, .fallback = "", .help = palettes},
+      {.name = "tileable",
+       .type = ParamType::boolean,
+       .fallback = true,
+       .help = "The material continues at its opposite border."},
+  };
+  t.persist = Persist::payload;
+  t.check = check;
+  t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 9 * sizeof(float); };
+  t.foresee = [](const Params&, const InputForecasts&) {
+    return Forecast{.maps = {"base_color", "normal", "height", "roughness", "ambient_occlusion"},
+                    .possible_maps = Texts{}};
+  };
+  t.compute = [](NodeContext& node) { node.output("material", make_pattern(spec_of(node.params()), node.task())); };
+  return t;
+}
+
+}  // namespace terrazzo

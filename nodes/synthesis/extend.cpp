@@ -1,0 +1,85 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/image/image_ops.h"
+#include "core/synthesis/state/fixed_pixels.h"
+#include "nodes/common/synthesis_params.h"
+
+namespace terrazzo {
+
+namespace {
+
+KeptPixels placed(const UvMap& uv, Size size, std::array<int, 2> at) {
+  KeptPixels kept;
+  kept.keep.resize(size_t(size.area()));
+  kept.pixels.resize(size_t(size.area()));
+  for (int y = 0; y < uv.size().height; y++)
+    for (int x = 0; x < uv.size().width; x++) {
+      const size_t to = size_t(y + at[1]) * size.width + size_t(x + at[0]);
+      kept.keep[to] = Keep::always;
+      kept.pixels[to] = uv.at(x, y);
+    }
+  return kept;
+}
+
+void compute(NodeContext& node) {
+  const auto index = node.input<Index>("index");
+  const auto uv = node.input<UvMap>("uv");
+  require_same_exemplar(*uv, *index);
+  SynthesisOptions options = synthesis_options(node, *index);
+  const Numbers& at = node.numbers("at");
+  const Size room{options.size.width - uv->size().width, options.size.height - uv->size().height};
+  if (room.width < 0 || room.height < 0)
+    throw Error("size", fmt::format("expected at least the size of what is kept, {}; found {}", describe(uv->size()),
+                                    describe(options.size)));
+  if (at[0] > room.width || at[1] > room.height)
+    throw Error("at", fmt::format("expected at most [{}, {}], so that the {} pixels that are kept fit into {}; found "
+                                  "[{}, {}]",
+                                  room.width, room.height, describe(uv->size()), describe(options.size), at[0], at[1]));
+  options.origin = {int(at[0]), int(at[1])};
+  options.kept = placed(*uv, options.size, options.origin);
+  warn_unless_repeats_fit(node, *index, options, "courses or tiles are bent, or cut, where the result wraps");
+  node.output("uv", synthesize(*index, options, node.task()));
+}
+
+std::vector<std::string> check(const Params& params) {
+  const auto& at = std::get<Numbers>(params.at("at"));
+  const bool whole = at.size() == 2 && at[0] == std::floor(at[0]) && at[1] == std::floor(at[1]);
+  std::vector<std::string> problems = check_synthesis_params(params);
+  if (!whole) problems.push_back("\"at\": expected [x, y] in whole pixels");
+  return problems;
+}
+
+}  // namespace
+
+NodeType extend_node() {
+  NodeType t;
+  t.name = "extend";
+  t.version = 14;
+  t.category = "synthesis";
+  t.summary = "Grows an existing result, keeping its pixels";
+  t.help =
+      "Places a uv map made earlier, from the same index, inside a larger one and synthesizes what surrounds it. The "
+      "pixels that were there stay bit for bit, in every map; of heights that resolve_uv joins, if it is given the "
+      "result that was there as `kept`.";
+  t.inputs = {index_port(), {.name = "uv", .type = ValueType::uv_map, .help = "the result to grow"}};
+  t.outputs = {uv_output()};
+  t.params = with_synthesis_params({result_size_param(),
+                                    {.name = "at",
+                                     .type = ParamType::numbers,
+                                     .fallback = Numbers{0, 0},
+                                     .help = "Where the top left pixel of what is kept comes to lie: [x, y].",
+                                     .min = 0,
+                                     .max = 32768,
+                                     .unit = "pixels",
+                                     .max_count = 2},
+                                    tileable_param()});
+  t.check = check;
+  t.compute = compute;
+  t.memory_hint = [](const NodeContext& node) { return 3 * synthesis_memory(node.size("size")); };
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,145 @@
+#include <algorithm>
+
+#include "core/base/disjoint_sets.h"
+#include "core/base/error.h"
+#include "core/image/image_ops.h"
+#include "core/numeric/distance_transform.h"
+#include "core/synthesis/state/fixed_pixels.h"
+#include "nodes/common/synthesis_params.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// Half the width of each hole, where that is widest.
+class HalfWidths {
+ public:
+  HalfWidths(const std::vector<uint8_t>& hole, Size size, bool wraps) : holes_(hole.size()), widest_(hole.size()) {
+    std::vector<uint8_t> sound(hole.size());
+    for (size_t i = 0; i < hole.size(); i++) {
+      sound[i] = !hole[i];
+      if (!hole[i]) continue;
+      const auto width = size_t(size.width);
+      if (i % width > 0 && hole[i - 1]) holes_.join(uint32_t(i), uint32_t(i - 1));
+      if (i >= width && hole[i - width]) holes_.join(uint32_t(i), uint32_t(i - width));
+    }
+    const std::vector<int64_t> inside = squared_distances(sound, size, wraps);
+    for (size_t i = 0; i < hole.size(); i++) {
+      int64_t& most = widest_[holes_.find(uint32_t(i))];
+      most = std::max(most, inside[i]);
+    }
+  }
+  /// Squared, of the hole that a pixel is part of.
+  int64_t squared(uint32_t pixel) { return widest_[holes_.find(pixel)]; }
+
+ private:
+  DisjointSets holes_;
+  std::vector<int64_t> widest_;
+};
+
+/// Which pixels stay. Up to `margin` pixels from a hole, and no farther than the hole is wide, they may give way.
+std::vector<Keep> kept_around(const std::vector<uint8_t>& hole, Size size, bool wraps, double margin) {
+  std::vector<Keep> keep(hole.size(), Keep::always);
+  for (size_t i = 0; i < hole.size(); i++)
+    if (hole[i]) keep[i] = Keep::never;
+  if (margin <= 0 || std::ranges::none_of(hole, [](uint8_t h) { return h; })) return keep;
+  HalfWidths half_widths(hole, size, wraps);
+  const std::vector<int64_t> squared = squared_distances(hole, size, wraps);
+  const std::vector<uint32_t> nearest = nearest_set(hole, size, wraps);
+  for (size_t i = 0; i < hole.size(); i++)
+    if (!hole[i] && double(squared[i]) <= margin * margin && squared[i] <= 4 * half_widths.squared(nearest[i]))
+      keep[i] = Keep::at_first;
+  return keep;
+}
+
+/// What is there: the pixels of `uv`, or the exemplar itself, outside the holes. Up to `margin` pixels from a hole they
+/// may give way.
+KeptPixels outside_holes(const UvMap* uv, const ImagePtr& holes, Size size, bool wraps, double margin) {
+  std::vector<uint8_t> hole;
+  hole.reserve(size_t(size.area()));
+  for_each_strip(*nearest_at_size(holes, size), [&](const Rect& r, const float* v) {
+    for (int64_t i = 0; i < r.area(); i++) hole.push_back(v[i * holes->channels()] > 0.5f);
+  });
+  KeptPixels kept{{}, kept_around(hole, size, wraps, margin)};
+  kept.pixels.reserve(hole.size());
+  if (uv) {
+    kept.pixels = uv->pixels();
+    return kept;
+  }
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) kept.pixels.push_back({uint16_t(x), uint16_t(y)});
+  return kept;
+}
+
+void compute(NodeContext& node) {
+  const auto index = node.input<Index>("index");
+  const auto uv = node.optional_input<UvMap>("uv");
+  const auto holes = node.input<Image>("mask");
+  SynthesisOptions options = synthesis_options(node, *index);
+  if (uv) {
+    require_same_exemplar(*uv, *index);
+    options.size = uv->size();
+    options.tile_x |= uv->wraps().x;
+    options.tile_y |= uv->wraps().y;
+  }
+  require_shape("mask", *holes, uv ? "the uv map" : "the exemplar", options.size);
+  const double margin = node.number("margin");
+  options.kept = outside_holes(uv.get(), holes, options.size, options.tile_x && options.tile_y,
+                               margin < 1 ? margin * std::min(options.size.width, options.size.height) : margin);
+  const std::vector<Keep>& keep = options.kept.keep;
+  if (std::ranges::all_of(keep, [](Keep k) { return k == Keep::never; }))
+    throw Error("mask",
+                "the holes cover everything, so that nothing is kept; white (above 0.5) is filled and black stays. "
+                "Invert the mask (levels) if it is the other way round; for wholly new material use \"synthesize\"");
+  const UvMapPtr filled = synthesize(*index, options, node.task());
+  node.output("filled", made_anew(*filled, options.kept));
+  node.output("uv", filled);
+}
+
+}  // namespace
+
+NodeType inpaint_node() {
+  NodeType t;
+  t.name = "inpaint";
+  t.version = 14;
+  t.category = "synthesis";
+  t.summary = "Fills holes and keeps the rest pixel by pixel";
+  t.help =
+      "Every map is filled at once, through one uv map: pixels outside the holes and a margin around them stay exactly "
+      "as they are, those inside continue them with material from elsewhere in the exemplar. In the margin the seam "
+      "between old and new looks for its place, along joints and cracks. Without \"uv\" the exemplar itself is what "
+      "is there; give weight the inverted mask then, so that nothing is taken out of the holes. With \"uv\" parts of "
+      "an earlier result are made anew, and it wraps as before. Where resolve_uv joins heights, those that are there "
+      "stay if it is given what is there as `kept` and `filled` as `holes`.";
+  t.inputs = {index_port(),
+              {.name = "mask",
+               .type = ValueType::image,
+               .help = "the holes: above 0.5 (white) is filled, the rest stays. Of the shape of what is there, at any "
+                       "size; if it has several channels, the first counts"},
+              {.name = "uv",
+               .type = ValueType::uv_map,
+               .help = "what is there; if not given, the exemplar as it is",
+               .optional = true}};
+  t.outputs = {uv_output(),
+               {.name = "filled", .type = ValueType::image, .help = "a mask: white where pixels are made anew"}};
+  t.params = with_synthesis_params(
+      {{.name = "margin",
+        .type = ParamType::number,
+        .fallback = 0.0625,
+        .help = "How far from a hole pixels may give way, so that its outline does not show: below 1 a part of the "
+                "shorter side, else pixels; around thin holes, scratches say, no farther than the hole is wide. Half a "
+                "brick or tile suits walls and floors; 0 keeps every pixel outside the holes.",
+        .min = 0,
+        .max = 32768,
+        .unit = "pixels or part of the side"},
+       tileable_param()});
+  t.check = check_synthesis_params;
+  t.compute = compute;
+  t.memory_hint = [](const NodeContext& node) {
+    const auto uv = node.optional_input<UvMap>("uv");
+    return 6 * synthesis_memory(uv ? uv->size() : node.input<Index>("index")->appearance()->size());
+  };
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/image/image_ops.h"
+#include "core/synthesis/state/fixed_pixels.h"
+#include "nodes/common/synthesis_params.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// The width of the border along a side of that length; 0 where the result need not wrap.
+int border_pixels(double border, int side, bool wraps) {
+  if (!wraps) return 0;
+  const int pixels = std::max(1, int(std::floor((border < 1 ? border * side : border) + 0.5)));
+  if (2 * pixels >= side)
+    throw Error("border", fmt::format("expected less than half the exemplar's side of {} pixels, so that something is "
+                                      "kept; found {} pixels",
+                                      side, pixels));
+  return pixels;
+}
+
+/// The exemplar within a result of that size. Most of the border is kept at first, so that the seam between old and new
+/// does not run straight.
+KeptPixels interior(Size exemplar, Size result, Size border) {
+  const auto keep = [](int x, int side, int border) {
+    const int inside = std::min(x, side - 1 - x);
+    return inside >= border ? Keep::always : inside >= border / 4 ? Keep::at_first : Keep::never;
+  };
+  const Size shown{std::min(exemplar.width, result.width), std::min(exemplar.height, result.height)};
+  KeptPixels kept;
+  kept.keep.reserve(size_t(result.area()));
+  kept.pixels.reserve(size_t(result.area()));
+  for (int y = 0; y < result.height; y++)
+    for (int x = 0; x < result.width; x++) {
+      kept.pixels.push_back({uint16_t(std::min(x, shown.width - 1)), uint16_t(std::min(y, shown.height - 1))});
+      kept.keep.push_back(std::min(keep(x, shown.width, border.width), keep(y, shown.height, border.height)));
+    }
+  return kept;
+}
+
+/// An exemplar that wraps around as it is.
+void leave(NodeContext& node, const Index& index) {
+  const Size size = index.appearance()->size();
+  node.note(
+      "the exemplar wraps around already and stays as it is; if its border is to be made anew, set \"tiles\" to \"no\" "
+      "where it is analysed, in the stock graph by --set tiles=no");
+  const KeptPixels kept = interior(size, size, {0, 0});
+  const UvMapPtr uv = UvMap::make(size, size, kept.pixels, {true, true, true});
+  node.output("border", made_anew(*uv, kept));
+  node.output("uv", uv);
+}
+
+void compute(NodeContext& node) {
+  const auto index = node.input<Index>("index");
+  if (index->appearance()->wraps()) return leave(node, *index);
+  SynthesisOptions options = synthesis_options(node, *index);
+  const std::string& directions = node.text("directions");
+  options.tile_x = directions != "y";
+  options.tile_y = directions != "x";
+  const Size exemplar = index->appearance()->size();
+  const Size border{border_pixels(node.number("border"), exemplar.width, options.tile_x),
+                    border_pixels(node.number("border"), exemplar.height, options.tile_y)};
+  node.note(
+      "the exemplar does not seem to wrap around, so its border is made anew; if it does, set \"tiles\" to "
+      "\"yes\" where it is analysed, in the stock graph by --set tiles=yes");
+  const Lattice& lattice = index->appearance()->lattice();
+  const Size fitting =
+      lattice.best_fitting(exemplar, options.tile_x, options.tile_y, {2 * border.width, 2 * border.height});
+  if (node.text("fit") == "repeats") options.size = fitting;
+  options.kept = interior(exemplar, options.size, border);
+  if (options.size != exemplar)
+    node.note(
+        fmt::format("the exemplar of {} pixels repeats: the result has {}, so that repeats go around; set \"fit\" to "
+                    "\"size\" to keep {} and bend repeats in the border instead",
+                    describe(exemplar), describe(options.size), describe(exemplar)));
+  const Size room{2 * border.width + std::max(0, options.size.width - exemplar.width),
+                  2 * border.height + std::max(0, options.size.height - exemplar.height)};
+  const double bent = lattice.bent(options.size, options.tile_x, options.tile_y, room);
+  const std::string how = fmt::format(
+      "to wrap around, repeats are bent by {:.0f} % in the border; a wider border bends them less{}", 100 * bent,
+      options.size == fitting
+          ? ""
+          : fmt::format(", and so does \"fit\": \"repeats\", which makes the result {}", describe(fitting)));
+  if (bent > Lattice::most_bent)
+    node.warn(how);
+  else if (bent > lattice.unseen_bend())
+    node.note(how);
+  const UvMapPtr uv = synthesize(*index, options, node.task());
+  node.output("border", made_anew(*uv, options.kept));
+  node.output("uv", uv);
+}
+
+std::vector<std::string> check(const Params& params) {
+  std::vector<std::string> problems = check_synthesis_params(params);
+  const double border = std::get<double>(params.at("border"));
+  if (border >= 0.5 && border < 1)
+    problems.push_back(
+        fmt::format("\"border\": expected less than 0.5 of the side, so that something is kept between "
+                    "two borders, or at least 1 pixel; found {}",
+                    border));
+  return problems;
+}
+
+}  // namespace
+
+NodeType make_tileable_node() {
+  NodeType t;
+  t.name = "make_tileable";
+  t.version = 16;
+  t.category = "synthesis";
+  t.summary = "Keeps an exemplar's interior and makes its border wrap";
+  t.help =
+      "The result has the exemplar's size, or nearly so where the exemplar repeats. Its interior stays exactly as it "
+      "is; a border is made anew from the exemplar so that opposite sides, and all four corners, fit together in every "
+      "map. In the border the seam between old and new looks for its place, along joints and cracks. "
+      "An exemplar that tiles already stays as it is. resolve_uv shows the result; where that joins heights, those of "
+      "the interior stay if it is given the exemplar as `kept` and `border` as `holes`.";
+  t.inputs = {index_port()};
+  t.outputs = {uv_output(),
+               {.name = "border", .type = ValueType::image, .help = "a mask: white where pixels are made anew"}};
+  t.params = with_synthesis_params({
+      {.name = "border",
+       .type = ParamType::number,
+       .fallback = 0.125,
+       .help = "Width of the border that is made anew, on each side: below 1 a part of the side, else pixels. Wider "
+               "borders have more room to lead one side into the other.",
+       .min = 0.01,
+       .max = 32768,
+       .unit = "pixels or part of the side"},
+      {.name = "directions",
+       .type = ParamType::choice,
+       .fallback = "xy",
+       .help = "Directions in which the result wraps around.",
+       .choices = {"x", "y", "xy"}},
+      {.name = "fit",
+       .type = ParamType::choice,
+       .fallback = "repeats",
+       .help = "For exemplars that repeat: \"repeats\" makes the result a little smaller or larger, so that it holds a "
+               "whole number of repeats; \"size\" keeps the exemplar's size and bends repeats within the border.",
+       .choices = {"repeats", "size"}},
+  });
+  t.check = check;
+  t.compute = compute;
+  t.memory_hint = [](const NodeContext& node) {
+    return 3 * synthesis_memory(node.input<Index>("index")->appearance()->size());
+  };
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,128 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/node/node.h"
+#include "core/resolve/joined_heights.h"
+#include "core/resolve/resolve.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+NodeType resolve_uv_node() {
+  NodeType t;
+  t.name = "resolve_uv";
+  t.category = "synthesis";
+  t.summary = "Shows a material through a uv map";
+  t.help =
+      "Every output pixel of every map is exactly the exemplar pixel that the uv map names, unless `blend` or `join` "
+      "are "
+      "set, so maps cannot drift apart. Pixels are looked up when a later node pulls them; only the exemplar is held "
+      "in memory. "
+      "With `blend`, seams are softened: near a seam a pixel is the mean of what the pieces around it would continue "
+      "with (Lefebvre & Hoppe 2005). Colours are averaged in linear light, normals as vectors that get back the length "
+      "they had, heights "
+      "become continuous, and details keep their contrast (Heitz & Neyret 2018); away from seams every pixel stays "
+      "exactly the exemplar's. Maps that "
+      "mean mask or data stay exact everywhere, since their values may be labels. "
+      "With `join`, pieces of height maps are raised and lowered so that they meet, which removes steps where "
+      "pieces of different height lie side by side: slopes stay those of the exemplar, within pieces and across seams, "
+      "and so do cliffs that the exemplar has at a seam itself; the difference is spread over the surroundings "
+      "(gradient-domain compositing, Perez, Gangnet & Blake 2003, with the screened Poisson equation of Bhat et al. "
+      "2008). Heights stay within the exemplar's. Normals fit such heights as well as the exemplar's own. All of the "
+      "result is seen at once: tiles of a larger surface, each resolved by itself, fit together only without it. "
+      "With `scale`, an exemplar that is larger than the analysed one is shown: analyse and synthesize a copy made "
+      "smaller by `resize`, which is quicker and sees larger features, and give resolve_uv the original.";
+  t.inputs = {{.name = "uv", .type = ValueType::uv_map, .help = "which exemplar pixel each output pixel shows"},
+              {.name = "material", .type = ValueType::material, .help = "the exemplar, with all maps that are wanted"},
+              {.name = "kept",
+               .type = ValueType::material,
+               .help = "a result that the uv map keeps pixels of, resolved before: `join` leaves its heights as they "
+                       "are",
+               .optional = true},
+              {.name = "holes",
+               .type = ValueType::image,
+               .help = "a mask, stretched over the result: where it is white, nothing of `kept` is kept",
+               .optional = true}};
+  t.outputs = {
+      {.name = "material", .type = ValueType::material, .help = "the maps in the uv map's size, times `scale`"}};
+  t.params = {
+      {.name = "blend",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "How far from a seam pixels are blended. 0: not at all; 2 to 3 hides most seams.",
+       .min = 0,
+       .max = largest_blend,
+       .unit = "pixels of the uv map"},
+      {.name = "join",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "How far from a seam height maps of one channel give way so that pieces meet: below 1 a part of the "
+               "analysed exemplar's shorter side, else pixels of the uv map. 0: not at all. Where they do, `blend` "
+               "does not count for them.",
+       .min = 0,
+       .max = farthest_join},
+      {.name = "kept_at",
+       .type = ParamType::numbers,
+       .fallback = Numbers{0, 0},
+       .help = "Where the top left pixel of `kept` lies in the result: [x, y].",
+       .min = 0,
+       .max = 32768,
+       .unit = "pixels of the uv map",
+       .max_count = 2},
+      {.name = "scale",
+       .type = ParamType::number,
+       .fallback = 1.0,
+       .help = "How much larger the material is than the exemplar that was analysed, and the result than the uv "
+               "map. 0: as much as it is.",
+       .min = 0,
+       .max = largest_scale}};
+  t.persist = Persist::derived;
+  t.check = [](const Params& params) {
+    const double scale = std::get<double>(params.at("scale"));
+    std::vector<std::string> problems;
+    if (scale > 0 && scale < 1)
+      problems.push_back(
+          fmt::format("\"scale\": expected 1 or more, or 0 for whatever the material's size says; found "
+                      "{}",
+                      scale));
+    const auto& at = std::get<Numbers>(params.at("kept_at"));
+    if (at.size() != 2 || at[0] != std::floor(at[0]) || at[1] != std::floor(at[1]))
+      problems.push_back("\"kept_at\": expected [x, y] in whole pixels");
+    return problems;
+  };
+  t.memory_hint = [](const NodeContext& node) {
+    const auto material = node.input<Material>("material");
+    const auto uv = node.input<UvMap>("uv");
+    const auto kept = node.optional_input<Material>("kept");
+    const double pixels = double(uv->size().area()) * double(material->size().area()) / double(uv->exemplar().area());
+    double values = 0;
+    for (const Map& m : material->maps()) {
+      // The exemplar, and for blending its linear pixels and their local means.
+      values += double(m.image->size().area()) * m.image->channels() * (node.number("blend") > 0 ? 3 : 1);
+      // The solution and its forces at half the result's size, and those of all coarser levels.
+      if (node.number("join") > 0 && can_join(m.image->info())) {
+        values += 2 * pixels / 3;
+        if (kept) values += double(kept->size().area()) + pixels / 3;
+      }
+    }
+    return size_t(values * sizeof(float));
+  };
+  t.compute = [](NodeContext& node) {
+    const Numbers& at = node.numbers("kept_at");
+    const ResolveOptions options{.blend = node.number("blend"),
+                                 .join = node.number("join"),
+                                 .scale = node.number("scale"),
+                                 .kept = node.optional_input<Material>("kept"),
+                                 .kept_at = {int(at[0]), int(at[1])},
+                                 .holes = node.optional_input<Image>("holes")};
+    node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv"), options, node.task()));
+  };
+  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+    foresee_one_shape("material", inputs);
+    return same_maps_as("material")(params, inputs);
+  };
+  return t;
+}
+
+}  // namespace terrazzo

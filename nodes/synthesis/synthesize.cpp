@@ -1,0 +1,113 @@
+#include "core/synthesis/synthesize.h"
+
+#include <fmt/format.h>
+
+#include "core/image/image_ops.h"
+#include "nodes/common/synthesis_params.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// Which part of which surface is made.
+struct Part {
+  Size surface;
+  Rect region;
+  bool is_whole() const { return region == whole(surface); }
+};
+
+Part part_of(Size size, Size surface, const Numbers& origin) {
+  if (surface.width == 0) surface.width = size.width;
+  if (surface.height == 0) surface.height = size.height;
+  return {surface, {int(origin.at(0)), int(origin.at(1)), size.width, size.height}};
+}
+
+Part part_of(const NodeContext& node) {
+  return part_of(node.size("size"), node.size("surface"), node.numbers("origin"));
+}
+
+void compute(NodeContext& node) {
+  const auto index = node.input<Index>("index");
+  const auto coarse = node.optional_input<UvMap>("coarse");
+  const Part part = part_of(node);
+  SynthesisOptions options = synthesis_options(node, *index);
+  options.size = part.surface;
+  warn_unless_repeats_fit(node, *index, options, "they are stretched to wrap around and joints may jog");
+  const UvMapPtr uv = !coarse && part.is_whole()
+                          ? synthesize(*index, options, node.task())
+                          : refine(*index, coarse ? *coarse : *coarse_uv(*index, options, node.task()), options,
+                                   part.region, node.task());
+  tell_of_parts(node, *index, *uv, part.is_whole());
+  node.output("uv", uv);
+}
+
+std::vector<std::string> check(const Params& params) {
+  std::vector<std::string> problems = check_synthesis_params(params);
+  const Numbers& origin = std::get<Numbers>(params.at("origin"));
+  if (origin.size() != 2 || origin[0] != int(origin[0]) || origin[1] != int(origin[1])) {
+    problems.push_back("\"origin\": expected two whole numbers, [x, y]");
+    return problems;
+  }
+  const Part part = part_of(std::get<Size>(params.at("size")), std::get<Size>(params.at("surface")), origin);
+  const Size surface = part.surface;
+  if (part.region.width > surface.width || part.region.height > surface.height)
+    problems.push_back(fmt::format("\"surface\": expected at least the size of the result, {}, found {}",
+                                   describe(Size{part.region.width, part.region.height}), describe(surface)));
+  else if (part.region.x >= surface.width || part.region.y >= surface.height)
+    problems.push_back(
+        fmt::format("\"origin\": expected a place on the surface, which has {}, found ({}, {}); "
+                    "\"surface\" says how large it is as a whole",
+                    describe(surface), part.region.x, part.region.y));
+  return problems;
+}
+
+size_t memory(const NodeContext& node) {
+  const Part part = part_of(node);
+  const bool makes_coarse = !part.is_whole() && !node.optional_input<UvMap>("coarse");
+  return synthesis_memory(node.size("size")) + (makes_coarse ? coarse_memory(part.surface) : 0);
+}
+
+}  // namespace
+
+NodeType synthesize_node() {
+  NodeType t;
+  t.name = "synthesize";
+  t.version = 19;
+  t.category = "synthesis";
+  t.summary = "Makes a uv map of any size from an index";
+  t.help =
+      "Decides for every output pixel which exemplar pixel it shows, coarse to fine, so that every neighbourhood of "
+      "the result looks like one of the exemplar (appearance-space synthesis, Lefebvre & Hoppe 2006). The same index, "
+      "size and seed give the same uv map on every machine. resolve_uv turns the uv map into maps. "
+      "A surface that is too large to be made at once can be made in parts: give all of them the same \"surface\" and "
+      "parameters, and each its \"origin\". They fit together to the bit, on whatever machines and in whatever order "
+      "they are made; examples/huge-surface.json shows how.";
+  t.inputs = {index_port(),
+              {.name = "coarse",
+               .type = ValueType::uv_map,
+               .help = "the surface's coarse levels, from synthesize_coarse, so that not every part makes them again",
+               .optional = true}};
+  t.outputs = {uv_output()};
+  t.params = with_synthesis_params(
+      {result_size_param(),
+       tileable_param(),
+       whole_bricks_param(),
+       surface_param("surface", "Size of the whole surface that the result is a part of; a side of 0 is the result's.",
+                     0),
+       {.name = "origin",
+        .type = ParamType::numbers,
+        .fallback = Numbers{0, 0},
+        .help = "Where the result's top left pixel lies on the surface: [x, y]. A part of a surface that tiles goes on "
+                "around its right and bottom border.",
+        .min = 0,
+        .max = largest_surface - 1,
+        .unit = "pixels",
+        .min_count = 2,
+        .max_count = 2}});
+  t.check = check;
+  t.compute = compute;
+  t.memory_hint = memory;
+  return t;
+}
+
+}  // namespace terrazzo

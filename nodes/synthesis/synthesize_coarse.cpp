@@ -1,0 +1,30 @@
+#include "core/synthesis/synthesize.h"
+#include "nodes/common/synthesis_params.h"
+
+namespace terrazzo {
+
+NodeType synthesize_coarse_node() {
+  NodeType t;
+  t.name = "synthesize_coarse";
+  t.category = "synthesis";
+  t.version = 16;
+  t.summary = "Makes the coarse levels of a surface too large to be made at once";
+  t.help =
+      "What synthesize does first: all that depends on the surface as a whole. Connect it to \"coarse\" of synthesize, "
+      "with the same surface, seed and other parameters, and make the surface part by part, on as many machines as "
+      "share the cache; this stage is then made once. It holds a quarter of the surface's pixels. Its uv map is for "
+      "synthesize only: it tells where blocks of 2x2 pixels of the finest level begin.";
+  t.inputs = {index_port()};
+  t.outputs = {{.name = "uv", .type = ValueType::uv_map, .help = "the coarse levels, for \"coarse\" of synthesize"}};
+  t.params = with_synthesis_params(
+      {surface_param("size", "Size of the whole surface.", 1), tileable_param(), whole_bricks_param()});
+  t.check = check_synthesis_params;
+  t.compute = [](NodeContext& node) {
+    const auto index = node.input<Index>("index");
+    node.output("uv", coarse_uv(*index, synthesis_options(node, *index), node.task()));
+  };
+  t.memory_hint = [](const NodeContext& node) { return coarse_memory(node.size("size")); };
+  return t;
+}
+
+}  // namespace terrazzo

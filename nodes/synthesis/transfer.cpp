@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/material/map_names.h"
+#include "core/synthesis/state/labels.h"
+#include "nodes/common/synthesis_params.h"
+
+namespace terrazzo {
+
+namespace {
+
+void require_pairs(size_t exemplars, size_t targets, size_t strengths) {
+  check_all(
+      [&] {
+        if (targets != exemplars)
+          throw Error("target", fmt::format("expected as many images as \"exemplar_control\" has, {}; found {}",
+                                            exemplars, targets));
+      },
+      [&] {
+        if (strengths != 1 && strengths != exemplars)
+          throw Error("strength",
+                      fmt::format("expected one number, or one for each control, {}; found {}", exemplars, strengths));
+      });
+}
+
+std::vector<Control> controls_of(const NodeContext& node) {
+  const auto exemplars = node.list<Image>("exemplar_control"), targets = node.list<Image>("target");
+  const Numbers& strength = node.numbers("strength");
+  require_pairs(exemplars.size(), targets.size(), strength.size());
+  const std::string& match = node.text("match");
+  std::vector<Control> controls;
+  for (size_t i = 0; i < targets.size(); i++) {
+    Control control{.exemplar = exemplars[i], .target = targets[i], .strength = strength[i % strength.size()]};
+    control.mode = node.text("mode") == "labels" ? Control::Mode::labels : Control::Mode::values;
+    control.leeway = node.number("leeway");
+    control.match = match == "none"    ? Control::Match::none
+                    : match == "range" ? Control::Match::range
+                                       : Control::Match::histogram;
+    controls.push_back(control);
+  }
+  return controls;
+}
+
+/// Of a painted layout, soft edges of strokes are no mistake.
+constexpr double most_unknown = 0.05;
+
+void warn_of_labels(NodeContext& node, const std::vector<Control>& controls, Size exemplar) {
+  for (const Control& control : controls) {
+    if (control.mode != Control::Mode::labels) continue;
+    const PaintedLabels labels = painted_labels(control, exemplar, control.target->size(), node.task());
+    if (labels.unknown > most_unknown)
+      node.warn(
+          fmt::format("{:.0f} % of the target have values that \"exemplar_control\" does not have; they count as "
+                      "the nearest it has",
+                      100 * labels.unknown));
+    if (labels.count > 1 && labels.wanted == 1)
+      node.warn(fmt::format("the target shows one label only, of the {} that \"exemplar_control\" has", labels.count));
+  }
+}
+
+/// Targets need not be as large as the result, but few mean to have theirs bent.
+void tell_of_stretched(NodeContext& node, const std::vector<Control>& controls, Size result) {
+  for (const Control& control : controls)
+    if (const Size target = control.target->size(); target.area() > 1 && !same_shape(target, result))
+      node.note(fmt::format("the target of {} pixels is stretched to the result's {}, which has another shape",
+                            describe(target), describe(result)));
+}
+
+void compute(NodeContext& node) {
+  const auto index = node.input<Index>("index");
+  SynthesisOptions options = synthesis_options(node, *index);
+  options.controls = controls_of(node);
+  tell_of_stretched(node, options.controls, options.size);
+  warn_of_labels(node, options.controls, index->appearance()->size());
+  warn_unless_repeats_fit(node, *index, options, "they are stretched to wrap around and joints may jog");
+  const UvMapPtr uv = synthesize(*index, options, node.task());
+  tell_of_parts(node, *index, *uv, false);
+  node.output("uv", uv);
+}
+
+Forecast foresee(const Params& params, const InputForecasts& inputs) {
+  require_pairs(inputs.at("exemplar_control").size(), inputs.at("target").size(),
+                std::get<Numbers>(params.at("strength")).size());
+  return {};
+}
+
+}  // namespace
+
+NodeType transfer_node() {
+  NodeType t;
+  t.name = "transfer";
+  t.version = 11;
+  t.category = "synthesis";
+  t.summary = "Synthesis steered by a target image";
+  t.help =
+      "As synthesize, but a target says what goes where. \"exemplar_control\" is an image of the exemplar (a blurred "
+      "luminance, a wear or moisture map, painted labels), \"target\" the same thing for the result, of any size: it "
+      "is "
+      "stretched over it. A picture becomes visible in the texture (texture transfer, Efros & Freeman 2001), a mix map "
+      "or "
+      "progression is followed with mode values, a painted layout with mode labels. Several controls work together; "
+      "the "
+      "n-th target belongs to the n-th exemplar control.";
+  t.inputs = {
+      index_port(),
+      {.name = "exemplar_control",
+       .type = ValueType::image,
+       .help = "what the exemplar has where; of its shape, at any size",
+       .list = true},
+      {.name = "target",
+       .type = ValueType::image,
+       .help = "what is wanted where; as many images, with as many channels each (labels may be grey or colours)",
+       .list = true}};
+  t.outputs = {uv_output()};
+  t.params = with_synthesis_params({
+      result_size_param(),
+      tileable_param(),
+      {.name = "strength",
+       .type = ParamType::numbers,
+       .fallback = Numbers{1},
+       .help = "How much the target counts against the texture's own structure; 0 not at all. One number for all "
+               "controls, or one for each. At 1 values may differ at no cost by as much as they do within a feature "
+               "(a sixteenth of the exemplar's longer side), so that features stay whole; 4 makes a picture plain "
+               "and takes features apart for it. Where the exemplar differs little from place to place, 4 and more "
+               "may be needed, or a control that spreads its values, such as that of progression.",
+       .min = 0,
+       .max = 100,
+       .min_count = 1},
+      {.name = "mode",
+       .type = ParamType::choice,
+       .fallback = "values",
+       .help = "values: the nearer, the better. labels: every value is a thing of its own, such as moss or stone; "
+               "values of the target that the exemplar's control does not have count as the nearest it has.",
+       .choices = {"values", "labels"}},
+      {.name = "leeway",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "Only for labels: how far borders between them may run beside where they are painted, so that bricks, "
+               "tiles and stones stay whole. Parts of the layout that are thinner than twice that, and tips of sharp "
+               "corners, stay at least as they are painted.",
+       .min = 0,
+       .max = 4096,
+       .unit = "pixels of the result"},
+      {.name = "match",
+       .type = ParamType::choice,
+       .fallback = "histogram",
+       .help = "How values of the target are brought to those of the exemplar's control, channel by channel. "
+               "histogram: by rank, so that any grey image works and all of the exemplar is used; its darkest "
+               "twentieth counts as one, and its lightest. range: darkest and "
+               "lightest become the same. none: values mean the same already.",
+       .choices = {"histogram", "range", "none"}},
+  });
+  t.check = check_synthesis_params;
+  t.compute = compute;
+  t.foresee = foresee;
+  t.memory_hint = [](const NodeContext& node) {
+    // Bytes of a pixel: of the pyramids of controls, and of distances to labels while those are worked out.
+    const auto controls = int64_t(4 * 5 * node.list<Image>("target").size());
+    const int64_t distances = node.number("leeway") > 0 ? 28 : 0;
+    return synthesis_memory(node.size("size")) + size_t(node.size("size").area() * (controls + distances));
+  };
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,145 @@
+#include "runner/cache/cache.h"
+
+#include <cerrno>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <pwd.h>
+#include <unistd.h>
+
+#include "core/file/file_io.h"
+#include "core/node/serialize.h"
+#include "runner/cache/cache_records.h"
+#include "runner/cache/cache_state.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr uint64_t default_limit = uint64_t{10} << 30;
+
+/// What is computed quicker than that need not survive a power failure: writing thousands of small entries to the disk
+/// one by one would take longer than making them again. An entry of which only a part got there fails its checksum.
+constexpr double seconds_worth_syncing = 0.05;
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+}  // namespace
+
+Cache::State::State(std::filesystem::path given, uint64_t bytes)
+    : given_folder(std::move(given)),
+      limit(bytes == 0 ? default_limit : bytes),
+      folder(given_folder),
+      pins(folder.pins(), folder.lock()) {
+  if (pins.failure() != 0) warn_unwritten(FileError("", pins.failure()));
+}
+
+void Cache::State::warn(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  if (said_.insert(text).second) warnings_.push_back(text);
+}
+
+void Cache::State::warn_unwritten(const Error& why) {
+  const auto* system = dynamic_cast<const FileError*>(&why);
+  warn(fmt::format("the cache {} cannot be written, so results are not kept: {}", given_folder.string(),
+                   system ? system_message(system->code()) : why.what()));
+}
+
+void Cache::State::discard(const std::filesystem::path& path, const Error& why) {
+  ::unlink(path.c_str());
+  warn(fmt::format("a damaged cache entry was removed: {}", why.what()));
+}
+
+std::vector<std::string> Cache::State::take_warnings() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(warnings_, {});
+}
+
+std::filesystem::path Cache::default_folder() {
+  if (const std::string given = environment("TERRAZZO_CACHE"); !given.empty()) return given;
+  // A relative $XDG_CACHE_HOME is to be ignored, says its specification.
+  if (const std::string base = environment("XDG_CACHE_HOME"); base.starts_with('/'))
+    return std::filesystem::path(base) / "terrazzo";
+  std::string home = environment("HOME");
+  if (const passwd* user = home.empty() ? ::getpwuid(::getuid()) : nullptr) home = user->pw_dir;
+  if (home.empty()) throw Error("there is no home folder for the cache; set $TERRAZZO_CACHE to a folder");
+  return std::filesystem::path(home) / ".cache" / "terrazzo";
+}
+
+Cache::Cache(std::filesystem::path folder, uint64_t limit)
+    : state_(std::make_unique<State>(std::filesystem::absolute(folder), limit)) {}
+Cache::~Cache() = default;
+
+const std::filesystem::path& Cache::folder() const {
+  return state_->given_folder;
+}
+
+std::vector<std::string> Cache::take_warnings() {
+  return state_->take_warnings();
+}
+
+std::optional<StageRecord> Cache::find_stage(const Digest& key) {
+  const std::filesystem::path path = state_->folder.path_of(EntryKind::stage, key);
+  try {
+    const auto bytes = CacheFolder::read_and_use(path);
+    if (bytes) return stage_from_bytes(key, *bytes);
+  } catch (const DamagedFile& e) {
+    state_->discard(path, Error(fmt::format("{}: {}", path.string(), e.what())));
+  } catch (const Error& e) {
+    state_->warn(e.what());
+  }
+  return std::nullopt;
+}
+
+void Cache::store_stage(const Digest& key, const StageRecord& record) {
+  try {
+    state_->folder.write(state_->folder.path_of(EntryKind::stage, key), stage_to_bytes(key, record),
+                         state_->pins.owner(), record.seconds >= seconds_worth_syncing);
+  } catch (const Error& e) {
+    state_->warn_unwritten(e);
+  }
+}
+
+LeaseAttempt Cache::try_lease(const Digest& key) {
+  return terrazzo::try_lease(state_->folder.leases(), key);
+}
+
+bool Cache::has_value(const Digest& value) {
+  state_->pins.pin(value);
+  return CacheFolder::use(state_->folder.path_of(EntryKind::value, value));
+}
+
+std::optional<Value> Cache::load_value(const Digest& value) {
+  const std::filesystem::path path = state_->folder.path_of(EntryKind::value, value);
+  if (!has_value(value)) return std::nullopt;
+  try {
+    Value loaded = terrazzo::load_value(path);
+    if (digest_of(loaded) != value) throw DamagedFile(fmt::format("{} lies under another value's name", path.string()));
+    return loaded;
+  } catch (const DamagedFile& e) {
+    state_->discard(path, e);
+  } catch (const FileError& e) {
+    if (e.code() != ENOENT) state_->warn(e.what());
+  } catch (const Error& e) {
+    state_->warn(e.what());
+  }
+  return std::nullopt;
+}
+
+void Cache::store_value(const Value& value, double seconds, const Task& task) {
+  if (has_value(digest_of(value))) return;
+  const std::filesystem::path target = state_->folder.path_of(EntryKind::value, digest_of(value));
+  try {
+    const std::filesystem::path temporary = state_->folder.temporary(target, state_->pins.owner());
+    const bool sync = seconds >= seconds_worth_syncing;
+    save_value(value, temporary, task, seconds, sync);
+    state_->folder.publish(temporary, target, sync);
+  } catch (const Error& e) {
+    state_->warn_unwritten(e);
+  }
+}
+
+}  // namespace terrazzo

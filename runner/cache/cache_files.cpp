@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cerrno>
+#include <optional>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include "core/file/bytes.h"
+#include "core/file/file_io.h"
+#include "runner/cache/cache_records.h"
+#include "runner/cache/cache_state.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// Two changes may fall into one tick of a file system's clock: what changed this recently may change unseen.
+constexpr int64_t unsettled_ns = 2 * ns_per_second;
+
+int64_t ns_of(const timespec& t) {
+  return int64_t{t.tv_sec} * ns_per_second + t.tv_nsec;
+}
+
+std::optional<FileStamp> stamp_of(const struct stat& status) {
+  if (!S_ISREG(status.st_mode)) return std::nullopt;
+  return FileStamp{uint64_t(status.st_size), ns_of(status.st_mtim), ns_of(status.st_ctim), uint64_t(status.st_ino)};
+}
+
+std::optional<FileStamp> stamp_of(const File& file) {
+  struct stat status;
+  if (!file.ok() || ::fstat(file.descriptor(), &status) != 0) return std::nullopt;
+  return stamp_of(status);
+}
+
+std::optional<FileStamp> stamp_of(const std::filesystem::path& path) {
+  struct stat status;
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return stamp_of(status);
+}
+
+Digest missing_digest() {
+  return Hasher().add("missing file").digest();
+}
+
+/// None if the file cannot be read.
+std::optional<Digest> digest_of_content(const File& file, const std::filesystem::path& path) {
+  constexpr size_t piece = size_t{1} << 20;
+  std::vector<uint8_t> buffer(piece);
+  Hasher hasher;
+  hasher.add("file");
+  uint64_t size = 0;
+  try {
+    while (const size_t got = file.read_at(size, buffer.data(), piece, path)) {
+      hasher.stream(buffer.data(), got);
+      size += got;
+    }
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
+  return hasher.add(int64_t(size)).digest();
+}
+
+}  // namespace
+
+Digest file_content_digest(const std::filesystem::path& path) {
+  const File file = File::open(path, O_RDONLY | O_NONBLOCK);
+  if (!stamp_of(file)) return missing_digest();
+  return digest_of_content(file, path).value_or(missing_digest());
+}
+
+Digest Cache::file_digest(const std::filesystem::path& path) {
+  const std::filesystem::path absolute = std::filesystem::absolute(path).lexically_normal();
+  const Digest name = Hasher().add(absolute.native()).digest();
+  const std::filesystem::path memo_path = state_->folder.path_of(EntryKind::file, name);
+  try {
+    const auto bytes = CacheFolder::read_and_use(memo_path);
+    if (bytes) {
+      const FileMemo memo = memo_from_bytes(name, *bytes);
+      if (stamp_of(absolute) == memo.stamp) return memo.content;
+    }
+  } catch (const Error&) {
+    // A memo that cannot be used is written anew.
+  }
+  const File file = File::open(absolute, O_RDONLY | O_NONBLOCK);
+  const std::optional<FileStamp> before = stamp_of(file);
+  if (!before) return missing_digest();
+  const int64_t begun = now_ns();
+  const std::optional<Digest> content = digest_of_content(file, absolute);
+  if (!content) return missing_digest();
+  const bool settled = std::max(before->modified_ns, before->changed_ns) + unsettled_ns < begun;
+  if (settled && stamp_of(file) == before) {
+    try {
+      state_->folder.write(memo_path, memo_to_bytes(name, {*before, *content}), state_->pins.owner(), false);
+    } catch (const Error& e) {
+      state_->warn_unwritten(e);
+    }
+  }
+  return *content;
+}
+
+}  // namespace terrazzo

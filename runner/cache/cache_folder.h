@@ -1,0 +1,82 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/hash.h"
+#include "core/file/file_io.h"
+
+/// The cache's layout on disk and the way files get into it:
+///   v1/values/ab/<digest>.tzv   core/node/serialize.h
+///   v1/stages/ab/<key>          runner/cache/cache_records.h
+///   v1/files/ab/<path digest>   runner/cache/cache_records.h
+///   v1/pins/, v1/lock           runner/cache/cache_pins.h
+///   v1/leases/<key>             runner/cache/cache_leases.h
+/// An entry's modification time is when it was last used. Files being written end in ".tmp".
+namespace terrazzo {
+
+enum class EntryKind : uint8_t { value, stage, file };
+
+struct CacheEntry {
+  EntryKind kind = EntryKind::value;
+  Digest name;
+  std::filesystem::path path;
+  uint64_t bytes = 0;
+  int64_t used_ns = 0;  ///< since the epoch
+};
+
+struct TemporaryEntry {
+  std::filesystem::path path;
+  std::string owner;
+  uint64_t bytes = 0;
+};
+
+struct CacheScan {
+  std::vector<CacheEntry> entries;  ///< ordered by kind, then by name
+  std::vector<TemporaryEntry> temporaries;
+  uint64_t bytes() const;
+};
+
+inline constexpr int64_t ns_per_second = 1'000'000'000;
+/// Wall-clock time, since the epoch.
+int64_t now_ns();
+
+/// Thread-safe.
+class CacheFolder {
+ public:
+  /// Makes the folders. Throws Error if that fails.
+  explicit CacheFolder(const std::filesystem::path& folder);
+
+  const std::filesystem::path& root() const { return root_; }
+  std::filesystem::path path_of(EntryKind kind, const Digest& name) const;
+  std::filesystem::path pins() const { return root_ / "pins"; }
+  std::filesystem::path leases() const { return root_ / "leases"; }
+  std::filesystem::path lock() const { return root_ / "lock"; }
+
+  /// A name beside `target`, whose folder is made, to write to. `owner` tells whose it is. Throws FileError.
+  std::filesystem::path temporary(const std::filesystem::path& target, const std::string& owner);
+  /// Moves a finished temporary file to its place. If `sync`, it is there after a power failure too. Throws FileError.
+  void publish(const std::filesystem::path& temporary, const std::filesystem::path& target, bool sync) const;
+  void write(const std::filesystem::path& target, const std::vector<uint8_t>& bytes, const std::string& owner,
+             bool sync);
+
+  /// The bytes of a small file; none if it does not exist. Throws FileError.
+  static std::optional<std::vector<uint8_t>> read(const std::filesystem::path& path);
+  /// The same, and the entry counts as used now.
+  static std::optional<std::vector<uint8_t>> read_and_use(const std::filesystem::path& path);
+  /// Notes that an entry is used now; false if it does not exist.
+  static bool use(const std::filesystem::path& path);
+
+  /// All that is there now.
+  CacheScan scan() const;
+
+ private:
+  std::filesystem::path root_;
+  std::atomic<uint64_t> temporaries_{0};
+};
+
+}  // namespace terrazzo

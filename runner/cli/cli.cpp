@@ -1,0 +1,234 @@
+#include "runner/cli/cli.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include "core/base/suggest.h"
+#include "core/base/text.h"
+#include "core/file/file_io.h"
+#include "graphs/document/problem.h"
+#include "runner/cli/cli_commands.h"
+#include "runner/cli/console.h"
+#include "runner/report/progress.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  terrazzo synth bricks/ -o out --size 2048x2048     a larger material from a folder of maps\n"
+    "  terrazzo new bricks/ -o bricks.json                a graph to start from\n"
+    "  terrazzo run bricks.json --set seed=7 --dry-run    what a run would do, and why\n"
+    "  terrazzo nodes synthesize                          what a node type does and takes\n"
+    "Exit codes: 0 done, 1 a node failed or something could not be written, 2 bad usage or an invalid graph,\n"
+    "130 cancelled.";
+
+/// Told from the words themselves, so that it is known even if they cannot be understood.
+ProgressMode mode_of(int argc, const char* const* argv) {
+  const std::vector<std::string_view> words(argv, argv + argc);
+  for (size_t i = 0; i < words.size(); i++)
+    if (words[i] == "--progress=json" || (words[i] == "--progress" && i + 1 < words.size() && words[i + 1] == "json"))
+      return ProgressMode::json;
+  return ProgressMode::plain;
+}
+
+/// The innermost command that has been named.
+const CLI::App* named_command(const CLI::App* app) {
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+  return app;
+}
+
+std::string full_name(const CLI::App* app) {
+  return app->get_parent() ? full_name(app->get_parent()) + " " + app->get_name() : app->get_name();
+}
+
+std::vector<std::string> option_names(const CLI::App* app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* o : app->get_options()) {
+    for (const std::string& n : o->get_lnames()) names.push_back("--" + n);
+    for (const std::string& n : o->get_snames()) names.push_back("-" + n);
+  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App* app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app->get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
+  return names;
+}
+
+/// A value that may be left out is not told from an argument that comes next.
+std::string direction_hint(const CLI::App* command, const std::string& arg) {
+  const bool direction = arg == "x" || arg == "y" || arg == "xy";
+  return direction && command->get_option_no_throw("--tileable") ? fmt::format("; did you mean --tileable={}?", arg)
+                                                                 : "";
+}
+
+/// Arguments that nothing takes, each with the nearest thing that exists; empty if there are none. What follows an
+/// unknown command would be that command's.
+std::string unknown_arguments(const CLI::App* command) {
+  std::string out;
+  for (const std::string& arg : command->remaining()) {
+    const std::vector<std::string> commands = command_names(command);
+    const std::string line =
+        arg.starts_with("-")
+            ? fmt::format("unknown option {}{}", arg, suggestion(arg.substr(0, arg.find('=')), option_names(command)))
+        : commands.empty() ? fmt::format("unexpected argument {}{}", arg, direction_hint(command, arg))
+                           : fmt::format("unknown command {}{}", arg, suggestion(arg, commands));
+    out += (out.empty() ? "" : "\n") + line;
+    if (!arg.starts_with("-") && !commands.empty()) break;
+  }
+  return out;
+}
+
+int usage_error(const CLI::App& app, ProgressMode mode, const std::string& what) {
+  const CLI::App* command = named_command(&app);
+  const std::string unknown = unknown_arguments(command);
+  write_error(mode, std::cerr, UsageError(unknown.empty() ? what : unknown));
+  if (mode != ProgressMode::json) say("`{} --help` says what it takes.\n", full_name(command));
+  return exit_usage;
+}
+
+/// A standard stream that was closed before the program began would become the first file that is opened, and messages
+/// would end up in it. One that is open for reading only takes none, as a closed one would.
+void keep_standard_streams_apart() {
+  for (int opened = 0; opened >= 0 && opened <= STDERR_FILENO;) {
+    opened = ::open("/dev/null", O_RDONLY);
+    if (opened > STDERR_FILENO) ::close(opened);
+  }
+}
+
+/// The exit code, given that a command that has ended with `code` may have lost part of its answer.
+int with_answer_written(int code, ProgressMode mode) {
+  if (answer_failure() == 0) return code;
+  write_error(mode, std::cerr, Error("cannot write to standard output: " + system_message(answer_failure())));
+  return code == exit_done ? exit_failed : code;
+}
+
+}  // namespace
+
+void check_writable(const char* option, const std::string& path) {
+  if (path.empty()) return;
+  std::error_code missing;
+  const bool was_there = std::filesystem::exists(path, missing);
+  if (!std::ofstream(path, std::ios::app)) throw UsageError(fmt::format("{} {}: cannot write there", option, path));
+  if (!was_there) std::filesystem::remove(path, missing);
+}
+
+uint64_t parse_bytes(const std::string& text, const std::string& option) {
+  const auto wrong = [&]() -> UsageError {
+    return UsageError(fmt::format(
+        "{} takes a number with a unit, such as 512M or 2G (K, M, G, T; 1K = 1024 bytes); \"{}\" is not one", option,
+        text));
+  };
+  double number = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  std::string unit(end, text.data() + text.size());
+  std::erase(unit, ' ');
+  for (const std::string_view ending : {"iB", "B"})
+    if (unit.size() > 1 && unit.ends_with(ending)) unit.erase(unit.size() - ending.size());
+  const size_t power = unit.size() == 1 ? std::string_view("KMGT").find(static_cast<char>(std::toupper(unit[0])))
+                                        : std::string_view::npos;
+  if (failure != std::errc() || power == std::string_view::npos || !(number > 0) || number > 1e6) throw wrong();
+  return static_cast<uint64_t>(number * static_cast<double>(uint64_t{1} << (10 * (power + 1))));
+}
+
+std::string shown_bytes(uint64_t bytes) {
+  constexpr std::array<std::string_view, 5> units = {"bytes", "KiB", "MiB", "GiB", "TiB"};
+  if (bytes < 1024) return counted(int64_t(bytes), "byte");
+  double value = static_cast<double>(bytes);
+  size_t unit = 0;
+  for (; value >= 1024 && unit + 1 < units.size(); unit++) value /= 1024;
+  return fmt::format("{:.1f} {}", value, units[unit]);
+}
+
+namespace {
+
+int obey(int argc, const char* const* argv, ProgressMode mode);
+
+/// What `--help` behind the words says.
+int help_on(const CLI::App& app, const std::vector<std::string>& words, ProgressMode mode) {
+  const CLI::App* command = &app;
+  std::vector<const char*> argv = {"terrazzo"};
+  for (const std::string& word : words) {
+    const std::vector<std::string> known = command_names(command);
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      throw UsageError(fmt::format("unknown command {}{}", word, suggestion(word, known)));
+    command = command->get_subcommand(word);
+    argv.push_back(word.c_str());
+  }
+  argv.push_back("--help");
+  return obey(int(argv.size()), argv.data(), mode);
+}
+
+void add_help_command(CLI::App& app, Chosen& chosen, ProgressMode mode) {
+  CLI::App* help = app.add_subcommand("help", "Says what a command does and takes, as its --help does");
+  const auto words = std::make_shared<std::vector<std::string>>();
+  help->add_option("COMMAND", *words, "The command; if none is given, what there is")->type_name("");
+  help->footer("Example:\n  terrazzo help synth");
+  help->callback([&app, &chosen, words, mode] { chosen = [&app, words, mode] { return help_on(app, *words, mode); }; });
+}
+
+/// Runs what the words ask for; returns the exit code.
+int obey(int argc, const char* const* argv, ProgressMode mode) {
+  CLI::App app("terrazzo turns a small PBR material into as much new, non-repeating material as a scene needs.",
+               "terrazzo");
+  app.set_version_flag("--version", "terrazzo " TERRAZZO_VERSION);
+  app.footer(examples);
+  app.require_subcommand(0, 1);  // further words belong to the command, even if they are a command's name too
+  app.get_formatter()->column_width(32);
+  Chosen chosen;
+  add_run_command(app, chosen);
+  add_synth_command(app, chosen);
+  add_document_commands(app, chosen);
+  add_node_commands(app, chosen);
+  add_cache_command(app, chosen);
+  add_compare_command(app, chosen);
+  add_help_command(app, chosen, mode);
+  try {
+    app.parse(argc, argv);
+    if (!chosen) throw CLI::RequiredError("A command");
+    return chosen();
+  } catch (const CLI::Success& e) {
+    std::ostringstream help;
+    const int code = app.exit(e, help, help);
+    answer("{}", help.str());
+    return code;
+  } catch (const CLI::ParseError& e) {
+    return usage_error(app, mode, e.what());
+  } catch (const GraphError& e) {
+    write_error(mode, std::cerr, e);
+    return exit_usage;
+  } catch (const UsageError& e) {
+    write_error(mode, std::cerr, e);
+    return exit_usage;
+  } catch (const Cancelled& e) {
+    write_error(mode, std::cerr, e);
+    return exit_cancelled;
+  } catch (const std::exception& e) {
+    write_error(mode, std::cerr, e);
+    return exit_failed;
+  }
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  keep_standard_streams_apart();
+  const ProgressMode mode = mode_of(argc, argv);
+  return with_answer_written(obey(argc, argv, mode), mode);
+}
+
+}  // namespace terrazzo

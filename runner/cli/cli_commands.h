@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "runner/cache/cache.h"
+
+namespace CLI {
+class App;
+}
+
+/// The commands, one file per group. Each function adds its commands to the program; the one that is given on the
+/// command line puts what it does into `chosen`, which returns the exit code.
+namespace terrazzo {
+
+inline constexpr int exit_done = 0;
+inline constexpr int exit_failed = 1;
+inline constexpr int exit_usage = 2;
+inline constexpr int exit_cancelled = 130;
+
+/// A wrong value on the command line; becomes exit code 2.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+using Chosen = std::function<int()>;
+
+void add_run_command(CLI::App& app, Chosen& chosen);
+void add_synth_command(CLI::App& app, Chosen& chosen);
+void add_document_commands(CLI::App& app, Chosen& chosen);
+void add_node_commands(CLI::App& app, Chosen& chosen);
+void add_cache_command(CLI::App& app, Chosen& chosen);
+void add_compare_command(CLI::App& app, Chosen& chosen);
+
+/// Better to say it before the run than after it: throws UsageError unless the option's file can be written. No file if
+/// `path` is empty.
+void check_writable(const char* option, const std::string& path);
+/// "512M", "2G", "1.5 GiB" in bytes. Throws UsageError.
+uint64_t parse_bytes(const std::string& text, const std::string& option);
+/// 1536 MiB as "1.5 GiB".
+std::string shown_bytes(uint64_t bytes);
+
+}  // namespace terrazzo

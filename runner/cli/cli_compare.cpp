@@ -1,0 +1,128 @@
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/image/image_file.h"
+#include "runner/cli/cli_commands.h"
+#include "runner/cli/console.h"
+#include "runner/cli/signals.h"
+#include "runner/engine/memory_graph.h"
+#include "runner/engine/schedule.h"
+#include "runner/report/html_report.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CompareFlags {
+  std::string exemplar, output, uv, sheet, tileable = "auto";
+  bool json = false;
+};
+
+bool is_page(const fs::path& path) {
+  return path.extension() == ".html" || path.extension() == ".htm";
+}
+
+void check_sheet(const std::string& path) {
+  if (!path.empty() && !is_page(path) && !format_from(path))
+    throw UsageError(fmt::format(
+        "--sheet {}: the extension decides the format; expected .html for a page, or .png, .jpg, .tif or .exr", path));
+  if (is_page(path)) check_writable("--sheet", path);  // the plan looks at pictures
+}
+
+Graph compare_graph(const CompareFlags& flags) {
+  Graph graph;
+  GraphNode figures = memory_node("figures", "compare", {{"tileable", flags.tileable}});
+  for (const auto& [side, path] : {std::pair("exemplar", flags.exemplar), std::pair("output", flags.output)}) {
+    graph.nodes.push_back(reading_node(side, path));
+    figures.inputs[side] = {{side, graph.nodes.back().type->outputs.front().name}};
+  }
+  if (!flags.uv.empty()) {
+    GraphNode uv = memory_node("uv", "load_uv", {{"path", fs::absolute(flags.uv).string()}});
+    uv.inputs["exemplar"] = figures.inputs.at("exemplar");
+    graph.nodes.push_back(std::move(uv));
+    figures.inputs["uv"] = {{"uv", "uv"}};
+  }
+  graph.nodes.push_back(std::move(figures));
+  if (!flags.sheet.empty() && !is_page(flags.sheet)) {
+    graph.nodes.push_back(memory_node("sheet", "export", {{"path", fs::absolute(flags.sheet).string()}}));
+    graph.nodes.back().inputs["material"] = {{"figures", "sheet"}};
+  }
+  return graph;
+}
+
+std::string as_json(const Report& report) {
+  using Json = nlohmann::ordered_json;
+  Json figures = Json::array();
+  for (const Report::Figure& f : report.figures()) {
+    const Json value = std::visit([](const auto& v) { return Json(v); }, f.value);
+    figures.push_back({{"name", f.name}, {"value", value}, {"help", f.help}});
+  }
+  return Json({{"title", report.title()}, {"figures", std::move(figures)}})
+             .dump(2, ' ', false, Json::error_handler_t::replace) +
+         "\n";
+}
+
+std::string as_table(const Report& report) {
+  size_t names = 0;
+  for (const Report::Figure& f : report.figures()) names = std::max(names, f.name.size());
+  std::string out = report.title() + "\n";
+  for (const Report::Figure& f : report.figures()) {
+    const std::string value = std::holds_alternative<double>(f.value) ? fmt::format("{:.4f}", std::get<double>(f.value))
+                                                                      : std::get<std::string>(f.value);
+    out += fmt::format("  {:<{}}  {:>10}  {}\n", f.name, names, value, f.help);
+  }
+  return out;
+}
+
+int compare(const CompareFlags& flags) {
+  check_sheet(flags.sheet);
+  const CancelOnSignal signals;
+  const Graph graph = compare_graph(flags);
+  RunOptions options;
+  options.targets.keep = {"figures"};
+  options.cancelled = &signals.flag();
+  const RunResult result = run_graph(graph, options);
+  for (const Failure& f : result.failures) say("error: {}\n", f.message);
+  if (result.cancelled) return exit_cancelled;
+  if (!result.ok()) return exit_failed;
+  const ReportPtr report = std::get<ReportPtr>(result.kept.at("figures").at("report"));
+  if (is_page(flags.sheet)) write_report_page(*report, flags.sheet);
+  answer("{}", flags.json ? as_json(*report) : as_table(*report));
+  return exit_done;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("compare", "Scores a result against its exemplar");
+  const auto flags = std::make_shared<CompareFlags>();
+  command->add_option("EXEMPLAR", flags->exemplar, "A folder of maps, or one image")->required()->type_name("PATH");
+  command->add_option("OUTPUT", flags->output, "What was made from it")->required()->type_name("PATH");
+  command
+      ->add_option("--uv", flags->uv,
+                   "The uv map that was exported with the output: adds figures about seams, copies and evenness of use")
+      ->type_name("FILE");
+  command
+      ->add_option("--tileable", flags->tileable,
+                   "Directions in which the output should wrap around: adds figures about its seams. auto: as the uv "
+                   "map does")
+      ->type_name("auto|none|x|y|xy")
+      ->check(CLI::IsMember({"auto", "none", "x", "y", "xy"}));
+  command->add_flag("--json", flags->json, "For programs");
+  command
+      ->add_option("--sheet", flags->sheet,
+                   "Also write both side by side: a picture, or a page with the figures if the name ends in .html")
+      ->type_name("FILE");
+  command->footer(
+      "Examples:\n"
+      "  terrazzo compare bricks/ out/\n"
+      "  terrazzo compare bricks/ out/ --sheet comparison.html");
+  command->callback([&chosen, flags] { chosen = [flags] { return compare(*flags); }; });
+}
+
+}  // namespace terrazzo

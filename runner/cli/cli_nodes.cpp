@@ -1,0 +1,56 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "core/base/suggest.h"
+#include "graphs/document/reference.h"
+#include "graphs/document/schema.h"
+#include "nodes/common/registry.h"
+#include "runner/cli/cli_commands.h"
+#include "runner/cli/console.h"
+
+namespace terrazzo {
+
+namespace {
+
+const NodeType& known_type(const std::string& name) {
+  if (const NodeType* type = find_node_type(name)) return *type;
+  std::vector<std::string> names;
+  for (const NodeType& t : node_types()) names.push_back(t.name);
+  throw UsageError(fmt::format("there is no node type \"{}\"{}", name, suggestion(name, names)));
+}
+
+int show_nodes(const std::string& name, bool json) {
+  if (name.empty())
+    answer("{}", json ? nodes_json() : node_list());
+  else if (json)
+    answer("{}", nodes_json({known_type(name)}));
+  else
+    answer("{}", node_reference(known_type(name)));
+  return exit_done;
+}
+
+}  // namespace
+
+void add_node_commands(CLI::App& app, Chosen& chosen) {
+  CLI::App* nodes = app.add_subcommand("nodes", "Lists the node types, or describes one");
+  struct Flags {
+    std::string type;
+    bool json = false;
+  };
+  const auto flags = std::make_shared<Flags>();
+  nodes->add_option("TYPE", flags->type, "The node type to describe")->type_name("");
+  nodes->add_flag("--json", flags->json, "For programs: an array of descriptors");
+  nodes->footer("Examples:\n  terrazzo nodes\n  terrazzo nodes synthesize");
+  nodes->callback([&chosen, flags] { chosen = [flags] { return show_nodes(flags->type, flags->json); }; });
+
+  CLI::App* schema = app.add_subcommand("schema", "Prints the JSON Schema of graph files, for editors");
+  schema->footer("Example:\n  terrazzo schema > terrazzo.schema.json");
+  schema->callback([&chosen] {
+    chosen = [] {
+      answer("{}", json_schema());
+      return exit_done;
+    };
+  });
+}
+
+}  // namespace terrazzo

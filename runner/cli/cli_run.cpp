@@ -1,0 +1,285 @@
+#include "runner/cli/cli_run.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "graphs/document/load.h"
+#include "graphs/document/override.h"
+#include "runner/cli/cli_commands.h"
+#include "runner/cli/console.h"
+#include "runner/cli/folder_advice.h"
+#include "runner/cli/signals.h"
+#include "runner/cli/stock_graphs.h"
+#include "runner/cli/watch.h"
+#include "runner/engine/history.h"
+#include "runner/engine/preflight.h"
+#include "runner/report/html_report.h"
+#include "runner/report/trace.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void warn(const RunFlags& flags, const std::string& message) {
+  write_warning(*progress_mode_from(flags.progress), std::cerr, message);
+}
+
+/// The cache to use. The usual folder may be out of reach, which costs time; one that was asked for may not.
+std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
+  if (flags.no_cache) return nullptr;
+  try {
+    return std::make_unique<Cache>(flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache));
+  } catch (const Error& e) {
+    if (!flags.cache.empty()) throw UsageError(fmt::format("--cache {}: {}", flags.cache, e.what()));
+    warn(flags, fmt::format("running without a cache: {}", e.what()));
+    return nullptr;
+  }
+}
+
+bool is_terminal() {
+  const char* term = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && term && std::string_view(term) != "dumb";
+}
+
+/// What people read at the end; programs that asked for json have had it all.
+void print_end(const RunResult& result, ProgressMode mode) {
+  for (const Failure& f : result.failures) say("error: {}\n", f.message);
+  for (const StageOutcome& s : result.stages)
+    for (const std::string& note : s.notes)
+      if (is_warning(note)) say("{}node \"{}\": {}\n", warning_mark, s.node, note.substr(warning_mark.size()));
+  if (mode == ProgressMode::none) return;
+  for (const StageOutcome& s : result.stages)
+    if (s.kind == StageOutcome::Kind::run)
+      for (const OutputFile& f : s.files) say("wrote {}\n", f.path.string());
+  say("{}{}\n", result.cancelled ? "cancelled; " : "", result.summary());
+}
+
+int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
+  std::optional<History> history;
+  if (cache && !graph.file.empty()) history.emplace(cache->folder(), graph.file);
+  RunOptions options;
+  options.targets.only = flags.only;
+  options.cache = cache;
+  options.history = history ? &*history : nullptr;
+  options.threads = flags.threads;
+  options.memory = flags.memory.empty() ? 0 : parse_bytes(flags.memory, "--memory");
+  options.cancelled = &cancelled;
+  if (!flags.report.empty()) options.targets.keep = nodes_for_report(graph, flags.only);
+
+  const Plan plan = [&] {
+    try {
+      return make_plan(graph, cache, options.targets, options.history);
+    } catch (const GraphError&) {
+      throw;
+    } catch (const Error& e) {
+      throw UsageError(fmt::format("--only: {}", e.what()));
+    }
+  }();
+  if (flags.dry_run) {
+    answer("{}", plan.table());
+    return exit_done;
+  }
+  const ProgressMode mode = *progress_mode_from(flags.progress);
+  const std::unique_ptr<Progress> progress = make_progress(mode, std::cerr, is_terminal());
+  options.observer = progress.get();
+  const RunResult result = run_plan(plan, options);
+  if (cache) {
+    cache->collect();
+    for (const std::string& w : cache->take_warnings()) progress->warned(w);
+  }
+  progress->closed(result);
+  if (mode != ProgressMode::json) print_end(result, mode);
+  if (!flags.trace.empty()) write_trace(result, flags.trace);
+  if (!flags.report.empty()) write_html_report(plan, result, flags.report);
+  return result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
+}
+
+int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
+  Watch watched;
+  const ProgressMode mode = *progress_mode_from(flags.progress);
+  for (;;) {
+    int code = exit_usage;
+    Graph graph;
+    graph.file = flags.graph;
+    watched.look_at(graph);
+    try {
+      graph = load();
+      watched.look_at(graph);
+      code = run_once(graph, flags, cache, cancelled);
+    } catch (const Error& e) {
+      write_error(mode, std::cerr, e);
+    }
+    if (cancelled) return exit_cancelled;
+    write_watching(mode, std::cerr, watched.count());
+    if (!watched.wait_for_change(cancelled)) return code;
+  }
+}
+
+}  // namespace
+
+void add_run_flags(CLI::App& command, RunFlags& flags) {
+  command.add_option("--only", flags.only, "Run just what this node needs; may be given several times")
+      ->type_name("NODE")
+      ->take_all()
+      ->expected(1);
+  CLI::Option* cache = command.add_option("--cache", flags.cache, "Folder of the cache, if not the usual one");
+  cache->type_name("DIR");
+  command.add_flag("--no-cache", flags.no_cache, "Reuse nothing and keep nothing")->excludes(cache);
+  command.add_option("--threads", flags.threads, "Threads to use; one per core if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  command
+      .add_option("--memory", flags.memory, "Memory for running nodes, such as 2G; half of the machine's if not given")
+      ->type_name("SIZE");
+  command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
+  command.add_flag("--watch", flags.watch,
+                   "Run again whenever the graph file or a file that it reads changes. Ctrl-C ends it, with the exit "
+                   "code of the last run, or 130 if it interrupts one");
+  command.add_option("--report", flags.report, "Write a report with pictures")->type_name("FILE.html");
+  command.add_option("--trace", flags.trace, "Write who did what when, for chrome://tracing")->type_name("FILE.json");
+  command.add_option("--progress", flags.progress, "auto, bar, plain, json, or none: nothing but warnings and errors")
+      ->type_name("MODE")
+      ->check(CLI::IsMember(std::vector<std::string>(progress_mode_names.begin(), progress_mode_names.end()),
+                            CLI::ignore_case));
+}
+
+int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
+  if (!flags.memory.empty()) parse_bytes(flags.memory, "--memory");
+  check_writable("--report", flags.report);
+  check_writable("--trace", flags.trace);
+  const CancelOnSignal signals;
+  const std::unique_ptr<Cache> cache = open_cache(flags);
+  if (flags.watch) return watch(load, flags, cache.get(), signals.flag());
+  return run_once(load(), flags, cache.get(), signals.flag());
+}
+
+void add_run_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* run = app.add_subcommand("run", "Runs a graph: only what has changed since it last ran");
+  struct Flags : RunFlags {
+    std::vector<std::string> set;
+  };
+  const auto flags = std::make_shared<Flags>();
+  run->add_option("GRAPH", flags->graph, "The graph file")->required()->type_name("FILE.json");
+  run->add_option("--set", flags->set, "Sets a graph parameter, or node.parameter; may be given several times")
+      ->type_name("NAME=VALUE")
+      ->take_all()
+      ->expected(1);
+  add_run_flags(*run, *flags);
+  run->footer(
+      "Examples:\n"
+      "  terrazzo run bricks.json --set seed=7 --set size=2048x2048\n"
+      "  terrazzo run bricks.json --only layout --dry-run");
+  run->callback([&chosen, flags] {
+    chosen = [flags] {
+      return run_with_flags(
+          [&] {
+            LoadedGraph loaded =
+                load_graph(flags->graph, flags->set, {.only = flags->only, .look_ahead = foreseen_in_nodes});
+            for (const std::string& w : loaded.warnings) warn(*flags, w);
+            return std::move(loaded.graph);
+          },
+          *flags);
+    };
+  });
+}
+
+/// An argument of `synth`, and the parameter of the stock graph that it sets.
+struct Argument {
+  std::string name, parameter, value;
+
+  std::string override_text() const { return parameter + "=" + value; }
+};
+
+/// What is wrong, said of the arguments of `synth`, the folder first, instead of the graph that they stand for.
+GraphError about_arguments(const GraphError& error, const std::vector<Argument>& arguments) {
+  std::vector<Problem> problems;
+  for (const Problem& p : error.problems()) {
+    const bool is_source = p.node == "exemplar" || p.node == "weighted";  // the latter looks at the maps' shapes
+    const auto argument = std::find_if(arguments.begin(), arguments.end(), [&](const Argument& a) {
+      return p.where == where_of_override(a.override_text());
+    });
+    if (argument != arguments.end())
+      problems.push_back({{}, argument->name + " " + argument->value, p.message});
+    else if (is_source || p.node == "files")
+      problems.push_back({{}, is_source ? "FOLDER" : "-o", for_command_line(p.message, arguments.front().value)});
+    else
+      return error;
+  }
+  return GraphError("", std::move(problems));
+}
+
+bool same_folder(const std::string& a, const std::string& b) {
+  std::error_code missing;
+  return std::filesystem::equivalent(a, b, missing);
+}
+
+void add_synth_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
+  struct Flags : RunFlags {
+    std::string folder, out, size, seed, quality, blend, join, format, tileable;
+  };
+  const auto flags = std::make_shared<Flags>();
+  synth->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
+  synth
+      ->add_option("-o,--out", flags->out,
+                   "The folder to write to. {material}, {width}, {height} and {map} in it stand for what they name")
+      ->required()
+      ->type_name("DIR");
+  synth->add_option("--size", flags->size, "The size of the result")->type_name("WxH");
+  synth->add_option("--seed", flags->seed, "Another number gives another variation")->type_name("N");
+  synth->add_option("--quality", flags->quality, "draft, normal or best: draft is quick, best takes its time")
+      ->type_name("LEVEL");
+  synth
+      ->add_option("--blend", flags->blend,
+                   "How far from a seam pixels are blended, 0 to 8; 2 to 3 hides most seams. None if not given")
+      ->type_name("PIXELS");
+  synth
+      ->add_option(
+          "--join", flags->join,
+          "How far heights give way so that pieces meet: below 1 a part of the exemplar's side, else pixels; 0 "
+          "keeps them as they are. 0.03 if not given")
+      ->type_name("REACH");
+  synth
+      ->add_option("--format", flags->format,
+                   "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
+      ->type_name("FORMAT");
+  synth->add_flag("--tileable{xy}", flags->tileable,
+                  "The result wraps around; --tileable=x or --tileable=y in one direction only");
+  add_run_flags(*synth, *flags);
+  synth->footer("Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7");
+  synth->callback([&chosen, flags] {
+    chosen = [flags] {
+      std::vector<Argument> arguments = {{"FOLDER", "material", flags->folder}, {"-o", "out", flags->out}};
+      const auto set_if_given = [&](const char* name, const char* parameter, const std::string& value) {
+        if (!value.empty()) arguments.push_back({name, parameter, value});
+      };
+      set_if_given("--size", "size", flags->size);
+      set_if_given("--seed", "seed", flags->seed);
+      set_if_given("--quality", "quality", flags->quality);
+      set_if_given("--blend", "blend", flags->blend);
+      set_if_given("--join", "join", flags->join);
+      set_if_given("--format", "format", flags->format);
+      set_if_given("--tileable", "tileable", flags->tileable);
+      std::vector<std::string> set;
+      for (const Argument& a : arguments) set.push_back(a.override_text());
+      if (same_folder(flags->folder, flags->out))
+        throw UsageError(
+            fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
+      try {
+        return run_with_flags(
+            [&] { return load_graph_text(stock_graph("material"), "stock graph material.json", set).graph; }, *flags);
+      } catch (const GraphError& e) {
+        throw about_arguments(e, arguments);
+      }
+    };
+  });
+}
+
+}  // namespace terrazzo

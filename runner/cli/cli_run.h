@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "graphs/document/graph.h"
+#include "runner/report/progress.h"
+
+namespace CLI {
+class App;
+}
+
+namespace terrazzo {
+
+/// The options of every command that runs a graph.
+struct RunFlags {
+  std::string graph;  ///< the graph file; empty for a stock graph
+  std::vector<std::string> only;
+  std::string cache;
+  bool no_cache = false;
+  int threads = 0;
+  std::string memory;
+  bool dry_run = false;
+  bool watch = false;
+  std::string report;
+  std::string trace;
+  std::string progress = "auto";
+};
+
+void add_run_flags(CLI::App& command, RunFlags& flags);
+
+/// Runs the graph that `load` gives, as the flags say; returns the exit code. With `watch`, loads and runs it again
+/// whenever one of its files changes. Throws UsageError and GraphError.
+int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags);
+
+}  // namespace terrazzo

@@ -1,0 +1,5 @@
+#include "runner/cli/cli.h"
+
+int main(int argc, char** argv) {
+  return terrazzo::run_command_line(argc, argv);
+}

@@ -1,0 +1,210 @@
+#include "runner/engine/jobs.h"
+
+#include <chrono>
+#include <new>
+#include <thread>
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include "graphs/document/problem.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void remove_staged(const NodeContext& context) {
+  std::error_code ignored;
+  for (const StagedFile& f : context.staged()) fs::remove(f.temporary, ignored);
+}
+
+/// Removes a node's temporary files unless they have been put in their places.
+class StagedFiles {
+ public:
+  explicit StagedFiles(const NodeContext& context) : context_(context) {}
+  ~StagedFiles() { remove_staged(context_); }
+  StagedFiles(const StagedFiles&) = delete;
+  StagedFiles& operator=(const StagedFiles&) = delete;
+
+  std::vector<OutputFile> put_in_place(Cache* cache) {
+    for (const StagedFile& f : context_.staged())
+      if (!fs::exists(f.temporary))
+        throw std::logic_error(
+            fmt::format("{} announced the file {} and did not write it", context_.type().name, f.target.string()));
+    std::vector<OutputFile> files;
+    for (const StagedFile& f : context_.staged()) {
+      std::error_code failure;
+      fs::rename(f.temporary, f.target, failure);
+      if (failure) throw Error(fmt::format("cannot write {}: {}", f.target.string(), failure.message()));
+      files.push_back({f.target, fs::file_size(f.target), digest_of_file(cache, f.target)});
+    }
+    return files;
+  }
+
+ private:
+  const NodeContext& context_;
+};
+
+void check_outputs(NodeContext& context) {
+  for (const Port& p : context.type().outputs)
+    if (!context.outputs().count(p.name))
+      throw std::logic_error(fmt::format("{} did not set its output {}", context.type().name, p.name));
+}
+
+/// What was read must be what the key says; otherwise a result would be filed under the wrong key.
+void check_files_unchanged(const Stage& stage, Cache* cache) {
+  if (!cache) return;
+  InputNames inputs;
+  for (const auto& [port, wires] : stage.node->inputs) inputs[port].resize(wires.size());
+  const std::vector<Ingredient> now =
+      ingredients_of(*stage.node, inputs, [&](const fs::path& file) { return cache->file_digest(file); });
+  const std::vector<Ingredient>& before = stage.known->ingredients;
+  bool same = now.size() == before.size();
+  for (size_t i = 0; same && i < now.size(); i++)
+    same = now[i].what == before[i].what && (!now[i].what.starts_with("file ") || now[i].digest == before[i].digest);
+  if (!same) throw Error("the files it reads were changed while it was reading them; run the graph again");
+}
+
+/// A stage made again must give what its readers' keys already count on.
+void check_repeatable(const Stage& stage, const std::map<std::string, Digest>& names) {
+  if (!stage.known->record || names == stage.known->record->outputs) return;
+  throw Error(
+      fmt::format("the same inputs and parameters gave another result than before. The program was changed "
+                  "without raising the version of the node type {}, or the node is faulty. `terrazzo cache "
+                  "clear` makes a fresh start",
+                  stage.type().name));
+}
+
+void compute(Job& job, const Stage& stage, const RunOptions& options) {
+  NodeContext& context = *job.context;
+  StagedFiles staged(context);
+  const auto start = std::chrono::steady_clock::now();
+  context.task().check();
+  if (options.observer) options.observer->started(stage);
+  // Isolated: a thread that waits for this node's inner loops must not pick up another node meanwhile.
+  tbb::this_task_arena::isolate([&] { stage.type().compute(context); });
+  context.task().check();
+  check_outputs(context);
+  if (stage.type().files_read) check_files_unchanged(stage, options.cache);
+  StageRecord record;
+  record.outputs = names_of(stage.type(), stage.known->key, context.outputs());
+  check_repeatable(stage, record.outputs);
+  record.notes = context.notes();
+  record.files = staged.put_in_place(options.cache);
+  record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  job.values = std::move(context.outputs());
+  job.record = std::move(record);
+}
+
+void load(Job& job, const Stage& stage, const std::map<std::string, Digest>& names, Cache* cache) {
+  for (const std::string& port : stage.used_outputs) {
+    std::optional<Value> value = cache->load_value(names.at(port));
+    if (!value || type_of(*value) != stage.type().find_output(port)->type) {
+      job.values.clear();
+      return;
+    }
+    job.values.emplace(port, std::move(*value));
+  }
+}
+
+/// Whether this job is to compute the stage now: nobody else is at it, or nobody can tell. Waits for a while only,
+/// since a result may have to be stored by this thread before somebody else's can be had.
+bool claim(Job& job, const Stage& stage, const RunOptions& options) {
+  if (!options.cache || stage.type().persist != Persist::payload || stage.type().is_sink()) return true;
+  constexpr auto pause = std::chrono::milliseconds(5);
+  for (int i = 0; i < 10; i++) {
+    LeaseAttempt attempt = options.cache->try_lease(stage.known->key);
+    job.lease = std::move(attempt.lease);
+    if (!attempt.taken) return true;
+    if (!job.waited) {
+      if (options.observer) options.observer->waits(stage);
+      break;
+    }
+    job.context->task().check();
+    std::this_thread::sleep_for(pause);
+  }
+  job.waited = job.busy = true;
+  return false;
+}
+
+/// Loads what another process has computed since the stage was looked up.
+bool find_elsewhere(Job& job, const Stage& stage, Cache* cache) {
+  if (!job.lease) return false;
+  std::optional<StageRecord> record = cache->find_stage(stage.known->key);
+  if (!record || !is_complete(*record, stage.type())) return false;
+  for (const std::string& port : stage.used_outputs)
+    if (!cache->has_value(record->outputs.at(port))) return false;
+  load(job, stage, record->outputs, cache);
+  if (job.values.size() < stage.used_outputs.size()) return false;
+  job.record = std::move(record);
+  job.made_elsewhere = true;
+  job.lease.reset();
+  return true;
+}
+
+void store(Job& job, const Stage& stage, const RunOptions& options) {
+  const Task task(options.cancelled, {});
+  if (stage.type().persist == Persist::payload)
+    for (const auto& [port, value] : job.values) options.cache->store_value(value, job.record->seconds, task);
+  options.cache->store_stage(stage.known->key, *job.record);
+}
+
+/// The message with the files that the user asked for in place of those under which they were written so far.
+std::string of_targets(const NodeContext& context, std::string message) {
+  for (const StagedFile& f : context.staged())
+    for (size_t at; (at = message.find(f.temporary.native())) != std::string::npos;)
+      message.replace(at, f.temporary.native().size(), f.target.native());
+  return message;
+}
+
+void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
+  const Stage& stage = plan.stages[job.stage];
+  switch (job.kind) {
+    case Job::Kind::begin:
+      break;
+    case Job::Kind::look_up:
+      job.resolution = resolve(plan, job.stage, options.cache, nullptr);
+      break;
+    case Job::Kind::load:
+      load(job, stage, stage.known->names, options.cache);
+      break;
+    case Job::Kind::compute:
+      if (claim(job, stage, options) && !find_elsewhere(job, stage, options.cache)) compute(job, stage, options);
+      break;
+    case Job::Kind::store:
+      store(job, stage, options);
+      break;
+  }
+}
+
+}  // namespace
+
+void perform(Job& job, const Plan& plan, const RunOptions& options) {
+  const GraphNode& node = *plan.stages[job.stage].node;
+  const auto fail = [&](const std::string& about, const std::string& reason) {
+    const std::string message = job.context ? of_targets(*job.context, reason) : reason;
+    if (!about.empty() && !node.type->find_param(about)) job.blames_input = message;
+    job.failure = describe(plan.graph->file.string(), problem_of(node, about, message));
+  };
+  try {
+    perform_kind(job, plan, options);
+  } catch (const Cancelled&) {
+    job.cancelled = true;
+  } catch (const Error& e) {
+    fail(e.about(), e.what());
+  } catch (const fs::filesystem_error& e) {
+    fail("", fmt::format("{}: {}", e.path1().string(), e.code().message()));
+  } catch (const std::bad_alloc&) {
+    fail("", "the machine has not enough memory for it");
+  } catch (const std::exception& e) {
+    fail("", fmt::format("a fault in the program: {}", e.what()));
+  }
+  if (job.busy) return;
+  if (job.context) job.made_folders = job.context->made_folders();
+  if (job.kind == Job::Kind::store) job.lease.reset();
+  job.context.reset();  // lets go of the inputs
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,121 @@
+#include "runner/engine/preflight.h"
+
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/paths.h"
+#include "core/file/atomic_file.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Foresight {
+ public:
+  /// Nodes in the order of their wires, each with whether it is going to write.
+  std::vector<Problem> look(const std::vector<std::pair<const GraphNode*, bool>>& nodes) {
+    for (const auto& [node, writes] : nodes) note_sources(*node);
+    for (const auto& [node, writes] : nodes) look_at(*node, writes);
+    return std::move(problems_);
+  }
+
+ private:
+  void note_sources(const GraphNode& node) {
+    if (!node.type->files_read) return;
+    std::error_code missing;
+    for (const fs::path& file : node.type->files_read(node.params))
+      if (fs::is_regular_file(file, missing)) readers_.emplace(fs::weakly_canonical(file, missing), node.name);
+  }
+
+  /// A result must never take the place of what it is made from.
+  std::string read_by_others(const fs::path& path) const {
+    std::error_code missing;
+    const auto reader = readers_.find(fs::weakly_canonical(path, missing));
+    if (reader == readers_.end()) return {};
+    return fmt::format("{} would be overwritten, but the node \"{}\" reads it; write to another folder", path.string(),
+                       reader->second);
+  }
+
+  void look_at(const GraphNode& node, bool writes) {
+    if (!node.type->foresee) return;
+    try {
+      const Forecast forecast = node.type->foresee(node.params, inputs_of(node));
+      if (writes) check_files(node, forecast.files);
+      // An image that becomes a material of one map is none of the material beside it.
+      for (const Port& p : node.type->outputs)
+        if (p.type == ValueType::material) forecasts_[{node.name, p.name}] = forecast;
+    } catch (const Errors& all) {
+      for (const Error& e : all.all()) complain(node, e);
+    } catch (const Error& e) {
+      complain(node, e);
+    }
+  }
+
+  void complain(const GraphNode& node, const Error& e) {
+    // What is wrong with what comes through a wire may be so for all that read it.
+    const auto wires = node.inputs.find(e.about());
+    if (wires == node.inputs.end() || said_.emplace(wires->second, e.what()).second)
+      problems_.push_back(problem_of(node, e.about(), e.what()));
+  }
+
+  InputForecasts inputs_of(const GraphNode& node) const {
+    InputForecasts inputs;
+    for (const auto& [port, wires] : node.inputs)
+      for (const Wire& w : wires) {
+        const auto known = forecasts_.find({w.node, w.port});
+        inputs[port].push_back(known == forecasts_.end() ? Forecast{} : known->second);
+      }
+    return inputs;
+  }
+
+  void check_files(const GraphNode& node, const std::vector<FutureFile>& files) {
+    std::set<std::string> said;
+    for (const FutureFile& f : files) {
+      std::string trouble = why_not_writable(f.folder, f.name);
+      const fs::path path = (f.folder / f.name).lexically_normal();
+      if (trouble.empty() && !f.name.empty()) trouble = read_by_others(path);
+      if (trouble.empty() && !f.name.empty()) {
+        const auto [at, is_new] = writers_.emplace(place_of_file(path), Writer{node.name, f.what, path});
+        const Writer& writer = at->second;
+        if (!is_new)
+          trouble = fmt::format("{} would be written twice, {}{}", path.string(),
+                                writer.node != node.name ? fmt::format("here and by the node \"{}\"", writer.node)
+                                                         : fmt::format("for {} and for {}", writer.what, f.what),
+                                writer.path != path ? fmt::format(" ({} is the same file)", writer.path.string()) : "");
+      }
+      if (!trouble.empty() && said.insert(trouble).second) problems_.push_back(problem_of(node, f.param, trouble));
+    }
+  }
+
+  struct Writer {
+    std::string node, what;
+    fs::path path;  ///< as it names the file
+  };
+
+  std::map<std::pair<std::string, std::string>, Forecast> forecasts_;  ///< by node and port
+  std::map<fs::path, std::string> readers_;
+  std::map<fs::path, Writer> writers_;  ///< by place_of_file
+  std::set<std::pair<std::vector<Wire>, std::string>> said_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> foreseen_problems(const Plan& plan) {
+  std::vector<std::pair<const GraphNode*, bool>> nodes;
+  for (const Stage& s : plan.stages)
+    if (s.needed) nodes.emplace_back(s.node, s.state != StageState::up_to_date);
+  return Foresight().look(nodes);
+}
+
+std::vector<Problem> foreseen_in_nodes(const std::vector<GraphNode>& nodes) {
+  std::vector<std::pair<const GraphNode*, bool>> all;
+  for (const GraphNode& n : nodes) all.emplace_back(&n, true);
+  return Foresight().look(all);
+}
+
+}  // namespace terrazzo

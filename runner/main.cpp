@@ -1,5 +1,0 @@
-#include "runner/cli.h"
-
-int main(int argc, char** argv) {
-  return terrazzo::run_command_line(argc, argv);
-}

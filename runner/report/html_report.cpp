@@ -1,0 +1,172 @@
+#include "runner/report/html_report.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "runner/report/text_file.h"
+#include "runner/report/thumbnail.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int thumbnail_side = 256;
+constexpr int sheet_side = 2048;
+
+constexpr std::string_view style = R"(
+  body { font: 15px/1.45 system-ui, sans-serif; margin: 2em auto; max-width: 72em; padding: 0 1em; color: #222; background: #fafafa }
+  h1 { font-size: 1.5em } h2 { font-size: 1.15em; margin-top: 2em }
+  table { border-collapse: collapse; width: 100% } td, th { text-align: left; padding: .25em .8em .25em 0; vertical-align: top; border-bottom: 1px solid #e2e2e2 }
+  td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap }
+  .bar { background: #7a9cc6; height: .7em; min-width: 1px; display: inline-block } .failed { color: #b00020 } .quiet { color: #777 }
+  figure { display: inline-block; margin: 0 1em 1em 0 } figcaption { font-size: .85em; color: #555 } img { display: block; image-rendering: auto; border: 1px solid #ddd }
+  @media (prefers-color-scheme: dark) { body { color: #ddd; background: #1b1b1b } td, th { border-color: #383838 } img { border-color: #444 } .quiet, figcaption { color: #999 } }
+)";
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '&')
+      out += "&amp;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string_view shown(StageOutcome::Kind kind, bool sink) {
+  constexpr std::array<std::string_view, 5> names = {"not asked for", "cached", "run", "failed", "not run"};
+  return kind == StageOutcome::Kind::reused && sink ? "up to date" : names[static_cast<size_t>(kind)];
+}
+
+std::string picture(const std::string& caption, const ImagePtr& image, int longest = thumbnail_side) {
+  return fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}, {}&times;{}</figcaption></figure>\n",
+                     thumbnail_uri(image, longest), escaped(caption), escaped(caption), image->width(),
+                     image->height());
+}
+
+std::string report_html(const Report& report, int longest = thumbnail_side) {
+  std::string out = fmt::format("<h3>{}</h3>\n<table>\n", escaped(report.title()));
+  for (const Report::Figure& f : report.figures()) {
+    const std::string value = std::holds_alternative<double>(f.value) ? fmt::format("{:.4g}", std::get<double>(f.value))
+                                                                      : std::get<std::string>(f.value);
+    out += fmt::format("<tr><td>{}</td><td class=number>{}</td><td class=quiet>{}</td></tr>\n", escaped(f.name),
+                       escaped(value), escaped(f.help));
+  }
+  out += "</table>\n";
+  for (const Report::Picture& p : report.pictures()) out += picture(p.name, p.image, longest);
+  return out;
+}
+
+std::string page_head(const std::string& title) {
+  return fmt::format(
+      "<!doctype html>\n<html lang=en><meta charset=utf-8><meta name=viewport content=\"width=device-width\">\n"
+      "<title>{0}</title>\n<style>{1}</style>\n<h1>{0}</h1>\n",
+      escaped(title), style);
+}
+
+struct ShowValue {
+  const std::string& name;
+  std::string operator()(const ImagePtr& image) const { return picture(name, image); }
+  std::string operator()(const MaterialPtr& material) const {
+    std::string out;
+    for (const Map& m : material->maps()) out += picture(m.name, m.image);
+    return out;
+  }
+  std::string operator()(const ReportPtr& report) const { return report_html(*report); }
+  template <typename Other>
+  std::string operator()(const Other&) const {
+    return "";
+  }
+};
+
+std::string values_html(const RunResult& result) {
+  std::string out;
+  for (const StageOutcome& s : result.stages) {
+    const auto kept = result.kept.find(s.node);
+    if (kept == result.kept.end()) continue;
+    for (const auto& [port, value] : kept->second) {
+      const std::string name = kept->second.size() > 1 ? s.node + "." + port : s.node;
+      const std::string shown = std::visit(ShowValue{name}, value);
+      if (!shown.empty()) out += fmt::format("<h2>{}</h2>\n{}", escaped(name), shown);
+    }
+  }
+  return out;
+}
+
+std::string stages_html(const Plan& plan, const RunResult& result) {
+  double longest = 1e-6;
+  for (const StageOutcome& s : result.stages) longest = std::max(longest, s.seconds);
+  std::string out = "<table>\n<tr><th>node<th>type<th>what it did<th>seconds<th><th>why</tr>\n";
+  for (size_t i = 0; i < plan.stages.size(); i++) {
+    const Stage& stage = plan.stages[i];
+    const StageOutcome& s = result.stages[i];
+    const bool ran = s.kind == StageOutcome::Kind::run;
+    out += fmt::format(
+        "<tr{}><td>{}</td><td>{}</td><td>{}</td><td class=number>{}</td><td style=\"width:12em\"><span class=bar "
+        "style=\"width:{:.1f}em\"></span></td><td class=quiet>{}</td></tr>\n",
+        s.kind == StageOutcome::Kind::failed ? " class=failed" : "", escaped(s.node), escaped(stage.type().name),
+        stage.needed ? shown(s.kind, stage.type().is_sink()) : "not needed",
+        ran ? fmt::format("{:.2f}", s.seconds) : "", 12 * s.seconds / longest, escaped(stage.reason));
+  }
+  return out + "</table>\n";
+}
+
+std::string lists_html(const RunResult& result) {
+  std::string notes, files;
+  for (const StageOutcome& s : result.stages) {
+    for (const std::string& n : s.notes)
+      notes += fmt::format("<li{}>{}: {}</li>\n", is_warning(n) ? " class=failed" : "", escaped(s.node), escaped(n));
+    for (const OutputFile& f : s.files) files += fmt::format("<li>{}</li>\n", escaped(f.path.string()));
+  }
+  std::string out;
+  if (!notes.empty()) out += "<h2>Notes</h2>\n<ul>\n" + notes + "</ul>\n";
+  if (!files.empty()) out += "<h2>Files</h2>\n<ul>\n" + files + "</ul>\n";
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> nodes_for_report(const Graph& graph, const std::vector<std::string>& only) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const GraphNode& n : graph.nodes) {
+    const bool target = only.empty() ? n.type->is_sink() : std::find(only.begin(), only.end(), n.name) != only.end();
+    if (!target) continue;
+    if (n.type->is_sink())
+      for (const auto& [port, wires] : n.inputs)
+        for (const Wire& w : wires) add(w.node);
+    if (!n.type->outputs.empty()) add(n.name);
+  }
+  return names;
+}
+
+void write_html_report(const Plan& plan, const RunResult& result, const std::filesystem::path& path) {
+  const std::string title = plan.graph->summary.empty() ? plan.graph->file.filename().string() : plan.graph->summary;
+  std::string page = page_head(title);
+  page += fmt::format("<p>{}<br><span class=quiet>{}</span></p>\n", escaped(result.summary()),
+                      escaped(plan.graph->file.string()));
+  for (const Failure& f : result.failures) page += fmt::format("<p class=failed>{}</p>\n", escaped(f.message));
+  for (const StageOutcome& s : result.stages)
+    for (const std::string& n : s.notes)
+      if (is_warning(n)) page += fmt::format("<p class=failed>{}: {}</p>\n", escaped(s.node), escaped(n));
+  page += values_html(result);
+  page += "<h2>Stages</h2>\n" + stages_html(plan, result);
+  page += lists_html(result);
+  write_whole_file(path, page);
+}
+
+void write_report_page(const Report& report, const std::filesystem::path& path) {
+  write_whole_file(path, page_head("terrazzo: a comparison") + report_html(report, sheet_side));
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,96 @@
+#include "core/analysis/repeats/wrap_detection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "tests/exemplars.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+TEST_CASE("tiling is seen from the borders") {
+  // Overlapping discs, cut at the borders or continued on the other side.
+  const auto discs = [](bool wraps) {
+    return Material::of(make_image({96, 96}, 1, [wraps](int x, int y, int) {
+      float value = 0;
+      for (int i = 0; i < 60; i++) {
+        const uint64_t r = random_bits(9, i);
+        int dx = std::abs(int(r % 96) - x), dy = std::abs(int(r / 96 % 96) - y);
+        if (wraps) dx = std::min(dx, 96 - dx), dy = std::min(dy, 96 - dy);
+        if (dx * dx + dy * dy < 60) value = float(i) / 60;
+      }
+      return value + (wraps ? 0.f : float(x + y) / 100);
+    }));
+  };
+  CHECK(seems_to_tile(*discs(true), Task()));
+  CHECK_FALSE(seems_to_tile(*discs(false), Task()));
+  CHECK_FALSE(
+      seems_to_tile(*Material::of(make_image({64, 64}, 1, [](int x, int, int) { return float(x) / 64; })), Task()));
+}
+
+TEST_CASE("gravel that was cut out anywhere does not tile, though what lies across its borders looks like gravel") {
+  const auto gravel = [](int period) {
+    return Material::of(make_image({96, 96}, 1, [period](int x, int y, int) {
+      float sum = 0;
+      for (int dy = 0; dy < 3; dy++)
+        for (int dx = 0; dx < 3; dx++)
+          sum += float(unit_double(random_bits(7, (x + dx) % period, (y + dy) % period))) / 9;
+      return sum;
+    }));
+  };
+  CHECK(seems_to_tile(*gravel(96), Task()));
+  CHECK_FALSE(seems_to_tile(*gravel(1000), Task()));
+}
+
+TEST_CASE("rough joints along the border are compared with those inside, over all maps, of any sizes") {
+  // `lighter`: the last rows, which are half a joint.
+  const auto wall = [](int side, float lighter) {
+    return make_image({side, side}, 1, [=](int x, int y, int) {
+      const int course = side / 4, joint = side / 48, row = y % course;
+      const float rough = float(unit_double(random_bits(8, x, y)));
+      if (row < joint || row >= course - joint) return y < side - joint ? rough : rough + lighter;
+      return 0.5f + 0.02f * rough;
+    });
+  };
+  const auto material = [&](float lighter) {
+    return Material::make("wall", {{"height", wall(192, lighter)}, {"roughness", wall(96, lighter)}});
+  };
+  CHECK(seems_to_tile(*material(0), Task()));
+  CHECK_FALSE(seems_to_tile(*material(1), Task()));
+}
+
+TEST_CASE("one tile with its joint along the border tiles, unless the joint is cut off on one side") {
+  const auto tile = [](int left) {
+    return Material::of(make_image({96, 96}, 1, [left](int x, int y, int) {
+      const float grain = 0.1f * float(unit_double(random_bits(4, x, y)));
+      return (x < left || x >= 93 || y < 3 || y >= 93 ? 1.f : 0.3f) + grain;
+    }));
+  };
+  CHECK(seems_to_tile(*tile(3), Task()));
+  CHECK_FALSE(seems_to_tile(*tile(0), Task()));
+}
+
+TEST_CASE("an odd number of chequered tiles does not tile, however smooth its borders; an even one does") {
+  const auto chequered = [](double side) {
+    return Material::of(make_image({192, 192}, 1, [side](int x, int y, int) {
+      const int tile = int(x / side + 0.5) + int(y / side + 0.5);  // borders run through tiles
+      return (tile % 2 == 0 ? 0.8f : 0.2f) + 0.1f * float(unit_double(random_bits(5, x, y)));
+    }));
+  };
+  CHECK(seems_to_tile(*chequered(24), Task()));
+  CHECK_FALSE(seems_to_tile(*chequered(192.0 / 7), Task()));
+}
+
+TEST_CASE("tiles of which a border cuts off a little do not tile") {
+  const auto tiles = [](double side) {
+    return Material::of(make_image({192, 192}, 1, [side](int x, int y, int) {
+      const double u = x - side * std::floor(x / side), v = y - side * std::floor(y / side);
+      const float grain = 0.1f * float(unit_double(random_bits(6, x, y)));
+      return (std::min({u, v, side - u, side - v}) < 2 ? 0.f : 0.5f) + grain;
+    }));
+  };
+  CHECK(seems_to_tile(*tiles(24), Task()));
+  CHECK_FALSE(seems_to_tile(*tiles(23.7), Task()));
+}

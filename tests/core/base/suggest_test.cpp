@@ -1,0 +1,36 @@
+#include "core/base/suggest.h"
+
+#include <doctest/doctest.h>
+
+using namespace terrazzo;
+
+TEST_CASE("the nearest name is the one that was most likely meant") {
+  const std::vector<std::string> names = {"synthesize", "resize", "resolve_uv", "blur", "bool", "load_map"};
+  CHECK(nearest("sinthesise", names) == "synthesize");
+  CHECK(nearest("Resize", names) == "resize");
+  CHECK(nearest("rezise", names) == "resize");
+  CHECK(nearest("laod_map", names) == "load_map");
+  CHECK(nearest("boolean", names) == "bool");
+  CHECK(nearest("synth", names) == "synthesize");
+}
+
+TEST_CASE("no name is suggested that is nothing like what was written") {
+  CHECK(nearest("quantum", {"blur", "pca"}) == "");
+  CHECK(nearest("x", {"y", "z"}) == "");
+  CHECK(nearest("", {"y", "z"}) == "");
+  CHECK(nearest(std::string(1000, 'a'), {"aaa"}) == "");
+  CHECK(nearest("blur", {}) == "");
+}
+
+TEST_CASE("a suggestion falls back to the valid names") {
+  CHECK(suggestion("blurr", {"blur", "pca"}) == " (did you mean \"blur\"?)");
+  CHECK(suggestion("quantum", {"blur", "pca"}) == " (valid: \"blur\" or \"pca\")");
+  CHECK(suggestion("quantum", {}) == "");
+}
+
+TEST_CASE("long lists of names are shortened") {
+  CHECK(listed({"a"}) == "\"a\"");
+  CHECK(listed({"a", "b", "c"}) == "\"a\", \"b\" or \"c\"");
+  const std::string many = listed(std::vector<std::string>(40, "a"));
+  CHECK(many.ends_with("\"a\" and 24 more"));
+}

@@ -1,0 +1,140 @@
+#include "core/file/atomic_file.h"
+
+#include <chrono>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/base/error.h"
+#include "core/node/node.h"
+#include "tests/run_node.h"
+#include "tests/runner/fakes.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The number of a process that has been and is no more.
+pid_t dead_process() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  return child;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.rfind(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("what stands in the way of writing a file is told without touching anything") {
+  const TemporaryFolder folder;
+  const fs::path& at = folder.path();
+  write_text(at / "file", "");
+  fs::create_directories(at / "folder.png");
+  CHECK(why_not_writable(at, "x.png") == "");
+  CHECK(why_not_writable(at, "file") == "");
+  CHECK(why_not_writable(at, "") == "");
+  CHECK(why_not_writable(at / "not/yet/there", "x.png") == "");
+  CHECK(why_not_writable("", "x.png") == "");
+  CHECK(why_not_writable("not/yet/there", "x.png") == "");
+  const std::string in_the_way = "expected a folder to write to, found the file " + (at / "file").string();
+  CHECK(why_not_writable(at / "file", "x.png") == in_the_way);
+  CHECK(why_not_writable(at / "file/deeper/still", "") == in_the_way);
+  CHECK(why_not_writable(at, "folder.png") ==
+        "expected the name of a file to write, found the folder " + (at / "folder.png").string());
+  CHECK(listing(at) == std::vector<std::string>{"file", "folder.png"});
+}
+
+TEST_CASE("a folder that may not be written is named") {
+  const TemporaryFolder folder;
+  const fs::path locked = folder.path() / "locked";
+  fs::create_directories(locked);
+  fs::permissions(locked, fs::perms(0555));
+  // Root may write everywhere; nobody may not.
+  const bool is_root = ::geteuid() == 0;
+  if (is_root) REQUIRE(::seteuid(65534) == 0);
+  const std::string below = why_not_writable(locked / "below", "x.png");
+  if (is_root) REQUIRE(::seteuid(0) == 0);
+  fs::permissions(locked, fs::perms(0755));
+  CHECK(below == "cannot write into the folder " + locked.string() + ": Permission denied; write to another folder");
+}
+
+TEST_CASE("a folder in which nothing can be made is named, also to root, who is forbidden nothing") {
+  const std::string reason = ::geteuid() == 0 ? "nothing can be made there" : "Permission denied";
+  const std::string expected = "cannot write into the folder /proc: " + reason + "; write to another folder";
+  CHECK(why_not_writable("/proc", "x.png") == expected);
+  CHECK(why_not_writable("/proc/x/y", "x.png") == expected);
+}
+
+TEST_CASE("a link to a folder that is not there is named") {
+  const TemporaryFolder folder;
+  const fs::path link = folder.path() / "link";
+  fs::create_directory_symlink("gone", link);
+  CHECK(why_not_writable(link / "below", "x.png") ==
+        "the folder " + link.string() + " is a link to gone, which is not there");
+}
+
+TEST_CASE("temporaries of long names have names that are not too long") {
+  const TemporaryFolder folder;
+  const fs::path temporary = temporary_beside(folder.path() / (std::string(251, 'x') + ".png"));
+  CHECK(temporary.filename().string().size() < 200);
+  CHECK(temporary.extension() == ".png");
+}
+
+TEST_CASE("temporaries of dead processes are removed, and nothing else") {
+  const TemporaryFolder folder;
+  const auto make = [&](const std::string& name, bool is_old) {
+    write_text(folder.path() / name, "half of");
+    if (is_old) fs::last_write_time(folder.path() / name, fs::file_time_type::clock::now() - std::chrono::hours(25));
+    return name;
+  };
+  const std::string mine = temporary_beside(folder.path() / "base_color.tar.png").filename().string();
+  const std::string dead = replaced(mine, fmt::format("-{}-", ::getpid()), fmt::format("-{}-", dead_process()));
+  const size_t host = mine.find("terrazzo-") + 9;
+  const std::string elsewhere = std::string(dead).replace(host, 8, "00000000");
+  REQUIRE(mine.starts_with(".base_color.tar."));
+  REQUIRE(mine.ends_with(".png"));
+
+  const std::vector<std::string> gone = {make(dead, false), make(replaced(elsewhere, ".png", ".exr"), true)};
+  std::vector<std::string> kept = {make(mine, true),
+                                   make(elsewhere, false),
+                                   make("base_color.png", true),
+                                   make(".hidden", true),
+                                   make(".base_color." + std::to_string(dead_process()) + "-0.png", true),
+                                   make(dead.substr(1), true),
+                                   make(replaced(dead, "-", "-x"), true),
+                                   make(replaced(dead, "terrazzo", "travertine"), true)};
+  const std::string folder_like_one = replaced(dead, ".png", ".tif");
+  fs::create_directories(folder.path() / folder_like_one);
+  kept.push_back(folder_like_one);
+  std::sort(kept.begin(), kept.end());
+  remove_abandoned(folder.path());
+  CHECK(listing(folder.path()) == kept);
+  remove_abandoned(folder.path() / "not there");
+}
+
+TEST_CASE("staging a file clears its folder of what killed runs left") {
+  const TemporaryFolder folder;
+  const fs::path target = folder.path() / "out/x.png";
+  const std::string mine = temporary_beside(target).string();
+  const std::string dead = replaced(mine, fmt::format("-{}-", ::getpid()), fmt::format("-{}-", dead_process()));
+  fs::create_directories(target.parent_path());
+  write_text(dead, "half of");
+  const NodeType type;
+  NodeContext node(type, {}, {}, {}, Task());
+  const fs::path temporary = node.stage(target);
+  CHECK_FALSE(fs::exists(dead));
+  CHECK(temporary.parent_path() == target.parent_path());
+  write_text(temporary, "half of");
+  CHECK(node.stage(folder.path() / "out/y.png") != temporary);
+  CHECK(fs::exists(temporary));
+  CHECK_THROWS_WITH_AS(node.stage(temporary / "z.png"), doctest::Contains("expected a folder to write to"), Error);
+}

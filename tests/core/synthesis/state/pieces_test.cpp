@@ -1,0 +1,51 @@
+#include "core/synthesis/state/pieces.h"
+
+#include <doctest/doctest.h>
+
+using namespace terrazzo;
+
+namespace {
+
+/// Pixels that show the exemplar moved by `left` up to column 3, by `right` beyond it.
+Field two_parts(int left, int right) {
+  Field field{{6, 4}, {}};
+  for (int y = 0; y < 4; y++)
+    for (int x = 0; x < 6; x++) field.pixels.push_back({uint16_t((x + (x < 3 ? left : right)) % 10), uint16_t(y + 1)});
+  return field;
+}
+
+}  // namespace
+
+TEST_CASE("pixels that continue one another are one piece, in the order of first pixels") {
+  const Pieces pieces(two_parts(1, 3));
+  CHECK(pieces.count() == 2);
+  CHECK(pieces.of(0) == 0);
+  CHECK(pieces.of(3) == 1);
+  CHECK(pieces.area(0) == 12);
+  CHECK(pieces.area(1) == 12);
+  CHECK(pieces.members(1)[0] == 3);
+  CHECK(pieces.members(1).back() == 23);
+}
+
+TEST_CASE("a piece ends at the exemplar's border") {
+  // Columns 7, 8, 9, 0, 1, 2 of the exemplar.
+  CHECK(Pieces(two_parts(7, 7)).count() == 2);
+}
+
+TEST_CASE("a piece goes on around the borders of a field that wraps, and only there") {
+  // Columns 4, 5, 6, 1, 2, 3 of the exemplar: what the last shows goes on in the first.
+  const Field across = two_parts(4, 8);
+  CHECK(Pieces(across).count() == 2);
+  CHECK(Pieces(across, 1, false, true).count() == 2);
+  CHECK(Pieces(across, 1, true).count() == 1);
+  Field down{{1, 4}, {{3, 6}, {3, 7}, {3, 4}, {3, 5}}};
+  CHECK(Pieces(down, 1, true, false).count() == 2);
+  CHECK(Pieces(down, 1, false, true).count() == 1);
+  Field blocks{{1, 2}, {{3, 6}, {3, 4}}};
+  CHECK(Pieces(blocks, 2, false, true).count() == 1);
+}
+
+TEST_CASE("diagonal neighbours alone do not join") {
+  Field field{{2, 2}, {{1, 1}, {5, 5}, {4, 0}, {2, 2}}};
+  CHECK(Pieces(field).count() == 4);
+}

@@ -1,0 +1,267 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "../odd_images.h"
+#include "../run_node.h"
+#include "core/base/error.h"
+#include "core/image/image_file.h"
+#include "nodes/common/registry.h"
+#include "test_paths.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+void write(const fs::path& path, int channels, const std::function<float(int, int, int)>& value, Size size = {32, 32}) {
+  const ImagePtr image = make_image(size, channels, value);
+  write_image(*image, path, {.format = *format_from(path)}, [](double) {});
+}
+
+float ramp(int x, int y, int c) {
+  return float((x * 5 + y * 3 + c * 40) % 256) / 255.0f;
+}
+
+std::string notes_of(const NodeRun& run) {
+  std::string all;
+  for (const std::string& n : run.notes) all += n + "\n";
+  return all;
+}
+
+bool says(const NodeRun& run, const std::string& part) {
+  INFO(notes_of(run));
+  return notes_of(run).find(part) != std::string::npos;
+}
+
+std::string error_of(const Params& params) {
+  try {
+    run_node("load_material", params);
+  } catch (const Error& e) {
+    return fmt::format("{}: {}", e.about(), e.what());
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  INFO(text);
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a folder of maps becomes a material with the folder's name") {
+  const TemporaryFolder folder;
+  const fs::path bricks = folder.path() / "bricks";
+  fs::create_directory(bricks);
+  write(bricks / "bricks_color.png", 3, ramp);
+  write(bricks / "bricks_height.png", 1, ramp, {16, 8});
+  write(bricks / "bricks_normal_gl.png", 3, ramp);
+  write(bricks / "bricks_sheet.png", 3, ramp);
+  std::ofstream(bricks / "SOURCE.txt") << "from here";
+  const NodeRun run = run_node("load_material", {{"path", bricks.string() + "/"}});
+  const MaterialPtr m = run.get<Material>("material");
+  CHECK(m->name() == "bricks");
+  CHECK(m->map_names() == "base_color, normal, height");
+  CHECK(m->find("base_color")->info().color_space == "srgb_texture");
+  CHECK(m->find("base_color")->info().depth == Depth::u8);
+  CHECK(m->find("height")->info().color_space == "raw");
+  CHECK(m->find("height")->size() == Size{16, 8});
+  CHECK(m->find("normal")->info().semantic == Semantic::normal);
+  CHECK(m->find("normal")->info().normal_y == NormalY::up);
+  CHECK(says(run, "base_color: bricks_color.png"));
+  CHECK(says(run, "ignored, the name says nothing: bricks_sheet.png. Known words are base_color: basecolor"));
+  CHECK_FALSE(says(run, "SOURCE"));
+}
+
+TEST_CASE("maps smaller than the material are a warning that names them and both sizes, maps of one size are none") {
+  const TemporaryFolder folder;
+  write(folder.path() / "wall_color.png", 3, ramp, {48, 32});
+  write(folder.path() / "wall_roughness.png", 1, ramp, {48, 32});
+  const Params params = {{"path", folder.path().string()}};
+  CHECK_FALSE(says(run_node("load_material", params), "warning"));
+  write(folder.path() / "wall_height.png", 1, ramp, {24, 16});
+  CHECK(
+      says(run_node("load_material", params),
+           "warning: the material has 48x32 pixels, the size of its largest map; height (24x16) is scaled up to that. "
+           "Bring the maps to one size if this is not meant\n"));
+  write(folder.path() / "wall_roughness.png", 1, ramp, {30, 20});
+  CHECK(says(run_node("load_material", params), "height (24x16), roughness (30x20) are scaled up to that."));
+}
+
+TEST_CASE("packed files are split, smoothness is inverted") {
+  const TemporaryFolder folder;
+  write(folder.path() / "wall_ORM.png", 3, ramp);
+  NodeRun run = run_node("load_material", {{"path", folder.path().string()}});
+  MaterialPtr m = run.get<Material>("material");
+  CHECK(m->map_names() == "roughness, metallic, ambient_occlusion");
+  for (const auto& [name, channel] : {std::pair("ambient_occlusion", 0), {"roughness", 1}, {"metallic", 2}}) {
+    REQUIRE(m->find(name)->channels() == 1);
+    CHECK(m->find(name)->read({3, 4, 1, 1})[0] == ramp(3, 4, channel));
+  }
+
+  fs::remove(folder.path() / "wall_ORM.png");
+  write(folder.path() / "wall_Smoothness.png", 1, ramp);
+  run = run_node("load_material", {{"path", folder.path().string()}});
+  CHECK(run.get<Material>("material")->find("roughness")->read({3, 4, 1, 1})[0] == 1.0f - ramp(3, 4, 0));
+  CHECK(says(run, "roughness is wall_Smoothness.png, inverted"));
+}
+
+TEST_CASE("grey maps stored in colour are reduced, with a note if the channels differ") {
+  const TemporaryFolder folder;
+  write(folder.path() / "height.png", 3, [](int x, int y, int) { return ramp(x, y, 0); });
+  write(folder.path() / "roughness.png", 3, ramp);
+  const NodeRun run = run_node("load_material", {{"path", folder.path().string()}});
+  CHECK(run.get<Material>("material")->find("height")->channels() == 1);
+  CHECK(run.get<Material>("material")->find("roughness")->channels() == 1);
+  CHECK(says(run, "roughness has different channels in roughness.png; the first is taken"));
+  CHECK_FALSE(says(run, "height has different channels"));
+}
+
+TEST_CASE("a base colour's alpha becomes opacity unless it says nothing") {
+  const TemporaryFolder folder;
+  write(folder.path() / "albedo.png", 4, [](int x, int y, int c) { return c == 3 ? float(x % 2) : ramp(x, y, c); });
+  NodeRun run = run_node("load_material", {{"path", folder.path().string()}});
+  CHECK(run.get<Material>("material")->map_names() == "base_color, opacity");
+  CHECK(run.get<Material>("material")->find("base_color")->channels() == 3);
+  CHECK(run.get<Material>("material")->find("base_color")->read({2, 1, 1, 1})[1] == ramp(2, 1, 1));
+  write(folder.path() / "albedo.png", 4, [](int x, int y, int c) { return c == 3 ? 1.0f : ramp(x, y, c); });
+  run = run_node("load_material", {{"path", folder.path().string()}});
+  CHECK(run.get<Material>("material")->map_names() == "base_color");
+}
+
+TEST_CASE("the normal convention comes from the parameter, the name, or the pixels") {
+  const TemporaryFolder folder;
+  const auto bump = [](int x, int y) { return float(0.5 + 0.25 * std::sin(x * 0.6 + y * 0.2) * std::cos(y * 0.5)); };
+  write(folder.path() / "height.png", 1, [&](int x, int y, int) { return bump(x, y); });
+  const auto down = [&](int x, int y, int c) {
+    return c == 2 ? 1.0f : 0.5f + (c == 0 ? bump(x - 1, y) - bump(x + 1, y) : bump(x, y - 1) - bump(x, y + 1));
+  };
+  const auto convention = [&](const char* wish) {
+    const NodeRun run = run_node("load_material", {{"path", folder.path().string()}, {"normal_y", wish}});
+    return run.get<Material>("material")->find("normal")->info().normal_y;
+  };
+  write(folder.path() / "normal.png", 3, down);
+  CHECK(convention("auto") == NormalY::down);
+  CHECK(convention("up") == NormalY::up);
+  CHECK(says(run_node("load_material", {{"path", folder.path().string()}}), "judged by the height map"));
+  fs::remove(folder.path() / "height.png");
+  CHECK(convention("auto") == NormalY::down);
+  fs::rename(folder.path() / "normal.png", folder.path() / "normal_gl.png");
+  CHECK(convention("auto") == NormalY::up);
+  const NodeRun misnamed = run_node("load_material", {{"path", folder.path().string()}});
+  CHECK(says(misnamed, "normal_gl.png says that green points up (OpenGL), but it looks as if it pointed down"));
+  CHECK(says(misnamed, "set `normal_y` to \"down\" if it is wrong"));
+  fs::rename(folder.path() / "normal_gl.png", folder.path() / "normal_dx.png");
+  CHECK(convention("auto") == NormalY::down);
+  CHECK_FALSE(says(run_node("load_material", {{"path", folder.path().string()}}), "looks as if"));
+  fs::remove(folder.path() / "normal_dx.png");
+  write(folder.path() / "normal.png", 3, [](int, int, int c) { return c == 2 ? 1.0f : 0.5f; });
+  CHECK(says(run_node("load_material", {{"path", folder.path().string()}}), "up is assumed"));
+}
+
+TEST_CASE("the parameters maps and ignore overrule the names") {
+  const TemporaryFolder folder;
+  write(folder.path() / "color.png", 3, ramp);
+  write(folder.path() / "height_old.png", 1, ramp);
+  write(folder.path() / "scan.png", 3, ramp);
+  NodeRun run = run_node("load_material", {{"path", folder.path().string()},
+                                           {"maps", TextMap{{"height", "scan.png:g"}, {"mask_moss", "color.png:b"}}},
+                                           {"ignore", Texts{"*_old.png", "*.jpg"}}});
+  const MaterialPtr m = run.get<Material>("material");
+  CHECK(m->map_names() == "base_color, height, mask_moss");
+  CHECK(m->find("height")->read({5, 6, 1, 1})[0] == ramp(5, 6, 1));
+  CHECK(m->find("mask_moss")->info().semantic == Semantic::mask);
+  CHECK(says(run, "the pattern \"*.jpg\""));
+
+  run = run_node("load_material", {{"path", folder.path().string()}, {"maps", TextMap{{"height", ""}}}});
+  CHECK(run.get<Material>("material")->map_names() == "base_color");
+  CHECK(contains(error_of({{"path", folder.path().string()}, {"maps", TextMap{{"height", "scam.png"}}}}),
+                 "did you mean \"scan.png\"?"));
+  CHECK(contains(error_of({{"path", folder.path().string()}, {"maps", TextMap{{"height", "scan.png:a"}}}}),
+                 "height is to be channel a of scan.png, which has only 3 channels"));
+  CHECK(contains(error_of({{"path", folder.path().string()}, {"maps", TextMap{{"height", "scan.png:red"}}}}),
+                 "height is to be channel red of scan.png, but channels are called r, g, b and a"));
+  const NodeType* type = find_node_type("load_material");
+  Params params = {{"maps", TextMap{{"hieght", "scan.png"}}}, {"color_space", "auto"}};
+  REQUIRE(type->check(params).size() == 1);
+  CHECK(contains(type->check(params)[0], "did you mean \"height\"?"));
+}
+
+TEST_CASE("a folder that gives no material is refused with what was found") {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "bricks");
+  CHECK(contains(error_of({{"path", (folder.path() / "brick").string()}}), "did you mean \"bricks\"?"));
+  CHECK(contains(error_of({{"path", (folder.path() / "bricks").string()}}), "the folder is empty"));
+  std::ofstream(folder.path() / "bricks" / "readme.md") << "x";
+  write(folder.path() / "bricks" / "photo.png", 3, ramp);
+  CHECK(contains(error_of({{"path", (folder.path() / "bricks").string()}}), "it holds photo.png, readme.md"));
+  CHECK(contains(error_of({{"path", (folder.path() / "bricks" / "photo.png").string()}}), "load_map"));
+  write(folder.path() / "bricks" / "color.png", 3, ramp);
+  CHECK(contains(error_of({{"path", (folder.path() / "bricks").string()}, {"color_space", "srbg"}}),
+                 "there is no colour space \"srbg\""));
+  write_bytes(folder.path() / "bricks" / "height.png", {1, 2, 3});
+  CHECK(contains(error_of({{"path", (folder.path() / "bricks").string()}}), "height.png"));
+}
+
+TEST_CASE("a link to a missing file is an error, not a material without that map") {
+  const TemporaryFolder folder;
+  write(folder.path() / "height.png", 1, ramp);
+  fs::create_symlink("gone.png", folder.path() / "color.png");
+  CHECK(contains(error_of({{"path", folder.path().string()}}), "color.png: it is a link to gone.png, which does not"));
+}
+
+TEST_CASE("a folder that cannot be read is not called empty or missing") {
+  const TemporaryFolder folder;
+  fs::create_symlink("loop", folder.path() / "loop");
+  CHECK(contains(error_of({{"path", (folder.path() / "loop").string()}}), "loop: Too many levels of symbolic links"));
+  if (::geteuid() == 0) {
+    MESSAGE("skipped the rest: root may read everything");
+    return;
+  }
+  fs::create_directory(folder.path() / "locked");
+  fs::permissions(folder.path() / "locked", fs::perms::none);
+  CHECK(contains(error_of({{"path", (folder.path() / "locked").string()}}), "locked: Permission denied"));
+}
+
+TEST_CASE("the files read are the folder's images and those given, sorted") {
+  const TemporaryFolder folder;
+  for (const char* name : {"b_color.png", "a_height.png", "unknown.jpg", "SOURCE.txt"})
+    std::ofstream(folder.path() / name) << "x";
+  const NodeType* type = find_node_type("load_material");
+  const std::vector<fs::path> files =
+      type->files_read({{"path", folder.path().string()}, {"maps", TextMap{{"normal", "../n.png:rgb"}}}});
+  CHECK(files == std::vector<fs::path>{folder.path() / "../n.png", folder.path() / "a_height.png",
+                                       folder.path() / "b_color.png", folder.path() / "unknown.jpg"});
+}
+
+TEST_CASE("the exemplars are recognised, each normal map with the convention that fits its height") {
+  const char* given = std::getenv("TERRAZZO_EXEMPLARS");
+  const fs::path folder = given ? given : fs::path(TERRAZZO_SOURCE_DIR) / "../shared/exemplars";
+  if (!fs::is_directory(folder)) {
+    MESSAGE("skipped: no exemplars in ", folder.string(), " (set TERRAZZO_EXEMPLARS)");
+    return;
+  }
+  for (const fs::directory_entry& e : fs::directory_iterator(folder)) {
+    INFO(e.path().string());
+    const NodeRun run = run_node("load_material", {{"path", e.path().string()}});
+    const MaterialPtr m = run.get<Material>("material");
+    CHECK(m->find(Semantic::base_color));
+    size_t images = 0;
+    for (const fs::directory_entry& f : fs::directory_iterator(e)) images += looks_like_image(f.path());
+    CHECK(m->maps().size() == images);
+    std::ifstream source(e.path() / "SOURCE.txt");
+    const std::string text((std::istreambuf_iterator<char>(source)), std::istreambuf_iterator<char>());
+    if (m->find("normal") && text.find("Y up): DX") != std::string::npos)
+      CHECK(m->find("normal")->info().normal_y == NormalY::down);
+    if (m->find("normal") && text.find("Y up): GL") != std::string::npos)
+      CHECK(m->find("normal")->info().normal_y == NormalY::up);
+  }
+}

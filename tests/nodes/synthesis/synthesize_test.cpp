@@ -1,0 +1,131 @@
+#include "core/synthesis/synthesize.h"
+
+#include <doctest/doctest.h>
+
+#include "core/base/error.h"
+#include "nodes/common/registry.h"
+#include "tests/drawn_wall.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+
+UvMapPtr uv_of(const NodeRun& run) {
+  return run.get<UvMap>("uv");
+}
+
+std::vector<std::string> problems(Params params) {
+  const NodeType& type = *find_node_type("synthesize");
+  for (const Param& p : type.params)
+    if (p.fallback) params.emplace(p.name, *p.fallback);
+  return type.check(params);
+}
+
+}  // namespace
+
+TEST_CASE("a part of a surface is that part of the whole, with coarse levels made once or anew") {
+  const IndexPtr index = wall_index({72, 64});
+  const Params shared = {{"seed", int64_t{4}}, {"tileable", std::string("x")}};
+  Params whole = shared, coarse = shared, part = shared;
+  whole["size"] = coarse["size"] = part["surface"] = Size{300, 60};
+  part["size"] = Size{50, 30};
+  part["origin"] = Numbers{270, 20};
+  const UvMapPtr all = uv_of(run_node("synthesize", whole, {{"index", {index}}}));
+  const UvMapPtr levels = uv_of(run_node("synthesize_coarse", coarse, {{"index", {index}}}));
+  const UvMapPtr anew = uv_of(run_node("synthesize", part, {{"index", {index}}}));
+  const UvMapPtr given = uv_of(run_node("synthesize", part, {{"index", {index}}, {"coarse", {levels}}}));
+  CHECK(anew->digest() == given->digest());
+  CHECK(!given->wraps().x);
+  for (int y = 0; y < 30; y++)
+    for (int x = 0; x < 50; x++) REQUIRE(given->at(x, y) == all->at((270 + x) % 300, 20 + y));
+}
+
+TEST_CASE("whole bricks are a choice, of no weight to drafts, and laid alike in parts") {
+  const IndexPtr index = make_index(DrawnWall({240, 220}).appearance(), 3, Task());
+  const auto made = [&](Params params) { return uv_of(run_node("synthesize", params, {{"index", {index}}})); };
+  const Params laid = {{"size", Size{300, 260}}}, loose = {{"size", Size{300, 260}}, {"whole_bricks", false}};
+  const UvMapPtr whole = made(laid);
+  CHECK(whole->digest() != made(loose)->digest());
+  Params draft = laid, loose_draft = loose;
+  draft["quality"] = loose_draft["quality"] = std::string("draft");
+  CHECK(made(draft)->digest() == made(loose_draft)->digest());
+
+  const UvMapPtr part = made({{"surface", Size{300, 260}}, {"size", Size{80, 70}}, {"origin", Numbers{200, 30}}});
+  for (int y = 0; y < 70; y++)
+    for (int x = 0; x < 80; x++) REQUIRE(part->at(x, y) == whole->at(200 + x, 30 + y));
+}
+
+TEST_CASE("the whole surface from its coarse levels is what synthesize makes by itself") {
+  const IndexPtr index = wall_index({72, 64});
+  const Params size = {{"size", Size{120, 90}}};
+  const UvMapPtr levels = uv_of(run_node("synthesize_coarse", size, {{"index", {index}}}));
+  const UvMapPtr refined = uv_of(run_node("synthesize", size, {{"index", {index}}, {"coarse", {levels}}}));
+  CHECK(refined->digest() == uv_of(run_node("synthesize", size, {{"index", {index}}}))->digest());
+}
+
+TEST_CASE("coarse levels of another surface are refused, saying what they are of") {
+  const IndexPtr index = wall_index({72, 64});
+  const UvMapPtr levels = uv_of(run_node("synthesize_coarse", {{"size", Size{300, 60}}}, {{"index", {index}}}));
+  CHECK_THROWS_WITH_AS(run_node("synthesize", {{"size", Size{50, 50}}}, {{"index", {index}}, {"coarse", {levels}}}),
+                       doctest::Contains("these have 150x30"), Error);
+}
+
+TEST_CASE("a place off the surface is a problem of the document") {
+  CHECK(problems({{"size", Size{50, 50}}}).empty());
+  CHECK(problems({{"size", Size{50, 50}}, {"surface", Size{0, 100}}, {"origin", Numbers{0, 50}}}).empty());
+  const auto first = [](const Params& params) { return problems(params).at(0); };
+  CHECK(first({{"size", Size{50, 50}}, {"origin", Numbers{50, 0}}}).starts_with("\"origin\""));
+  CHECK(first({{"size", Size{50, 50}}, {"origin", Numbers{0.5, 0}}}).find("whole numbers") != std::string::npos);
+  CHECK(first({{"size", Size{50, 50}}, {"surface", Size{40, 90}}}).starts_with("\"surface\""));
+}
+
+TEST_CASE("a result that wraps and holds no whole number of repeats names a size that does better") {
+  const ImagePtr image = wall({64, 64});
+  const Lattice lattice{2, {16, 0}, {0, 16}, 0.5};
+  const FeaturesPtr features = Features::make(image->size(), {{image, {1, 1, 1}}}, true, lattice);
+  const IndexPtr index = make_index(make_appearance(*features, {}, {}, Task()), 3, Task());
+  const auto notes = [&](Size size, const std::string& tileable) {
+    return run_node("synthesize", {{"size", size}, {"tileable", tileable}}, {{"index", {index}}}).notes;
+  };
+  CHECK(notes({112, 96}, "xy").empty());
+  CHECK(notes({120, 100}, "none").empty());
+  CHECK(notes({114, 96}, "xy").empty());  // what is not seen is not told
+  const std::vector<std::string> stretched = notes({120, 100}, "xy");
+  REQUIRE(stretched.size() == 1);
+  CHECK(stretched[0] ==
+        "warning: 120x100 does not hold a whole number of the exemplar's repeats, so that they are stretched to wrap "
+        "around and "
+        "joints may jog; 128x96 would");
+  const FeaturesPtr high = features->with(Lattice{2, {16, 0}, {0, 300}, 0.5});
+  const IndexPtr none = make_index(make_appearance(*high, {}, {}, Task()), 3, Task());
+  CHECK(run_node("synthesize", {{"size", Size{112, 100}}, {"tileable", "xy"}}, {{"index", {none}}}).notes ==
+        std::vector<std::string>{
+            "warning: 112x100 does not hold a whole number of the exemplar's repeats, so that they are "
+            "stretched to wrap around and joints may jog; no size near it would"});
+}
+
+TEST_CASE("of several exemplars it is told how much of each is shown, and which is not shown at all") {
+  constexpr Size all{96, 48};
+  const ImagePtr image = wall(all);
+  const Repeats halves(std::vector<LatticePart>{{{0, 0, 48, 48}, {}, {}, {}}, {{48, 0, 48, 48}, {}, {}, {}}});
+  const auto notes = [&](int allowed, Size size) {
+    const ImagePtr mask = make_image(all, 1, [=](int x, int, int) { return x < allowed ? 1.f : 0.f; });
+    const FeaturesPtr features = Features::make(all, {{image, {1, 1, 1}}}, false, halves, mask);
+    const IndexPtr index = make_index(make_appearance(*features, {}, {}, Task()), 3, Task());
+    return run_node("synthesize", {{"size", size}}, {{"index", {index}}}).notes;
+  };
+  const std::vector<std::string> both = notes(96, {100, 80});
+  REQUIRE(both.size() == 1);
+  const auto percent = [&](const std::string& of) { return std::stoi(both[0].substr(both[0].find(of) + of.size())); };
+  CHECK(both[0].starts_with("the result shows exemplar 1 in "));
+  const int sum = percent("exemplar 1 in ") + percent("exemplar 2 in ");
+  CHECK(sum >= 99);
+  CHECK(sum <= 101);
+  CHECK(percent("exemplar 2 in ") > 10);
+  const std::vector<std::string> one = notes(48, {100, 80});
+  REQUIRE(one.size() == 2);
+  CHECK(one[0] == "the result shows exemplar 1 in 100 %, exemplar 2 in 0 %");
+  CHECK(one[1].starts_with("warning: nothing is shown of exemplar 2,"));
+  CHECK(notes(48, {60, 40}).size() == 1);
+}

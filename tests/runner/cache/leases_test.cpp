@@ -1,0 +1,179 @@
+#include <csignal>
+#include <thread>
+
+#include <doctest/doctest.h>
+#include <sys/file.h>
+
+#include "runner/cache/cache_folder.h"
+#include "runner/cache/cache_leases.h"
+#include "tests/runner/fakes.h"
+#include "tests/runner/program.h"
+#include "tests/runner/workplace.h"
+
+/// Runs that share a cache compute a stage once. Locks of files that are opened twice are as much apart within a
+/// process as between two, so most of this needs no second one.
+using namespace terrazzo;
+using namespace terrazzo::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Waits : RunObserver {
+  std::atomic<int> count{0};
+  std::function<void()> then;
+  void waits(const Stage&) override {
+    count++;
+    if (then) then();
+  }
+};
+
+/// A graph of one stage that is worth keeping, "slow", and a folder for caches.
+struct OneStage {
+  TemporaryFolder folder;
+  FakeTypes t;
+  Graph graph;
+  Cache cache{folder.path()};
+  fs::path leases = CacheFolder(folder.path()).leases();
+
+  OneStage() {
+    add(graph, "a", t.quick, {{"value", 2.0}});
+    add(graph, "slow", t.sum, {{"plus", 1.0}}, {"a"});
+  }
+  RunResult run(Cache& with, RunObserver* observer = nullptr, const std::atomic<bool>* cancelled = nullptr) const {
+    RunOptions options = keeping({"slow"}, &with);
+    options.threads = 1;
+    options.observer = observer;
+    options.cancelled = cancelled;
+    return run_graph(graph, options);
+  }
+};
+
+/// Told by a run somewhere else.
+Digest key_of_slow() {
+  OneStage elsewhere;
+  struct Planned : RunObserver {
+    Digest key;
+    void finished(const Stage& s, double) override {
+      if (s.node->name == "slow") key = s.known->key;
+    }
+  } planned;
+  REQUIRE(elsewhere.run(elsewhere.cache, &planned).ok());
+  return planned.key;
+}
+
+}  // namespace
+
+TEST_CASE("of two runs of one graph, the one waits for what the other is computing, and computes nothing") {
+  OneStage s;
+  Cache theirs(s.folder.path());
+  Waits waits;
+  std::atomic<bool> computing{false}, other_waits{false};
+  waits.then = [&] { other_waits = true; };
+  s.t.during_sum = [&](NodeContext&) {
+    computing = true;
+    while (!other_waits) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  RunResult first;
+  std::thread run([&] { first = s.run(theirs); });
+  while (!computing) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const RunResult second = s.run(s.cache, &waits);
+  run.join();
+  CHECK(first.ok());
+  CHECK(outcome(first, "slow") == "run");
+  CHECK(second.ok());
+  CHECK(outcome(second, "slow") == "reused");
+  CHECK(kept_number(second, "slow") == 3);
+  CHECK(s.t.runs("sum") == 1);
+  CHECK(waits.count == 1);
+  CHECK(listing(s.leases).empty());
+}
+
+TEST_CASE("equal nodes of one graph are computed once, on any number of threads") {
+  for (const int threads : {1, 2, 4}) {
+    const TemporaryFolder folder;
+    FakeTypes t;
+    Graph g;
+    add(g, "a", t.quick, {{"value", 2.0}});
+    std::vector<std::string> same;
+    for (int i = 0; i < 6; i++) {
+      same.push_back("same" + std::to_string(i));
+      add(g, same.back(), t.sum, {{"plus", 1.0}}, {"a"});
+    }
+    add(g, "slow", t.sum, {{"plus", 7.0}}, same);
+    Cache cache(folder.path());
+    RunOptions options = keeping({"slow"}, &cache);
+    options.threads = threads;
+    const RunResult r = run_graph(g, options);
+    REQUIRE(r.ok());
+    CHECK(kept_number(r, "slow") == 6 * 3 + 7);
+    CHECK(t.runs("sum") == 2);
+  }
+}
+
+TEST_CASE("when the other one goes without a result, the stage is computed after all") {
+  OneStage s;
+  LeaseAttempt other = try_lease(s.leases, key_of_slow());
+  REQUIRE(other.lease);
+  CHECK(try_lease(s.leases, key_of_slow()).taken);
+  Waits waits;
+  waits.then = [&] { other.lease.reset(); };
+  const RunResult r = s.run(s.cache, &waits);
+  CHECK(r.ok());
+  CHECK(waits.count == 1);
+  CHECK(outcome(r, "slow") == "run");
+}
+
+TEST_CASE("a run that waits for another one can be cancelled") {
+  OneStage s;
+  const LeaseAttempt other = try_lease(s.leases, key_of_slow());
+  Waits waits;
+  std::atomic<bool> cancelled{false};
+  waits.then = [&] { cancelled = true; };
+  const RunResult r = s.run(s.cache, &waits, &cancelled);
+  CHECK(r.cancelled);
+  CHECK(outcome(r, "slow") == "unfinished");
+  CHECK(s.t.runs("sum") == 0);
+}
+
+TEST_CASE("the lease of a dead process is free, and what it leaves is cleared away") {
+  OneStage s;
+  write_text(s.leases / key_of_slow().hex(), "");
+  write_text(s.leases / "somebody-else", "");
+  Waits waits;
+  CHECK(s.run(s.cache, &waits).ok());
+  CHECK(waits.count == 0);
+  CHECK(s.t.runs("sum") == 1);
+  CHECK(listing(s.leases) == std::vector<std::string>{"somebody-else"});
+  const LeaseAttempt held = try_lease(s.leases, Digest{1, 2});
+  s.cache.collect();
+  CHECK(listing(s.leases) == std::vector<std::string>{Digest{1, 2}.hex()});
+}
+
+TEST_CASE("a cache without a place for leases does without them") {
+  OneStage s;
+  fs::remove(s.leases);
+  write_text(s.leases, "");
+  CHECK(s.run(s.cache).ok());
+  CHECK(s.t.runs("sum") == 1);
+}
+
+TEST_CASE("of programs that run one graph at once, one lays it out; killing it makes another one do so") {
+  const Workplace w;
+  write_picture(w.path / "maps/stone_basecolor.png", 5);
+  fs::create_directories(w.path / "second");
+  const std::vector<std::string> args = {"synth",      (w.path / "maps").string(),
+                                         "-o",         (w.path / "out").string(),
+                                         "--size",     "2048x2048",
+                                         "--progress", "json",
+                                         "--cache",    (w.path / "shared").string()};
+  StartedProgram first(w.path, args);
+  REQUIRE(first.says("\"start\",\"node\":\"layout\""));
+  StartedProgram second(w.path / "second", args);
+  REQUIRE(second.says("{\"event\":\"wait\",\"node\":\"layout\"}"));
+  first.signal(SIGKILL);
+  first.wait();
+  const ProgramRun r = second.wait();
+  CHECK_MESSAGE(r.code == 0, r.err);
+  CHECK(r.err.find("\"start\",\"node\":\"layout\"") != std::string::npos);
+  CHECK(listing(w.path / "out") == std::vector<std::string>{"base_color.png"});
+}
