@@ -7,7 +7,7 @@
 
 /// Elementary functions made of additions, multiplications, divisions and square roots alone, so that every machine
 /// gets the same bits; accurate to about 1e-9, relative. All are pure.
-namespace terrazzo::exact {
+namespace terrazzo::portable {
 
 inline int64_t floor_int(double x) {
   const int64_t i = static_cast<int64_t>(x);
@@ -91,4 +91,4 @@ inline double smoothstep(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-}  // namespace terrazzo::exact
+}  // namespace terrazzo::portable

@@ -16,7 +16,7 @@ std::vector<float> gaussian_weights(double sigma) {
   std::vector<double> weights;
   double sum = 0;
   for (int i = -radius; i <= radius; i++) {
-    weights.push_back(exact::exp(-double(i) * i / (2 * sigma * sigma)));
+    weights.push_back(portable::exp(-double(i) * i / (2 * sigma * sigma)));
     sum += weights.back();
   }
   std::vector<float> out;

@@ -8,7 +8,7 @@ namespace {
 
 double cube_root(double x) {
   if (x == 0) return 0;
-  return x > 0 ? exact::root<3>(x) : -exact::root<3>(-x);
+  return x > 0 ? portable::root<3>(x) : -portable::root<3>(-x);
 }
 
 double as_linear(float v) {

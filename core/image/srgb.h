@@ -12,14 +12,14 @@ namespace terrazzo {
 inline double decode_srgb(double encoded) {
   const double size = std::fabs(encoded);
   if (size <= 0.04045) return encoded / 12.92;
-  const double x = (size + 0.055) / 1.055, fifth = exact::root<5>(x);
+  const double x = (size + 0.055) / 1.055, fifth = portable::root<5>(x);
   return std::copysign(x * x * fifth * fifth, encoded);  // x^2.4
 }
 
 inline double encode_srgb(double linear) {
   const double size = std::fabs(linear);
   if (size <= 0.0031308) return linear * 12.92;
-  return std::copysign(1.055 * std::sqrt(std::sqrt(size) * exact::root<3>(size)) - 0.055, linear);  // x^(5/12)
+  return std::copysign(1.055 * std::sqrt(std::sqrt(size) * portable::root<3>(size)) - 0.055, linear);  // x^(5/12)
 }
 
 /// The decoded values of 8-bit files, which are most of those that are ever decoded.

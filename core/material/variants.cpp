@@ -167,17 +167,17 @@ Block block_around(const Image& map, const Affine& affine, const Rect& tile, Out
         high[i] = std::max(high[i], p[i]);
       }
     }
-  const int left = int(exact::floor_int(low[0])) - 2, top = int(exact::floor_int(low[1])) - 2;
-  const Rect rect{left, top, int(exact::floor_int(high[0])) + 4 - left, int(exact::floor_int(high[1])) + 4 - top};
+  const int left = int(portable::floor_int(low[0])) - 2, top = int(portable::floor_int(low[1])) - 2;
+  const Rect rect{left, top, int(portable::floor_int(high[0])) + 4 - left, int(portable::floor_int(high[1])) + 4 - top};
   return {rect, map.channels(), read_padded(map, rect, outside)};
 }
 
 void sample(const Block& block, double x, double y, bool interpolated, float* out) {
   if (!interpolated) {
-    std::copy_n(block.at(exact::floor_int(x + 0.5), exact::floor_int(y + 0.5)), block.channels, out);
+    std::copy_n(block.at(portable::floor_int(x + 0.5), portable::floor_int(y + 0.5)), block.channels, out);
     return;
   }
-  const int64_t left = exact::floor_int(x), top = exact::floor_int(y);
+  const int64_t left = portable::floor_int(x), top = portable::floor_int(y);
   const std::array<float, 4> across = cubic_weights(x - double(left)), down = cubic_weights(y - double(top));
   std::fill_n(out, block.channels, 0.0f);
   for (int j = 0; j < 4; j++) {
@@ -261,7 +261,7 @@ Exemplar scaled(const Exemplar& exemplar, double scale, Outside outside) {
   const Size size = exemplar.material->size();
   const int multiple = common_divisor_multiple(*exemplar.material);
   const auto rounded = [&](int side) {
-    return multiple * std::max(1, int(exact::floor_int(side * scale / multiple + 0.5)));
+    return multiple * std::max(1, int(portable::floor_int(side * scale / multiple + 0.5)));
   };
   const Size target{rounded(size.width), rounded(size.height)};
   return with_each(exemplar, [&](const ImagePtr& map) {
@@ -273,7 +273,7 @@ Exemplar scaled(const Exemplar& exemplar, double scale, Outside outside) {
 Exemplar turned(const Exemplar& exemplar, double degrees, Outside outside) {
   const Size size = exemplar.material->size();
   const int multiple = common_divisor_multiple(*exemplar.material);
-  Turn turn{degrees, exact::cos_turns(degrees / 360), exact::sin_turns(degrees / 360), size, {}};
+  Turn turn{degrees, portable::cos_turns(degrees / 360), portable::sin_turns(degrees / 360), size, {}};
   const double c = std::fabs(turn.cosine), s = std::fabs(turn.sine);
   const auto rounded_up = [&](double side) { return multiple * int(std::ceil(side / multiple - 1e-6)); };
   turn.to = {rounded_up(size.width * c + size.height * s), rounded_up(size.width * s + size.height * c)};
@@ -294,7 +294,7 @@ int divisor_of(Size map, Size material) {
 Exemplar varied(const Exemplar& exemplar, const Variant& variant, Outside outside) {
   Exemplar out = exemplar;
   if (variant.scale != 1) out = scaled(out, variant.scale, outside);
-  const int64_t quarters = exact::floor_int(variant.rotation / 90 + 0.5);
+  const int64_t quarters = portable::floor_int(variant.rotation / 90 + 0.5);
   const Flip flip{variant.mirror_x, variant.mirror_y, int(quarters & 3)};
   if (flip.changes()) out = with_each(out, [&](const ImagePtr& map) { return flipped(map, flip); });
   const double rest = variant.rotation - 90.0 * double(quarters);

@@ -118,7 +118,7 @@ struct NodeType {
   /// Looks ahead while a plan is made, so that mistakes are found before hours of work: throws Error, or Errors, for
   /// what compute would refuse (a folder that is not there), and says what is known of the results. Quick; may look at
   /// files that `files_read` names. What it says must be true whatever runs; nothing need be said.
-  std::function<Forecast(const Params&, const InputForecasts&)> foresee;
+  std::function<Forecast(const Params&, const InputForecasts&)> preflight;
 
   const Port* find_input(std::string_view port) const;
   const Port* find_output(std::string_view port) const;

@@ -23,7 +23,7 @@ void box(float* line, int length, size_t stride, int radius, bool wraps, std::ve
 
 }  // namespace
 
-std::vector<float> local_mean(std::vector<float> pixels, Size size, int channels, int radius, bool wraps) {
+std::vector<float> box_filter(std::vector<float> pixels, Size size, int channels, int radius, bool wraps) {
   const int half = std::max(1, (radius + 1) / 2);
   const size_t row = size_t(size.width) * channels;
   const auto filter = [&](int lines, auto line, int length, size_t stride) {

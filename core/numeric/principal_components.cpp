@@ -26,7 +26,7 @@ std::vector<double> covariance(const std::vector<float>& centred, int n, const T
     for (size_t begin = 0; begin < count; begin += block) {
       std::fill(partial.begin() + i, partial.end(), 0.0f);
       const float* column = &centred[begin * n + i];
-      add_products(&partial[i], n - i, column, n, column, n, std::min(block, count - begin));
+      weighted_row_sum(&partial[i], n - i, column, n, column, n, std::min(block, count - begin));
       for (int j = i; j < n; j++) row[j] += partial[j];
     }
   });

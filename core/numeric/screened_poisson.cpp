@@ -90,7 +90,7 @@ void relaxed(const CellRow& row, float step, float* out) {
 std::vector<float> smoothing_steps(int count) {
   std::vector<float> steps(size_t(count), 0.0f);
   for (int i = 0; i < count; i++)
-    steps[size_t(i)] = float(1 / (1.25 + 0.75 * exact::cos_turns((2 * i + 1) / (4.0 * count))));
+    steps[size_t(i)] = float(1 / (1.25 + 0.75 * portable::cos_turns((2 * i + 1) / (4.0 * count))));
   return steps;
 }
 

@@ -12,8 +12,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Every sum takes its products one by one, rounded each time: the same bits whatever the vectors' length.
-HWY_ATTR void add_products(float* sums, size_t length, const float* rows, size_t row_stride, const float* factors,
-                           size_t factor_stride, size_t count) {
+HWY_ATTR void weighted_row_sum(float* sums, size_t length, const float* rows, size_t row_stride, const float* factors,
+                               size_t factor_stride, size_t count) {
   const hn::CappedTag<float, 8> d;
   const size_t lanes = hn::Lanes(d);
   size_t k = 0;
@@ -45,11 +45,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace terrazzo {
 
-HWY_EXPORT(add_products);
+HWY_EXPORT(weighted_row_sum);
 
-void add_products(float* sums, int length, const float* rows, size_t row_stride, const float* factors,
-                  size_t factor_stride, size_t count) {
-  HWY_DYNAMIC_DISPATCH(add_products)(sums, size_t(length), rows, row_stride, factors, factor_stride, count);
+void weighted_row_sum(float* sums, int length, const float* rows, size_t row_stride, const float* factors,
+                      size_t factor_stride, size_t count) {
+  HWY_DYNAMIC_DISPATCH(weighted_row_sum)(sums, size_t(length), rows, row_stride, factors, factor_stride, count);
 }
 
 }  // namespace terrazzo

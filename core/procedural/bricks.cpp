@@ -21,9 +21,9 @@ class Bricks : public Surface {
     const double bends = 1.2 / grid_.cell_width();
     const double wu = u + bend_ * canvas_.fbm(u, v, bends, 3, 0.55, warp_u);
     const double wv = v + bend_ * canvas_.fbm(u, v, bends, 3, 0.55, warp_v);
-    const int64_t row = exact::floor_int(wv / grid_.cell_height());
+    const int64_t row = portable::floor_int(wv / grid_.cell_height());
     const double shift = 0.5 * double(row & 1);
-    const int64_t column = exact::floor_int(wu / grid_.cell_width() - shift);
+    const int64_t column = portable::floor_int(wu / grid_.cell_width() - shift);
     return masonry_.at(u, v,
                        {.x = wu - (double(column) + 0.5 + shift) * grid_.cell_width(),
                         .y = wv - (double(row) + 0.5) * grid_.cell_height(),

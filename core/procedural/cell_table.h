@@ -15,8 +15,8 @@ class CellTable {
   /// `make(column, row, dice)` is called once per cell; equal cells of a wrapped canvas get equal dice.
   template <typename Make>
   CellTable(const Canvas& canvas, const Grid& grid, uint64_t salt, Make make) {
-    columns_ = int(exact::floor_int(1 / grid.cell_width() + 0.999)) + 2 * margin;
-    rows_ = int(exact::floor_int(canvas.aspect() / grid.cell_height() + 0.999)) + 2 * margin;
+    columns_ = int(portable::floor_int(1 / grid.cell_width() + 0.999)) + 2 * margin;
+    rows_ = int(portable::floor_int(canvas.aspect() / grid.cell_height() + 0.999)) + 2 * margin;
     for (int j = 0; j < rows_; j++)
       for (int i = 0; i < columns_; i++) {
         Dice dice(grid.bits(i - margin, j - margin, salt));

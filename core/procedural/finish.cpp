@@ -15,7 +15,7 @@ namespace {
 constexpr int samples = 2;  // per pixel, across and down
 
 float rounded(double value, int steps) {
-  return float(exact::floor_int(exact::saturate(value) * steps + 0.5)) / float(steps);
+  return float(portable::floor_int(portable::saturate(value) * steps + 0.5)) / float(steps);
 }
 
 struct Sampled {
@@ -33,8 +33,8 @@ Sampled sample(const Surface& surface, Size size, const Task& task) {
       for (int j = 0; j < samples; j++)
         for (int i = 0; i < samples; i++) {
           const SurfacePoint p = surface.at((x * samples + i + 0.5) * step, (y * samples + j + 0.5) * step);
-          sum.height += exact::saturate(p.height);
-          sum.roughness += exact::saturate(p.roughness);
+          sum.height += portable::saturate(p.height);
+          sum.roughness += portable::saturate(p.roughness);
           sum.color = sum.color + p.color;
         }
       constexpr double share = 1.0 / (samples * samples);

@@ -21,7 +21,7 @@ class Herringbone : public Surface {
     const double w = grid_.cell_width(), h = grid_.cell_height();
     const double wu = u + bend_ * canvas_.fbm(u, v, 0.6 / w, 3, 0.55, warp_u);
     const double wv = v + bend_ * canvas_.fbm(u, v, 0.6 / w, 3, 0.55, warp_v);
-    int64_t column = exact::floor_int(wu / w), row = exact::floor_int(wv / h);
+    int64_t column = portable::floor_int(wu / w), row = portable::floor_int(wv / h);
     const int64_t phase = (((column - row) % 4) + 4) % 4;  // left, right, lower, upper
     if (phase == 1) column--;
     if (phase == 2) row--;
@@ -33,7 +33,7 @@ class Herringbone : public Surface {
 
  private:
   static double cells_across(double bricks, bool wraps) {
-    return wraps ? 4 * std::max(1.0, double(exact::floor_int(bricks / 2 + 0.5))) : bricks * 2;
+    return wraps ? 4 * std::max(1.0, double(portable::floor_int(bricks / 2 + 0.5))) : bricks * 2;
   }
 
   Canvas canvas_;

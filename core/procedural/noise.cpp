@@ -9,7 +9,7 @@ namespace terrazzo {
 
 namespace {
 
-using exact::floor_int;
+using portable::floor_int;
 
 int64_t wrapped(int64_t v, int period) {
   if (period == 0) return v;
@@ -36,7 +36,7 @@ const std::array<Direction, direction_count>& directions() {
     std::array<Direction, direction_count> d{};
     for (int i = 0; i < direction_count; i++) {
       const double turns = (i + 0.5) / direction_count;
-      d[i] = {exact::cos_turns(turns), exact::sin_turns(turns)};
+      d[i] = {portable::cos_turns(turns), portable::sin_turns(turns)};
     }
     return d;
   }();
@@ -54,19 +54,19 @@ double value_noise(double x, double y, uint64_t seed, Period period) {
   const int64_t i = floor_int(x), j = floor_int(y);
   const double tx = quintic(x - double(i)), ty = quintic(y - double(j));
   const auto value = [&](int64_t a, int64_t b) { return unit_double(corner(seed, a, b, period)) * 2 - 1; };
-  return exact::mix(exact::mix(value(i, j), value(i + 1, j), tx), exact::mix(value(i, j + 1), value(i + 1, j + 1), tx),
-                    ty);
+  return portable::mix(portable::mix(value(i, j), value(i + 1, j), tx),
+                       portable::mix(value(i, j + 1), value(i + 1, j + 1), tx), ty);
 }
 
 double gradient_noise(double x, double y, uint64_t seed, Period period) {
   const int64_t i = floor_int(x), j = floor_int(y);
   const double fx = x - double(i), fy = y - double(j), tx = quintic(fx), ty = quintic(fy);
   const double top =
-      exact::mix(slope(corner(seed, i, j, period), fx, fy), slope(corner(seed, i + 1, j, period), fx - 1, fy), tx);
-  const double bottom = exact::mix(slope(corner(seed, i, j + 1, period), fx, fy - 1),
-                                   slope(corner(seed, i + 1, j + 1, period), fx - 1, fy - 1), tx);
+      portable::mix(slope(corner(seed, i, j, period), fx, fy), slope(corner(seed, i + 1, j, period), fx - 1, fy), tx);
+  const double bottom = portable::mix(slope(corner(seed, i, j + 1, period), fx, fy - 1),
+                                      slope(corner(seed, i + 1, j + 1, period), fx - 1, fy - 1), tx);
   // Four unit gradients can reach sqrt(1/2) at the middle of a cell.
-  return exact::mix(top, bottom, ty) * 1.4142135623730951;
+  return portable::mix(top, bottom, ty) * 1.4142135623730951;
 }
 
 double simplex_noise(double x, double y, uint64_t seed, Period period) {
@@ -175,7 +175,7 @@ double NoiseField::at(int x, int y) const {
     }
   }
   sum /= total_;
-  return exact::saturate(spec_.fractal == Fractal::fbm ? sum * 0.5 + 0.5 : sum);
+  return portable::saturate(spec_.fractal == Fractal::fbm ? sum * 0.5 + 0.5 : sum);
 }
 
 ImagePtr noise_image(const NoiseSpec& spec, ImageInfo info, const Digest& recipe) {

@@ -9,7 +9,7 @@ namespace terrazzo {
 namespace {
 
 int whole_count(double n) {
-  return int(std::max<int64_t>(1, exact::floor_int(n + 0.5)));
+  return int(std::max<int64_t>(1, portable::floor_int(n + 0.5)));
 }
 
 }  // namespace

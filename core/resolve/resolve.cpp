@@ -39,7 +39,7 @@ class ResolvedPixels : public PixelSource {
     detail_radius_ = layout_->radius() * layout_->exemplar().width / uv.exemplar().width;
     const int radius = std::max(1, int(detail_radius_ * map->width() / layout_->exemplar().width + 0.5));
     linear_ = linear_pixels(*map_);
-    smooth_ = local_mean(linear_, map_->size(), map_->channels(), radius, uv.wraps().exemplar);
+    smooth_ = box_filter(linear_, map_->size(), map_->channels(), radius, uv.wraps().exemplar);
   }
 
   void read(const Rect& region, float* out) const override {

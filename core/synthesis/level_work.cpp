@@ -130,11 +130,11 @@ LevelWork::LevelWork(const SharedWork& shared, int level)
              surface_of(shared.lattice, shared.options, shared.gaps)),
       fixed_(shared.fixed(level)),
       control_(shared.controls.empty() ? nullptr : std::make_unique<LevelControl>(shared.controls, level, exemplar_)),
-      occupancy_(shared.exemplar(level).size, level >= finest_even ? shared.options.evenness : 0,
-                 shared.places_landmarks(level) ? least_landmark_factor : least_occupancy_factor,
-                 demand_of(shared.exemplar(level), control_.get())) {
-  if (insists_on_evenness()) occupancy_.insist();
-  if (looks_around()) occupancy_.look_around(shared.plane(level));
+      usage_(shared.exemplar(level).size, level >= finest_even ? shared.options.evenness : 0,
+             shared.places_landmarks(level) ? least_landmark_factor : least_occupancy_factor,
+             demand_of(shared.exemplar(level), control_.get())) {
+  if (insists_on_evenness()) usage_.insist();
+  if (looks_around()) usage_.look_around(shared.plane(level));
 }
 
 Field LevelWork::beginning() const {
@@ -152,8 +152,9 @@ Field LevelWork::starts(const Field& parent, const PlaneWindow& window) {
   if (refills()) find_similar();
   const CorrectionLevel level = correction_level(window, similar_, fixed);
   if (refills()) {
-    occupancy_.recount(starts, fixed);
-    refill_pieces(starts, 2, level, occupancy_, random_bits(shared_.options.seed, Purpose::refilling), shared_.task);
+    usage_.recount(starts, fixed);
+    relocate_pieces(starts, 2, level, usage_, random_bits(shared_.options.seed, Purpose::piece_relocation),
+                    shared_.task);
   }
   if (phase_.resolves_cells()) align_pieces(starts, 2, level, alignment_reach, shared_.task);
   if (lays_bricks())
@@ -166,7 +167,7 @@ Field LevelWork::starts(const Field& parent, const PlaneWindow& window) {
 }
 
 void LevelWork::count_use(std::span<const ExemplarPixel> starts) {
-  if (level_ < finest_recounted) occupancy_.count_for_good(starts, shared_.fixed(level_ + 1));
+  if (level_ < finest_recounted) usage_.count_for_good(starts, shared_.fixed(level_ + 1));
 }
 
 Field LevelWork::begun(std::span<const ExemplarPixel> starts, const PlaneWindow& from,
@@ -188,14 +189,14 @@ void LevelWork::correct(Field& field, const PlaneWindow& window, const Rect& wan
                        .pass = pass,
                        .wanted = grown(wanted, reach_of(effort.passes - 1 - pass))};
     if (mends(effort.passes - pass))
-      mend_seams(field, level, occupancy_, random_bits(shared_.options.seed, Purpose::mending), shared_.task);
+      repair_seams(field, level, usage_, random_bits(shared_.options.seed, Purpose::graphcut_repair), shared_.task);
     if (limits_pieces()) how.piece_coherence = piece_coherence(field, level, coherence(), PieceLimits::of(regular()));
-    terrazzo::correct(field, level, how, occupancy_, shared_.task);
+    terrazzo::correct(field, level, how, usage_, shared_.task);
     shared_.task.progress(std::pow(0.25, level_ - shared_.finest) * (pass + 1) / effort.passes);
   }
   if (reworks())
-    rework_unlike(field, level, occupancy_, effort.places_tried, random_bits(shared_.options.seed, Purpose::reworking),
-                  shared_.task);
+    repair_incoherent(field, level, usage_, effort.places_tried,
+                      random_bits(shared_.options.seed, Purpose::coherence_repair), shared_.task);
 }
 
 LevelWork::Effort LevelWork::effort() const {
@@ -235,7 +236,7 @@ std::optional<SeamMoves> LevelWork::lay(Field& starts, const CorrectionLevel& le
   const Appearance& appearance = *shared_.index.appearance();
   const Coursing coursing = find_coursing(appearance, shared_.task);
   const LatticePhase phase(shared_.lattice, 0, surface_of(shared_.lattice, shared_.options, shared_.gaps));
-  if (!lay_bricks(starts, 2, level, appearance, coursing, phase, shared_.task)) return std::nullopt;
+  if (!lay_courses(starts, 2, level, appearance, coursing, phase, shared_.task)) return std::nullopt;
   const int clear = std::min(around_bricks, around_clear_bricks + (coursing.half_joint << coursing.level));
   return SeamMoves{.reach = coursing.is_clear() ? clear : around_bricks, .stay = stay_around_bricks, .block = 2};
 }

@@ -106,7 +106,7 @@ class LevelWork {
   PartPhases phase_;
   FixedPixels fixed_;
   std::unique_ptr<const LevelControl> control_;
-  Occupancy occupancy_;
+  UsagePenalty usage_;
   std::vector<ExemplarPixel> similar_;  // once it is asked for
 };
 

@@ -24,10 +24,10 @@ struct SynthesisOptions {
   Quality quality = Quality::normal;
   /// Factor on the cost of continuing a neighbour's piece of exemplar; smaller: larger pieces.
   double coherence = 0.7;
-  /// Weight of the occupancy term; 0: parts of the exemplar may be over-used.
+  /// Weight of the usage term; 0: parts of the exemplar may be over-used.
   double evenness = 0.7;
-  /// Bricks and boards of an exemplar built of courses are laid whole (lay_bricks()), but in drafts, under controls and
-  /// between kept pixels.
+  /// Bricks and boards of an exemplar built of courses are laid whole (lay_courses()), but in drafts, under controls
+  /// and between kept pixels.
   bool whole_bricks = true;
   /// Per level, coarsest first, in that level's exemplar pixels; missing levels have none.
   std::vector<double> jitter{};

@@ -40,8 +40,8 @@ std::string names_of(const Param& p) {
 
 class Reader {
  public:
-  Reader(const Param& param, const fs::path& base, Complaints& complaints)
-      : param_(param), base_(base), complaints_(complaints) {}
+  Reader(const Param& param, const fs::path& base, Diagnostics& diagnostics)
+      : param_(param), base_(base), complaints_(diagnostics) {}
 
   std::optional<ParamValue> read(const JsonValue& v) {
     switch (param_.type) {
@@ -247,7 +247,7 @@ class Reader {
 
   const Param& param_;
   const fs::path& base_;
-  Complaints& complaints_;
+  Diagnostics& complaints_;
 };
 
 struct ToJson {
@@ -335,15 +335,15 @@ bool may_be_number(ParamType type) {
 }  // namespace
 
 std::optional<ParamValue> read_param(const JsonValue& json, const Param& param, const fs::path& base,
-                                     Complaints& complaints) {
-  return Reader(param, base, complaints).read(json);
+                                     Diagnostics& diagnostics) {
+  return Reader(param, base, diagnostics).read(json);
 }
 
 ParamValue default_of(const Param& param, const fs::path& base) {
   if (param.type != ParamType::path) return *param.fallback;
   std::vector<Problem> none;
-  Complaints complaints(none, "");
-  return *read_param(json_of(*param.fallback), param, base, complaints);
+  Diagnostics diagnostics(none, "");
+  return *read_param(json_of(*param.fallback), param, base, diagnostics);
 }
 
 JsonValue json_of(const ParamValue& value) {

@@ -14,7 +14,7 @@ namespace terrazzo {
 /// The value that `json` gives the parameter: type, range, choices and counts checked, a path made absolute (relative
 /// ones lie in `base`, an absolute folder) and normal. Empty after problems, all of which have been added.
 std::optional<ParamValue> read_param(const JsonValue& json, const Param& param, const std::filesystem::path& base,
-                                     Complaints& complaints);
+                                     Diagnostics& diagnostics);
 
 /// The default as a node gets it: paths absolute. The parameter must have one.
 ParamValue default_of(const Param& param, const std::filesystem::path& base);

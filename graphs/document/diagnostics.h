@@ -9,12 +9,12 @@
 namespace terrazzo {
 
 /// Collects the problems of one part of a document, and says where they are.
-class Complaints {
+class Diagnostics {
  public:
-  Complaints(std::vector<Problem>& all, std::string where) : all_(all), where_(std::move(where)) {}
+  Diagnostics(std::vector<Problem>& all, std::string where) : all_(all), where_(std::move(where)) {}
 
   /// Values from the command line have no place in the file.
-  Complaints& from_command_line() {
+  Diagnostics& from_command_line() {
     has_places_ = false;
     return *this;
   }

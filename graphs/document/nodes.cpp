@@ -94,9 +94,9 @@ class NodeReader {
     return out;
   }
 
-  Complaints complaints_about(const Entry& e, std::string_view kind) {
-    return e.by ? e.by->complaints(problems_)
-                : Complaints(problems_, fmt::format("{}, {} {}", where_, kind, in_quotes(e.name)));
+  Diagnostics complaints_about(const Entry& e, std::string_view kind) {
+    return e.by ? e.by->diagnostics(problems_)
+                : Diagnostics(problems_, fmt::format("{}, {} {}", where_, kind, in_quotes(e.name)));
   }
 
   void read_entry(const Entry& e) {
@@ -110,20 +110,20 @@ class NodeReader {
       std::vector<std::string> names;
       for (const Port& p : type().inputs) names.push_back(p.name);
       for (const Param& p : type().params) names.push_back(p.name);
-      Complaints complaints = e.by ? e.by->complaints(problems_) : Complaints(problems_, where_);
-      complaints.add(e.place, fmt::format("{} has no port or parameter {}{}", type().name, in_quotes(e.name),
-                                          suggestion(e.name, names)));
+      Diagnostics diagnostics = e.by ? e.by->diagnostics(problems_) : Diagnostics(problems_, where_);
+      diagnostics.add(e.place, fmt::format("{} has no port or parameter {}{}", type().name, in_quotes(e.name),
+                                           suggestion(e.name, names)));
     }
   }
 
   void read_parameter(const Entry& e, const Param& param) {
-    Complaints complaints = complaints_about(e, "parameter");
+    Diagnostics diagnostics = complaints_about(e, "parameter");
     const JsonValue given = e.by ? read_command_line(e.by->value, param) : *e.value;
-    const std::optional<JsonValue> value = substitution_.expand(given, takes_texts(param.type), complaints);
+    const std::optional<JsonValue> value = substitution_.expand(given, takes_texts(param.type), diagnostics);
     if (!value) return;
     if (param.type == ParamType::path) draft_.node.files_by[param.name] = substitution_.paths_in(given);
     const std::filesystem::path& base = e.by ? reading_.working_folder : reading_.graph_folder;
-    if (std::optional<ParamValue> read = read_param(*value, param, base, complaints))
+    if (std::optional<ParamValue> read = read_param(*value, param, base, diagnostics))
       draft_.node.params.emplace(param.name, std::move(*read));
   }
 
@@ -136,16 +136,17 @@ class NodeReader {
     if (is_wire(given)) {
       add_wire(wires, given);
     } else if (!given.is_list() || !port.list) {
-      wires.complaints.add(given.place,
-                           fmt::format("expected {} found {}", port.list ? expected : expected + ",", found(given)));
+      wires.diagnostics.add(given.place,
+                            fmt::format("expected {} found {}", port.list ? expected : expected + ",", found(given)));
     } else if (given.items.empty() && !port.optional) {
-      wires.complaints.add(given.place, "expected at least one wire such as \"@node\", found an empty list");
+      wires.diagnostics.add(given.place, "expected at least one wire such as \"@node\", found an empty list");
     } else {
       for (const JsonValue& item : given.items) {
         if (is_wire(item)) {
           add_wire(wires, item);
         } else {
-          wires.complaints.add(item.place, "expected a wire such as \"@node\" or \"@node.port\", found " + found(item));
+          wires.diagnostics.add(item.place,
+                                "expected a wire such as \"@node\" or \"@node.port\", found " + found(item));
         }
       }
     }
@@ -157,7 +158,7 @@ class NodeReader {
     const size_t dot = end.find('.');
     wires.wires.push_back({end.substr(0, dot), dot == end.npos ? "" : end.substr(dot + 1), text.place, text.text});
     if (dot + 1 == end.size())
-      wires.complaints.add(text.place, "expected an output's name after the dot in " + in_quotes(text.text));
+      wires.diagnostics.add(text.place, "expected an output's name after the dot in " + in_quotes(text.text));
   }
 
   void add_missing() {
@@ -214,7 +215,7 @@ std::vector<NodeDraft> read_nodes(const JsonValue& section, const std::vector<Ov
     if (o.node.empty()) continue;
     by_node[o.node].push_back(&o);
     if (std::find(names.begin(), names.end(), o.node) == names.end())
-      o.complaints(problems).add(
+      o.diagnostics(problems).add(
           {}, fmt::format("the graph has no node {}{}", in_quotes(o.node), suggestion(o.node, names)));
   }
   std::vector<NodeDraft> drafts;

@@ -27,7 +27,7 @@ struct WireEnd {
 struct PortWires {
   const Port* port = nullptr;
   std::vector<WireEnd> wires;
-  Complaints complaints;
+  Diagnostics diagnostics;
 };
 
 /// A node read and checked, but for its wires.

@@ -4,8 +4,8 @@
 
 namespace terrazzo {
 
-Complaints Override::complaints(std::vector<Problem>& all) const {
-  return Complaints(all, where_of_override(spelled)).from_command_line();
+Diagnostics Override::diagnostics(std::vector<Problem>& all) const {
+  return Diagnostics(all, where_of_override(spelled)).from_command_line();
 }
 
 std::string where_of_override(const std::string& spelled) {
@@ -22,7 +22,7 @@ std::vector<Override> read_overrides(const std::vector<std::string>& texts, std:
     if (dot != target.npos) o.node = target.substr(0, dot);
     o.name = dot == target.npos ? target : target.substr(dot + 1);
     if (equals == text.npos || o.name.empty() || (dot != target.npos && o.node.empty())) {
-      o.complaints(problems).add({}, "expected name=value for a graph's parameter, or node.parameter=value");
+      o.diagnostics(problems).add({}, "expected name=value for a graph's parameter, or node.parameter=value");
       continue;
     }
     o.value = text.substr(equals + 1);

@@ -15,7 +15,7 @@ struct Override {
   std::string name;
   std::string value;
 
-  Complaints complaints(std::vector<Problem>& all) const;
+  Diagnostics diagnostics(std::vector<Problem>& all) const;
 };
 
 /// How problems say (as Problem::where) that they are about the override of this spelling.

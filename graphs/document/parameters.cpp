@@ -172,7 +172,7 @@ class Declaration {
 
   const JsonValue& json_;
   const fs::path& folder_;
-  Complaints complaints_;
+  Diagnostics complaints_;
   GraphParameter out_;
 };
 
@@ -221,18 +221,18 @@ void set_parameters(std::vector<GraphParameter>& parameters, const std::vector<O
   for (const GraphParameter& p : parameters) names.push_back(p.param.name);
   for (const Override& o : overrides) {
     if (!o.node.empty()) continue;
-    Complaints complaints = o.complaints(problems);
+    Diagnostics diagnostics = o.diagnostics(problems);
     const auto at = std::find(names.begin(), names.end(), o.name);
     if (at == names.end()) {
-      complaints.add({},
-                     fmt::format("the graph has no parameter {}{}", in_quotes(o.name), hint_for(o.name, names, nodes)));
+      diagnostics.add(
+          {}, fmt::format("the graph has no parameter {}{}", in_quotes(o.name), hint_for(o.name, names, nodes)));
       continue;
     }
     GraphParameter& p = parameters[at - names.begin()];
     p.overridden = true;
     if (p.is_wrong) continue;
     p.as_written = o.value;
-    p.value = read_param(read_command_line(o.value, p.param), p.param, folder, complaints);
+    p.value = read_param(read_command_line(o.value, p.param), p.param, folder, diagnostics);
     p.is_wrong = !p.value;
   }
 }
@@ -244,30 +244,30 @@ Substitution::Substitution(const std::vector<GraphParameter>& parameters) {
   }
 }
 
-const GraphParameter* Substitution::find(const std::string& name, Place place, Complaints& complaints) {
+const GraphParameter* Substitution::find(const std::string& name, Place place, Diagnostics& diagnostics) {
   const auto at = uses_.find(name);
   if (at == uses_.end()) {
     const std::string hint = names_.empty() ? "; it has none" : suggestion(name, names_);
-    complaints.add(place, fmt::format("${} stands for a parameter that the graph does not have{}", name, hint));
+    diagnostics.add(place, fmt::format("${} stands for a parameter that the graph does not have{}", name, hint));
     return nullptr;
   }
   at->second.used = true;
   return at->second.parameter;
 }
 
-std::optional<JsonValue> Substitution::expand(const JsonValue& value, bool wants_text, Complaints& complaints) {
-  std::optional<JsonValue> out = expand_part(value, wants_text, complaints);
+std::optional<JsonValue> Substitution::expand(const JsonValue& value, bool wants_text, Diagnostics& diagnostics) {
+  std::optional<JsonValue> out = expand_part(value, wants_text, diagnostics);
   const bool has_changed = out && value.is_text() && (!out->is_text() || out->text != value.text);
-  if (has_changed) complaints.set_origin(fmt::format(" (from {})", in_quotes(value.text)));
+  if (has_changed) diagnostics.set_origin(fmt::format(" (from {})", in_quotes(value.text)));
   return out;
 }
 
-std::optional<JsonValue> Substitution::expand_part(const JsonValue& value, bool wants_text, Complaints& complaints) {
-  if (value.is_text()) return expand_text(value, wants_text, complaints);
+std::optional<JsonValue> Substitution::expand_part(const JsonValue& value, bool wants_text, Diagnostics& diagnostics) {
+  if (value.is_text()) return expand_text(value, wants_text, diagnostics);
   JsonValue out = value;
   bool complete = true;
   const auto replace = [&](JsonValue& part) {
-    std::optional<JsonValue> expanded = expand_part(part, wants_text, complaints);
+    std::optional<JsonValue> expanded = expand_part(part, wants_text, diagnostics);
     complete &= expanded.has_value();
     if (expanded) part = std::move(*expanded);
   };
@@ -276,13 +276,13 @@ std::optional<JsonValue> Substitution::expand_part(const JsonValue& value, bool 
   return complete ? std::optional(std::move(out)) : std::nullopt;
 }
 
-std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, bool wants_text, Complaints& complaints) {
+std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, bool wants_text, Diagnostics& diagnostics) {
   const std::string& text = value.text;
   if (text.starts_with("@") && !text.starts_with("@@")) {
-    complaints.add(value.place,
-                   fmt::format("this is a parameter, which takes no wire; found {} (write @@ for a text that "
-                               "begins with @)",
-                               in_quotes(text)));
+    diagnostics.add(value.place,
+                    fmt::format("this is a parameter, which takes no wire; found {} (write @@ for a text that "
+                                "begins with @)",
+                                in_quotes(text)));
     return std::nullopt;
   }
   JsonValue out = value;
@@ -296,12 +296,12 @@ std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, bool 
     }
     const std::optional<Reference> reference = reference_at(text, at);
     if (!reference) {
-      complaints.add(
+      diagnostics.add(
           value.place,
           fmt::format("expected a parameter's name after $ in {} (a plain dollar is written $$)", in_quotes(text)));
       return std::nullopt;
     }
-    const GraphParameter* parameter = find(reference->name, value.place, complaints);
+    const GraphParameter* parameter = find(reference->name, value.place, diagnostics);
     if (parameter && parameter->value) {
       const bool is_whole = at == 0 && reference->end == text.size();
       if (is_whole && !wants_text) return placed(json_of(*parameter->value), value.place);

@@ -53,7 +53,7 @@ class Substitution {
   /// The value with every `$name` (or `${name}`) replaced, `$$` and a leading `@@` made plain. A text that is nothing
   /// but a `$name` becomes the parameter's value, or that value as text if `wants_text`. A path that begins a longer
   /// text is absolute; further on it stands as it was written. Empty after a problem, or if a parameter has no value.
-  std::optional<JsonValue> expand(const JsonValue& value, bool wants_text, Complaints& complaints);
+  std::optional<JsonValue> expand(const JsonValue& value, bool wants_text, Diagnostics& diagnostics);
 
   /// The parameters of type path among those that a text refers to.
   std::set<std::string> paths_in(const JsonValue& value) const;
@@ -69,9 +69,9 @@ class Substitution {
     const GraphParameter* parameter;
     bool used = false;
   };
-  std::optional<JsonValue> expand_part(const JsonValue& value, bool wants_text, Complaints& complaints);
-  std::optional<JsonValue> expand_text(const JsonValue& value, bool wants_text, Complaints& complaints);
-  const GraphParameter* find(const std::string& name, Place place, Complaints& complaints);
+  std::optional<JsonValue> expand_part(const JsonValue& value, bool wants_text, Diagnostics& diagnostics);
+  std::optional<JsonValue> expand_text(const JsonValue& value, bool wants_text, Diagnostics& diagnostics);
+  const GraphParameter* find(const std::string& name, Place place, Diagnostics& diagnostics);
   std::map<std::string, Use> uses_;
   std::vector<std::string> names_;
   std::set<std::string> unset_;

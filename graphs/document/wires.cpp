@@ -44,15 +44,15 @@ class Connector {
     if (at == positions_.end()) {
       std::vector<std::string> names;
       for (const NodeDraft& d : drafts_) names.push_back(d.node.name);
-      into.complaints.add(end.place,
-                          fmt::format("{} leads to no node{}", in_quotes(end.spelled), suggestion(end.node, names)));
+      into.diagnostics.add(end.place,
+                           fmt::format("{} leads to no node{}", in_quotes(end.spelled), suggestion(end.node, names)));
       return nullptr;
     }
     const NodeType* type = drafts_[at->second].node.type;
     if (!type) return nullptr;
     if (type->outputs.empty()) {
-      into.complaints.add(end.place, fmt::format("{} leads to a node of type {}, which has no output",
-                                                 in_quotes(end.spelled), type->name));
+      into.diagnostics.add(end.place, fmt::format("{} leads to a node of type {}, which has no output",
+                                                  in_quotes(end.spelled), type->name));
       return nullptr;
     }
     if (end.port.empty()) return &type->outputs.front();
@@ -60,8 +60,8 @@ class Connector {
     if (!output) {
       std::vector<std::string> names;
       for (const Port& p : type->outputs) names.push_back(p.name);
-      into.complaints.add(end.place, fmt::format("{} has no output {}{}", type->name, in_quotes(end.port),
-                                                 suggestion(end.port, names)));
+      into.diagnostics.add(end.place, fmt::format("{} has no output {}{}", type->name, in_quotes(end.port),
+                                                  suggestion(end.port, names)));
     }
     return output;
   }
@@ -69,9 +69,9 @@ class Connector {
   bool types_fit(const GraphNode& reader, const WireEnd& end, const Port& output, PortWires& into) const {
     const ValueType wanted = into.port->type;
     if (converts(output.type, wanted)) return true;
-    into.complaints.add(end.place, fmt::format("expected a wire of type {}, found {}, which is of type {}{}",
-                                               name_of(wanted), in_quotes(end.spelled), name_of(output.type),
-                                               fitting_outputs(wanted, end.node, reader.name)));
+    into.diagnostics.add(end.place, fmt::format("expected a wire of type {}, found {}, which is of type {}{}",
+                                                name_of(wanted), in_quotes(end.spelled), name_of(output.type),
+                                                fitting_outputs(wanted, end.node, reader.name)));
     return false;
   }
 

@@ -10,7 +10,7 @@
 namespace terrazzo {
 
 /// Resolves every wire into the inputs of its node: the other node and its output exist, the type fits. Problems go to
-/// the complaints of the port, which must end in `problems`. Images that become materials are added to `conversions`.
+/// the diagnostics of the port, which must end in `problems`. Images that become materials are added to `conversions`.
 void connect(std::vector<NodeDraft>& drafts, std::vector<Problem>& problems, std::vector<Problem>& conversions);
 
 /// Positions of all nodes such that every wire comes from an earlier one, as near to the document's order as that

@@ -118,7 +118,7 @@ NodeType cluster_node() {
                .min = 0}};
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
-  t.foresee = [](const Params&, const InputForecasts& inputs) {
+  t.preflight = [](const Params&, const InputForecasts& inputs) {
     require_any(inputs.contains("features"), inputs.contains("images"));
     return Forecast{};
   };

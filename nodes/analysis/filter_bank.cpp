@@ -75,11 +75,11 @@ NodeType filter_bank_node() {
     return size_t(19 * 16 * side * side) + size_t(node.input<Material>("material")->size().area()) * 40;
   };
   t.compute = compute;
-  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+  t.preflight = [](const Params& params, const InputForecasts& inputs) {
     const std::string& map = std::get<std::string>(params.at("map"));
     const Texts wanted = map.empty() ? Texts{} : Texts{map};
-    check_all([&] { foresee_maps("map", wanted, inputs.at("material").front()); },
-              [&] { foresee_one_shape("material", inputs); });
+    check_all([&] { preflight_maps("map", wanted, inputs.at("material").front()); },
+              [&] { preflight_one_shape("material", inputs); });
     return Forecast{};
   };
   return t;

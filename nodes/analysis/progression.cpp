@@ -58,9 +58,9 @@ NodeType progression_node() {
     return size_t(node.input<Material>("material")->size().area()) * 20 * sizeof(float);
   };
   t.compute = compute;
-  t.foresee = [](const Params& params, const InputForecasts& inputs) {
-    check_all([&] { foresee_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front()); },
-              [&] { foresee_one_shape("material", inputs); });
+  t.preflight = [](const Params& params, const InputForecasts& inputs) {
+    check_all([&] { preflight_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front()); },
+              [&] { preflight_one_shape("material", inputs); });
     return Forecast{};
   };
   return t;

@@ -45,11 +45,11 @@ NodeType weight_node() {
   t.persist = Persist::digest;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
-  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+  t.preflight = [](const Params& params, const InputForecasts& inputs) {
     std::vector<std::string> weighted;
     for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) weighted.push_back(name);
-    check_all([&] { foresee_maps("weights", weighted, inputs.at("material").front()); },
-              [&] { foresee_one_shape("material", inputs); });
+    check_all([&] { preflight_maps("weights", weighted, inputs.at("material").front()); },
+              [&] { preflight_one_shape("material", inputs); });
     return Forecast{};
   };
   return t;

@@ -70,8 +70,8 @@ std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const
   };
 }
 
-void foresee_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
-                  const std::string& whose) {
+void preflight_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
+                    const std::string& whose) {
   if (!material.possible_maps) return;
   std::vector<std::string> surely_wrong = wanted;
   std::erase_if(surely_wrong, [&](const std::string& name) {
@@ -81,7 +81,7 @@ void foresee_maps(const std::string& param, const std::vector<std::string>& want
   require_maps(param, surely_wrong, material.maps, whose);
 }
 
-void foresee_one_shape(const std::string& port, const InputForecasts& inputs) {
+void preflight_one_shape(const std::string& port, const InputForecasts& inputs) {
   const Forecast& material = inputs.at(port).front();
   std::vector<std::pair<std::string, Size>> maps;
   for (const std::string& name : material.maps)

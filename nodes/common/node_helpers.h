@@ -30,10 +30,10 @@ Port material_port(const std::string& name, const std::string& help);
 std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const std::string& port);
 
 /// For a look ahead: throws Error about `param` if it names maps that the material surely has not.
-void foresee_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
-                  const std::string& whose = "the material");
+void preflight_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
+                    const std::string& whose = "the material");
 /// For a look ahead: throws Error about `port` if its material's maps surely differ in shape.
-void foresee_one_shape(const std::string& port, const InputForecasts& inputs);
+void preflight_one_shape(const std::string& port, const InputForecasts& inputs);
 
 /// The recipe of one of several lazily computed maps: the node's type and parameters, and the map it is made from.
 Digest map_recipe(const NodeContext& node, const Image& map);

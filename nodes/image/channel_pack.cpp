@@ -145,7 +145,7 @@ NodeType channel_pack_node() {
   t.files_read = [](const Params&) { return color_config_files(); };
   t.check = [](const Params& p) { return color_space_problems(p, "color_space"); };
   t.compute = compute;
-  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+  t.preflight = [](const Params& params, const InputForecasts& inputs) {
     check_all([&] { require_one_number_each(std::get<NumberMap>(params.at("fill"))); },
               [&] { require_any(!inputs.empty()); });
     return Forecast{};

@@ -27,7 +27,7 @@ void compute(NodeContext& node) {
   output_atlas(node, exemplars, "fewer materials");
 }
 
-Forecast foresee(const Params& params, const InputForecasts& inputs) {
+Forecast preflight(const Params& params, const InputForecasts& inputs) {
   std::vector<KnownMaps> materials;
   for (const Forecast& f : inputs.at("materials")) materials.push_back({"", f.maps, f.possible_maps});
   const auto masks = inputs.find("masks");
@@ -65,7 +65,7 @@ NodeType combine_node() {
   t.persist = Persist::derived;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
-  t.foresee = foresee;
+  t.preflight = preflight;
   return t;
 }
 

@@ -66,7 +66,7 @@ NodeType contact_sheet_node() {
     return size_t(grid_size(pictures, spec_of(node.params())).area()) * 3 * sizeof(float);
   };
   t.compute = compute;
-  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+  t.preflight = [](const Params& params, const InputForecasts& inputs) {
     require_grid(inputs.at("images").size(), spec_of(params));
     return Forecast{};
   };

@@ -106,7 +106,7 @@ NodeType crop_node() {
   };
   t.persist = Persist::derived;
   t.compute = compute;
-  t.foresee = same_maps_as("material");
+  t.preflight = same_maps_as("material");
   return t;
 }
 

@@ -24,8 +24,8 @@ NodeType get_map_node() {
                .type = ParamType::text,
                .help = "The map's name, such as base_color, normal, height or roughness."}};
   t.persist = Persist::digest;
-  t.foresee = [](const Params& params, const InputForecasts& inputs) {
-    foresee_maps("map", {std::get<std::string>(params.at("map"))}, inputs.at("material").front());
+  t.preflight = [](const Params& params, const InputForecasts& inputs) {
+    preflight_maps("map", {std::get<std::string>(params.at("map"))}, inputs.at("material").front());
     return Forecast{};
   };
   t.compute = compute;

@@ -77,7 +77,7 @@ void compute(NodeContext& node) {
   node.output("material", material);
 }
 
-Forecast foresee(const Params& params, const InputForecasts& inputs) {
+Forecast preflight(const Params& params, const InputForecasts& inputs) {
   require_right_texts(params, inputs.at("images").size());
   const Texts& names = std::get<Texts>(params.at("names"));
   Forecast out{.possible_maps = Texts{}};
@@ -118,7 +118,7 @@ NodeType make_material_node() {
   };
   t.persist = Persist::digest;
   t.compute = compute;
-  t.foresee = foresee;
+  t.preflight = preflight;
   return t;
 }
 

@@ -79,8 +79,8 @@ NodeType resize_node() {
   t.persist = Persist::derived;
   t.compute = compute;
   t.check = check;
-  t.foresee = [](const Params& params, const InputForecasts& inputs) {
-    foresee_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front());
+  t.preflight = [](const Params& params, const InputForecasts& inputs) {
+    preflight_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front());
     return same_maps_as("material")(params, inputs);
   };
   return t;

@@ -102,7 +102,7 @@ NodeType variants_node() {
   t.persist = Persist::derived;
   t.check = check;
   t.compute = compute;
-  t.foresee = same_maps_as("material");
+  t.preflight = same_maps_as("material");
   return t;
 }
 

@@ -191,9 +191,9 @@ NodeType compare_node() {
   };
   t.memory_hint = memory_hint;
   t.compute = compute;
-  t.foresee = [](const Params& params, const InputForecasts& inputs) {
+  t.preflight = [](const Params& params, const InputForecasts& inputs) {
     for (const char* side : {"exemplar", "output"})
-      foresee_maps("maps", std::get<Texts>(params.at("maps")), inputs.at(side).front(), fmt::format("the {}", side));
+      preflight_maps("maps", std::get<Texts>(params.at("maps")), inputs.at(side).front(), fmt::format("the {}", side));
     return Forecast{};
   };
   return t;

@@ -353,7 +353,7 @@ NodeType export_node() {
     return per_file * (1 + (material ? material->maps().size() : 0));
   };
   t.check = check;
-  t.foresee = foresee_export;
+  t.preflight = foresee_export;
   return t;
 }
 

@@ -100,7 +100,7 @@ Forecast foresee_export(const Params& params, const InputForecasts& inputs) {
     std::vector<std::string> maps;
     const Texts& chosen = std::get<Texts>(params.at("maps"));
     require_writer("path");
-    foresee_maps("maps", chosen, material->second.front());
+    preflight_maps("maps", chosen, material->second.front());
     for (const std::string& m : chosen.empty() ? material->second.front().maps : chosen)
       if (std::find(maps.begin(), maps.end(), m) == maps.end()) maps.push_back(m);
     require_pattern_for(text("path"), maps);

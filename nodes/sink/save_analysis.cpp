@@ -18,7 +18,7 @@ NodeType save_analysis_node() {
   t.compute = [](NodeContext& node) {
     save_value(node.input<Index>("index"), node.stage(node.text("path")), node.task());
   };
-  t.foresee = [](const Params& params, const InputForecasts&) {
+  t.preflight = [](const Params& params, const InputForecasts&) {
     const std::filesystem::path path = std::get<std::string>(params.at("path"));
     return Forecast{.files = {{"path", path.parent_path(), path.filename().string()}}};
   };

@@ -65,7 +65,7 @@ NodeType load_analysis_node() {
     const auto bytes = std::filesystem::file_size(node.text("path"), missing);
     return missing ? size_t{0} : size_t(bytes) * 3;
   };
-  t.foresee = [](const Params& params, const InputForecasts&) {
+  t.preflight = [](const Params& params, const InputForecasts&) {
     naming_remedy([&] { require_analysis(std::get<std::string>(params.at("path"))); });
     return Forecast{};
   };

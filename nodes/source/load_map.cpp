@@ -89,7 +89,7 @@ NodeType load_map_node() {
     }
   };
   t.check = [](const Params& p) { return color_space_problems(p, "color_space", "auto"); };
-  t.foresee = [](const Params& p, const InputForecasts&) {
+  t.preflight = [](const Params& p, const InputForecasts&) {
     require_readable_image(std::get<std::string>(p.at("path")));
     return Forecast{};
   };

@@ -172,7 +172,7 @@ std::vector<std::string> check(const Params& params) {
   return problems;
 }
 
-Forecast foresee(const Params& params, const InputForecasts&) {
+Forecast preflight(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
   Forecast out{.possible_maps = Texts{}};
   std::set<std::string> troubles;
@@ -249,7 +249,7 @@ NodeType load_material_node() {
       }
     return bytes;
   };
-  t.foresee = foresee;
+  t.preflight = preflight;
   t.check = check;
   return t;
 }

@@ -48,7 +48,7 @@ NodeType load_uv_node() {
   t.files_read = [](const Params& params) {
     return std::vector<std::filesystem::path>{std::get<std::string>(params.at("path"))};
   };
-  t.foresee = [](const Params& p, const InputForecasts&) {
+  t.preflight = [](const Params& p, const InputForecasts&) {
     require_readable_image(std::get<std::string>(p.at("path")));
     return Forecast{};
   };

@@ -106,7 +106,7 @@ NodeType pattern_node() {
   t.persist = Persist::payload;
   t.check = check;
   t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 9 * sizeof(float); };
-  t.foresee = [](const Params&, const InputForecasts&) {
+  t.preflight = [](const Params&, const InputForecasts&) {
     return Forecast{.maps = {"base_color", "normal", "height", "roughness", "ambient_occlusion"},
                     .possible_maps = Texts{}};
   };

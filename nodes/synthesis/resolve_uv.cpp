@@ -118,8 +118,8 @@ NodeType resolve_uv_node() {
                                  .holes = node.optional_input<Image>("holes")};
     node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv"), options, node.task()));
   };
-  t.foresee = [](const Params& params, const InputForecasts& inputs) {
-    foresee_one_shape("material", inputs);
+  t.preflight = [](const Params& params, const InputForecasts& inputs) {
+    preflight_one_shape("material", inputs);
     return same_maps_as("material")(params, inputs);
   };
   return t;

@@ -79,7 +79,7 @@ void compute(NodeContext& node) {
   node.output("uv", uv);
 }
 
-Forecast foresee(const Params& params, const InputForecasts& inputs) {
+Forecast preflight(const Params& params, const InputForecasts& inputs) {
   require_pairs(inputs.at("exemplar_control").size(), inputs.at("target").size(),
                 std::get<Numbers>(params.at("strength")).size());
   return {};
@@ -153,7 +153,7 @@ NodeType transfer_node() {
   });
   t.check = check_synthesis_params;
   t.compute = compute;
-  t.foresee = foresee;
+  t.preflight = preflight;
   t.memory_hint = [](const NodeContext& node) {
     // Bytes of a pixel: of the pyramids of controls, and of distances to labels while those are worked out.
     const auto controls = int64_t(4 * 5 * node.list<Image>("target").size());

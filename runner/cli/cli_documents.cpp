@@ -34,13 +34,14 @@ void check_what_is_set(const Graph& graph, const std::string& unset) {
   std::vector<GraphNode> complete;
   for (const GraphNode& n : graph.nodes)
     if (n.params.size() == n.type->params.size()) complete.push_back(n);
-  if (std::vector<Problem> problems = foreseen_in_nodes(complete); !problems.empty())
+  if (std::vector<Problem> problems = preflight_of_nodes(complete); !problems.empty())
     throw GraphError(graph.file.string(), std::move(problems));
   say("note: what depends on a parameter that is not set was not looked at: --set {}=VALUE\n", unset);
 }
 
 int check(const DocumentFlags& flags) {
-  const LoadedGraph loaded = load_graph(flags.graph, flags.set, {.allow_unset = true, .look_ahead = foreseen_in_nodes});
+  const LoadedGraph loaded =
+      load_graph(flags.graph, flags.set, {.allow_unset = true, .look_ahead = preflight_of_nodes});
   for (const std::string& c : loaded.conversions) answer("note: {}\n", c);
   for (const std::string& w : loaded.warnings) say("warning: {}\n", w);
   const auto unset = std::find_if(loaded.parameters.begin(), loaded.parameters.end(),

@@ -181,7 +181,7 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       return run_with_flags(
           [&] {
             LoadedGraph loaded =
-                load_graph(flags->graph, flags->set, {.only = flags->only, .look_ahead = foreseen_in_nodes});
+                load_graph(flags->graph, flags->set, {.only = flags->only, .look_ahead = preflight_of_nodes});
             for (const std::string& w : loaded.warnings) warn(*flags, w);
             return std::move(loaded.graph);
           },

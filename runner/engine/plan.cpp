@@ -236,7 +236,7 @@ Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options, con
     if (ready) s.known = resolve(plan, static_cast<int>(i), cache, history);
   }
   decide_states(plan);
-  if (std::vector<Problem> problems = foreseen_problems(plan); !problems.empty())
+  if (std::vector<Problem> problems = preflight_problems(plan); !problems.empty())
     throw GraphError(graph.file.string(), std::move(problems));
   return plan;
 }

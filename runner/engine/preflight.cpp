@@ -41,9 +41,9 @@ class Foresight {
   }
 
   void look_at(const GraphNode& node, bool writes) {
-    if (!node.type->foresee) return;
+    if (!node.type->preflight) return;
     try {
-      const Forecast forecast = node.type->foresee(node.params, inputs_of(node));
+      const Forecast forecast = node.type->preflight(node.params, inputs_of(node));
       if (writes) check_files(node, forecast.files);
       // An image that becomes a material of one map is none of the material beside it.
       for (const Port& p : node.type->outputs)
@@ -105,14 +105,14 @@ class Foresight {
 
 }  // namespace
 
-std::vector<Problem> foreseen_problems(const Plan& plan) {
+std::vector<Problem> preflight_problems(const Plan& plan) {
   std::vector<std::pair<const GraphNode*, bool>> nodes;
   for (const Stage& s : plan.stages)
     if (s.needed) nodes.emplace_back(s.node, s.state != StageState::up_to_date);
   return Foresight().look(nodes);
 }
 
-std::vector<Problem> foreseen_in_nodes(const std::vector<GraphNode>& nodes) {
+std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes) {
   std::vector<std::pair<const GraphNode*, bool>> all;
   for (const GraphNode& n : nodes) all.emplace_back(&n, true);
   return Foresight().look(all);

@@ -9,9 +9,9 @@ namespace terrazzo {
 
 /// What would surely go wrong in the stages that are needed: sources that are not there, folders that cannot be
 /// written, two sinks that write one file. Stages whose files are up to date write none.
-std::vector<Problem> foreseen_problems(const Plan& plan);
+std::vector<Problem> preflight_problems(const Plan& plan);
 
 /// The same for nodes of a document that cannot be planned, see LoadOptions.
-std::vector<Problem> foreseen_in_nodes(const std::vector<GraphNode>& nodes);
+std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes);
 
 }  // namespace terrazzo

@@ -107,7 +107,7 @@ RunResult run_plan(Plan plan, const RunOptions& options) {
   result.failures = coordinator.take_failures();
   result.stages = coordinator.take_outcomes();
   if (result.ok())
-    for (auto& [stage, note] : notes_on_left_over_maps(plan, result.stages)) {
+    for (auto& [stage, note] : notes_on_stale_outputs(plan, result.stages)) {
       if (options.observer) options.observer->noted(plan.stages[stage], note);
       result.stages[stage].notes.push_back(std::move(note));
     }

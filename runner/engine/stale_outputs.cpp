@@ -59,8 +59,8 @@ std::set<std::string> names_in(const fs::path& folder) {
 
 }  // namespace
 
-std::vector<std::pair<int, std::string>> notes_on_left_over_maps(const Plan& plan,
-                                                                 const std::vector<StageOutcome>& outcomes) {
+std::vector<std::pair<int, std::string>> notes_on_stale_outputs(const Plan& plan,
+                                                                const std::vector<StageOutcome>& outcomes) {
   if (std::any_of(plan.stages.begin(), plan.stages.end(),
                   [](const Stage& s) { return s.type().is_sink() && !s.needed; }))
     return {};

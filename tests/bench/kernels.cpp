@@ -101,9 +101,9 @@ void correction_pass(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     Field field = c.field;
-    Occupancy occupancy(c.exemplar.size(), level > 0 ? 0.7 : 0, 0.75);
+    UsagePenalty usage(c.exemplar.size(), level > 0 ? 0.7 : 0, 0.75);
     state.ResumeTiming();
-    correct(field, c.correction_level(), pass, occupancy, Task());
+    correct(field, c.correction_level(), pass, usage, Task());
     benchmark::DoNotOptimize(field.pixels.data());
   }
   count_items(state, c.field.size.area());
@@ -126,8 +126,8 @@ BENCHMARK(lattice_snap)->DenseRange(1, 4);
 
 void occupancy_count(benchmark::State& state) {
   const CorrectionCase c(1);
-  Occupancy occupancy(c.exemplar.size(), 0.7, 0.75);
-  for (auto _ : state) occupancy.recount(c.field, {});
+  UsagePenalty usage(c.exemplar.size(), 0.7, 0.75);
+  for (auto _ : state) usage.recount(c.field, {});
   count_items(state, c.field.size.area());
 }
 BENCHMARK(occupancy_count)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);

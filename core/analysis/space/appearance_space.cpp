@@ -94,7 +94,7 @@ std::vector<float> projection(const ExemplarPlanes& planes, const AppearanceLeve
       float* out = &projected[(size_t(y) * planes.size.width + left) * appearance_dimensions];
       for (int d = 0; d < level.dimensions; d++) {
         std::array<float, strip> sums{};
-        add_products(sums.data(), count, v.data(), size_t(count), &level.basis[size_t(d) * n], 1, size_t(n));
+        weighted_row_sum(sums.data(), count, v.data(), size_t(count), &level.basis[size_t(d) * n], 1, size_t(n));
         for (int p = 0; p < count; p++) out[p * appearance_dimensions + d] = sums[p] - offset[d];
       }
     }

@@ -17,7 +17,7 @@ constexpr int orientations = 6, scales = 3;
 constexpr double deviations[scales] = {1, 2, 4}, elongation = 3, blob_deviation = 10;
 
 double gaussian(double x, double deviation) {
-  return exact::exp(-0.5 * x * x / (deviation * deviation));
+  return portable::exp(-0.5 * x * x / (deviation * deviation));
 }
 
 /// A square filter, `reach` pixels to either side of its centre.
@@ -40,7 +40,7 @@ struct Filter {
 /// The derivative of given order across, a Gaussian along; constant factors do not matter.
 Filter oriented_filter(int reach, double deviation, int orientation, int order) {
   const double turns = orientation / (2.0 * orientations);
-  const double c = exact::cos_turns(turns), s = exact::sin_turns(turns), variance = deviation * deviation;
+  const double c = portable::cos_turns(turns), s = portable::sin_turns(turns), variance = deviation * deviation;
   return Filter(reach, [=](double x, double y) {
     const double along = x * c + y * s, across = y * c - x * s;
     const double derivative = order == 1 ? across : variance - across * across;
@@ -54,7 +54,7 @@ using Grid = std::vector<std::complex<double>>;
 /// images come out the same way.
 class Spectra {
  public:
-  Spectra(double scale, Size image) : reach_(int(exact::floor_int(24 * scale + 0.5))) {
+  Spectra(double scale, Size image) : reach_(int(portable::floor_int(24 * scale + 0.5))) {
     const int longest = std::max(image.width, image.height);
     side_ = std::min(padded_length(std::max(256, 4 * reach_)), padded_length(longest + 2 * reach_));
     for (const double d : deviations)

@@ -37,7 +37,7 @@ class Camera {
 
  private:
   Hit on_plane(double x, double y) const {
-    const double turns = spec_.tilt / 360, c = exact::cos_turns(turns), s = exact::sin_turns(turns);
+    const double turns = spec_.tilt / 360, c = portable::cos_turns(turns), s = portable::sin_turns(turns);
     Hit h;
     const double middle = 0.5 * spec_.size.height;
     h.x = x / spec_.size.width * spec_.tile;
@@ -87,11 +87,11 @@ class Camera {
 class Renderer {
  public:
   Renderer(const PreviewSpec& spec, const Textures& textures)
-      : spec_(spec), textures_(textures), camera_(spec, textures.aspect), stops_(exact::exp2(spec.exposure)) {
+      : spec_(spec), textures_(textures), camera_(spec, textures.aspect), stops_(portable::exp2(spec.exposure)) {
     for (const double azimuth : spec.lights) {
-      const double flat = exact::cos_turns(spec.elevation / 360);
-      lights_.push_back({flat * exact::cos_turns(azimuth / 360), flat * exact::sin_turns(azimuth / 360),
-                         exact::sin_turns(spec.elevation / 360)});
+      const double flat = portable::cos_turns(spec.elevation / 360);
+      lights_.push_back({flat * portable::cos_turns(azimuth / 360), flat * portable::sin_turns(azimuth / 360),
+                         portable::sin_turns(spec.elevation / 360)});
     }
     const double* b = spec.background;
     background_ = {decode_srgb(b[0]), decode_srgb(b[1]), decode_srgb(b[2])};
@@ -133,7 +133,7 @@ class Renderer {
 };
 
 float stored(double linear) {
-  return float(exact::floor_int(exact::saturate(encode_srgb(linear)) * 255 + 0.5)) / 255.0f;
+  return float(portable::floor_int(portable::saturate(encode_srgb(linear)) * 255 + 0.5)) / 255.0f;
 }
 
 ImagePtr rendered(const Renderer& renderer, Size size, size_t light, const Task& task) {

@@ -110,9 +110,9 @@ const float* Texture::texel(int x, int y) const {
 }
 
 Texture::Blend Texture::blend(double u, double v) const {
-  const double x = (u - double(exact::floor_int(u))) * size_.width - 0.5;
-  const double y = (v - double(exact::floor_int(v))) * size_.height - 0.5;
-  const int i = int(exact::floor_int(x)), j = int(exact::floor_int(y));
+  const double x = (u - double(portable::floor_int(u))) * size_.width - 0.5;
+  const double y = (v - double(portable::floor_int(v))) * size_.height - 0.5;
+  const int i = int(portable::floor_int(x)), j = int(portable::floor_int(y));
   const double tx = x - i, ty = y - j;
   const int x0 = i < 0 ? i + size_.width : i, x1 = i + 1 >= size_.width ? i + 1 - size_.width : i + 1;
   const int y0 = j < 0 ? j + size_.height : j, y1 = j + 1 >= size_.height ? j + 1 - size_.height : j + 1;

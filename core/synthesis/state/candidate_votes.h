@@ -7,9 +7,9 @@
 namespace terrazzo {
 
 /// What is suggested to try, packed into 32 bits, more than once perhaps.
-class Suggestions {
+class CandidateVotes {
  public:
-  struct Voted {
+  struct Candidate {
     uint32_t what;
     int votes;
   };
@@ -18,20 +18,21 @@ class Suggestions {
   void add(uint32_t what) { all_.push_back(what); }
 
   /// Each once, those suggested most often first: they fit best more often than not, and tell the others off sooner.
-  const std::vector<Voted>& by_votes() {
+  const std::vector<Candidate>& by_votes() {
     std::sort(all_.begin(), all_.end());
     voted_.clear();
     for (const uint32_t what : all_) {
       if (voted_.empty() || voted_.back().what != what) voted_.push_back({what, 0});
       voted_.back().votes++;
     }
-    std::stable_sort(voted_.begin(), voted_.end(), [](const Voted& a, const Voted& b) { return a.votes > b.votes; });
+    std::stable_sort(voted_.begin(), voted_.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.votes > b.votes; });
     return voted_;
   }
 
  private:
   std::vector<uint32_t> all_;
-  std::vector<Voted> voted_;
+  std::vector<Candidate> voted_;
 };
 
 }  // namespace terrazzo

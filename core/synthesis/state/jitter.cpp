@@ -19,7 +19,7 @@ std::vector<double> jitter_amplitudes(const JitterSpec& spec, const Appearance& 
       out[i] = given[i];
     if (spec.shape < Shape::peak) continue;
     const double deviations = from_peak / spec.spread;
-    out[i] = beyond ? 0 : given[0] * exact::exp(-0.5 * deviations * deviations);
+    out[i] = beyond ? 0 : given[0] * portable::exp(-0.5 * deviations * deviations);
   }
   return out;
 }

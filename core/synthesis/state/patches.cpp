@@ -27,8 +27,8 @@ int row(uint32_t place) {
 
 }  // namespace
 
-Patches::Patches(ExpansionGround& ground, const Occupancy& occupancy, uint64_t seed)
-    : ground_(ground), occupancy_(occupancy), seed_(seed), rim_(scattered_rim()), expansion_(ground) {}
+Patches::Patches(ExpansionGround& ground, const UsagePenalty& usage, uint64_t seed)
+    : ground_(ground), usage_(usage), seed_(seed), rim_(scattered_rim()), expansion_(ground) {}
 
 /// The window's pixels around its core, far apart from one to the next, so that a misfit is soon seen.
 std::vector<Patches::Offset> Patches::scattered_rim() {
@@ -117,7 +117,7 @@ void Patches::add_place(int x, int y, int u, int v) {
 int64_t Patches::misfit_at(uint32_t place, int64_t limit) const {
   const PaddedLevel& e = ground_.level.exemplar;
   const AppearanceVector* middle = e.at(column(place), row(place));
-  const int64_t factor = occupancy_.factor(column(place), row(place));
+  const int64_t factor = usage_.factor(column(place), row(place));
   int64_t sum = 0;
   for (size_t i = 0; i < rim_.size() && sum <= limit; i++)
     sum += factor * squared_distance(*shown_[i], middle[rim_[i].y * e.stride() + rim_[i].x]);

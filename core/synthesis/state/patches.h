@@ -20,8 +20,8 @@ class Patches {
   /// From this level on there are so many pixels that not all windows are worth the time.
   static constexpr int many_pixels = 1;
 
-  /// `occupancy`: what is in use too often fits less well.
-  Patches(ExpansionGround& ground, const Occupancy& occupancy, uint64_t seed);
+  /// `usage`: what is in use too often fits less well.
+  Patches(ExpansionGround& ground, const UsagePenalty& usage, uint64_t seed);
 
   /// The places whose surroundings fit a window's rim best, at most so many, the best first. They are those that the
   /// rim, its similar pixels and chance suggest; none is in the core's surroundings already, or out of phase.
@@ -43,11 +43,11 @@ class Patches {
   bool shows_near(int x, int y, uint32_t place) const;
 
   ExpansionGround& ground_;
-  const Occupancy& occupancy_;
+  const UsagePenalty& usage_;
   uint64_t seed_;
   std::vector<Offset> rim_;
   std::vector<const AppearanceVector*> shown_;  // by the rim
-  Suggestions places_;
+  CandidateVotes places_;
   std::vector<int64_t> misfits_;  // of the places that fit
   std::vector<uint32_t> fitting_;
   Expansion expansion_;

@@ -34,7 +34,7 @@ ExemplarCells::ExemplarCells(Size exemplar) : columns(size_t(exemplar.width)), r
   count = size_t(across) * down;
 }
 
-NearbyUse::NearbyUse(Size exemplar, std::vector<double> areas, double weight, const Plane& plane)
+ProximityPenalty::ProximityPenalty(Size exemplar, std::vector<double> areas, double weight, const Plane& plane)
     : exemplar_(exemplar),
       areas_(std::move(areas)),
       weight_(weight),
@@ -44,12 +44,12 @@ NearbyUse::NearbyUse(Size exemplar, std::vector<double> areas, double weight, co
       columns_((plane.size.width + side_ - 1) / side_),
       rows_((plane.size.height + side_ - 1) / side_) {}
 
-bool NearbyUse::is_worth_it(Size exemplar, const ExemplarCells& cells, const Plane& plane) {
+bool ProximityPenalty::is_worth_it(Size exemplar, const ExemplarCells& cells, const Plane& plane) {
   const double side = block_side(exemplar);
   return double(plane.size.area()) / (side * side) * double(cells.count) <= most_counts;
 }
 
-void NearbyUse::count(const Field& field, const ExemplarCells& cells) {
+void ProximityPenalty::count(const Field& field, const ExemplarCells& cells) {
   count_shown(field, cells);
   factors_.assign(shown_.size(), unit_factor);
   for (const int reach : reaches) {
@@ -58,7 +58,7 @@ void NearbyUse::count(const Field& field, const ExemplarCells& cells) {
   }
 }
 
-void NearbyUse::count_shown(const Field& field, const ExemplarCells& cells) {
+void ProximityPenalty::count_shown(const Field& field, const ExemplarCells& cells) {
   shown_.assign(size_t(columns_) * rows_ * cells_, 0);
   tbb::parallel_for(0, rows_, [&](int row) {
     for (int y = row * side_; y < std::min(field.size.height, (row + 1) * side_); y++)
@@ -67,7 +67,7 @@ void NearbyUse::count_shown(const Field& field, const ExemplarCells& cells) {
 }
 
 /// Adds up each block's counts and those of the blocks around it in a line.
-void NearbyUse::sum_along(const Line& line, int reach, const Counts& counts, Counts& sums) const {
+void ProximityPenalty::sum_along(const Line& line, int reach, const Counts& counts, Counts& sums) const {
   std::vector<uint32_t> sum(cells_, 0);
   const auto counts_at = [&](int i) { return &counts[size_t(line.first + wrap(i, line.length) * line.step) * cells_]; };
   const auto holds = [&](int i) { return line.closed || (i >= 0 && i < line.length); };
@@ -90,7 +90,7 @@ void NearbyUse::sum_along(const Line& line, int reach, const Counts& counts, Cou
   }
 }
 
-void NearbyUse::sum_around(int reach) {
+void ProximityPenalty::sum_around(int reach) {
   across_.resize(shown_.size());
   sums_.resize(shown_.size());
   tbb::parallel_for(0, rows_, [&](int row) {
@@ -101,7 +101,7 @@ void NearbyUse::sum_around(int reach) {
   });
 }
 
-void NearbyUse::raise_factors(int reach) {
+void ProximityPenalty::raise_factors(int reach) {
   // Of an exemplar smaller than what a place looks at, everything may come more often.
   const double looked_at = double(2 * reach + 1) * side_, area = double(exemplar_.area());
   const double times = std::max(1.0, looked_at * looked_at / area);

@@ -23,10 +23,10 @@ struct ExemplarCells {
 /// there: above 1 where it shows more than once within half the exemplar's side or so, and more so within a third. Even
 /// use of the exemplar says nothing about where: the same stones side by side are what the eye finds first. Any number
 /// of threads may ask while none counts.
-class NearbyUse {
+class ProximityPenalty {
  public:
   /// `areas`: how many pixels of each cell are usable; `weight`: what a doubled use adds to the cost.
-  NearbyUse(Size exemplar, std::vector<double> areas, double weight, const Plane& plane);
+  ProximityPenalty(Size exemplar, std::vector<double> areas, double weight, const Plane& plane);
   /// Whether that pays: in a plane of very many exemplars everything comes a thousand times, and to count it takes more
   /// memory than it is worth.
   static bool is_worth_it(Size exemplar, const ExemplarCells& cells, const Plane& plane);

@@ -10,7 +10,7 @@ constexpr double least_expected = 1e-6;
 constexpr double insistence = 0.3;
 constexpr double least_price = 0.25, most_price = 4;
 
-Occupancy::Occupancy(Size exemplar, double weight, double least_factor, const std::vector<double>& demand)
+UsagePenalty::UsagePenalty(Size exemplar, double weight, double least_factor, const std::vector<double>& demand)
     : weight_(weight),
       least_factor_(least_factor),
       exemplar_(exemplar),
@@ -29,27 +29,28 @@ Occupancy::Occupancy(Size exemplar, double weight, double least_factor, const st
     shares_[cells_.of(int(i) % exemplar.width, int(i) / exemplar.width)] += demand[i] / sum;
 }
 
-void Occupancy::insist() {
+void UsagePenalty::insist() {
   if (active()) prices_.assign(factors_.size(), 1.0);
 }
 
-void Occupancy::look_around(const Plane& plane) {
-  if (active() && NearbyUse::is_worth_it(exemplar_, cells_, plane)) nearby_.emplace(exemplar_, areas_, weight_, plane);
+void UsagePenalty::look_around(const Plane& plane) {
+  if (active() && ProximityPenalty::is_worth_it(exemplar_, cells_, plane))
+    nearby_.emplace(exemplar_, areas_, weight_, plane);
 }
 
-void Occupancy::recount(const Field& field, const FixedPixels& fixed) {
+void UsagePenalty::recount(const Field& field, const FixedPixels& fixed) {
   if (settled_) return;
   count(field.pixels, fixed);
   if (nearby_) nearby_->count(field, cells_);
 }
 
-void Occupancy::count_for_good(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed) {
+void UsagePenalty::count_for_good(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed) {
   count(pixels, fixed);
   settled_ = true;
   nearby_.reset();
 }
 
-void Occupancy::count(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed) {
+void UsagePenalty::count(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed) {
   if (!active()) return;
   std::vector<int64_t> use(factors_.size(), 0);
   int64_t free = 0;

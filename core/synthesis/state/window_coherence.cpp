@@ -10,10 +10,10 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int reach = Likeness::reach, side = Likeness::side;
+constexpr int reach = WindowCoherence::reach, side = WindowCoherence::side;
 constexpr double usual_share = 0.95;
 constexpr double asked_windows = 1024;  // of the exemplar, at most about so many
-// Distances below and above the usual one between which unlikeness rises.
+// Distances below and above the usual one between which incoherence rises.
 constexpr double alike = 0.8, unlike = 1.2;
 constexpr int64_t no_distance = std::numeric_limits<int64_t>::max();
 
@@ -27,7 +27,7 @@ int64_t row_distance(const AppearanceVector* const* row, const AppearanceVector*
 /// Looks for the exemplar's window that is most like one, and nearer than a limit.
 class NearestWindow {
  public:
-  NearestWindow(const CorrectionLevel& level, const Likeness::Window& shown, int64_t limit = no_distance)
+  NearestWindow(const CorrectionLevel& level, const WindowCoherence::Window& shown, int64_t limit = no_distance)
       : level_(level), shown_(shown), least_(limit) {
     for (size_t i = 0; i < shown.size(); i++) wanted_[i] = level.exemplar.at(shown[i].x, shown[i].y);
   }
@@ -78,7 +78,7 @@ class NearestWindow {
   void continue_with(int i) { consider(shown_[i].x - (i % side - reach), shown_[i].y - (i / side - reach)); }
 
   const CorrectionLevel& level_;
-  const Likeness::Window& shown_;
+  const WindowCoherence::Window& shown_;
   std::array<const AppearanceVector*, side * side> wanted_;
   std::array<uint32_t, side * side + 5 * most_similar + 5> tried_;
   ptrdiff_t count_ = 0;
@@ -87,7 +87,7 @@ class NearestWindow {
 
 /// How much the exemplar's window around a place differs from those most like it.
 int64_t own_distance(const CorrectionLevel& level, int u, int v) {
-  Likeness::Window window;
+  WindowCoherence::Window window;
   for (int i = 0; i < side * side; i++) window[i] = {uint16_t(u + i % side - reach), uint16_t(v + i / side - reach)};
   NearestWindow nearest(level, window);
   nearest.forget(u, v);
@@ -115,9 +115,9 @@ double usual_distance(const CorrectionLevel& level) {
 
 }  // namespace
 
-Likeness::Likeness(const CorrectionLevel& level) : level_(level), usual_(usual_distance(level)) {}
+WindowCoherence::WindowCoherence(const CorrectionLevel& level) : level_(level), usual_(usual_distance(level)) {}
 
-int32_t Likeness::unlikeness(const Window& shown) const {
+int32_t WindowCoherence::incoherence(const Window& shown) const {
   if (usual_ == 0) return 0;
   const ExemplarPixel first = shown[0];
   bool continuous = true;

@@ -11,7 +11,7 @@ namespace terrazzo {
 /// features are cut or seams show (the coherence of Simakov et al., Summarizing visual data using bidirectional
 /// similarity, 2008). How much a window may differ is what the exemplar's own windows do from those most like them.
 /// Immutable: any number of threads may ask.
-class Likeness {
+class WindowCoherence {
  public:
   static constexpr int reach = 3;
   static constexpr int side = 2 * reach + 1;
@@ -19,11 +19,11 @@ class Likeness {
   using Window = std::array<ExemplarPixel, side * side>;
   static constexpr int32_t most = 256;
 
-  explicit Likeness(const CorrectionLevel& level);
+  explicit WindowCoherence(const CorrectionLevel& level);
 
   /// From 0, for what differs clearly less than the exemplar's own windows may, to `most`. Windows are sought where
   /// the window's pixels lead, and where their similar pixels do.
-  int32_t unlikeness(const Window& shown) const;
+  int32_t incoherence(const Window& shown) const;
 
  private:
   const CorrectionLevel& level_;

@@ -13,24 +13,25 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int32_t unlike = Likeness::most / 2;      // windows that are so unlike any begin the work
-constexpr int64_t worthwhile = Likeness::most / 2;  // what unlikeness must fall by
+constexpr int32_t unlike = WindowCoherence::most / 2;      // windows that are so unlike any begin the work
+constexpr int64_t worthwhile = WindowCoherence::most / 2;  // what incoherence must fall by
 
 /// What a field shows around a window, far enough to tell how like the exemplar all is that the window has a part in.
 class Surroundings {
  public:
-  static constexpr int touched = Patches::half + Likeness::reach;  // windows of pixels that may change lie so near
+  static constexpr int touched =
+      Patches::half + WindowCoherence::reach;  // windows of pixels that may change lie so near
 
-  Surroundings(const Field& field, const PlaneWindow& part, const Likeness& likeness)
-      : field_(field), part_(part), likeness_(likeness) {}
+  Surroundings(const Field& field, const PlaneWindow& part, const WindowCoherence& window_coherence)
+      : field_(field), part_(part), window_coherence_(window_coherence) {}
 
-  /// Goes to a pixel's surroundings, and gives the unlikeness of all windows that the window around it has a part in.
+  /// Goes to a pixel's surroundings, and gives the incoherence of all windows that the window around it has a part in.
   int64_t read(int x, int y) {
     go_to(x, y);
     for_each(pixels_held, [&](int dx, int dy) { read_pixel(dx, dy); });
     begun_ = shown_;
     int64_t sum = 0;
-    for_each(touched, [&](int dx, int dy) { sum += begun_unlikeness_[at(dx, dy)] = unlikeness(dx, dy); });
+    for_each(touched, [&](int dx, int dy) { sum += begun_unlikeness_[at(dx, dy)] = incoherence(dx, dy); });
     return sum;
   }
 
@@ -49,7 +50,7 @@ class Surroundings {
     int64_t sum = 0;
     for_each(touched, [&](int dx, int dy) { sum += changed_[at(dx, dy)] ? 0 : begun_unlikeness_[at(dx, dy)]; });
     for_each(touched, [&](int dx, int dy) {
-      if (changed_[at(dx, dy)] && sum < limit) sum += unlikeness(dx, dy);
+      if (changed_[at(dx, dy)] && sum < limit) sum += incoherence(dx, dy);
     });
     return sum;
   }
@@ -57,8 +58,8 @@ class Surroundings {
   /// That of the window around one pixel alone.
   int32_t unlikeness_at(int x, int y) {
     go_to(x, y);
-    for_each(Likeness::reach, [&](int dx, int dy) { read_pixel(dx, dy); });
-    return unlikeness(0, 0);
+    for_each(WindowCoherence::reach, [&](int dx, int dy) { read_pixel(dx, dy); });
+    return incoherence(0, 0);
   }
 
   int64_t index(int dx, int dy) const {
@@ -66,7 +67,7 @@ class Surroundings {
   }
 
  private:
-  static constexpr int pixels_held = touched + Likeness::reach;
+  static constexpr int pixels_held = touched + WindowCoherence::reach;
   static constexpr int side = 2 * pixels_held + 1;
   template <typename T>
   using PerPixel = std::array<T, size_t(side) * side>;
@@ -88,24 +89,24 @@ class Surroundings {
   }
   /// The windows that a pixel is in have changed.
   void mark(int dx, int dy) {
-    for_each(Likeness::reach, [&](int wx, int wy) { changed_[at(dx + wx, dy + wy)] = 1; });
+    for_each(WindowCoherence::reach, [&](int wx, int wy) { changed_[at(dx + wx, dy + wy)] = 1; });
   }
   static bool holds(int middle, int length, bool closed) {
-    return closed || (middle >= Likeness::reach && middle < length - Likeness::reach);
+    return closed || (middle >= WindowCoherence::reach && middle < length - WindowCoherence::reach);
   }
   /// Of a window that the field does not hold all of: none.
-  int32_t unlikeness(int dx, int dy) const {
+  int32_t incoherence(int dx, int dy) const {
     if (!holds(x_ + dx, field_.size.width, part_.closed_x) || !holds(y_ + dy, field_.size.height, part_.closed_y))
       return 0;
-    Likeness::Window window;
+    WindowCoherence::Window window;
     size_t i = 0;
-    for_each(Likeness::reach, [&](int wx, int wy) { window[i++] = shown_[at(dx + wx, dy + wy)]; });
-    return likeness_.unlikeness(window);
+    for_each(WindowCoherence::reach, [&](int wx, int wy) { window[i++] = shown_[at(dx + wx, dy + wy)]; });
+    return window_coherence_.incoherence(window);
   }
 
   const Field& field_;
   const PlaneWindow& part_;
-  const Likeness& likeness_;
+  const WindowCoherence& window_coherence_;
   int x_ = 0, y_ = 0;
   PerPixel<ExemplarPixel> shown_{}, begun_{};
   PerPixel<int32_t> begun_unlikeness_{};
@@ -115,11 +116,12 @@ class Surroundings {
 /// One per thread.
 class Reworker {
  public:
-  Reworker(ExpansionGround& ground, const Occupancy& occupancy, const Likeness& likeness, int tries, uint64_t seed)
+  Reworker(ExpansionGround& ground, const UsagePenalty& usage, const WindowCoherence& window_coherence, int tries,
+           uint64_t seed)
       : field_(ground.field),
         tries_(tries),
-        patches_(ground, occupancy, seed),
-        surroundings_(ground.field, ground.level.window, likeness) {}
+        patches_(ground, usage, seed),
+        surroundings_(ground.field, ground.level.window, window_coherence) {}
 
   void rework(int x, int y) {
     int64_t least = surroundings_.read(x, y) - worthwhile;
@@ -128,9 +130,9 @@ class Reworker {
     best_ = before_;
     for (const uint32_t place : patches_.fitting(x, y, size_t(tries_))) {
       patches_.lay(x, y, place);
-      const int64_t unlikeness = surroundings_.read_again(least);
-      if (unlikeness < least) {
-        least = unlikeness;
+      const int64_t incoherence = surroundings_.read_again(least);
+      if (incoherence < least) {
+        least = incoherence;
         save(best_);
       }
       restore(before_);
@@ -138,7 +140,7 @@ class Reworker {
     restore(best_);
   }
 
-  int32_t unlikeness(int x, int y) { return surroundings_.unlikeness_at(x, y); }
+  int32_t incoherence(int x, int y) { return surroundings_.unlikeness_at(x, y); }
 
  private:
   using Pixels = std::vector<ExemplarPixel>;
@@ -166,21 +168,21 @@ class Reworker {
 
 }  // namespace
 
-void rework_unlike(Field& field, const CorrectionLevel& level, Occupancy& occupancy, int tries, uint64_t seed,
-                   const Task& task) {
-  occupancy.recount(field, level.fixed);
-  const Likeness likeness(level);
+void repair_incoherent(Field& field, const CorrectionLevel& level, UsagePenalty& usage, int tries, uint64_t seed,
+                       const Task& task) {
+  usage.recount(field, level.fixed);
+  const WindowCoherence window_coherence(level);
   task.check();
   ExpansionGround ground(field, level);
   tbb::enumerable_thread_specific<Reworker> reworkers(
-      [&] { return Reworker(ground, occupancy, likeness, tries, seed); });
+      [&] { return Reworker(ground, usage, window_coherence, tries, seed); });
   const Size size = field.size;
   std::vector<int32_t> values(field.pixels.size());
   const int step = level.level <= Patches::many_pixels ? 2 : 1;  // every second window, in x and in y
   tbb::parallel_for(0, (size.height + step - 1) / step, [&](int row) {
     task.check();
     for (int x = 0; x < size.width; x += step)
-      values[size_t(row) * step * size.width + x] = reworkers.local().unlikeness(x, row * step);
+      values[size_t(row) * step * size.width + x] = reworkers.local().incoherence(x, row * step);
   });
   std::vector<int32_t> sums = core_sums(values, size, level.window);
   for (size_t i = 0; i < sums.size(); i++)

@@ -24,11 +24,11 @@ template <bool steered>
 class PixelCorrector {
  public:
   PixelCorrector(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
-                 const Occupancy& occupancy)
+                 const UsagePenalty& usage)
       : field_(field),
         level_(level),
         pass_(pass),
-        occupancy_(occupancy),
+        usage_(usage),
         exemplar_(level.exemplar.at(0, 0)),
         stride_(level.exemplar.stride()),
         pass_bits_(random_bits(pass.seed, level.level, pass.pass)),
@@ -49,7 +49,7 @@ class PixelCorrector {
     if (!steered && inside && continues_all_around(own)) return *own;
     x_ = level_.window.x(x);
     y_ = level_.window.y(y);
-    nearby_ = occupancy_.nearby_factors(x_, y_);
+    nearby_ = usage_.nearby_factors(x_, y_);
     if constexpr (steered)
       if (level_.control) target_ = level_.control->target(int64_t(level_.window.index(x, y)));
     if (inside)
@@ -191,8 +191,8 @@ class PixelCorrector {
       if (!level_.exemplar.is_usable(x, y)) return;
       if (level_.control) difference = level_.control->cost(x, y, target_) * uint64_t(count_);
     }
-    if (occupancy_.active()) factor = uint32_t((uint64_t{factor} * occupancy_.factor(x, y)) / unit_factor);
-    if (nearby_) factor = uint32_t(uint64_t{factor} * nearby_[occupancy_.cell(x, y)] / unit_factor);
+    if (usage_.active()) factor = uint32_t((uint64_t{factor} * usage_.factor(x, y)) / unit_factor);
+    if (nearby_) factor = uint32_t(uint64_t{factor} * nearby_[usage_.cell(x, y)] / unit_factor);
     const AppearanceVector* centre = exemplar_ + (y * stride_ + x);
     // The nearest pixels tell most candidates off, before the dearer terms, which only raise the cost.
     difference += tap_distance(centre, 0);
@@ -304,7 +304,7 @@ class PixelCorrector {
   const Field& field_;
   const CorrectionLevel& level_;
   const CorrectionPass& pass_;
-  const Occupancy& occupancy_;
+  const UsagePenalty& usage_;
   const AppearanceVector* exemplar_;  // its first pixel
   ptrdiff_t stride_;
   uint64_t pass_bits_;
@@ -334,8 +334,8 @@ class PixelCorrector {
 
 template <bool steered>
 HWY_ATTR void correct_pixels(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
-                             const Occupancy& occupancy, const SubPass& part, const Rect& tile, ExemplarPixel* out) {
-  PixelCorrector<steered> corrector(field, level, pass, occupancy);
+                             const UsagePenalty& usage, const SubPass& part, const Rect& tile, ExemplarPixel* out) {
+  PixelCorrector<steered> corrector(field, level, pass, usage);
   for (int row = tile.y; row < tile.bottom(); row++)
     for (int column = tile.x; column < tile.right(); column++) {
       const int x = part.x(column), y = part.y(row);
@@ -346,9 +346,9 @@ HWY_ATTR void correct_pixels(const Field& field, const CorrectionLevel& level, c
 
 /// A tile of a sub-pass' pixels, into `out`, which holds all of them.
 HWY_ATTR void correct_tile(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
-                           const Occupancy& occupancy, const SubPass& part, const Rect& tile, ExemplarPixel* out) {
+                           const UsagePenalty& usage, const SubPass& part, const Rect& tile, ExemplarPixel* out) {
   const auto correct = level.control || level.exemplar.masked() ? correct_pixels<true> : correct_pixels<false>;
-  correct(field, level, pass, occupancy, part, tile, out);
+  correct(field, level, pass, usage, part, tile, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -368,11 +368,11 @@ constexpr int tile_rows = 4;
 
 }  // namespace
 
-void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, Occupancy& occupancy,
+void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, UsagePenalty& usage,
              const Task& task) {
   std::vector<ExemplarPixel> next;
   for (int sub = 0; sub < sub_passes; sub++) {
-    occupancy.recount(field, level.fixed);
+    usage.recount(field, level.fixed);
     // What the sub-passes that follow look at has to be right as well.
     const Rect wanted = intersect(whole(field.size), grown(pass.wanted, correction_reach * (sub_passes - 1 - sub)));
     const SubPass part(level.window, wanted, (sub ^ pass.pass) & 1, sub >> 1);
@@ -384,7 +384,7 @@ void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& p
       task.check();
       const Rect tile{i / tiles_down * tile_columns, i % tiles_down * tile_rows, tile_columns, tile_rows};
       HWY_DYNAMIC_DISPATCH(correct_tile)
-      (field, level, pass, occupancy, part, intersect(tile, {0, 0, part.columns, part.rows}), next.data());
+      (field, level, pass, usage, part, intersect(tile, {0, 0, part.columns, part.rows}), next.data());
     });
     tbb::parallel_for(0, part.rows, [&](int row) {
       for (int i = 0; i < part.columns; i++) field.at(part.x(i), part.y(row)) = next[size_t(row) * part.columns + i];

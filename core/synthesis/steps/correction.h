@@ -47,7 +47,7 @@ inline constexpr int sub_passes = 4;
 /// continuations, their similar pixels and some random places. It runs as four sub-passes over interleaved pixels, each
 /// of which reads what the one before has left: the result does not depend on the order of work, nor on which part of
 /// the plane the field holds. Throws Cancelled.
-void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, Occupancy& occupancy,
+void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, UsagePenalty& usage,
              const Task& task);
 
 }  // namespace terrazzo

@@ -195,7 +195,7 @@ class Way {
     const auto begin = size_t(labels_.begin(course));
     for (size_t u = 0; u < columns.looks.size(); u++) unlike_[begin + u] = difference(shown, columns.looks[u]);
     const double per_difference = fit_.per_difference;
-    const int32_t most = fit_.most_unlike;
+    const int32_t most = fit_.most_incoherent;
     for (size_t u = 0; u < columns.looks.size(); u++) {
       const int32_t cost = std::min(most, int32_t(unlike_[begin + u] * per_difference)) + price_[begin + u];
       unlike_[begin + u] = columns.usable[u] ? cost : forbidden;

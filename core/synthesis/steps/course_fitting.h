@@ -57,10 +57,10 @@ struct CourseFit {
   int step = 1;      ///< columns of the exemplar to one of the result
   int shortest = 1;  ///< columns of the result that a run takes at least, but where the result begins or ends
   int again = 0;  ///< columns of the exemplar by which a run must go back if it goes on in the course of the one before
-  double per_difference = 0;  ///< what a column costs by which the exemplar's differs from it,
-  int32_t most_unlike = 0;    ///< and at most
-  int32_t per_gap = 0;        ///< each column costs by which a joint, put together from two, is too wide or narrow
-  bool closed = false;        ///< the result wraps around: its last run goes on with its first columns
+  double per_difference = 0;    ///< what a column costs by which the exemplar's differs from it,
+  int32_t most_incoherent = 0;  ///< and at most
+  int32_t per_gap = 0;          ///< each column costs by which a joint, put together from two, is too wide or narrow
+  bool closed = false;          ///< the result wraps around: its last run goes on with its first columns
 };
 
 /// What two columns differ by.

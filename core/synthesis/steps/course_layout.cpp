@@ -14,7 +14,7 @@ namespace terrazzo {
 namespace {
 
 // In units, course heights, or pixels of the coursing's level.
-constexpr double most_unlike = 4;
+constexpr double most_incoherent = 4;
 constexpr double shortest_run = 0.9;     // what is shorter is no brick
 constexpr double again = 6;              // by how far a course must go back to show what it has just shown
 constexpr double near = 3;               // what shows so near in a course close by
@@ -70,7 +70,7 @@ class Bricklayer {
     fit_.shortest = std::max(1, int(shortest_run * height / step_));
     fit_.again = int(again * height);
     fit_.per_difference = cost_per_difference(columns_, coursing);
-    fit_.most_unlike = int32_t(most_unlike * cost_unit);
+    fit_.most_incoherent = int32_t(most_incoherent * cost_unit);
     fit_.per_gap = int32_t(gap * cost_unit * height / step_ / (2 * coursing.half_joint + 1));
     fit_.closed = closed_along_;
     near_ = int(near * height / step_);
@@ -366,8 +366,8 @@ class Bricklayer {
 
 }  // namespace
 
-bool lay_bricks(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
-                const Coursing& coursing, const LatticePhase& phase, const Task& task) {
+bool lay_courses(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
+                 const Coursing& coursing, const LatticePhase& phase, const Task& task) {
   return !coursing.empty() && Bricklayer(field, block, level, appearance, coursing, phase, task).lay();
 }
 

@@ -13,7 +13,7 @@ namespace terrazzo {
 /// block of `block` x `block` pixels of the finest level, and the field must hold the whole plane. Nothing may be fixed
 /// or steered. False, with nothing changed, if the exemplar has no courses, or a result that wraps would not meet its
 /// own courses. The result does not depend on the number of threads. Throws Cancelled.
-bool lay_bricks(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
-                const Coursing& coursing, const LatticePhase& phase, const Task& task);
+bool lay_courses(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
+                 const Coursing& coursing, const LatticePhase& phase, const Task& task);
 
 }  // namespace terrazzo

@@ -39,13 +39,13 @@ std::vector<int> worst_windows(const ExpansionGround& ground) {
 
 }  // namespace
 
-void mend_seams(Field& field, const CorrectionLevel& level, Occupancy& occupancy, uint64_t seed, const Task& task) {
-  occupancy.recount(field, level.fixed);
+void repair_seams(Field& field, const CorrectionLevel& level, UsagePenalty& usage, uint64_t seed, const Task& task) {
+  usage.recount(field, level.fixed);
   ExpansionGround ground(field, level);
   task.check();
   const std::vector<int> windows = worst_windows(ground);
   task.check();
-  tbb::enumerable_thread_specific<Patches> patches([&] { return Patches(ground, occupancy, seed); });
+  tbb::enumerable_thread_specific<Patches> patches([&] { return Patches(ground, usage, seed); });
   for_each_window(windows, field, level.window, task, [&](int x, int y) {
     for (const uint32_t place : patches.local().fitting(x, y, 1)) patches.local().lay(x, y, place);
   });

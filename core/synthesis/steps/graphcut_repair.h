@@ -13,6 +13,6 @@ namespace terrazzo {
 /// bricks made of two halves become whole, which no correction of single pixels does. Nothing is offered that shows
 /// near by already, or that is out of phase. `level.fixed` pixels stay; controls have no say. The result does not
 /// depend on the number of threads. The field must hold the whole plane. Throws Cancelled.
-void mend_seams(Field& field, const CorrectionLevel& level, Occupancy& occupancy, uint64_t seed, const Task& task);
+void repair_seams(Field& field, const CorrectionLevel& level, UsagePenalty& usage, uint64_t seed, const Task& task);
 
 }  // namespace terrazzo

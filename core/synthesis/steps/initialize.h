@@ -12,7 +12,14 @@
 namespace terrazzo {
 
 /// What a random number is drawn for: keeps the draws of different purposes apart.
-enum Purpose : uint64_t { blocks = 1, jitter = 2, correction = 3, mending = 4, refilling = 5, reworking = 6 };
+enum Purpose : uint64_t {
+  blocks = 1,
+  jitter = 2,
+  correction = 3,
+  graphcut_repair = 4,
+  piece_relocation = 5,
+  coherence_repair = 6
+};
 
 /// The coarsest level: square blocks of a quarter of the exemplar's side, each the best of some from random places:
 /// what a mask and `control`, which may be null, have least against, or what shows least near by.

@@ -20,7 +20,7 @@ constexpr int smallest_piece = 16;    // blocks
 constexpr int near = 8;               // blocks; what shows so near a piece already is not shown by it again,
 constexpr double shown_again = 0.05;  // but for so much of the piece
 constexpr double worthwhile = 0.9;    // what the misfit must fall to
-constexpr size_t asked_seams = 128;   // for suggestions
+constexpr size_t asked_seams = 128;   // for votes_by_candidate
 constexpr int random_places = 256;
 constexpr size_t counted_pixels = 16;  // for how often what a piece shows is in use
 constexpr int64_t no_limit = std::numeric_limits<int64_t>::max();
@@ -53,14 +53,14 @@ struct Outline {
 /// Refills one piece at a time. One per thread.
 class Refiller {
  public:
-  Refiller(Field& field, int block, const CorrectionLevel& level, const PieceGround& ground, const Occupancy& occupancy,
+  Refiller(Field& field, int block, const CorrectionLevel& level, const PieceGround& ground, const UsagePenalty& usage,
            uint64_t seed)
       : field_(field),
         block_(block),
         level_(level),
         ground_(ground),
         pieces_(ground.pieces()),
-        occupancy_(occupancy),
+        usage_(usage),
         seed_(seed) {}
 
   void refill(int piece) {
@@ -162,14 +162,14 @@ class Refiller {
 
   /// How often what a piece would show is in use, as a factor; from some of its pixels.
   double use(int piece, const Move& m) const {
-    if (!occupancy_.active()) return 1;
+    if (!usage_.active()) return 1;
     const std::span<const int> members = pieces_.members(piece);
     const size_t step = std::max<size_t>(1, members.size() / counted_pixels);
     const Size e = level_.exemplar.size();
     uint64_t sum = 0, count = 0;
     for (size_t i = step / 2; i < members.size(); i += step, count++) {
       const ExemplarPixel p = field_.pixels[size_t(members[i])];
-      sum += occupancy_.factor(std::min(p.x + m.dx, e.width - 1), std::min(p.y + m.dy, e.height - 1));
+      sum += usage_.factor(std::min(p.x + m.dx, e.width - 1), std::min(p.y + m.dy, e.height - 1));
     }
     return double(sum) / double(count) / unit_factor;
   }
@@ -200,21 +200,21 @@ class Refiller {
   const CorrectionLevel& level_;
   const PieceGround& ground_;
   const Pieces& pieces_;
-  const Occupancy& occupancy_;
+  const UsagePenalty& usage_;
   uint64_t seed_;
   PieceSeams in_order_;
   PieceSeams seams_;  // of the piece at hand
-  Suggestions moves_;
+  CandidateVotes moves_;
 };
 
 }  // namespace
 
-void refill_pieces(Field& field, int block, const CorrectionLevel& level, const Occupancy& occupancy, uint64_t seed,
-                   const Task& task) {
+void relocate_pieces(Field& field, int block, const CorrectionLevel& level, const UsagePenalty& usage, uint64_t seed,
+                     const Task& task) {
   const PieceGround ground(field, block, level);
   const Pieces& pieces = ground.pieces();
   tbb::enumerable_thread_specific<Refiller> refillers(
-      [&] { return Refiller(field, block, level, ground, occupancy, seed); });
+      [&] { return Refiller(field, block, level, ground, usage, seed); });
   std::vector<int> order;
   for (int piece = 0; piece < pieces.count(); piece++)
     if (pieces.area(piece) >= smallest_piece && !ground.is_fixed(piece)) order.push_back(piece);

@@ -13,7 +13,7 @@ namespace terrazzo {
 /// nor repeat. Those that fit worst come first. Blocks are as for align_pieces(), and so is `level.fixed`; controls
 /// have no say. The result does not depend on the number of threads. The field must hold the whole plane. Throws
 /// Cancelled.
-void refill_pieces(Field& field, int block, const CorrectionLevel& level, const Occupancy& occupancy, uint64_t seed,
-                   const Task& task);
+void relocate_pieces(Field& field, int block, const CorrectionLevel& level, const UsagePenalty& usage, uint64_t seed,
+                     const Task& task);
 
 }  // namespace terrazzo

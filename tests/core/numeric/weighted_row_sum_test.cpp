@@ -23,7 +23,7 @@ TEST_CASE("every instruction set adds products in order, to the bit") {
       std::vector<float> sums(row_stride, 0.25f), expected = sums;
       for (size_t r = 0; r < count; r++)
         for (int k = 0; k < length; k++) expected[k] += factors[r * factor_stride] * rows[r * row_stride + k];
-      add_products(sums.data(), length, rows.data(), row_stride, factors.data(), factor_stride, count);
+      weighted_row_sum(sums.data(), length, rows.data(), row_stride, factors.data(), factor_stride, count);
       CHECK(sums == expected);
     }
   }

@@ -51,8 +51,8 @@ TEST_CASE("every default is a value that its parameter takes") {
       CHECK_FALSE(p.help.empty());
       if (!p.fallback) continue;
       std::vector<Problem> problems;
-      Complaints complaints(problems, "");
-      const std::optional<ParamValue> value = read_param(json_of(*p.fallback), p, "/", complaints);
+      Diagnostics diagnostics(problems, "");
+      const std::optional<ParamValue> value = read_param(json_of(*p.fallback), p, "/", diagnostics);
       if (!problems.empty()) FAIL_CHECK(problems.front().message);
       if (value && p.type != ParamType::path) CHECK(*value == *p.fallback);
       if (value) defaults.emplace(p.name, *value);

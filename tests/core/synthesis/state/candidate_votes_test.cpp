@@ -5,7 +5,7 @@
 using namespace terrazzo;
 
 TEST_CASE("what is suggested most often comes first, each once, and of those alike the lower") {
-  Suggestions s;
+  CandidateVotes s;
   for (int round = 0; round < 2; round++) {
     s.clear();
     for (const uint32_t what : {7u, 9u, 3u, 9u, 0xffffffffu, 7u, 9u}) s.add(what);

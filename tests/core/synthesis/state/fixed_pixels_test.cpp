@@ -121,7 +121,7 @@ TEST_CASE("where no whole number of courses fits, the new ones follow those that
 TEST_CASE("evenness counts free pixels only") {
   Field field{{32, 32}, std::vector<ExemplarPixel>(32 * 32, {0, 0})};
   const KeptPixels kept = identity(field.size, [](int x, int) { return x < 16; });
-  Occupancy all({32, 32}, 1, 0.5), free({32, 32}, 1, 0.5);
+  UsagePenalty all({32, 32}, 1, 0.5), free({32, 32}, 1, 0.5);
   for (int y = 0; y < 32; y++)
     for (int x = 16; x < 32; x++) field.at(x, y) = {uint16_t(x * 2 - 32), uint16_t(y)};
   all.recount(field, {});

@@ -22,7 +22,7 @@ Field with_copies(Size size, std::initializer_list<std::array<int, 2>> places) {
 
 /// What it costs to show the middle of what was copied at a position.
 uint32_t factor_at(int x, int y, const Field& field, bool tiles = false) {
-  NearbyUse use(exemplar, std::vector<double>(cells.count, 4.0), 0.7, {field.size, tiles, tiles});
+  ProximityPenalty use(exemplar, std::vector<double>(cells.count, 4.0), 0.7, {field.size, tiles, tiles});
   use.count(field, cells);
   return use.factors(x, y)[cells.of(20, 20)];
 }
@@ -59,7 +59,7 @@ TEST_CASE("a small plane that tiles counts nothing twice") {
 TEST_CASE("an exemplar of a few pixels may come about as often as it must") {
   const Size tiny{4, 4};
   const ExemplarCells few(tiny);
-  NearbyUse use(tiny, std::vector<double>(few.count, 4.0), 0.7, {{32, 32}});
+  ProximityPenalty use(tiny, std::vector<double>(few.count, 4.0), 0.7, {{32, 32}});
   Field field{{32, 32}, {}};
   for (int i = 0; i < 32 * 32; i++) field.pixels.push_back({uint16_t(i % 4), uint16_t(i / 32 % 4)});
   use.count(field, few);
@@ -67,20 +67,20 @@ TEST_CASE("an exemplar of a few pixels may come about as often as it must") {
 }
 
 TEST_CASE("what is near is counted unless that took too much memory") {
-  CHECK(NearbyUse::is_worth_it({128, 128}, ExemplarCells({128, 128}), {{2048, 2048}}));
-  CHECK_FALSE(NearbyUse::is_worth_it({16, 16}, ExemplarCells({16, 16}), {{4096, 4096}}));
+  CHECK(ProximityPenalty::is_worth_it({128, 128}, ExemplarCells({128, 128}), {{2048, 2048}}));
+  CHECK_FALSE(ProximityPenalty::is_worth_it({16, 16}, ExemplarCells({16, 16}), {{4096, 4096}}));
 }
 
-TEST_CASE("occupancy looks around from when it is told to until it has counted for good") {
-  Occupancy occupancy(exemplar, 0.7, 0.5), even(exemplar, 0, 0.5);
-  CHECK(occupancy.nearby_factors(24, 24) == nullptr);
+TEST_CASE("usage looks around from when it is told to until it has counted for good") {
+  UsagePenalty usage(exemplar, 0.7, 0.5), even(exemplar, 0, 0.5);
+  CHECK(usage.nearby_factors(24, 24) == nullptr);
   const Field field = with_copies({128, 64}, {{20, 20}, {28, 20}});
-  occupancy.look_around({field.size});
-  occupancy.recount(field, {});
-  REQUIRE(occupancy.nearby_factors(24, 24));
-  CHECK(occupancy.nearby_factors(24, 24)[occupancy.cell(20, 20)] > unit_factor * 3 / 2);
-  occupancy.count_for_good(field.pixels, {});
-  CHECK(occupancy.nearby_factors(24, 24) == nullptr);
+  usage.look_around({field.size});
+  usage.recount(field, {});
+  REQUIRE(usage.nearby_factors(24, 24));
+  CHECK(usage.nearby_factors(24, 24)[usage.cell(20, 20)] > unit_factor * 3 / 2);
+  usage.count_for_good(field.pixels, {});
+  CHECK(usage.nearby_factors(24, 24) == nullptr);
   even.look_around({field.size});
   CHECK(even.nearby_factors(24, 24) == nullptr);
 }

@@ -19,7 +19,7 @@ Field showing(Size output, int width, int height) {
 }  // namespace
 
 TEST_CASE("even use costs nothing, what is used too much is dear and what is used too little cheap, down to a limit") {
-  Occupancy even(exemplar, 1, 0.75), uneven(exemplar, 1, 0.75);
+  UsagePenalty even(exemplar, 1, 0.75), uneven(exemplar, 1, 0.75);
   even.recount(showing({64, 64}, 32, 32), {});
   CHECK(even.factor(0, 0) == unit_factor);
   CHECK(even.factor(31, 31) == unit_factor);
@@ -29,7 +29,7 @@ TEST_CASE("even use costs nothing, what is used too much is dear and what is use
 }
 
 TEST_CASE("who insists makes what stays unevenly used dearer and cheaper with every count, and never for nothing") {
-  Occupancy insistent(exemplar, 0.7, 0.5), content(exemplar, 0.7, 0.5);
+  UsagePenalty insistent(exemplar, 0.7, 0.5), content(exemplar, 0.7, 0.5);
   insistent.insist();
   content.insist();
   uint32_t dearest = unit_factor, cheapest = unit_factor;
@@ -48,7 +48,7 @@ TEST_CASE("who insists makes what stays unevenly used dearer and cheaper with ev
 }
 
 TEST_CASE("a small output may show one piece of the exemplar once") {
-  Occupancy small(exemplar, 1, 0);
+  UsagePenalty small(exemplar, 1, 0);
   small.recount(showing({8, 8}, 8, 8), {});
   CHECK(small.factor(0, 0) == unit_factor);
   CHECK(small.factor(31, 31) > unit_factor * 9 / 10);
@@ -63,7 +63,7 @@ TEST_CASE("of what is seldom wanted one piece may be shown once, and no more") {
   Field field = showing({32, 32}, 16, 32);
   for (int y = 0; y < 8; y++)
     for (int x = 0; x < 8; x++) field.at(x, y) = {uint16_t(16 + x), uint16_t(y)};
-  Occupancy once(exemplar, 1, 0.5, demand), twice(exemplar, 1, 0.5, demand);
+  UsagePenalty once(exemplar, 1, 0.5, demand), twice(exemplar, 1, 0.5, demand);
   once.recount(field, {});
   CHECK(once.factor(16, 0) == unit_factor);
   for (int y = 8; y < 16; y++)

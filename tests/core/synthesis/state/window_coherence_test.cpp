@@ -11,10 +11,10 @@ namespace {
 constexpr Size size{64, 60};
 
 /// Its left part goes on from one place, the three columns on the right from another.
-Likeness::Window window(ExemplarPixel left, ExemplarPixel right) {
-  Likeness::Window out;
-  for (int i = 0; i < Likeness::side * Likeness::side; i++) {
-    const int x = i % Likeness::side, y = i / Likeness::side;
+WindowCoherence::Window window(ExemplarPixel left, ExemplarPixel right) {
+  WindowCoherence::Window out;
+  for (int i = 0; i < WindowCoherence::side * WindowCoherence::side; i++) {
+    const int x = i % WindowCoherence::side, y = i / WindowCoherence::side;
     const ExemplarPixel& from = x < 4 ? left : right;
     out[i] = {uint16_t(from.x + x), uint16_t(from.y + y)};
   }
@@ -37,25 +37,25 @@ TEST_CASE("what the exemplar shows is like it, and so is what differs as little 
   const PaddedLevel exemplar = test::slopes(size);
   const std::vector<ExemplarPixel> none;
   const CorrectionLevel level = level_of(exemplar, none);
-  const Likeness likeness(level);
-  CHECK(likeness.unlikeness(window({10, 12}, {10, 12})) == 0);
-  CHECK(likeness.unlikeness(window({10, 12}, {11, 12})) == 0);
-  CHECK(likeness.unlikeness(window({10, 12}, {10, 11})) == 0);
+  const WindowCoherence window_coherence(level);
+  CHECK(window_coherence.incoherence(window({10, 12}, {10, 12})) == 0);
+  CHECK(window_coherence.incoherence(window({10, 12}, {11, 12})) == 0);
+  CHECK(window_coherence.incoherence(window({10, 12}, {10, 11})) == 0);
 }
 
 TEST_CASE("the farther what meets lies apart, the less the window is like the exemplar") {
   const PaddedLevel exemplar = test::slopes(size);
   const std::vector<ExemplarPixel> none;
   const CorrectionLevel level = level_of(exemplar, none);
-  const Likeness likeness(level);
+  const WindowCoherence window_coherence(level);
   int32_t before = 0, between = 0;
   for (int apart = 0; apart < 30; apart++) {
-    const int32_t unlikeness = likeness.unlikeness(window({20, 12}, {uint16_t(20 + apart), 12}));
-    CHECK(unlikeness >= before);
-    between += unlikeness > 0 && unlikeness < Likeness::most;
-    before = unlikeness;
+    const int32_t incoherence = window_coherence.incoherence(window({20, 12}, {uint16_t(20 + apart), 12}));
+    CHECK(incoherence >= before);
+    between += incoherence > 0 && incoherence < WindowCoherence::most;
+    before = incoherence;
   }
-  CHECK(before == Likeness::most);
+  CHECK(before == WindowCoherence::most);
   CHECK(between > 0);
 }
 
@@ -69,8 +69,8 @@ TEST_CASE("windows are found where similar pixels lead") {
   for (int y = 0; y < larger.height; y++)
     for (int x = 0; x < larger.width; x++) parts.vectors.push_back(*plain.at(x, y));
   std::vector<ExemplarPixel> similar(parts.vectors.size(), ExemplarPixel{0, 0});
-  for (int y = 0; y < Likeness::side; y++)
-    for (int x = 0; x < Likeness::side; x++) {
+  for (int y = 0; y < WindowCoherence::side; y++)
+    for (int x = 0; x < WindowCoherence::side; x++) {
       const ExemplarPixel& copy = x < 4 ? left : right;
       const size_t at = size_t(copy.y + y) * larger.width + copy.x + x;
       parts.vectors[at] = *plain.at(whole.x + x, whole.y + y);
@@ -79,15 +79,15 @@ TEST_CASE("windows are found where similar pixels lead") {
   const PaddedLevel exemplar(parts, false);
   const std::vector<ExemplarPixel> none;
   const CorrectionLevel without = level_of(exemplar, none), with = level_of(exemplar, similar, 1);
-  CHECK(Likeness(without).unlikeness(window(left, right)) == Likeness::most);
-  CHECK(Likeness(with).unlikeness(window(left, right)) == 0);
+  CHECK(WindowCoherence(without).incoherence(window(left, right)) == WindowCoherence::most);
+  CHECK(WindowCoherence(with).incoherence(window(left, right)) == 0);
 }
 
 TEST_CASE("an exemplar smaller than a window is never unlike") {
   const PaddedLevel exemplar = test::slopes({6, 6});
   const std::vector<ExemplarPixel> none;
   const CorrectionLevel level = level_of(exemplar, none);
-  Likeness::Window shown{};
+  WindowCoherence::Window shown{};
   shown[7] = {5, 5};
-  CHECK(Likeness(level).unlikeness(shown) == 0);
+  CHECK(WindowCoherence(level).incoherence(shown) == 0);
 }

@@ -25,19 +25,19 @@ Field with_wrong_place() {
 }
 
 void rework(Field& field, const CorrectionLevel& level) {
-  Occupancy evenness(exemplar_size, 0, 1);
-  rework_unlike(field, level, evenness, 4, 1, Task());
+  UsagePenalty evenness(exemplar_size, 0, 1);
+  repair_incoherent(field, level, evenness, 4, 1, Task());
 }
 
-int64_t unlikeness(const Field& field, const CorrectionLevel& level) {
-  const Likeness likeness(level);
+int64_t incoherence(const Field& field, const CorrectionLevel& level) {
+  const WindowCoherence window_coherence(level);
   int64_t sum = 0;
-  for (int y = 0; y + Likeness::side <= field.size.height; y++)
-    for (int x = 0; x + Likeness::side <= field.size.width; x++) {
-      Likeness::Window shown;
-      for (int i = 0; i < Likeness::side * Likeness::side; i++)
-        shown[i] = field.at(x + i % Likeness::side, y + i / Likeness::side);
-      sum += likeness.unlikeness(shown);
+  for (int y = 0; y + WindowCoherence::side <= field.size.height; y++)
+    for (int x = 0; x + WindowCoherence::side <= field.size.width; x++) {
+      WindowCoherence::Window shown;
+      for (int i = 0; i < WindowCoherence::side * WindowCoherence::side; i++)
+        shown[i] = field.at(x + i % WindowCoherence::side, y + i / WindowCoherence::side);
+      sum += window_coherence.incoherence(shown);
     }
   return sum;
 }
@@ -61,7 +61,7 @@ TEST_CASE("what is like the exemplar stays, whether it shows seams or not") {
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++) nearly.at(x, y).x++;
   const Field before = nearly;
-  REQUIRE(unlikeness(before, level) == 0);
+  REQUIRE(incoherence(before, level) == 0);
   rework(nearly, level);
   CHECK(nearly.pixels == before.pixels);
 }
@@ -103,6 +103,6 @@ TEST_CASE("less is unlike the exemplar than before, and the same on one thread a
       tbb::task_arena(4).execute([&] { rework(many, level); });
       tbb::task_arena(1).execute([&] { rework(one, level); });
       CHECK(many.pixels == one.pixels);
-      CHECK(unlikeness(many, level) < unlikeness(before, level));
+      CHECK(incoherence(many, level) < incoherence(before, level));
     }
 }

@@ -52,7 +52,7 @@ std::string text(const std::vector<CourseRun>& runs) {
   return out;
 }
 
-const CourseFit fit{.step = 1, .shortest = 4, .again = 12, .per_difference = 0.01, .most_unlike = 1000};
+const CourseFit fit{.step = 1, .shortest = 4, .again = 12, .per_difference = 0.01, .most_incoherent = 1000};
 
 }  // namespace
 

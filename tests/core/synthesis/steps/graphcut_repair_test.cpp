@@ -41,8 +41,8 @@ Field with_wrong_place() {
 }
 
 void mend(Field& field, const CorrectionLevel& level) {
-  Occupancy evenness(exemplar_size, 0, 1);
-  mend_seams(field, level, evenness, 1, Task());
+  UsagePenalty evenness(exemplar_size, 0, 1);
+  repair_seams(field, level, evenness, 1, Task());
 }
 
 int64_t mismatch(Field field, const CorrectionLevel& level) {

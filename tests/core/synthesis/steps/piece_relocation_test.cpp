@@ -57,16 +57,16 @@ CorrectionLevel level_of(const PaddedLevel& exemplar, const std::vector<Exemplar
       .exemplar = exemplar, .similar = similar, .per_pixel = 1, .window = {}, .phase = {}, .fixed = std::move(fixed)};
 }
 
-const Occupancy all_alike(side, 0, 1);
+const UsagePenalty all_alike(side, 0, 1);
 
 /// Nothing but what is in the hole may change.
-void refill_hole(Field& field, const Occupancy& occupancy) {
+void refill_hole(Field& field, const UsagePenalty& usage) {
   const PaddedLevel exemplar = exemplar_seen_twice();
   const std::vector<ExemplarPixel> similar = other_halves();
   KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size(), Keep::always)};
   for (int y = 0; y < 24; y++)
     for (int x = 0; x < 24; x++) kept.keep[size_t(y) * 24 + x] = in_hole(x, y) ? Keep::never : Keep::always;
-  refill_pieces(field, 1, level_of(exemplar, similar, {kept, field.size, 0, side}), occupancy, 1, Task());
+  relocate_pieces(field, 1, level_of(exemplar, similar, {kept, field.size, 0, side}), usage, 1, Task());
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ TEST_CASE("a piece that fits is left as it is") {
 TEST_CASE("a piece is not refilled with what is in use too much") {
   Field field = field_with({50, 36});
   // Everything shows the place that would fit.
-  Occupancy crowded(side, 1000, 1);
+  UsagePenalty crowded(side, 1000, 1);
   Field use{{64, 64}, std::vector<ExemplarPixel>(64 * 64)};
   for (int i = 0; i < 64 * 64; i++)
     use.pixels[size_t(i)] = {uint16_t(4 + hole + again + i % 8), uint16_t(4 + hole + i / 8 % 8)};
@@ -133,7 +133,7 @@ TEST_CASE("what is refilled does not depend on the number of threads, and pieces
       const Field before = field;
       CorrectionLevel level = level_of(exemplar, similar);
       level.window.closed_x = level.window.closed_y = true;
-      refill_pieces(field, 1, level, all_alike, 1, Task());
+      relocate_pieces(field, 1, level, all_alike, 1, Task());
       std::vector<uint32_t> shown;
       for (size_t i = 0; i < field.pixels.size(); i++) {
         shown.push_back(uint32_t(field.pixels[i].y) << 16 | field.pixels[i].x);
