@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 
 namespace terrazzo {
 
@@ -12,6 +13,12 @@ struct Size {
   int64_t area() const { return int64_t{width} * height; }
   bool operator==(const Size&) const = default;
 };
+
+/// "256x128"
+std::string describe(Size size);
+
+/// Whether the one is the other at another scale, give or take what rounding to whole pixels does.
+bool same_shape(Size a, Size b);
 
 /// A rectangle of pixels; (x, y) is its top left corner, y grows downwards.
 struct Rect {

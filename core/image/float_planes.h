@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "core/base/geometry.h"
-#include "core/material/material.h"
+#include "core/image/image.h"
 
 namespace terrazzo {
 
-/// Pixels held in memory with any number of channels, interleaved: what the metrics work on.
+/// Pixels held in memory with any number of channels, interleaved: what metrics and autocorrelation work on.
 struct Planes {
   Size size;
   int channels = 0;

@@ -37,12 +37,6 @@ void require_same_size(const std::string& port, const Image& image, const std::s
                         other_port, describe(other.size()), describe(image.size())));
 }
 
-void require_one_shape(const std::string& port, const Material& material) {
-  std::vector<std::pair<std::string, Size>> maps;
-  for (const Map& map : material.maps()) maps.emplace_back(map.name, map.image->size());
-  require_one_shape(port, maps);
-}
-
 void require_shape(const std::string& port, const Image& image, const std::string& of, Size size) {
   if (same_shape(image.size(), size)) return;
   throw Error(port, fmt::format("expected an image of the shape of {}, {} pixels, at that or any other scale; found {}",

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "core/image/image.h"
-#include "core/material/map_names.h"
-#include "core/material/material.h"
 
 /// What operations on images share: checks whose messages say what was found, and images computed pixel by pixel when
 /// they are pulled. Thread-safe.
@@ -25,8 +23,6 @@ void require_same_size(const std::string& port, const Image& image, const std::s
 
 /// Throws Error about `port` unless the image has the same shape as what it belongs to, to a pixel.
 void require_shape(const std::string& port, const Image& image, const std::string& of, Size size);
-/// See core/material/map_names.h.
-void require_one_shape(const std::string& port, const Material& material);
 
 /// The image at another size by nearest samples: keeps maps of different sizes aligned. Computed when pulled.
 ImagePtr nearest_at_size(const ImagePtr& image, Size size);

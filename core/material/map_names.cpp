@@ -82,15 +82,6 @@ void require_same_maps(const std::string& port, const std::vector<KnownMaps>& ma
   }
 }
 
-std::string describe(Size size) {
-  return fmt::format("{}x{}", size.width, size.height);
-}
-
-bool same_shape(Size a, Size b) {
-  const int64_t across = int64_t{a.width} * b.height, down = int64_t{a.height} * b.width;
-  return std::abs(across - down) <= std::max({a.width, a.height, b.width, b.height});
-}
-
 void require_one_shape(const std::string& port, const std::vector<std::pair<std::string, Size>>& maps) {
   const auto fits = [&](const auto& map) { return same_shape(map.second, maps.front().second); };
   if (std::all_of(maps.begin(), maps.end(), fits)) return;
@@ -108,6 +99,12 @@ void require_one_shape(const std::string& port, const std::vector<std::pair<std:
   throw Error(port, fmt::format("all maps must show the same area, but their shapes differ: {}. Cut or scale the files "
                                 "to one shape, or take some away; in a graph, the nodes \"crop\" and \"resize\" do it",
                                 all));
+}
+
+void require_one_shape(const std::string& port, const Material& material) {
+  std::vector<std::pair<std::string, Size>> maps;
+  for (const Map& map : material.maps()) maps.emplace_back(map.name, map.image->size());
+  require_one_shape(port, maps);
 }
 
 }  // namespace terrazzo

@@ -28,13 +28,8 @@ struct KnownMaps {
 /// Throws Error about `port`, naming what is missing or too much, if materials surely have other maps than the first.
 void require_same_maps(const std::string& port, const std::vector<KnownMaps>& materials);
 
-/// "256x128"
-std::string describe(Size size);
-
-/// Whether the one is the other at another scale, give or take what rounding to whole pixels does.
-bool same_shape(Size a, Size b);
-
 /// Throws Error about `port`, naming all maps and their sizes, unless all have one shape, at whatever sizes.
 void require_one_shape(const std::string& port, const std::vector<std::pair<std::string, Size>>& maps);
+void require_one_shape(const std::string& port, const Material& material);
 
 }  // namespace terrazzo

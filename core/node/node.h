@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/number_map.h"
 #include "core/base/task.h"
 #include "core/base/text.h"
 #include "core/node/value.h"
@@ -18,11 +19,8 @@
 /// `files_read` names, and on nothing else.
 namespace terrazzo {
 
-/// Numbers by name, one or several each: {"normal": 2, "base_color": [1, 1, 0.5]}.
-using NumberMap = std::map<std::string, std::vector<double>>;
 /// Texts by name: {"r": "ambient_occlusion.r"}.
 using TextMap = std::map<std::string, std::string>;
-using Numbers = std::vector<double>;
 using Texts = std::vector<std::string>;
 
 /// Alternatives are in the order of ParamType; choice, path and color_space are texts.

@@ -8,7 +8,7 @@ namespace terrazzo {
 
 namespace {
 
-using namespace exact;
+using namespace portable;
 
 enum Salt : uint64_t {
   stone = 1,

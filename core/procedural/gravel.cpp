@@ -9,7 +9,7 @@ namespace terrazzo {
 
 namespace {
 
-using namespace exact;
+using namespace portable;
 
 enum Salt : uint64_t { layer = 1, shape = 20, skin, specks, sand, film };
 

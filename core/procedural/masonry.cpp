@@ -6,7 +6,7 @@
 
 namespace terrazzo {
 
-using namespace exact;
+using namespace portable;
 
 namespace {
 

@@ -7,7 +7,7 @@ namespace terrazzo {
 
 namespace {
 
-using namespace exact;
+using namespace portable;
 
 enum Salt : uint64_t { board_cell = 1, row_cell, edge, wear_patch, dust, scratch };
 

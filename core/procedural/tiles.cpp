@@ -7,7 +7,7 @@ namespace terrazzo {
 
 namespace {
 
-using namespace exact;
+using namespace portable;
 
 enum Salt : uint64_t { tile_cell = 1, edge, chips, glaze, cloud, craze, craze_at, grout, grime, smudge, specks };
 

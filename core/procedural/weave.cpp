@@ -7,7 +7,7 @@ namespace terrazzo {
 
 namespace {
 
-using namespace exact;
+using namespace portable;
 
 enum Salt : uint64_t { warp_yarn = 1, weft_yarn, sway_u, sway_v, slub_u, slub_v, fibre, fuzz, shade, lint };
 

@@ -11,6 +11,7 @@
 #include "core/image/image_ops.h"
 #include "core/image/normal.h"
 #include "core/image/pixel_space.h"
+#include "core/material/map_names.h"
 #include "core/numeric/box_filter.h"
 #include "core/resolve/fine_layout.h"
 #include "core/resolve/joined_heights.h"

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "core/image/image_ops.h"
+#include "core/synthesis/state/comparison_window.h"
 #include "core/synthesis/state/piece_limits.h"
+#include "core/synthesis/state/usage_penalty.h"
 #include "core/synthesis/steps/alignment.h"
 #include "core/synthesis/steps/coherence_repair.h"
 #include "core/synthesis/steps/course_layout.h"

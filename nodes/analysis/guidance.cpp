@@ -4,6 +4,7 @@
 #include "core/analysis/space/weighting.h"
 #include "core/image/color.h"
 #include "core/image/image_ops.h"
+#include "core/material/map_names.h"
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"
 

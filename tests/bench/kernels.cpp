@@ -15,7 +15,9 @@
 #include "core/material/material.h"
 #include "core/numeric/principal_components.h"
 #include "core/procedural/pattern.h"
+#include "core/synthesis/state/comparison_window.h"
 #include "core/synthesis/state/pieces.h"
+#include "core/synthesis/state/usage_penalty.h"
 #include "core/synthesis/steps/correction.h"
 #include "core/synthesis/synthesize.h"
 

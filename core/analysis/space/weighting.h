@@ -1,8 +1,8 @@
 #pragma once
 
+#include "core/base/number_map.h"
 #include "core/exemplar/features.h"
 #include "core/material/material.h"
-#include "core/node/node.h"
 
 namespace terrazzo {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/numeric/grid_cut.h"
-#include "core/synthesis/steps/correction.h"
+#include "core/synthesis/state/correction_level.h"
 
 namespace terrazzo {
 

@@ -7,6 +7,7 @@
 
 #include "core/base/hash.h"
 #include "core/synthesis/state/rounds.h"
+#include "core/synthesis/state/usage_penalty.h"
 
 namespace terrazzo {
 

@@ -7,6 +7,7 @@
 
 #include "core/synthesis/state/candidate_votes.h"
 #include "core/synthesis/state/expansion.h"
+#include "core/synthesis/state/usage_penalty.h"
 
 namespace terrazzo {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/synthesis/state/pieces.h"
+#include "core/synthesis/state/usage_penalty.h"
 
 namespace terrazzo {
 

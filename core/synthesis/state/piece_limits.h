@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/synthesis/steps/correction.h"
+#include "core/synthesis/state/correction_level.h"
+#include "core/synthesis/state/usage_penalty.h"
 
 namespace terrazzo {
 

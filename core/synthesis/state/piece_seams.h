@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/synthesis/state/correction_level.h"
 #include "core/synthesis/state/pieces.h"
-#include "core/synthesis/steps/correction.h"
 
 namespace terrazzo {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/synthesis/steps/correction.h"
+#include "core/synthesis/state/correction_level.h"
 
 namespace terrazzo {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/synthesis/steps/correction.h"
+#include "core/synthesis/state/correction_level.h"
 
 namespace terrazzo {
 

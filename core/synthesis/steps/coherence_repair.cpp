@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/synthesis/state/patches.h"
+#include "core/synthesis/state/usage_penalty.h"
 #include "core/synthesis/state/window_coherence.h"
 
 namespace terrazzo {

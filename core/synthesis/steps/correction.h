@@ -4,29 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "core/analysis/space/padded_level.h"
 #include "core/base/task.h"
-#include "core/exemplar/repeats.h"
 #include "core/synthesis/state/comparison_window.h"
-#include "core/synthesis/state/control.h"
+#include "core/synthesis/state/correction_level.h"
 #include "core/synthesis/state/field.h"
-#include "core/synthesis/state/fixed_pixels.h"
 #include "core/synthesis/state/plane_window.h"
 #include "core/synthesis/state/usage_penalty.h"
 
 namespace terrazzo {
-
-/// What the correction of one level works with.
-struct CorrectionLevel {
-  const PaddedLevel& exemplar;
-  const std::vector<ExemplarPixel>& similar;  ///< per_pixel positions for every exemplar pixel
-  int per_pixel = 0;
-  int level = 0;       ///< 0 = finest; part of every random choice
-  PlaneWindow window;  ///< what the field holds of the plane
-  PartPhases phase;    ///< of a regular exemplar: every output pixel keeps its place in the lattice's cell
-  FixedPixels fixed;   ///< pixels of the plane that are not corrected
-  const LevelControl* control = nullptr;  ///< null: nothing steers
-};
 
 struct CorrectionPass {
   const Window* window = nullptr;

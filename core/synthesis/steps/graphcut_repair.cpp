@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/synthesis/state/patches.h"
+#include "core/synthesis/state/usage_penalty.h"
 
 namespace terrazzo {
 

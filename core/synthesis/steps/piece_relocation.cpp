@@ -11,6 +11,7 @@
 #include "core/synthesis/state/candidate_votes.h"
 #include "core/synthesis/state/piece_seams.h"
 #include "core/synthesis/state/rounds.h"
+#include "core/synthesis/state/usage_penalty.h"
 
 namespace terrazzo {
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
+#include "core/synthesis/state/usage_penalty.h"
 #include "core/synthesis/state/window_coherence.h"
 #include "tests/core/synthesis/fields.h"
 #include "tests/core/synthesis/slopes.h"

@@ -5,6 +5,7 @@
 
 #include "core/base/hash.h"
 #include "core/synthesis/state/expansion.h"
+#include "core/synthesis/state/usage_penalty.h"
 #include "tests/core/synthesis/fields.h"
 
 using namespace terrazzo;

@@ -7,6 +7,7 @@
 
 #include "core/base/hash.h"
 #include "core/synthesis/state/pieces.h"
+#include "core/synthesis/state/usage_penalty.h"
 #include "tests/core/synthesis/noise.h"
 
 using namespace terrazzo;
