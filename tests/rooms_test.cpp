@@ -1,5 +1,3 @@
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +6,8 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include <doctest/doctest.h>
 
 #include "test_paths.h"
 
@@ -52,7 +52,9 @@ std::vector<std::string> matches(const std::string& text, const std::regex& patt
 TEST_CASE("includes between rooms follow the order of tests/rooms.txt") {
   const std::vector<std::string> order = rooms();
   const std::regex include(R"re(#include "([^"]+)/[^"/]+")re");
-  const auto place = [&](const std::string& room) { return std::find(order.begin(), order.end(), room) - order.begin(); };
+  const auto place = [&](const std::string& room) {
+    return std::find(order.begin(), order.end(), room) - order.begin();
+  };
   for (const char* folder : {"core", "nodes", "graphs", "runner"})
     for (const fs::path& file : sources(folder)) {
       const std::string room = file.parent_path().string();

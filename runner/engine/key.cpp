@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/paths.h"
+#include "core/base/tuning.h"
 #include "graphs/document/convert.h"
 #include "graphs/document/format.h"
 
@@ -41,6 +42,8 @@ std::vector<Ingredient> ingredients_of(const GraphNode& node, const InputNames& 
   std::vector<Ingredient> out;
   out.push_back({"type", Hasher().add(type.name).add(type.version).digest(),
                  fmt::format("{} version {}", type.name, type.version)});
+  if (const std::string tuning = overridden_tuning(); !tuning.empty())
+    out.push_back({"tuning", Hasher().add(tuning).digest(), tuning});
 
   const std::vector<fs::path> files = type.files_read ? type.files_read(node.params) : std::vector<fs::path>();
   std::vector<std::string> places;

@@ -1,0 +1,80 @@
+#include "core/base/tuning.h"
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/suggest.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// Filled while the program starts, before main.
+std::map<std::string, TuningConstant, std::less<>>& all_constants() {
+  static std::map<std::string, TuningConstant, std::less<>> constants;
+  return constants;
+}
+
+std::map<std::string, double>& defaults() {
+  static std::map<std::string, double> values;
+  return values;
+}
+
+}  // namespace
+
+double TuningConstant::number() const {
+  return std::visit([](const auto* v) { return double(*v); }, value);
+}
+
+std::vector<const TuningConstant*> tuning_constants() {
+  std::vector<const TuningConstant*> out;
+  for (const auto& [name, constant] : all_constants()) out.push_back(&constant);
+  return out;
+}
+
+void override_tuning(std::string_view name, double value) {
+  const auto at = all_constants().find(name);
+  if (at == all_constants().end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, constant] : all_constants()) names.push_back(known);
+    throw Error(fmt::format("there is no tuning constant \"{}\"{}", name, did_you_mean(std::string(name), names)));
+  }
+  if (int* const* whole = std::get_if<int*>(&at->second.value)) {
+    if (std::trunc(value) != value || std::abs(value) > 1e9)
+      throw Error(fmt::format("the tuning constant \"{}\" is a whole number, found {}", name, value));
+    **whole = int(value);
+  } else {
+    *std::get<double*>(at->second.value) = value;
+  }
+}
+
+std::string overridden_tuning() {
+  std::string out;
+  for (const auto& [name, constant] : all_constants())
+    if (const double now = constant.number(); now != defaults().at(name))
+      out += fmt::format("{}{}={}", out.empty() ? "" : " ", name, now);
+  return out;
+}
+
+namespace detail {
+
+void add_constants(std::string_view group, std::vector<TuningConstant> constants) {
+  for (TuningConstant& c : constants) {
+    const std::string name = c.name;
+    defaults()[name] = c.number();
+    if (!all_constants().try_emplace(name, std::move(c)).second)
+      throw std::logic_error(fmt::format("two tuning constants are called \"{}\" (group {})", name, group));
+  }
+}
+
+void reject_incomplete(std::string_view group) {
+  throw std::logic_error(fmt::format("the tuning structure \"{}\" has a field that is not described", group));
+}
+
+}  // namespace detail
+
+}  // namespace terrazzo
