@@ -66,6 +66,13 @@ struct Port {
   bool list = false;  ///< takes a list of wires
 };
 
+/// One of the steps that a node's work consists of, for its reference.
+struct NodeStep {
+  std::string name;
+  std::string when;  ///< in the work, and under which conditions
+  std::string help;  ///< what it does
+};
+
 /// What becomes of a node's outputs.
 enum class Persist : uint8_t {
   payload,  ///< costly: outputs are stored in the cache
@@ -103,6 +110,7 @@ struct NodeType {
   std::vector<Port> inputs;
   std::vector<Port> outputs;
   std::vector<Param> params;
+  std::vector<NodeStep> steps{};  ///< in the order in which they run; empty for most nodes
   Persist persist = Persist::payload;
   std::function<void(NodeContext&)> compute;
   /// The files the node reads, given its parameters; their content goes into the key. Empty for most nodes. A missing

@@ -65,6 +65,10 @@ std::string described_param(const Param& p) {
   return described(p.name, taken + "; " + fallback, p.help);
 }
 
+std::string described_step(const NodeStep& s) {
+  return described(s.name, s.when, s.help);
+}
+
 /// The order in which work flows; categories that are not among them come last.
 std::vector<std::string> categories_of(const std::vector<NodeType>& types) {
   std::vector<std::string> all = {"source", "image", "analysis", "synthesis", "sink"};
@@ -90,6 +94,10 @@ ordered_json json_of_param(const Param& p) {
   return out;
 }
 
+ordered_json json_of_step(const NodeStep& s) {
+  return {{"name", s.name}, {"when", s.when}, {"help", s.help}};
+}
+
 template <typename T>
 ordered_json list_of(const std::vector<T>& all, ordered_json (*json_of_one)(const T&)) {
   ordered_json out = ordered_json::array();
@@ -98,14 +106,16 @@ ordered_json list_of(const std::vector<T>& all, ordered_json (*json_of_one)(cons
 }
 
 ordered_json json_of_type(const NodeType& t) {
-  return {{"name", t.name},
-          {"version", t.version},
-          {"category", t.category},
-          {"summary", t.summary},
-          {"help", t.help},
-          {"inputs", list_of(t.inputs, json_of_port)},
-          {"outputs", list_of(t.outputs, json_of_port)},
-          {"parameters", list_of(t.params, json_of_param)}};
+  ordered_json out = {{"name", t.name},
+                      {"version", t.version},
+                      {"category", t.category},
+                      {"summary", t.summary},
+                      {"help", t.help},
+                      {"inputs", list_of(t.inputs, json_of_port)},
+                      {"outputs", list_of(t.outputs, json_of_port)},
+                      {"parameters", list_of(t.params, json_of_param)}};
+  if (!t.steps.empty()) out["steps"] = list_of(t.steps, json_of_step);
+  return out;
 }
 
 }  // namespace
@@ -121,6 +131,7 @@ std::string node_reference(const NodeType& type) {
   section("Inputs", type.inputs, described_port);
   section("Outputs", type.outputs, described_port);
   section("Parameters", type.params, described_param);
+  section("Steps, in the order in which they run", type.steps, described_step);
   return out;
 }
 

@@ -5,7 +5,9 @@
 #include "core/base/error.h"
 #include "core/image/image_ops.h"
 #include "core/synthesis/state/fixed_pixels.h"
+#include "core/synthesis/steps.h"
 #include "nodes/common/synthesis_params.h"
+#include "nodes/common/synthesis_steps.h"
 
 namespace terrazzo {
 
@@ -57,7 +59,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType extend_node() {
   NodeType t;
   t.name = "extend";
-  t.version = 14;
+  t.version = synthesis_version;
   t.category = "synthesis";
   t.summary = "Grows an existing result, keeping its pixels";
   t.help =
@@ -77,6 +79,7 @@ NodeType extend_node() {
                                      .max_count = 2},
                                     tileable_param()});
   t.check = check;
+  t.steps = described_synthesis_steps();
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) { return 3 * synthesis_memory(node.size("size")); };
   return t;

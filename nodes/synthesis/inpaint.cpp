@@ -5,7 +5,9 @@
 #include "core/image/image_ops.h"
 #include "core/numeric/distance_transform.h"
 #include "core/synthesis/state/fixed_pixels.h"
+#include "core/synthesis/steps.h"
 #include "nodes/common/synthesis_params.h"
+#include "nodes/common/synthesis_steps.h"
 
 namespace terrazzo {
 
@@ -101,7 +103,7 @@ void compute(NodeContext& node) {
 NodeType inpaint_node() {
   NodeType t;
   t.name = "inpaint";
-  t.version = 14;
+  t.version = synthesis_version;
   t.category = "synthesis";
   t.summary = "Fills holes and keeps the rest pixel by pixel";
   t.help =
@@ -134,6 +136,7 @@ NodeType inpaint_node() {
         .unit = "pixels or part of the side"},
        tileable_param()});
   t.check = check_synthesis_params;
+  t.steps = described_synthesis_steps();
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
     const auto uv = node.optional_input<UvMap>("uv");

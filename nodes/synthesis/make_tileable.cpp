@@ -6,7 +6,9 @@
 #include "core/base/error.h"
 #include "core/image/image_ops.h"
 #include "core/synthesis/state/fixed_pixels.h"
+#include "core/synthesis/steps.h"
 #include "nodes/common/synthesis_params.h"
+#include "nodes/common/synthesis_steps.h"
 
 namespace terrazzo {
 
@@ -110,7 +112,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType make_tileable_node() {
   NodeType t;
   t.name = "make_tileable";
-  t.version = 16;
+  t.version = synthesis_version;
   t.category = "synthesis";
   t.summary = "Keeps an exemplar's interior and makes its border wrap";
   t.help =
@@ -144,6 +146,7 @@ NodeType make_tileable_node() {
        .choices = {"repeats", "size"}},
   });
   t.check = check;
+  t.steps = described_synthesis_steps();
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
     return 3 * synthesis_memory(node.input<Index>("index")->appearance()->size());

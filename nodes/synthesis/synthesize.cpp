@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "core/image/image_ops.h"
+#include "core/synthesis/steps.h"
 #include "nodes/common/synthesis_params.h"
+#include "nodes/common/synthesis_steps.h"
 
 namespace terrazzo {
 
@@ -72,7 +74,7 @@ size_t memory(const NodeContext& node) {
 NodeType synthesize_node() {
   NodeType t;
   t.name = "synthesize";
-  t.version = 19;
+  t.version = synthesis_version;
   t.category = "synthesis";
   t.summary = "Makes a uv map of any size from an index";
   t.help =
@@ -105,6 +107,7 @@ NodeType synthesize_node() {
         .min_count = 2,
         .max_count = 2}});
   t.check = check;
+  t.steps = described_synthesis_steps();
   t.compute = compute;
   t.memory_hint = memory;
   return t;

@@ -1,5 +1,7 @@
+#include "core/synthesis/steps.h"
 #include "core/synthesis/synthesize.h"
 #include "nodes/common/synthesis_params.h"
+#include "nodes/common/synthesis_steps.h"
 
 namespace terrazzo {
 
@@ -7,7 +9,7 @@ NodeType synthesize_coarse_node() {
   NodeType t;
   t.name = "synthesize_coarse";
   t.category = "synthesis";
-  t.version = 16;
+  t.version = synthesis_version;
   t.summary = "Makes the coarse levels of a surface too large to be made at once";
   t.help =
       "What synthesize does first: all that depends on the surface as a whole. Connect it to \"coarse\" of synthesize, "
@@ -18,6 +20,7 @@ NodeType synthesize_coarse_node() {
   t.outputs = {{.name = "uv", .type = ValueType::uv_map, .help = "the coarse levels, for \"coarse\" of synthesize"}};
   t.params = with_synthesis_params(
       {surface_param("size", "Size of the whole surface.", 1), tileable_param(), whole_bricks_param()});
+  t.steps = described_synthesis_steps();
   t.check = check_synthesis_params;
   t.compute = [](NodeContext& node) {
     const auto index = node.input<Index>("index");

@@ -4,7 +4,9 @@
 #include "core/base/text.h"
 #include "core/material/map_names.h"
 #include "core/synthesis/state/labels.h"
+#include "core/synthesis/steps.h"
 #include "nodes/common/synthesis_params.h"
+#include "nodes/common/synthesis_steps.h"
 
 namespace terrazzo {
 
@@ -90,7 +92,7 @@ Forecast preflight(const Params& params, const InputForecasts& inputs) {
 NodeType transfer_node() {
   NodeType t;
   t.name = "transfer";
-  t.version = 11;
+  t.version = synthesis_version;
   t.category = "synthesis";
   t.summary = "Synthesis steered by a target image";
   t.help =
@@ -152,6 +154,7 @@ NodeType transfer_node() {
        .choices = {"histogram", "range", "none"}},
   });
   t.check = check_synthesis_params;
+  t.steps = described_synthesis_steps();
   t.compute = compute;
   t.preflight = preflight;
   t.memory_hint = [](const NodeContext& node) {

@@ -1,0 +1,62 @@
+#include "core/base/tuning.h"
+#include "core/synthesis/steps.h"
+
+namespace terrazzo {
+
+namespace {
+
+struct Tuning {
+  double shortest_brick = 64;
+};
+const Tunable<Tuning> tuning("bricks", {{&Tuning::shortest_brick, "shortest_brick", "pixels",
+                                         "lower: bricks that are laid well enough as they are cost time as well",
+                                         "course_layout"}});
+
+Size level_size(Size size, int level) {
+  const int round_up = (1 << level) - 1;
+  return {(size.width + round_up) >> level, (size.height + round_up) >> level};
+}
+
+}  // namespace
+
+SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
+    : index(i),
+      options(o),
+      task(t),
+      levels(int(index.levels().size())),
+      lattice(index.appearance()->lattice()),
+      gaps(options.kept.gaps(options.size)),
+      controls(options.controls, index.appearance()->size(), options.size, levels, task) {}
+
+Plane SharedWork::plane(int level) const {
+  return {level_size(options.size, level), options.tile_x, options.tile_y};
+}
+
+double SharedWork::jitter(int level) const {
+  const size_t order = size_t(levels - 1 - level);  // counted from the coarsest
+  return order < options.jitter.size() ? options.jitter[order] : 0;
+}
+
+/// Kept pixels have the lattice as it is: it bends where none are kept or, where they leave no room and it does not
+/// fit, is cut where the result wraps.
+LatticeSurface SharedWork::surface() const {
+  const bool fits = options.kept.empty() || lattice.fits(options.size, options.tile_x, options.tile_y);
+  return {options.size,
+          options.tile_x && (fits || gaps.x.length > 0),
+          options.tile_y && (fits || gaps.y.length > 0),
+          {double(options.origin[0]), double(options.origin[1])},
+          gaps};
+}
+
+LevelFacts SharedWork::facts(int level) const {
+  return {.level = level,
+          .levels = levels,
+          .quality = options.quality,
+          .regular = lattice.rank > 0,
+          .kept = fixed(level).any(),
+          .steered = !controls.empty(),
+          .may_have_bricks = options.whole_bricks && index.appearance()->repeats().parts.empty() &&
+                             (lattice.rank == 1 || lattice.longest_step() >= tuning->shortest_brick)};
+}
+
+}  // namespace terrazzo

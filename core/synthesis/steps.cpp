@@ -1,0 +1,338 @@
+#include "core/synthesis/steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/analysis/courses/coursing.h"
+#include "core/base/hash.h"
+#include "core/base/tuning.h"
+#include "core/synthesis/state/piece_limits.h"
+#include "core/synthesis/steps/alignment.h"
+#include "core/synthesis/steps/coherence_repair.h"
+#include "core/synthesis/steps/course_layout.h"
+#include "core/synthesis/steps/graphcut_repair.h"
+#include "core/synthesis/steps/initialize.h"
+#include "core/synthesis/steps/piece_relocation.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// Seams move from the finest level on which pieces still change as wholes down to the one that sees joints best.
+constexpr int seam_level = finest_whole_level;
+
+/// At which levels steps run, and how strongly.
+struct Tuning {
+  double coherence_between_kept = 0.75;
+  double coherence_where_steered = 0.85;
+  double landmark_coherence = 0.7;
+  double stay_along_courses = 8;
+  double stay_to_the_pixel = 32;
+  double stay_by_joint = 4;
+  double stay_around_bricks = 1;
+  int landmark_levels = 2;
+  int finest_limited = 2;
+  int finest_repaired = 2;
+  int coarsest_repaired = 3;
+  int coarsest_incoherent = 3;
+  int first_repair = 5;
+  int last_repair = 2;
+  int alignment_reach = 2;
+  int seam_reach_along_courses = 20;
+  int seam_reach_to_the_pixel = 4;
+  int nearest_joint = 10;
+  int farthest_joint = 24;
+  int seam_reach_around_bricks = 8;
+  int seam_reach_around_clear_bricks = 2;
+};
+const Tunable<Tuning> tuning(
+    "steps",
+    {
+        {&Tuning::coherence_between_kept, "coherence_between_kept", "factor",
+         "lower: pixels between kept ones hold together more, as their pieces are not limited; higher: more variety",
+         "piece_limits"},
+        {&Tuning::coherence_where_steered, "coherence_where_steered", "factor",
+         "lower: larger pieces under controls; higher: the target is followed more closely", "piece_limits"},
+        {&Tuning::landmark_coherence, "landmark_coherence", "factor",
+         "lower: rare features stay whole at the coarsest levels; higher: more variety", "piece_limits"},
+        {&Tuning::stay_along_courses, "stay_along_courses", "appearance units per pixel",
+         "higher: seams stay nearer; lower: they go half a brick for a joint", "seams"},
+        {&Tuning::stay_to_the_pixel, "stay_to_the_pixel", "appearance units per pixel",
+         "higher: seams stay; lower: they wander at the finest level", "seams"},
+        {&Tuning::stay_by_joint, "stay_by_joint", "appearance units per pixel",
+         "as stay_along_courses, where cells tell how near the next joint is", "seams"},
+        {&Tuning::stay_around_bricks, "stay_around_bricks", "appearance units per pixel",
+         "lower: seams find the joints that bricks were cut beside; higher: they keep to the cut", "course_layout"},
+        {&Tuning::landmark_levels, "landmark_levels", "levels",
+         "more: rare features are placed evenly; fewer: fewer of them are broken for it", "usage_penalty"},
+        {&Tuning::finest_limited, "finest_limited", "level",
+         "lower: pieces are limited at finer levels, where they hardly grow; costs time", "piece_limits"},
+        {&Tuning::finest_repaired, "finest_repaired", "level",
+         "lower: finer levels are repaired too, which brings nothing without a lattice; costs time", "graphcut_repair"},
+        {&Tuning::coarsest_repaired, "coarsest_repaired", "level",
+         "higher: coarser levels too, where it brings nothing", "graphcut_repair"},
+        {&Tuning::coarsest_incoherent, "coarsest_incoherent", "level",
+         "higher: coarser levels too, whose windows are all unlike one another", "coherence_repair"},
+        {&Tuning::first_repair, "first_repair", "passes left", "higher: seams are repaired earlier", "graphcut_repair"},
+        {&Tuning::last_repair, "last_repair", "passes left", "lower: fewer passes smooth what was repaired last",
+         "graphcut_repair"},
+        {&Tuning::alignment_reach, "alignment_reach", "pixels",
+         "higher: pieces find places farther off; upsampling is uncertain by about one pixel", "alignment"},
+        {&Tuning::seam_reach_along_courses, "seam_reach_along_courses", "pixels",
+         "higher: joints of longer bricks are found; costs time", "seams"},
+        {&Tuning::seam_reach_to_the_pixel, "seam_reach_to_the_pixel", "pixels",
+         "higher: the finest level looks for other joints, not for where two meet; costs time", "seams"},
+        {&Tuning::nearest_joint, "nearest_joint", "pixels", "the least reach where cells are small", "seams"},
+        {&Tuning::farthest_joint, "farthest_joint", "pixels", "the greatest reach where cells are large; costs time",
+         "seams"},
+        {&Tuning::seam_reach_around_bricks, "seam_reach_around_bricks", "pixels",
+         "higher: joints that were missed are found; lower: boards keep no stubs of joints", "course_layout"},
+        {&Tuning::seam_reach_around_clear_bricks, "seam_reach_around_clear_bricks", "pixels",
+         "the same where joints are clear, beside half a joint's breadth", "course_layout"},
+    });
+
+bool is_draft(const LevelFacts& f) {
+  return f.quality == Quality::draft;
+}
+
+// Where steps apply.
+
+bool always(const LevelFacts&) {
+  return true;
+}
+
+/// Measured on lattices this breaks more and makes nothing more like the exemplar.
+bool insists_on_evenness(const LevelFacts& f) {
+  return f.places_landmarks() && !f.regular && !f.steered && !f.kept;
+}
+
+/// On lattices everything near by is alike, and controls say what belongs where.
+bool avoids_repeats(const LevelFacts& f) {
+  return !f.regular && !f.steered;
+}
+
+/// Seams between courses or tiles show more than others, and so do those along an outline that was drawn. Measured on
+/// other exemplars moving seams brings nothing.
+bool moves_seams(const LevelFacts& f) {
+  return f.level <= seam_level && (f.regular || f.kept) && !is_draft(f);
+}
+
+/// The first time that seams move. Measured on exemplars without a lattice this brings nothing either, and controls
+/// say where pieces belong.
+bool relocates(const LevelFacts& f) {
+  return f.level == seam_level && moves_seams(f) && f.regular && !f.steered;
+}
+
+bool keeps_pixels(const LevelFacts& f) {
+  return f.kept;
+}
+
+bool aligns(const LevelFacts& f) {
+  return f.regular;
+}
+
+/// Bricks are laid whole where only seams still move, before they look for the pixel.
+bool lays_courses(const LevelFacts& f) {
+  return f.may_have_bricks && f.level < seam_level && moves_seams(f) && f.regular && !f.steered && !f.kept;
+}
+
+bool repairs_seams(const LevelFacts& f) {
+  const int finest = f.regular || f.kept ? finest_whole_level : tuning->finest_repaired;
+  return !is_draft(f) && f.level >= finest && f.level <= tuning->coarsest_repaired && !f.steered;
+}
+
+/// Between kept pixels nothing is said about whole pieces; single ones hold together more instead. Nor where a target
+/// says what goes where: limited pieces fall apart into ever the same scrap that misses nothing of it.
+bool limits_pieces(const LevelFacts& f) {
+  return f.level >= tuning->finest_limited && !f.kept && !f.steered;
+}
+
+/// Measured on lattices this brings next to nothing.
+bool repairs_incoherent(const LevelFacts& f) {
+  return f.level >= finest_whole_level && f.level <= tuning->coarsest_incoherent && !f.regular && !f.steered &&
+         !is_draft(f);
+}
+
+// What they do.
+
+void insist_on_evenness(StepContext& c) {
+  c.usage.insist();
+}
+
+void avoid_repeats(StepContext& c) {
+  c.usage.look_around(c.shared.plane(c.facts.level));
+}
+
+void place_blocks(StepContext& c) {
+  c.field = random_blocks(c.shared.plane(c.facts.level), c.level.exemplar, c.level.control, c.level.phase,
+                          c.shared.options.seed);
+}
+
+void jitter_coarsest(StepContext& c) {
+  scatter(c.field, c.level.exemplar, c.shared.jitter(c.facts.level), c.shared.options.seed, c.facts.level);
+}
+
+void begin_with_kept(StepContext& c) {
+  c.level.fixed.begin(c.field, c.level.window);
+}
+
+void upsample(StepContext& c) {
+  c.field = block_starts(*c.parent, c.level.window, c.level.exemplar, c.level.phase, c.shared.jitter(c.facts.level),
+                         c.shared.options.seed, c.facts.level);
+}
+
+/// `c.level.fixed` is of the parents; what each block shows is told by the first of its pixels on this level.
+void start_where_kept(StepContext& c) {
+  const CorrectionLevel& level = c.level;
+  const size_t width = size_t(c.shared.plane(c.facts.level).size.width);
+  for (int row = 0; row < c.field.size.height; row++)
+    for (int column = 0; column < c.field.size.width; column++)
+      if (level.fixed.at(level.window.index(column, row)))
+        c.field.at(column, row) = c.fixed.shown(2 * size_t(level.window.y(row)) * width + 2 * level.window.x(column));
+}
+
+void relocate(StepContext& c) {
+  c.usage.recount(c.field, c.level.fixed);
+  relocate_pieces(c.field, 2, c.level, c.usage, c.bits(Purpose::piece_relocation), c.shared.task);
+}
+
+void align(StepContext& c) {
+  if (c.level.phase.resolves_cells()) align_pieces(c.field, 2, c.level, tuning->alignment_reach, c.shared.task);
+}
+
+/// Around whole bricks seams look for joints that bricks were cut beside. The clearer those are, the less far: boards
+/// would keep stubs of joints.
+void lay_whole_bricks(StepContext& c) {
+  const Appearance& appearance = *c.shared.index.appearance();
+  const Coursing coursing = find_coursing(appearance, c.shared.task);
+  const LatticePhase phase(c.shared.lattice, 0, c.shared.surface());
+  if (!lay_courses(c.field, 2, c.level, appearance, coursing, phase, c.shared.task)) return;
+  const int clear = tuning->seam_reach_around_clear_bricks + (coursing.half_joint << coursing.level);
+  const int reach = tuning->seam_reach_around_bricks;
+  c.seams = SeamMoves{
+      .reach = coursing.is_clear() ? std::min(reach, clear) : reach, .stay = tuning->stay_around_bricks, .block = 2};
+}
+
+/// At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
+/// brick away. Courses do not tell how long bricks are.
+SeamMoves seams_to_joints(const StepContext& c) {
+  const Tuning& t = *tuning;
+  SeamMoves moves{.reach = t.seam_reach_along_courses, .stay = t.stay_along_courses, .block = 2};
+  if (c.facts.level < seam_level) {
+    moves.reach = t.seam_reach_to_the_pixel;
+    moves.stay = t.stay_to_the_pixel;
+  } else if (c.shared.lattice.rank > 1) {
+    const double half = c.shared.lattice.longest_step() / 2 / double(int64_t{2} << c.facts.level);
+    moves.reach = std::clamp(int(half), t.nearest_joint, t.farthest_joint);
+    moves.stay = t.stay_by_joint * t.nearest_joint / moves.reach;
+  }
+  moves.fair_piece = PieceLimits::of(true).large * double(c.level.exemplar.size().area()) / 4;
+  return moves;
+}
+
+void move_to_joints(StepContext& c) {
+  move_seams(c.field, c.level, c.seams ? *c.seams : seams_to_joints(c), c.shared.task);
+}
+
+void repair(StepContext& c) {
+  const int left = c.effort.passes - c.pass;
+  if (left == tuning->first_repair || left == tuning->last_repair)
+    repair_seams(c.field, c.level, c.usage, c.bits(Purpose::graphcut_repair), c.shared.task);
+}
+
+double coherence(const StepContext& c) {
+  return coherence_of(c.facts, c.shared.options.coherence);
+}
+
+void limit_pieces(StepContext& c) {
+  c.piece_coherence = piece_coherence(c.field, c.level, coherence(c), PieceLimits::of(c.facts.regular));
+}
+
+void correct_pixels(StepContext& c) {
+  CorrectionPass pass{.window = c.effort.window,
+                      .coherence = uint32_t(std::floor(coherence(c) * unit_factor)),
+                      .piece_coherence = std::move(c.piece_coherence),
+                      .random_candidates = c.effort.random_candidates,
+                      .seed = c.bits(Purpose::correction),
+                      .pass = c.pass,
+                      .wanted = grown(c.wanted, reach_of(c.effort.passes - 1 - c.pass))};
+  correct(c.field, c.level, pass, c.usage, c.shared.task);
+}
+
+void repair_unlike(StepContext& c) {
+  repair_incoherent(c.field, c.level, c.usage, c.effort.places_tried, c.bits(Purpose::coherence_repair), c.shared.task);
+}
+
+constexpr bool with_candidates = true;
+
+const Step all_steps[] = {
+    {"usage_penalty", Phase::costs, "over-used parts of the exemplar cost more, cumulatively", insists_on_evenness,
+     insist_on_evenness},
+    {"proximity_penalty", Phase::costs, "what shows near by already costs more", avoids_repeats, avoid_repeats},
+    {"initialize", Phase::coarsest, "random blocks of the exemplar", always, place_blocks},
+    {"jitter", Phase::coarsest, "pixels move at random", always, jitter_coarsest},
+    {"fixed_pixels", Phase::coarsest, "kept pixels show what they showed", keeps_pixels, begin_with_kept},
+    {"initialize", Phase::upsampling, "each pixel becomes four, with jitter and in phase with the lattice", always,
+     upsample},
+    {"fixed_pixels", Phase::upsampling, "kept pixels show what they showed", keeps_pixels, start_where_kept},
+    {"piece_relocation", Phase::upsampling, "whole pieces show other parts of the exemplar that fit better", relocates,
+     relocate, with_candidates},
+    {"alignment", Phase::upsampling, "whole pieces move to where they fit their neighbours", aligns, align},
+    {"course_layout", Phase::upsampling, "courses are laid anew with whole bricks and boards", lays_courses,
+     lay_whole_bricks},
+    {"seams", Phase::upsampling, "seams between pieces move to joints", moves_seams, move_to_joints},
+    {"graphcut_repair", Phase::before_pass, "the worst seams are covered with patches along minimum cuts",
+     repairs_seams, repair, with_candidates},
+    {"piece_limits", Phase::before_pass, "pieces that are too large or too small cost more to continue", limits_pieces,
+     limit_pieces},
+    {"correction", Phase::pass, "every pixel takes the best of its coherent and k-coherent candidates", always,
+     correct_pixels, with_candidates},
+    {"coherence_repair", Phase::after_passes, "places unlike anything in the exemplar are covered", repairs_incoherent,
+     repair_unlike, with_candidates},
+};
+
+}  // namespace
+
+bool LevelFacts::places_landmarks() const {
+  return levels - 1 - level < tuning->landmark_levels;
+}
+
+Effort effort_of(const LevelFacts& f) {
+  if (f.quality == Quality::draft) {
+    if (f.level <= 1) return {f.kept ? 3 : f.level + 1, 0, &sparse_window()};
+    return {5, f.level >= 3 ? 16 : 4, &full_window()};
+  }
+  if (f.kept && f.level <= 1) return {6, 4, &full_window()};
+  if (f.quality == Quality::best) {
+    if (f.level <= 1) return {f.level == 0 ? 4 : 6, f.level == 0 ? 0 : 4, &full_window(), 16};
+    return {16, f.level >= 3 ? 24 : 8, &full_window(), 16};
+  }
+  if (f.level == 0) return {f.coarsest() ? 2 : 1, 0, &sparse_window()};  // a tiny exemplar has no other level
+  if (f.level == 1) return {2, 0, &full_window()};
+  return {f.kept ? 10 : 7, f.level >= 3 ? 24 : 8, &full_window()};
+}
+
+int reach_of(int passes) {
+  return passes * sub_passes * correction_reach;
+}
+
+double coherence_of(const LevelFacts& f, double coherence) {
+  if (f.kept) return coherence * tuning->coherence_between_kept;
+  if (f.steered) return coherence * tuning->coherence_where_steered;
+  return limits_pieces(f) && f.places_landmarks() ? coherence * tuning->landmark_coherence : coherence;
+}
+
+uint64_t StepContext::bits(uint64_t purpose) const {
+  return random_bits(shared.options.seed, purpose);
+}
+
+std::span<const Step> synthesis_steps() {
+  return all_steps;
+}
+
+void run_steps(Phase phase, StepContext& context) {
+  for (const Step& step : all_steps)
+    if (step.phase == phase && step.applies(context.facts)) step.run(context);
+}
+
+}  // namespace terrazzo

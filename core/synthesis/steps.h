@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/synthesis/state/usage_penalty.h"
+#include "core/synthesis/steps/correction.h"
+#include "core/synthesis/steps/seams.h"
+#include "core/synthesis/synthesize.h"
+
+/// The synthesis as a list. Every ingredient is a step: a value that says when in the work on a level it runs, where it
+/// applies and what it does. steps.cpp holds the one table of them, in the order in which they run. To add an
+/// ingredient, write it as a file in steps/ and give it a row there.
+namespace terrazzo {
+
+/// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
+inline constexpr int synthesis_version = 20;
+
+/// The finest level that is worked out for the plane as a whole: patches are laid, pieces aligned and their seams moved
+/// on every level but the finest.
+inline constexpr int finest_whole_level = 1;
+
+/// When in the work on a level a step runs.
+enum class Phase : uint8_t {
+  costs,         ///< before all else: sets up what counts in the corrections beside likeness
+  coarsest,      ///< once, to fill the coarsest level
+  upsampling,    ///< once per finer level, on blocks of 2x2 pixels that still move as wholes
+  before_pass,   ///< before each pass of correction
+  pass,          ///< the pass itself
+  after_passes,  ///< once the level's passes are done
+};
+inline constexpr std::string_view phase_names[] = {"costs",       "coarsest level", "upsampling",
+                                                   "before pass", "pass",           "after passes"};
+
+/// What decides which steps run on a level, computed once for it.
+struct LevelFacts {
+  int level = 0;   ///< 0 = finest
+  int levels = 1;  ///< of the exemplar's pyramid
+  Quality quality = Quality::normal;
+  bool regular = false;  ///< the exemplar has a lattice
+  bool kept = false;     ///< some of the output's pixels are there already
+  bool steered = false;  ///< controls say what goes where
+  /// Whole bricks are asked for, and the lattice may be one of bricks: the same all over the exemplar, of courses alone
+  /// or of cells that are worth it.
+  bool may_have_bricks = false;
+
+  bool coarsest() const { return level == levels - 1; }
+  /// Rare features are won or lost at the coarsest levels.
+  bool places_landmarks() const;
+};
+
+/// How much work goes into a level.
+struct Effort {
+  int passes = 1;             ///< of correction
+  int random_candidates = 0;  ///< per pixel and pass
+  const Window* window = nullptr;
+  int places_tried = 6;  ///< for a window that is unlike the exemplar
+};
+
+/// The budget belongs to the coarse levels, where pixels are few and decisions are large. Filling in between kept
+/// pixels is harder than going on freely, and there are fewer pixels to do it for.
+Effort effort_of(const LevelFacts& facts);
+
+/// How far beyond what is wanted of a level a field must reach.
+int reach_of(int passes);
+
+/// The factor on continuing a neighbour's piece at a level, from the option `coherence`.
+double coherence_of(const LevelFacts& facts, double coherence);
+
+/// What all levels of a synthesis share. What it is made from must outlive it.
+struct SharedWork {
+  SharedWork(const Index& index, const SynthesisOptions& options, const Task& task);
+
+  const AppearanceLevel& exemplar(int level) const { return index.appearance()->levels()[level]; }
+  Plane plane(int level) const;
+  double jitter(int level) const;
+  FixedPixels fixed(int level) const { return {options.kept, options.size, level, exemplar(level).size}; }
+  /// What the exemplar's lattice covers, made to wrap around with the result.
+  LatticeSurface surface() const;
+  LevelFacts facts(int level) const;
+
+  const Index& index;
+  const SynthesisOptions& options;
+  const Task& task;
+  int levels;
+  Lattice lattice;
+  LatticeGaps gaps;  ///< between kept pixels
+  ControlPyramid controls;
+  int finest = 0;  ///< the level that ends the work
+};
+
+/// What a step works on. Borrows everything; used by one thread.
+struct StepContext {
+  const SharedWork& shared;
+  const LevelFacts& facts;
+  const Effort& effort;
+  const CorrectionLevel& level;  ///< while upsampling, `level.fixed` tells which of the field's blocks are fixed
+  const FixedPixels& fixed;      ///< of the level's own pixels
+  UsagePenalty& usage;
+  Field& field;                             ///< while upsampling, each of its pixels stands for a block of 2x2
+  const Field* parent = nullptr;            ///< while upsampling: the next coarser level
+  int pass = 0;                             ///< of effort.passes
+  Rect wanted{};                            ///< of a pass: the columns and rows that have to be right after it
+  std::optional<SeamMoves> seams{};         ///< how seams move on this level, if a step before has decided it
+  std::vector<uint32_t> piece_coherence{};  ///< for this pass, see CorrectionPass
+
+  uint64_t bits(uint64_t purpose) const;
+};
+
+struct Step {
+  std::string_view name;  ///< of its file in steps/ or state/
+  Phase phase;
+  std::string_view purpose;  ///< one line
+  bool (*applies)(const LevelFacts&);
+  void (*run)(StepContext&);
+  /// Whether it reads the k-coherent candidates, which are unpacked only for levels that need them.
+  bool reads_candidates = false;
+};
+
+/// All steps, in the order in which they run.
+std::span<const Step> synthesis_steps();
+
+/// Runs the steps of a phase that apply.
+void run_steps(Phase phase, StepContext& context);
+
+}  // namespace terrazzo

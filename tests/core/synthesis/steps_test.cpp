@@ -1,0 +1,81 @@
+#include "core/synthesis/steps.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "test_paths.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// The names of the steps that apply, in order.
+std::vector<std::string> applying(const LevelFacts& facts) {
+  std::vector<std::string> names;
+  for (const Step& s : synthesis_steps())
+    if (s.phase != Phase::coarsest && s.applies(facts)) names.emplace_back(s.name);
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("steps stand in the order of their phases, each named after its file") {
+  const auto steps = synthesis_steps();
+  CHECK(std::is_sorted(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.phase < b.phase; }));
+  for (const Step& s : steps) {
+    CAPTURE(s.name);
+    CHECK(!s.purpose.empty());
+    const std::filesystem::path rooms = std::filesystem::path(TERRAZZO_SOURCE_DIR) / "core/synthesis";
+    const std::string file = std::string(s.name) + ".h";
+    CHECK((std::filesystem::exists(rooms / "steps" / file) || std::filesystem::exists(rooms / "state" / file)));
+  }
+}
+
+TEST_CASE("which steps run is decided by the facts of a level") {
+  const LevelFacts plain{.level = 2, .levels = 6};
+  CHECK(applying(plain) ==
+        Names{"proximity_penalty", "initialize", "graphcut_repair", "piece_limits", "correction", "coherence_repair"});
+  LevelFacts coarse = plain;
+  coarse.level = 4;
+  CHECK(applying(coarse) == Names{"usage_penalty", "proximity_penalty", "initialize", "piece_limits", "correction"});
+  LevelFacts draft = plain;
+  draft.quality = Quality::draft;
+  CHECK(applying(draft) == Names{"proximity_penalty", "initialize", "piece_limits", "correction"});
+  const LevelFacts lattice{.level = 1, .levels = 6, .regular = true};
+  CHECK(applying(lattice) ==
+        Names{"initialize", "piece_relocation", "alignment", "seams", "graphcut_repair", "correction"});
+  const LevelFacts bricks{.level = 0, .levels = 6, .regular = true, .may_have_bricks = true};
+  CHECK(applying(bricks) == Names{"initialize", "alignment", "course_layout", "seams", "correction"});
+  const LevelFacts kept{.level = 1, .levels = 6, .kept = true};
+  CHECK(applying(kept) == Names{"proximity_penalty", "initialize", "fixed_pixels", "seams", "graphcut_repair",
+                                "correction", "coherence_repair"});
+  const LevelFacts steered{.level = 2, .levels = 6, .steered = true};
+  CHECK(applying(steered) == Names{"initialize", "correction"});
+}
+
+TEST_CASE("effort belongs to the coarse levels, and grows with quality") {
+  for (int level = 0; level < 6; level++) {
+    CAPTURE(level);
+    LevelFacts facts{.level = level, .levels = 6};
+    facts.quality = Quality::draft;
+    const int draft = effort_of(facts).passes;
+    facts.quality = Quality::normal;
+    const int normal = effort_of(facts).passes;
+    facts.quality = Quality::best;
+    const int best = effort_of(facts).passes;
+    CHECK(draft <= normal);
+    CHECK(normal < best);
+    if (level > 0) {
+      facts.level = level - 1;
+      CHECK(effort_of(facts).passes <= best);
+    }
+  }
+}
+
+}  // namespace terrazzo
