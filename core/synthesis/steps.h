@@ -25,7 +25,7 @@ inline constexpr int finest_whole_level = 1;
 
 /// When in the work on a level a step runs.
 enum class Phase : uint8_t {
-  costs,         ///< before all else: sets up what counts in the corrections beside likeness
+  costs,         ///< before all else: sets up what counts in the corrections besides how well a candidate fits
   coarsest,      ///< once, to fill the coarsest level
   upsampling,    ///< once per finer level, on blocks of 2x2 pixels that still move as wholes
   before_pass,   ///< before each pass of correction

@@ -7,8 +7,8 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include "core/image_file.h"
-#include "core/serialize.h"
+#include "core/image/image_file.h"
+#include "core/node/serialize.h"
 #include "tests/odd_images.h"
 
 namespace terrazzo::test {

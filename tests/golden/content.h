@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/value.h"
+#include "core/node/value.h"
 
 namespace terrazzo::test {
 

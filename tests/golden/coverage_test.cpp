@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "nodes/registry.h"
+#include "nodes/common/registry.h"
 #include "test_paths.h"
 #include "tests/golden/documents.h"
 

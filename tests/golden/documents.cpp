@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "runner/schedule.h"
+#include "runner/engine/schedule.h"
 #include "test_paths.h"
 #include "tests/golden/inputs.h"
 

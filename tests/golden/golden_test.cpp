@@ -64,7 +64,7 @@ void check_group(const std::string& group) {
   }
   if (target) return record(folder, fresh, documents);
   verdict.judge_leftovers(documents);
-  for (const std::string& complaint : verdict.complaints()) FAIL_CHECK(complaint);
+  for (const std::string& complaint : verdict.diagnostics()) FAIL_CHECK(complaint);
   if (verdict.followers() > 0)
     MESSAGE(verdict.followers() << " nodes more give other results because of what they are given.");
   const std::string recorded = read_golden(folder / "image.txt").libraries;

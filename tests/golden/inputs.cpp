@@ -5,8 +5,8 @@
 #include <functional>
 #include <limits>
 
-#include "core/hash.h"
-#include "core/image_file.h"
+#include "core/base/hash.h"
+#include "core/image/image_file.h"
 #include "test_paths.h"
 #include "tests/odd_images.h"
 #include "tests/run_node.h"

@@ -23,7 +23,7 @@ class Verdict {
   /// Complains about lines recorded for the documents that no case has asked for.
   void judge_leftovers(const std::vector<std::string>& documents);
 
-  const std::vector<std::string>& complaints() const { return complaints_; }
+  const std::vector<std::string>& diagnostics() const { return complaints_; }
   int followers() const { return followers_; }  ///< nodes that differ, or may, because what they were given does
 
  private:

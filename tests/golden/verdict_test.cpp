@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -45,20 +45,20 @@ Verdict verdict_on(const std::vector<GoldenLine>& recorded, const std::vector<Go
 TEST_SUITE_BEGIN("golden");
 
 TEST_CASE("results that are as recorded are fine") {
-  CHECK(verdict_on({line("doc/a", 1)}, {golden(line("doc/a", 1))}).complaints().empty());
+  CHECK(verdict_on({line("doc/a", 1)}, {golden(line("doc/a", 1))}).diagnostics().empty());
 }
 
 TEST_CASE("other results ask for a higher version, or for a new record where it has been raised") {
   const Verdict same = verdict_on({line("doc/a", 1)}, {golden(line("doc/a", 2))});
-  REQUIRE(same.complaints().size() == 1);
-  CHECK(same.complaints()[0].find("doc/a: \"blur\" gives another image than recorded") == 0);
-  CHECK(same.complaints()[0].find("Its version is still 3: undo the change, or raise its version") !=
+  REQUIRE(same.diagnostics().size() == 1);
+  CHECK(same.diagnostics()[0].find("doc/a: \"blur\" gives another image than recorded") == 0);
+  CHECK(same.diagnostics()[0].find("Its version is still 3: undo the change, or raise its version") !=
         std::string::npos);
   const Verdict raised = verdict_on({line("doc/a", 1)}, {golden(line("doc/a", 2, 4))});
-  REQUIRE(raised.complaints().size() == 1);
-  CHECK(raised.complaints()[0].find("went from 3 to 4, as it should; record it anew with tests/golden/regenerate.sh") !=
-        std::string::npos);
-  CHECK(verdict_on({line("doc/a", 1)}, {golden(line("doc/a", 1, 4))}).complaints().size() == 1);
+  REQUIRE(raised.diagnostics().size() == 1);
+  CHECK(raised.diagnostics()[0].find(
+            "went from 3 to 4, as it should; record it anew with tests/golden/regenerate.sh") != std::string::npos);
+  CHECK(verdict_on({line("doc/a", 1)}, {golden(line("doc/a", 1, 4))}).diagnostics().size() == 1);
 }
 
 TEST_CASE("only the node that changed is blamed, not those that read it or its files") {
@@ -66,16 +66,16 @@ TEST_CASE("only the node that changed is blamed, not those that read it or its f
   writer.files_out = reader.files_in = {"/tmp/file.png"};
   const Verdict v = verdict_on({line("doc/a", 1), line("doc/b", 3), line("doc/c", 4)},
                                {writer, golden(line("doc/b", 9), {"doc/a"}), reader});
-  REQUIRE(v.complaints().size() == 1);
-  CHECK(v.complaints()[0].find("doc/a") == 0);
+  REQUIRE(v.diagnostics().size() == 1);
+  CHECK(v.diagnostics()[0].find("doc/a") == 0);
   CHECK(v.followers() == 2);
 }
 
 TEST_CASE("cases that were never recorded, and records without a case, are found") {
   const Verdict v = verdict_on({line("doc/old", 1), line("other/old", 1)}, {golden(line("doc/new", 1))});
-  REQUIRE(v.complaints().size() == 2);
-  CHECK(v.complaints()[0].find("doc/new: nothing is recorded of image") == 0);
-  CHECK(v.complaints()[1].find("doc/old: image.txt has results of image, which no case gives any more") == 0);
+  REQUIRE(v.diagnostics().size() == 2);
+  CHECK(v.diagnostics()[0].find("doc/new: nothing is recorded of image") == 0);
+  CHECK(v.diagnostics()[1].find("doc/old: image.txt has results of image, which no case gives any more") == 0);
 }
 
 TEST_CASE("with other libraries results only have to be near") {
@@ -83,15 +83,15 @@ TEST_CASE("with other libraries results only have to be near") {
   near.content.mean += 0.005;
   off.content.mean += 0.05;
   elsewhere.content.samples[1] = 0.4;
-  CHECK(verdict_on({line("doc/a", 1)}, {golden(near)}, "a 2").complaints().empty());
-  CHECK(verdict_on({line("doc/a", 1)}, {golden(near)}).complaints().size() == 1);
-  CHECK(verdict_on({line("doc/a", 1)}, {golden(off)}, "a 2").complaints().size() == 1);
-  CHECK(verdict_on({line("doc/a", 1)}, {golden(elsewhere)}, "a 2").complaints().size() == 1);
+  CHECK(verdict_on({line("doc/a", 1)}, {golden(near)}, "a 2").diagnostics().empty());
+  CHECK(verdict_on({line("doc/a", 1)}, {golden(near)}).diagnostics().size() == 1);
+  CHECK(verdict_on({line("doc/a", 1)}, {golden(off)}, "a 2").diagnostics().size() == 1);
+  CHECK(verdict_on({line("doc/a", 1)}, {golden(elsewhere)}, "a 2").diagnostics().size() == 1);
   GoldenCase decided = golden(elsewhere);
   decided.decided = true;  // a decision may fall otherwise, as long as the whole looks alike
-  CHECK(verdict_on({line("doc/a", 1)}, {decided}, "a 2").complaints().empty());
+  CHECK(verdict_on({line("doc/a", 1)}, {decided}, "a 2").diagnostics().empty());
   decided.lines[0].content.mean = 0.7;
-  CHECK(verdict_on({line("doc/a", 1)}, {decided}, "a 2").complaints().size() == 1);
+  CHECK(verdict_on({line("doc/a", 1)}, {decided}, "a 2").diagnostics().size() == 1);
 }
 
 TEST_CASE("golden files come back as they were written, and damaged ones are refused") {
