@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes a surface tile by tile and checks that the tiles are parts of one whole, to the byte. Needs a build
-# (examples/quickstart.sh). Every tile could as well be made by another machine: all that they share is the cache, or
-# nothing at all, and then each works out the coarse levels for itself.
+# Makes a surface tile by tile, and checks that the tiles are parts of one whole, byte for byte. Needs a build
+# (examples/quickstart.sh). Other machines could make the tiles: they share a cache or nothing at all, in which case
+# each computes the coarse levels itself.
 # Usage: examples/huge-surface.sh [FOLDER_OF_MAPS] [TILES_A_SIDE] [PIXELS_A_TILE]
 set -euo pipefail
 [ "${1:-}" != "--help" ] || { sed -n '2,5s/^# //p' "$0"; exit; }
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 tiles=${2:-2}
 pixels=${3:-512}
 for number in "$tiles" "$pixels"; do
-  [[ $number =~ ^[1-9][0-9]*$ ]] || { echo "$number: expected a whole number of tiles and of pixels, such as 2 512" >&2; exit 2; }
+  [[ $number =~ ^[1-9][0-9]*$ ]] || { echo "$number: expected whole numbers of tiles and pixels, such as 2 512" >&2; exit 2; }
 done
 out=out/huge-surface
 export TERRAZZO_CACHE=$out/cache
@@ -36,7 +36,7 @@ for ((y = 0; y < tiles; y++)); do
   done
 done
 
-# The same surface in one go, cut up; identical pixels make identical files.
+# The same surface at once, cropped: identical pixels give identical files.
 echo "$out/whole"
 make "$out/whole" "$side" 0 0
 for ((y = 0; y < tiles; y++)); do
@@ -46,4 +46,4 @@ for ((y = 0; y < tiles; y++)); do
     for map in "$out/part-$x-$y"/*; do cmp "$map" "$out/tile-$x-$y/$(basename "$map")"; done
   done
 done
-echo "$((tiles * tiles)) tiles of ${pixels}x$pixels pixels in $out: each is that part of the whole, byte for byte"
+echo "$((tiles * tiles)) tiles of ${pixels}x$pixels pixels in $out: each equals its part of the whole, byte for byte"

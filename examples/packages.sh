@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that terrazzo is built from, if any is missing. Further package names may be given.
+# Installs the Debian packages that terrazzo needs to build, as far as they are missing. Arguments are further packages.
 set -euo pipefail
 
 packages=(cmake ninja-build g++ pkg-config libopenimageio-dev openimageio-tools libopencolorio-dev nlohmann-json3-dev

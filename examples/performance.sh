@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Measures how long analysis and synthesis take, and how much memory, against the exemplar's resolution, the number of
-# maps and the output's resolution. Ends in a CSV table and an SVG plot for each in out/performance/.
+# Measures time and memory of analysis and synthesis against the exemplar's resolution, the number of maps and the
+# output's resolution. Writes a CSV table and an SVG plot of each to out/performance/.
 # Usage: examples/performance.sh [quick|normal|large]      (seconds, minutes, half an hour; needs a build)
-# Settings of your own: EXEMPLARS="256 512" OUTPUTS="512 1024" MAPS="1 3 5" REPEATS=3 examples/performance.sh
+# Your own settings: EXEMPLARS="256 512" OUTPUTS="512 1024" MAPS="1 3 5" REPEATS=3 examples/performance.sh
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case "${1:-normal}" in
@@ -19,7 +19,7 @@ out=$PWD/out/performance
 rm -rf "$out"
 mkdir -p "$out"
 
-# material SIDE COUNT: the folder of an exemplar of that many pixels a side and that many maps.
+# material SIDE COUNT: prints the folder of an exemplar with SIDE pixels per side and COUNT maps.
 material() {
   local all=$out/exemplars/$1-all folder=$out/exemplars/$1-$2
   [ -d "$all" ] || build/terrazzo run graphs/generate-exemplar.json --set type=gravel --set "size=$1" \
@@ -29,7 +29,7 @@ material() {
   echo "$folder"
 }
 
-# measured ARGUMENT...: CPU seconds (the least of the repeats) and peak MiB of such a run.
+# measured ARGUMENT...: prints CPU seconds (the least of the repeats) and peak MiB of a run with these arguments.
 measured() {
   for ((i = 0; i < repeats; i++)); do
     build/terrazzo run graphs/material.json --progress json --set "out=$out/files" "$@" --set "seed=$((first_seed + i))" 2>&1 |
@@ -38,7 +38,7 @@ measured() {
     awk 'NR == 1 || $1 < cpu { cpu = $1 } $2 > peak { peak = $2 } END { printf "%.3f,%.1f", cpu, peak / 1048576 }'
 }
 
-# row PLOT X ARGUMENT...   Every row has seeds of its own, so that no layout is found in the cache.
+# row PLOT X ARGUMENT...: adds a row. Each row has its own seeds, so that no layout comes from the cache.
 first_seed=1
 row() {
   local line
@@ -48,7 +48,7 @@ row() {
   echo "$1: $line"
 }
 
-# synthesis PLOT X FOLDER OUTPUT: the analysis comes from a cache.
+# synthesis PLOT X FOLDER OUTPUT: adds a row for synthesis alone; the analysis comes from a cache.
 synthesis() {
   measured --set "material=$3" --only index --cache "$out/cache" >/dev/null
   row "$1" "$2" --set "material=$3" --set "size=$4" --only layout --cache "$out/cache"
@@ -64,7 +64,7 @@ for n in $maps; do
 done
 for n in $outputs; do synthesis synthesis-output "$n" "$(material $usual_exemplar 5)" "$n"; done
 
-# plot NAME TITLE LABEL log|linear
+# plot NAME TITLE LABEL log|linear: draws a table.
 plot() {
   awk -v title="$2" -v label="$3" -v scale="$4" -f examples/performance/plot.awk "$out/$1.csv" >"$out/$1.svg"
   sed -i '1ix,cpu_seconds,peak_MiB' "$out/$1.csv"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures that the README shows, from nothing but the project itself. Needs a build (examples/quickstart.sh).
+# Makes the README's pictures. Needs a build (examples/quickstart.sh).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a fresh clone to pictures: installs what is missing, builds, generates an exemplar material, makes a larger
-# material from it and renders previews of both. A second run is quick: every stage is cached.
+# From a fresh clone to pictures: installs missing packages, builds, generates an exemplar, makes a larger material from
+# it, and renders previews of both. A second run is quick, for every stage is cached.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,6 +14,6 @@ build/terrazzo run graphs/generate-exemplar.json --set type=bricks --set size=51
 build/terrazzo run examples/quickstart.json --set "material=$out/exemplar" --set "out=$out"
 
 echo
-echo "The exemplar, 512x512:        $out/exemplar/ (preview.png shows it lit from four sides)"
+echo "The exemplar, 512x512:        $out/exemplar/ (preview.png: lit from four sides)"
 echo "The new material, 1024x1024:  $out/material/"
-echo "The new material, lit:        $out/preview.png, from four sides: $out/lights.png"
+echo "The new material, lit:        $out/preview.png ($out/lights.png: from four sides)"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the sweeps of examples/sweeps (one contact sheet each) on materials of yours, or without arguments on an exemplar
-# of each class of texture that the project generates itself. Needs a build (examples/quickstart.sh).
+# Runs the sweeps of examples/sweeps, one contact sheet each, on your materials; without arguments on a generated
+# exemplar of each class of texture. Needs a build (examples/quickstart.sh).
 # Usage: examples/sweeps.sh [FOLDER_OF_MAPS...]
 set -euo pipefail
 [ "${1:-}" != "--help" ] || { sed -n '2,4s/^# //p' "$0"; exit; }
@@ -16,7 +16,7 @@ out=out/sweeps
 export TERRAZZO_CACHE=$out/cache
 failed=()
 
-# sheet SWEEP FOLDER_OF_MAPS OUT [SETTING...]
+# sheet SWEEP FOLDER_OF_MAPS OUT [SETTING...]: runs one sweep.
 sheet() {
   local sweep=$1 maps=$2 to=$3
   shift 3
@@ -25,11 +25,11 @@ sheet() {
     failed+=("$to/$sweep.png")
 }
 
-# all_sheets NAME FOLDER_OF_MAPS
+# all_sheets NAME FOLDER_OF_MAPS: runs all sweeps.
 all_sheets() {
   echo "$1:"
   for sweep in jitter weights guidance dimensions lights; do sheet $sweep "$2" "$out/$1"; done
-  # A lattice hides most of what these do to bricks and tiles.
+  # A lattice hides most of the effect on bricks and tiles.
   for sweep in jitter weights guidance dimensions; do sheet $sweep "$2" "$out/$1/without-lattice" --set lattice=off; done
 }
 
@@ -48,7 +48,7 @@ echo
 echo "The contact sheets:"
 find "$out" -name '*.png' -not -path '*/exemplar/*' | sort
 if [ ${#failed[@]} -gt 0 ]; then
-  echo "These were not made, for the reasons given above:" >&2
+  echo "These failed; the reasons stand above:" >&2
   printf '%s\n' "${failed[@]}" >&2
   exit 1
 fi

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of examples/guide, from nothing but the project itself. Needs a build (examples/quickstart.sh).
+# Makes the pictures of examples/guide. Needs a build (examples/quickstart.sh).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 out=examples/guide/pictures

@@ -7,7 +7,7 @@ function position(v, low, high) {
   return scale == "log" ? log(v / low) / log(high / low) : (v - low) / (high - low)
 }
 
-# A round number of about v.
+# A round number near v.
 function nice(v,    power) {
   power = exp(int(log(v) / log(10) - (v < 1)) * log(10))
   return v / power < 1.5 ? power : v / power < 3.5 ? 2 * power : v / power < 7.5 ? 5 * power : 10 * power

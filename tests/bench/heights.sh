@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# What `join` and `blend` of resolve_uv do to height maps: for each exemplar, one layout of 1024x1024 resolved in several ways.
-# The tables belong into quality.md, which says what the columns are. Builds the bench preset.
+# Effect of `join` and `blend` of resolve_uv on height maps: for each exemplar, one layout of 1024x1024 resolved in several
+# ways. The table goes into experiments.md#joined_heights, which explains the columns. Builds the bench preset.
 # Usage: tests/bench/heights.sh FOLDER_OF_MAPS...
-# SETTINGS="join=0 blend=8 ...": other settings of graphs/material.json than those of the tables.
+# SETTINGS="join=0 blend=8 ...": other settings of graphs/material.json.
 set -euo pipefail
 [ $# -gt 0 ] && [ -d "$1" ] || { sed -n '2,5s/^# //p' "$0"; exit 2; }
 folders=()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What should feel immediate: starting, a run that finds everything cached, a draft. Wall and CPU seconds, the least of five.
-# Needs a build (cmake --preset release), and GNU time; wall seconds mean something on an idle machine only.
+# What should feel immediate: start-up, a run with everything cached, a draft. Wall and CPU seconds, the least of five.
+# Needs a build (cmake --preset release) and GNU time. Wall seconds are meaningful on an idle machine only.
 # Usage: tests/bench/interactive.sh [PICTURE]   (generated gravel of 256x256 if not given)
 set -euo pipefail
 [ "${1:-}" != "--help" ] || { sed -n '2,4s/^# //p' "$0"; exit; }
@@ -10,7 +10,7 @@ program=${TERRAZZO:-build/terrazzo}
 out=$(mktemp -d "${TMPDIR:-/tmp}/terrazzo-interactive.XXXXXX")
 trap 'rm -rf "$out"' EXIT
 
-# timed WHAT COMMAND...: with `seed` behind it, in which SEED becomes another number every time.
+# timed WHAT COMMAND...: times the command, with `seed` appended, in which SEED becomes another number each time.
 timed() {
   for i in 1 2 3 4 5; do
     /usr/bin/time -o "$out/time" -f "%e %U %S" "${@:2}" "${seed[@]/SEED/$i}" >/dev/null 2>&1

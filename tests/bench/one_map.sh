@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # CPU seconds (user and system, whole process) of one map made 1024x1024, read to written PNG, for every picture in a folder:
-# with nothing cached and with the analysis cached, the least of the repeats. Its table belongs into performance.md.
+# with nothing cached and with the analysis cached, the least of the repeats. The table goes into performance.md.
 # Needs a build (cmake --preset release), and GNU time.
 # Usage: tests/bench/one_map.sh FOLDER [REPEATS]   (3 if not given)
-# YARDSTICK=PROGRAM: another program, called with picture, result and side, to be timed in turn with terrazzo.
+# YARDSTICK=PROGRAM: another program, called with picture, result and side, and timed in turn with terrazzo.
 set -euo pipefail
 [ -d "${1:-}" ] || { sed -n '2,6s/^# //p' "$0"; exit 2; }
 folder=$(realpath "$1") repeats=${2:-3}
@@ -12,7 +12,7 @@ program=${TERRAZZO:-build/terrazzo}
 out=$(mktemp -d "${TMPDIR:-/tmp}/terrazzo-one-map.XXXXXX")
 trap 'rm -rf "$out"' EXIT
 
-# timed COMMAND...: its CPU seconds.
+# timed COMMAND...: prints its CPU seconds.
 timed() {
   /usr/bin/time -o "$out/time" -f "%U %S" "$@" >/dev/null 2>&1 || { echo "$* failed" >&2; exit 1; }
   tail -1 "$out/time" | awk '{ print $1 + $2 }'

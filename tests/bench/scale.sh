@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Whole runs of a five-map material at growing sizes, the analysis cached: seconds, CPU time per output pixel, peak memory.
-# Needs a build (cmake --preset release) and GNU time. The table belongs into scale.md.
+# Needs a build (cmake --preset release) and GNU time. The table goes into scale.md.
 # Usage: tests/bench/scale.sh [FOLDER_OF_MAPS [SIZE...]]
 set -euo pipefail
 [ "${1:-}" != "--help" ] || { sed -n '2,4s/^# //p' "$0"; exit; }
