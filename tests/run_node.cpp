@@ -1,5 +1,6 @@
 #include "tests/run_node.h"
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/base/error.h"
 #include "nodes/common/registry.h"
 
 namespace terrazzo::test {
@@ -49,6 +51,20 @@ NodeRun run_node(const std::string& type_name, const Params& params,
   for (const StagedFile& f : context.staged()) std::filesystem::rename(f.temporary, f.target);
   for (const Port& p : type->outputs) REQUIRE_MESSAGE(context.outputs().count(p.name), p.name);
   return {context.outputs(), context.notes()};
+}
+
+bool NodeRun::says(const std::string& text) const {
+  return std::any_of(notes.begin(), notes.end(), [&](const std::string& n) { return n.find(text) != n.npos; });
+}
+
+std::string error_of(const std::string& type, const Params& params,
+                     const std::map<std::string, std::vector<Value>>& inputs) {
+  try {
+    run_node(type, params, inputs);
+  } catch (const Error& e) {
+    return e.about() + ": " + e.what();
+  }
+  return "";
 }
 
 ImagePtr make_image(Size size, int channels, const std::function<float(int, int, int)>& value, Semantic semantic,

@@ -1,8 +1,6 @@
 #include "tests/runner/fakes.h"
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include <doctest/doctest.h>
@@ -178,24 +176,6 @@ std::string state(const Plan& plan, const std::string& node) {
 
 std::string reason(const Plan& plan, const std::string& node) {
   return stage_of(plan, node).reason;
-}
-
-std::string read_text(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-std::vector<std::string> listing(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const fs::directory_entry& e : fs::directory_iterator(folder)) names.push_back(e.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 }  // namespace terrazzo::test

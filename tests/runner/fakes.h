@@ -8,6 +8,7 @@
 
 #include "runner/engine/schedule.h"
 #include "tests/run_node.h"
+#include "tests/texts.h"
 
 /// Small node types and graphs made in memory, for tests of the runner. Values are images of one pixel.
 namespace terrazzo::test {
@@ -60,10 +61,5 @@ std::string outcome(const RunResult& result, const std::string& node);
 /// "cached", "run", ... of a node in a plan, and its reason.
 std::string state(const Plan& plan, const std::string& node);
 std::string reason(const Plan& plan, const std::string& node);
-
-std::string read_text(const std::filesystem::path& path);
-void write_text(const std::filesystem::path& path, const std::string& text);
-/// Names of all files and folders in a folder, sorted.
-std::vector<std::string> listing(const std::filesystem::path& folder);
 
 }  // namespace terrazzo::test

@@ -11,21 +11,12 @@
 #include "core/file/file_io.h"
 #include "tests/run_node.h"
 #include "tests/sample_values.h"
+#include "tests/texts.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
 
 namespace {
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write_file(const std::filesystem::path& path, const std::string& bytes) {
-  std::filesystem::remove(path);  // some file systems sync a file that is rewritten, which would take long
-  std::ofstream(path, std::ios::binary) << bytes;
-}
 
 Value round_trip(const Value& value, const std::filesystem::path& path) {
   save_value(value, path, Task());
@@ -60,7 +51,7 @@ TEST_CASE("the same value gives the same file, and the seconds are kept beside i
   for (const Value& value : sample_values()) {
     save_value(value, folder.path() / "a", Task(), 2.5);
     save_value(value, folder.path() / "b", Task(), 2.5);
-    CHECK(read_file(folder.path() / "a") == read_file(folder.path() / "b"));
+    CHECK(read_text(folder.path() / "a") == read_text(folder.path() / "b"));
     CHECK(summarize_value_file(folder.path() / "a").seconds == 2.5);
   }
 }
@@ -148,12 +139,12 @@ TEST_CASE("a truncated value file is an error at every length") {
   const std::filesystem::path path = folder.path() / "value";
   for (const Value& value : sample_values()) {
     save_value(value, path, Task());
-    const std::string bytes = read_file(path);
+    const std::string bytes = read_text(path);
     for (size_t size = 0; size < bytes.size(); size++) {
-      write_file(path, bytes.substr(0, size));
+      replace_text(path, bytes.substr(0, size));
       REQUIRE_THROWS_AS(load_value(path), DamagedFile);
     }
-    write_file(path, bytes + '\0');
+    replace_text(path, bytes + '\0');
     CHECK_THROWS_AS(load_value(path), DamagedFile);
   }
 }
@@ -162,10 +153,10 @@ TEST_CASE("a value file with any one bit flipped is an error") {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "value";
   save_value(Material::make("m", {{"base_color", sample_image({4, 3})}}), path, Task());
-  std::string bytes = read_file(path);
+  std::string bytes = read_text(path);
   for (size_t bit = 0; bit < bytes.size() * 8; bit++) {
     bytes[bit / 8] ^= char(1 << bit % 8);
-    write_file(path, bytes);
+    replace_text(path, bytes);
     REQUIRE_THROWS_AS(load_value(path), DamagedFile);
     bytes[bit / 8] ^= char(1 << bit % 8);
   }
@@ -175,14 +166,14 @@ TEST_CASE("random garbage is an error, with and without the right beginning") {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "value";
   save_value(sample_values()[4], path, Task());
-  const std::string good = read_file(path);
+  const std::string good = read_text(path);
   for (int round = 0; round < 200; round++) {
     std::string bytes;
     const size_t size = random_bits(1, round) % 600;
     for (size_t i = 0; i < size; i++) bytes += char(random_bits(2, round, i));
-    write_file(path, bytes);
+    replace_text(path, bytes);
     REQUIRE_THROWS_AS(load_value(path), DamagedFile);
-    write_file(path, good.substr(0, 72) + bytes);
+    replace_text(path, good.substr(0, 72) + bytes);
     REQUIRE_THROWS_AS(load_value(path), DamagedFile);
   }
 }
@@ -190,12 +181,12 @@ TEST_CASE("random garbage is an error, with and without the right beginning") {
 TEST_CASE("messages say what is wrong with a file") {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "value";
-  write_file(path, "not a value at all");
+  replace_text(path, "not a value at all");
   CHECK_THROWS_WITH_AS(load_value(path), doctest::Contains("not a terrazzo value file"), DamagedFile);
   save_value(sample_values()[0], path, Task());
-  std::string bytes = read_file(path);
+  std::string bytes = read_text(path);
   bytes[8] = 9;
-  write_file(path, bytes);
+  replace_text(path, bytes);
   CHECK_THROWS_WITH_AS(load_value(path), doctest::Contains("format version is 9"), DamagedFile);
   CHECK_THROWS_WITH_AS(load_value(path), doctest::Contains(path.c_str()), DamagedFile);
   CHECK_THROWS_WITH_AS(load_value(folder.path() / "none"), doctest::Contains("No such file"), FileError);

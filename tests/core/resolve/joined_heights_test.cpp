@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/resolve/resolve.h"
+#include "tests/core/resolve/two_pieces.h"
 #include "tests/run_node.h"
 
 using namespace terrazzo;
@@ -28,15 +29,6 @@ ImagePtr heights(const Height& height, Size size = exemplar_size) {
 
 float noise(int x, int y) {
   return float(random_bits(1, x, y) % 256) / 255;
-}
-
-/// Columns from `seam` on show a piece that lies `jump` pixels further right in the exemplar.
-UvMapPtr two_pieces(Size size, int seam, int jump, UvWraps wraps = {}, Size exemplar = exemplar_size) {
-  std::vector<ExemplarPixel> pixels;
-  for (int y = 0; y < size.height; y++)
-    for (int x = 0; x < size.width; x++)
-      pixels.push_back({uint16_t((x < seam ? x : x + jump) % exemplar.width), uint16_t(y % exemplar.height)});
-  return UvMap::make(size, exemplar, std::move(pixels), wraps);
 }
 
 /// Patches of about 10x7 pixels from anywhere.

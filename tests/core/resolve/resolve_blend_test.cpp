@@ -7,6 +7,7 @@
 #include "core/image/normal.h"
 #include "core/image/srgb.h"
 #include "core/resolve/resolve.h"
+#include "tests/core/resolve/two_pieces.h"
 #include "tests/run_node.h"
 
 using namespace terrazzo;
@@ -23,15 +24,6 @@ float noise(int which, int x, int y, int c) {
 ImagePtr noise_map(int channels, Semantic semantic, Size size = exemplar_size) {
   return make_image(
       size, channels, [](int x, int y, int c) { return noise(1, x, y, c); }, semantic);
-}
-
-/// Columns from `seam` on show a piece that lies `jump` pixels further right in the exemplar.
-UvMapPtr two_pieces(Size size, int seam, int jump, UvWraps wraps = {}, Size exemplar = exemplar_size) {
-  std::vector<ExemplarPixel> pixels;
-  for (int y = 0; y < size.height; y++)
-    for (int x = 0; x < size.width; x++)
-      pixels.push_back({uint16_t((x < seam ? x : x + jump) % exemplar.width), uint16_t(y)});
-  return UvMap::make(size, exemplar, std::move(pixels), wraps);
 }
 
 ImagePtr shown(const ImagePtr& map, const UvMapPtr& uv, const ResolveOptions& options) {

@@ -13,6 +13,15 @@ inline Field one_piece(Size size) {
   return field;
 }
 
+/// One piece, but for the pixels in `wrong`, which show what begins at `place`.
+inline Field with_wrong_place(Size size, const Rect& wrong, ExemplarPixel place) {
+  Field field = one_piece(size);
+  for (int y = wrong.y; y < wrong.bottom(); y++)
+    for (int x = wrong.x; x < wrong.right(); x++)
+      field.at(x, y) = {uint16_t(place.x + x - wrong.x), uint16_t(place.y + y - wrong.y)};
+  return field;
+}
+
 /// Blocks from anywhere in an exemplar of 64x64 pixels.
 inline Field rubble(int side, Size size) {
   Field field{size, std::vector<ExemplarPixel>(size_t(size.area()))};
@@ -23,6 +32,12 @@ inline Field rubble(int side, Size size) {
                         uint16_t(2 + below(uint32_t(r >> 32), 60 - side) + y % side)};
     }
   return field;
+}
+
+/// What any field is corrected by, with no similar pixels.
+inline CorrectionLevel level_of(const PaddedLevel& exemplar, FixedPixels fixed = {}) {
+  static const std::vector<ExemplarPixel> none;
+  return {.exemplar = exemplar, .similar = none, .window = {}, .phase = {}, .fixed = std::move(fixed)};
 }
 
 /// What a field of that size is corrected by, with no similar pixels.

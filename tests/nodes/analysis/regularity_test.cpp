@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "nodes/common/registry.h"
 #include "tests/exemplars.h"
+#include "tests/lattices.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -30,13 +31,6 @@ std::function<float(int, int)> tiles(int width, int height) {
 
 Lattice lattice_of(const FeaturesPtr& features, const Params& params = {}) {
   return run_node("regularity", params, {{"features", {features}}}).get<Features>("features")->repeats().lattice;
-}
-
-/// Whether a lattice repeats after (x, y), to a tenth of a cell.
-bool repeats_by(const Lattice& l, double x, double y) {
-  const double d = l.first.x * l.second.y - l.first.y * l.second.x;
-  const double i = (x * l.second.y - y * l.second.x) / d, j = (y * l.first.x - x * l.first.y) / d;
-  return std::abs(i - std::round(i)) < 0.1 && std::abs(j - std::round(j)) < 0.1;
 }
 
 /// Bricks of 16x8 pixels in herringbone, each of its own shade, with light joints.

@@ -13,6 +13,7 @@
 #include "core/image/color.h"
 #include "core/image/image_file.h"
 #include "nodes/common/registry.h"
+#include "tests/texts.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -42,27 +43,6 @@ NodeRun run(const fs::path& folder, const std::string& pattern, Params params = 
 
 ImagePtr read(const fs::path& path) {
   return read_image(path, {}, [](const std::string& warning) { FAIL_CHECK(warning); });
-}
-
-bool says(const NodeRun& run, const std::string& part) {
-  std::string all;
-  for (const std::string& n : run.notes) all += n + "\n";
-  INFO(all);
-  return all.find(part) != std::string::npos;
-}
-
-std::string error_of(const Params& params, const std::map<std::string, std::vector<Value>>& inputs) {
-  try {
-    run_node("export", params, inputs);
-  } catch (const Error& e) {
-    return e.about() + ": " + e.what();
-  }
-  return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  INFO(text);
-  return text.find(part) != std::string::npos;
 }
 
 size_t count_files(const fs::path& folder) {
@@ -102,7 +82,7 @@ TEST_CASE("a depth the format does not hold becomes the nearest, and a note says
   CHECK(read(folder.path() / "base_color.png")->info().depth == Depth::u8);
   CHECK(read(folder.path() / "normal.png")->info().depth == Depth::u16);
   CHECK(read(folder.path() / "height.png")->info().depth == Depth::u16);
-  CHECK(says(r, "height: float values are written as uint16, the nearest that PNG holds"));
+  CHECK(r.says("height: float values are written as uint16, the nearest that PNG holds"));
   CHECK(r.notes.size() == 1);
 
   r = run(folder.path(), "{map}.exr");
@@ -111,7 +91,7 @@ TEST_CASE("a depth the format does not hold becomes the nearest, and a note says
   CHECK(r.notes.empty());
 
   r = run(folder.path(), "{map}.jpg");
-  CHECK(says(r, "normal: uint16 values are written as uint8"));
+  CHECK(r.says("normal: uint16 values are written as uint8"));
 
   run(folder.path(), "{map}.tif", {{"depth", "half"}});
   for (const char* map : {"base_color", "normal", "height"})
@@ -212,36 +192,42 @@ TEST_CASE("clipped values are a warning that says how many and how far, or a not
   const TemporaryFolder folder;
   const ImagePtr bright = make_image(
       {4, 1}, 1, [](int x, int, int) { return float(x); }, Semantic::emission);
-  CHECK(says(run(folder.path(), "{map}.png", {{"depth", "uint16"}}, Material::of(bright)),
-             "warning: emission: 50 % of its values lie outside 0..1 (from 2 to 3) and were clipped by uint16; write "
-             "it as .exr"));
+  CHECK(
+      run(folder.path(), "{map}.png", {{"depth", "uint16"}}, Material::of(bright))
+          .says(
+              "warning: emission: 50 % of its values lie outside 0..1 (from 2 to 3) and were clipped by uint16; write "
+              "it as .exr"));
   const ImagePtr overshot = make_image(
       {4, 1}, 1, [](int x, int, int) { return float(x) / 2.99f; }, Semantic::emission);
   const NodeRun quiet = run(folder.path(), "{map}.png", {{"depth", "uint16"}}, Material::of(overshot));
-  CHECK(says(quiet, "emission: 25 % of its values lie outside 0..1"));
-  CHECK_FALSE(says(quiet, "warning"));
+  CHECK(quiet.says("emission: 25 % of its values lie outside 0..1"));
+  CHECK_FALSE(quiet.says("warning"));
 }
 
 TEST_CASE("what cannot be exported is refused, and nothing is left behind") {
   const TemporaryFolder folder;
   const auto in = [&](const char* name) { return (folder.path() / name).string(); };
   const std::map<std::string, std::vector<Value>> material = {{"material", {bricks()}}}, uv = {{"uv", {some_uv()}}};
-  CHECK(contains(error_of({{"path", in("{map}.png")}}, {}), "expected a wire"));
-  CHECK(contains(error_of({}, material), "path: expected a file name pattern"));
-  CHECK(contains(error_of({{"path", in("out.png")}}, material), "there are 3 maps (base_color, normal, height)"));
-  CHECK(contains(error_of({{"path", in("{name}.png")}}, material), "unknown place {name}"));
-  CHECK(contains(error_of({{"path", in("{map.png")}}, material), "without }"));
-  CHECK(contains(error_of({{"path", in("{map}.bmp")}}, material), "ends in \".bmp\"; expected .png"));
-  CHECK(contains(error_of({{"path", in("{map}.pgn")}}, material), "did you mean \".png\"?"));
-  CHECK(contains(error_of({{"path", in("{map}")}}, material), "ends in no extension"));
-  CHECK(contains(error_of({{"path", in("{map}.png")}, {"depth", "half"}}, material), "PNG files hold uint8, uint16"));
-  CHECK(contains(error_of({{"path", in("{map}.png")}, {"maps", Texts{"hieght"}}}, material), "mean \"height\"?"));
-  CHECK(contains(error_of({{"path", in("{map}.png")}, {"color_space", "srbg"}}, material), "no colour space \"srbg\""));
-  CHECK(contains(error_of({}, uv), "uv_path: expected a file name"));
-  CHECK(contains(error_of({{"uv_path", in("uv.jpg")}}, uv), "JPEG is not"));
+  CHECK(contains(error_of("export", {{"path", in("{map}.png")}}, {}), "expected a wire"));
+  CHECK(contains(error_of("export", {}, material), "path: expected a file name pattern"));
+  CHECK(contains(error_of("export", {{"path", in("out.png")}}, material),
+                 "there are 3 maps (base_color, normal, height)"));
+  CHECK(contains(error_of("export", {{"path", in("{name}.png")}}, material), "unknown place {name}"));
+  CHECK(contains(error_of("export", {{"path", in("{map.png")}}, material), "without }"));
+  CHECK(contains(error_of("export", {{"path", in("{map}.bmp")}}, material), "ends in \".bmp\"; expected .png"));
+  CHECK(contains(error_of("export", {{"path", in("{map}.pgn")}}, material), "did you mean \".png\"?"));
+  CHECK(contains(error_of("export", {{"path", in("{map}")}}, material), "ends in no extension"));
+  CHECK(contains(error_of("export", {{"path", in("{map}.png")}, {"depth", "half"}}, material),
+                 "PNG files hold uint8, uint16"));
+  CHECK(contains(error_of("export", {{"path", in("{map}.png")}, {"maps", Texts{"hieght"}}}, material),
+                 "mean \"height\"?"));
+  CHECK(contains(error_of("export", {{"path", in("{map}.png")}, {"color_space", "srbg"}}, material),
+                 "no colour space \"srbg\""));
+  CHECK(contains(error_of("export", {}, uv), "uv_path: expected a file name"));
+  CHECK(contains(error_of("export", {{"uv_path", in("uv.jpg")}}, uv), "JPEG is not"));
   const MaterialPtr two = Material::make(
       "m", {{"uv", map_of(Semantic::data, 1, Depth::u8)}, {"height", map_of(Semantic::height, 1, Depth::u8)}});
-  CHECK(contains(error_of({{"path", in("{map}.png")}}, {{"material", {two}}, {"uv", {some_uv()}}}),
+  CHECK(contains(error_of("export", {{"path", in("{map}.png")}}, {{"material", {two}}, {"uv", {some_uv()}}}),
                  "uv and uv would both be written"));
   CHECK(count_files(folder.path()) == 0);
 
@@ -250,7 +236,7 @@ TEST_CASE("what cannot be exported is refused, and nothing is left behind") {
       Image::computed(info, Digest{}, [](const Rect&, float*) { throw Error("the source is gone"); });
   const MaterialPtr half_broken =
       Material::make("m", {{"height", map_of(Semantic::height, 1, Depth::u8)}, {"data", broken}});
-  CHECK(contains(error_of({{"path", in("{map}.png")}}, {{"material", {half_broken}}}), "the source is gone"));
+  CHECK(contains(error_of("export", {{"path", in("{map}.png")}}, {{"material", {half_broken}}}), "the source is gone"));
   CHECK(count_files(folder.path()) == 0);
 }
 
@@ -260,7 +246,7 @@ TEST_CASE("maps and uv map do not go to one file through a link to its folder ei
   fs::create_directory_symlink("there", folder.path() / "link");
   const Params params = {{"path", (folder.path() / "there/{map}.png").string()},
                          {"uv_path", (folder.path() / "link/height.png").string()}};
-  CHECK(contains(error_of(params, {{"material", {bricks()}}, {"uv", {some_uv()}}}),
+  CHECK(contains(error_of("export", params, {{"material", {bricks()}}, {"uv", {some_uv()}}}),
                  "height and uv would both be written to"));
   CHECK(fs::is_empty(folder.path() / "there"));
 }
@@ -273,7 +259,7 @@ TEST_CASE("a folder that may not be written is named, not a temporary file in it
   const TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
   CHECK(contains(
-      error_of({{"path", (folder.path() / "{map}.png").string()}}, {{"material", {bricks()}}}),
+      error_of("export", {{"path", (folder.path() / "{map}.png").string()}}, {{"material", {bricks()}}}),
       "cannot write into the folder " + folder.path().string() + ": Permission denied; write to another folder"));
   fs::permissions(folder.path(), fs::perms::owner_all);
 }

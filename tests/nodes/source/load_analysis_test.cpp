@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include <doctest/doctest.h>
@@ -8,6 +7,7 @@
 #include "core/node/serialize.h"
 #include "tests/run_node.h"
 #include "tests/sample_values.h"
+#include "tests/texts.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -17,16 +17,6 @@ namespace {
 
 IndexPtr small_index() {
   return std::get<IndexPtr>(sample_values()[size_t(ValueType::index)]);
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write(const fs::path& path, const std::string& bytes) {
-  fs::remove(path);
-  std::ofstream(path, std::ios::binary) << bytes;
 }
 
 IndexPtr load(const fs::path& path) {
@@ -90,26 +80,26 @@ TEST_CASE("the same index gives the same analysis file") {
   const TemporaryFolder folder;
   for (const char* name : {"a", "b"})
     run_node("save_analysis", {{"path", (folder.path() / name).string()}}, {{"index", {small_index()}}});
-  CHECK(bytes_of(folder.path() / "a") == bytes_of(folder.path() / "b"));
+  CHECK(read_text(folder.path() / "a") == read_text(folder.path() / "b"));
 }
 
 TEST_CASE("an analysis file that is damaged anywhere, or cut short anywhere, is refused") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "analysis";
   save_value(small_index(), path, Task());
-  std::string bytes = bytes_of(path);
+  std::string bytes = read_text(path);
   REQUIRE(complaint(path).empty());
   for (size_t at = 0; at < bytes.size(); at++) {
     const char flip = char(1 << at % 8);
     bytes[at] ^= flip;
-    write(path, bytes);
+    replace_text(path, bytes);
     REQUIRE(!complaint(path).empty());
     bytes[at] ^= flip;
-    write(path, bytes.substr(0, at));
+    replace_text(path, bytes.substr(0, at));
     REQUIRE(!complaint(path).empty());
   }
   bytes[bytes.size() / 2] ^= 1;
-  write(path, bytes);
+  replace_text(path, bytes);
   CHECK(complaint(path).find("checksum") != std::string::npos);
 }
 
@@ -117,14 +107,14 @@ TEST_CASE("an analysis file from a newer version, of another kind or missing is 
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "analysis";
   save_value(small_index(), path, Task());
-  std::string bytes = bytes_of(path);
+  std::string bytes = read_text(path);
   bytes[8] = 77;
-  write(path, bytes);
+  replace_text(path, bytes);
   CHECK(complaint(path).find("a newer terrazzo wrote it") != std::string::npos);
   bytes[8] = 0;
-  write(path, bytes);
+  replace_text(path, bytes);
   CHECK(complaint(path).find("an older terrazzo wrote it") != std::string::npos);
-  write(path, "\x89PNG\r\n\x1a\n and so on");
+  replace_text(path, "\x89PNG\r\n\x1a\n and so on");
   CHECK(complaint(path).find("not a terrazzo value file") != std::string::npos);
   save_value(sample_values()[size_t(ValueType::uv_map)], path, Task());
   CHECK(complaint(path).find("a value of type uv_map") != std::string::npos);

@@ -14,6 +14,7 @@
 #include "core/image/image_file.h"
 #include "nodes/common/registry.h"
 #include "test_paths.h"
+#include "tests/texts.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -28,31 +29,6 @@ void write(const fs::path& path, int channels, const std::function<float(int, in
 
 float ramp(int x, int y, int c) {
   return float((x * 5 + y * 3 + c * 40) % 256) / 255.0f;
-}
-
-std::string notes_of(const NodeRun& run) {
-  std::string all;
-  for (const std::string& n : run.notes) all += n + "\n";
-  return all;
-}
-
-bool says(const NodeRun& run, const std::string& part) {
-  INFO(notes_of(run));
-  return notes_of(run).find(part) != std::string::npos;
-}
-
-std::string error_of(const Params& params) {
-  try {
-    run_node("load_material", params);
-  } catch (const Error& e) {
-    return fmt::format("{}: {}", e.about(), e.what());
-  }
-  return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  INFO(text);
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace
@@ -76,9 +52,9 @@ TEST_CASE("a folder of maps becomes a material with the folder's name") {
   CHECK(m->find("height")->size() == Size{16, 8});
   CHECK(m->find("normal")->info().semantic == Semantic::normal);
   CHECK(m->find("normal")->info().normal_y == NormalY::up);
-  CHECK(says(run, "base_color: bricks_color.png"));
-  CHECK(says(run, "ignored, the name says nothing: bricks_sheet.png. Known words are base_color: basecolor"));
-  CHECK_FALSE(says(run, "SOURCE"));
+  CHECK(run.says("base_color: bricks_color.png"));
+  CHECK(run.says("ignored, the name says nothing: bricks_sheet.png. Known words are base_color: basecolor"));
+  CHECK_FALSE(run.says("SOURCE"));
 }
 
 TEST_CASE("maps smaller than the material are a warning that names them and both sizes, maps of one size are none") {
@@ -86,14 +62,14 @@ TEST_CASE("maps smaller than the material are a warning that names them and both
   write(folder.path() / "wall_color.png", 3, ramp, {48, 32});
   write(folder.path() / "wall_roughness.png", 1, ramp, {48, 32});
   const Params params = {{"path", folder.path().string()}};
-  CHECK_FALSE(says(run_node("load_material", params), "warning"));
+  CHECK_FALSE(run_node("load_material", params).says("warning"));
   write(folder.path() / "wall_height.png", 1, ramp, {24, 16});
-  CHECK(
-      says(run_node("load_material", params),
-           "warning: the material has 48x32 pixels, the size of its largest map; height (24x16) is scaled up to that. "
-           "Bring the maps to one size if this is not meant\n"));
+  CHECK(run_node("load_material", params)
+            .says("warning: the material has 48x32 pixels, the size of its largest map; height (24x16) is scaled up to "
+                  "that. "
+                  "Bring the maps to one size if this is not meant\n"));
   write(folder.path() / "wall_roughness.png", 1, ramp, {30, 20});
-  CHECK(says(run_node("load_material", params), "height (24x16), roughness (30x20) are scaled up to that."));
+  CHECK(run_node("load_material", params).says("height (24x16), roughness (30x20) are scaled up to that."));
 }
 
 TEST_CASE("packed files are split, smoothness is inverted") {
@@ -111,7 +87,7 @@ TEST_CASE("packed files are split, smoothness is inverted") {
   write(folder.path() / "wall_Smoothness.png", 1, ramp);
   run = run_node("load_material", {{"path", folder.path().string()}});
   CHECK(run.get<Material>("material")->find("roughness")->read({3, 4, 1, 1})[0] == 1.0f - ramp(3, 4, 0));
-  CHECK(says(run, "roughness is wall_Smoothness.png, inverted"));
+  CHECK(run.says("roughness is wall_Smoothness.png, inverted"));
 }
 
 TEST_CASE("grey maps stored in colour are reduced, with a note if the channels differ") {
@@ -121,8 +97,8 @@ TEST_CASE("grey maps stored in colour are reduced, with a note if the channels d
   const NodeRun run = run_node("load_material", {{"path", folder.path().string()}});
   CHECK(run.get<Material>("material")->find("height")->channels() == 1);
   CHECK(run.get<Material>("material")->find("roughness")->channels() == 1);
-  CHECK(says(run, "roughness has different channels in roughness.png; the first is taken"));
-  CHECK_FALSE(says(run, "height has different channels"));
+  CHECK(run.says("roughness has different channels in roughness.png; the first is taken"));
+  CHECK_FALSE(run.says("height has different channels"));
 }
 
 TEST_CASE("a base colour's alpha becomes opacity unless it says nothing") {
@@ -151,20 +127,20 @@ TEST_CASE("the normal convention comes from the parameter, the name, or the pixe
   write(folder.path() / "normal.png", 3, down);
   CHECK(convention("auto") == NormalY::down);
   CHECK(convention("up") == NormalY::up);
-  CHECK(says(run_node("load_material", {{"path", folder.path().string()}}), "judged by the height map"));
+  CHECK(run_node("load_material", {{"path", folder.path().string()}}).says("judged by the height map"));
   fs::remove(folder.path() / "height.png");
   CHECK(convention("auto") == NormalY::down);
   fs::rename(folder.path() / "normal.png", folder.path() / "normal_gl.png");
   CHECK(convention("auto") == NormalY::up);
   const NodeRun misnamed = run_node("load_material", {{"path", folder.path().string()}});
-  CHECK(says(misnamed, "normal_gl.png says that green points up (OpenGL), but it looks as if it pointed down"));
-  CHECK(says(misnamed, "set `normal_y` to \"down\" if it is wrong"));
+  CHECK(misnamed.says("normal_gl.png says that green points up (OpenGL), but it looks as if it pointed down"));
+  CHECK(misnamed.says("set `normal_y` to \"down\" if it is wrong"));
   fs::rename(folder.path() / "normal_gl.png", folder.path() / "normal_dx.png");
   CHECK(convention("auto") == NormalY::down);
-  CHECK_FALSE(says(run_node("load_material", {{"path", folder.path().string()}}), "looks as if"));
+  CHECK_FALSE(run_node("load_material", {{"path", folder.path().string()}}).says("looks as if"));
   fs::remove(folder.path() / "normal_dx.png");
   write(folder.path() / "normal.png", 3, [](int, int, int c) { return c == 2 ? 1.0f : 0.5f; });
-  CHECK(says(run_node("load_material", {{"path", folder.path().string()}}), "up is assumed"));
+  CHECK(run_node("load_material", {{"path", folder.path().string()}}).says("up is assumed"));
 }
 
 TEST_CASE("the parameters maps and ignore overrule the names") {
@@ -179,16 +155,19 @@ TEST_CASE("the parameters maps and ignore overrule the names") {
   CHECK(m->map_names() == "base_color, height, mask_moss");
   CHECK(m->find("height")->read({5, 6, 1, 1})[0] == ramp(5, 6, 1));
   CHECK(m->find("mask_moss")->info().semantic == Semantic::mask);
-  CHECK(says(run, "the pattern \"*.jpg\""));
+  CHECK(run.says("the pattern \"*.jpg\""));
 
   run = run_node("load_material", {{"path", folder.path().string()}, {"maps", TextMap{{"height", ""}}}});
   CHECK(run.get<Material>("material")->map_names() == "base_color");
-  CHECK(contains(error_of({{"path", folder.path().string()}, {"maps", TextMap{{"height", "scam.png"}}}}),
-                 "did you mean \"scan.png\"?"));
-  CHECK(contains(error_of({{"path", folder.path().string()}, {"maps", TextMap{{"height", "scan.png:a"}}}}),
-                 "height is to be channel a of scan.png, which has only 3 channels"));
-  CHECK(contains(error_of({{"path", folder.path().string()}, {"maps", TextMap{{"height", "scan.png:red"}}}}),
-                 "height is to be channel red of scan.png, but channels are called r, g, b and a"));
+  CHECK(
+      contains(error_of("load_material", {{"path", folder.path().string()}, {"maps", TextMap{{"height", "scam.png"}}}}),
+               "did you mean \"scan.png\"?"));
+  CHECK(contains(
+      error_of("load_material", {{"path", folder.path().string()}, {"maps", TextMap{{"height", "scan.png:a"}}}}),
+      "height is to be channel a of scan.png, which has only 3 channels"));
+  CHECK(contains(
+      error_of("load_material", {{"path", folder.path().string()}, {"maps", TextMap{{"height", "scan.png:red"}}}}),
+      "height is to be channel red of scan.png, but channels are called r, g, b and a"));
   const NodeType* type = find_node_type("load_material");
   Params params = {{"maps", TextMap{{"hieght", "scan.png"}}}, {"color_space", "auto"}};
   REQUIRE(type->check(params).size() == 1);
@@ -198,37 +177,42 @@ TEST_CASE("the parameters maps and ignore overrule the names") {
 TEST_CASE("a folder that gives no material is refused with what was found") {
   const TemporaryFolder folder;
   fs::create_directory(folder.path() / "bricks");
-  CHECK(contains(error_of({{"path", (folder.path() / "brick").string()}}), "did you mean \"bricks\"?"));
-  CHECK(contains(error_of({{"path", (folder.path() / "bricks").string()}}), "the folder is empty"));
+  CHECK(
+      contains(error_of("load_material", {{"path", (folder.path() / "brick").string()}}), "did you mean \"bricks\"?"));
+  CHECK(contains(error_of("load_material", {{"path", (folder.path() / "bricks").string()}}), "the folder is empty"));
   std::ofstream(folder.path() / "bricks" / "readme.md") << "x";
   write(folder.path() / "bricks" / "photo.png", 3, ramp);
-  CHECK(contains(error_of({{"path", (folder.path() / "bricks").string()}}), "it holds photo.png, readme.md"));
-  CHECK(contains(error_of({{"path", (folder.path() / "bricks" / "photo.png").string()}}), "load_map"));
+  CHECK(contains(error_of("load_material", {{"path", (folder.path() / "bricks").string()}}),
+                 "it holds photo.png, readme.md"));
+  CHECK(contains(error_of("load_material", {{"path", (folder.path() / "bricks" / "photo.png").string()}}), "load_map"));
   write(folder.path() / "bricks" / "color.png", 3, ramp);
-  CHECK(contains(error_of({{"path", (folder.path() / "bricks").string()}, {"color_space", "srbg"}}),
+  CHECK(contains(error_of("load_material", {{"path", (folder.path() / "bricks").string()}, {"color_space", "srbg"}}),
                  "there is no colour space \"srbg\""));
   write_bytes(folder.path() / "bricks" / "height.png", {1, 2, 3});
-  CHECK(contains(error_of({{"path", (folder.path() / "bricks").string()}}), "height.png"));
+  CHECK(contains(error_of("load_material", {{"path", (folder.path() / "bricks").string()}}), "height.png"));
 }
 
 TEST_CASE("a link to a missing file is an error, not a material without that map") {
   const TemporaryFolder folder;
   write(folder.path() / "height.png", 1, ramp);
   fs::create_symlink("gone.png", folder.path() / "color.png");
-  CHECK(contains(error_of({{"path", folder.path().string()}}), "color.png: it is a link to gone.png, which does not"));
+  CHECK(contains(error_of("load_material", {{"path", folder.path().string()}}),
+                 "color.png: it is a link to gone.png, which does not"));
 }
 
 TEST_CASE("a folder that cannot be read is not called empty or missing") {
   const TemporaryFolder folder;
   fs::create_symlink("loop", folder.path() / "loop");
-  CHECK(contains(error_of({{"path", (folder.path() / "loop").string()}}), "loop: Too many levels of symbolic links"));
+  CHECK(contains(error_of("load_material", {{"path", (folder.path() / "loop").string()}}),
+                 "loop: Too many levels of symbolic links"));
   if (::geteuid() == 0) {
     MESSAGE("skipped the rest: root may read everything");
     return;
   }
   fs::create_directory(folder.path() / "locked");
   fs::permissions(folder.path() / "locked", fs::perms::none);
-  CHECK(contains(error_of({{"path", (folder.path() / "locked").string()}}), "locked: Permission denied"));
+  CHECK(contains(error_of("load_material", {{"path", (folder.path() / "locked").string()}}),
+                 "locked: Permission denied"));
 }
 
 TEST_CASE("the files read are the folder's images and those given, sorted") {

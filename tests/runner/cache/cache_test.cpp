@@ -15,6 +15,7 @@
 #include "test_paths.h"
 #include "tests/run_node.h"
 #include "tests/sample_values.h"
+#include "tests/texts.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -23,10 +24,6 @@ namespace {
 
 StageRecord sample_record() {
   return {{{"index", {1, 2}}, {"space", {3, 4}}}, {"found 4 maps"}, {{"out/a.png", 77, {5, 6}}}, 1.5};
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
 }
 
 int64_t entries(const std::filesystem::path& folder) {

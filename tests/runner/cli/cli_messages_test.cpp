@@ -27,10 +27,6 @@ void write_tall_material(const fs::path& folder) {
   write_image(*height, folder / "stone_height.exr", {.format = FileFormat::exr, .depth = Depth::f32}, [](double) {});
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE(
@@ -45,16 +41,16 @@ TEST_CASE(
     const size_t at = r.err.find(warning);
     REQUIRE_MESSAGE(at != std::string::npos, r.err);
     CHECK(r.err.find(warning, at + 1) == std::string::npos);
-    CHECK(has(r.err, "and were clipped by uint16; write it as .exr"));
+    CHECK(contains(r.err, "and were clipped by uint16; write it as .exr"));
     if (mode == "none") CHECK(r.err.find('\n') + 1 == r.err.size());
-    CHECK(has(read_text(w.path / "page.html"), "<p class=failed>files: warning: height: "));
+    CHECK(contains(read_text(w.path / "page.html"), "<p class=failed>files: warning: height: "));
   }
   const ProgramRun again = w.run({"synth", "tall", "-o", "out", "--size", "48x48"});
-  CHECK(has(again.err, warning));
-  CHECK(has(w.run({"synth", "tall", "-o", "out", "--size", "48x48"}).err, warning));
+  CHECK(contains(again.err, warning));
+  CHECK(contains(w.run({"synth", "tall", "-o", "out", "--size", "48x48"}).err, warning));
 
   const ProgramRun json = w.run({"synth", "tall", "-o", "out", "--size", "48x48", "--progress", "json"});
-  CHECK(has(json.err, "{\"event\":\"warning\",\"node\":\"files\",\"message\":\"height: "));
+  CHECK(contains(json.err, "{\"event\":\"warning\",\"node\":\"files\",\"message\":\"height: "));
 }
 
 TEST_CASE("synth writes the format that is asked for, and float maps keep their values") {
@@ -62,7 +58,7 @@ TEST_CASE("synth writes the format that is asked for, and float maps keep their 
   write_tall_material(w.path / "tall");
   const ProgramRun r = w.run({"synth", "tall", "-o", "out", "--size", "48x48", "--format", "exr"});
   CHECK_MESSAGE(r.code == 0, r.err);
-  CHECK_FALSE(has(r.err, "warning"));
+  CHECK_FALSE(contains(r.err, "warning"));
   CHECK(listing(w.path / "out") == std::vector<std::string>{"base_color.exr", "height.exr"});
 }
 
@@ -81,16 +77,16 @@ TEST_CASE("maps that another run has left in the folder are named, and stay") {
     return "note: node \"files\": " + (w.path / "out").string() + " also holds " + files +
            ", which this graph does not write: remove what is left of another material, or write to another folder\n";
   };
-  CHECK_FALSE(has(synth("two", "png"), "also holds"));
-  CHECK_FALSE(has(synth("two", "png"), "also holds"));
+  CHECK_FALSE(contains(synth("two", "png"), "also holds"));
+  CHECK_FALSE(contains(synth("two", "png"), "also holds"));
   write_text(w.path / "out/old_height.png", "of another material, under its own name");
   write_text(w.path / "out/height_2.png", "of another variation");
   write_text(w.path / "out/notes.txt", "");
   write_picture(w.path / "out/preview.png", 5);
-  CHECK(has(synth("one", "png"), note_on("height.png")));
-  CHECK_FALSE(has(synth("one", "png"), "also holds"));
-  CHECK(has(synth("two", "exr"), note_on("base_color.png, height.png")));
-  CHECK(has(synth("one", "jpg", "json"), "{\"event\":\"note\",\"node\":\"files\",\"message\":\""));
+  CHECK(contains(synth("one", "png"), note_on("height.png")));
+  CHECK_FALSE(contains(synth("one", "png"), "also holds"));
+  CHECK(contains(synth("two", "exr"), note_on("base_color.png, height.png")));
+  CHECK(contains(synth("one", "jpg", "json"), "{\"event\":\"note\",\"node\":\"files\",\"message\":\""));
   CHECK(listing(w.path / "out").size() == 9);
 }
 
@@ -113,8 +109,8 @@ TEST_CASE("what other nodes of the graph write beside a material's maps is not l
                                                {"run", "apart.json", "--set", "scale=0.25", "--only", "color"}}) {
     const ProgramRun r = w.run(args);
     CHECK_MESSAGE(r.code == 0, r.err);
-    CHECK(has(r.err, "wrote"));
-    CHECK_FALSE(has(r.err, "also holds"));
+    CHECK(contains(r.err, "wrote"));
+    CHECK_FALSE(contains(r.err, "also holds"));
   }
 }
 

@@ -1,9 +1,6 @@
 #include "runner/engine/preflight.h"
 
-#include <cstdlib>
-
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include "graphs/document/load.h"
 #include "test_paths.h"
@@ -64,19 +61,13 @@ TEST_CASE("every plan in tests/errors/plans is refused with the message beside i
   const Surroundings around;
   const std::vector<std::string> before = listing(around.folder.path());
   const fs::path goldens = fs::path(TERRAZZO_SOURCE_DIR) / "tests/errors/plans";
-  const std::string list = read_text(goldens.parent_path() / "README.md");
   int documents = 0;
   for (const std::string& name : listing(goldens)) {
     if (fs::path(name).extension() != ".json") continue;
     CAPTURE(name);
     documents++;
-    const std::string found = around.problems_of(read_text(goldens / name)) + "\n";
-    const fs::path golden = (goldens / name).replace_extension(".txt");
-    if (std::getenv("TERRAZZO_UPDATE_GOLDEN")) write_text(golden, found);
-    CHECK(found != "\n");
-    CHECK(found == read_text(golden));
-    CHECK_MESSAGE(list.find(fmt::format("`{}`", fs::path(name).stem().string())) != list.npos,
-                  "not listed in tests/errors/README.md");
+    check_golden_message(goldens / name, around.problems_of(read_text(goldens / name)),
+                         goldens.parent_path() / "README.md");
   }
   CHECK(documents >= 6);
   CHECK(listing(around.folder.path()) == before);

@@ -14,6 +14,18 @@
 using namespace terrazzo;
 using namespace terrazzo::test;
 
+namespace {
+
+/// A sum of a sum that is computed when it is pulled, of the number 2; "total" is 3. Only "total" is stored.
+Graph lazy_chain(const FakeTypes& types) {
+  Graph g;
+  add(g, "a", types.quick, {{"value", 2.0}});
+  add(g, "lazy", types.lazy_sum, {{"plus", 1.0}}, {"a"});
+  return add(g, "total", types.sum, {}, {"lazy"});
+}
+
+}  // namespace
+
 TEST_CASE("a graph runs without a cache and gives the values that were asked for") {
   FakeTypes t;
   const Graph g = small_graph(t);
@@ -98,10 +110,7 @@ TEST_CASE("a stage whose outputs only cached readers want does not run") {
   TemporaryFolder folder;
   Cache cache(folder.path());
   FakeTypes t;
-  Graph g;
-  add(g, "a", t.quick, {{"value", 2.0}});
-  add(g, "lazy", t.lazy_sum, {{"plus", 1.0}}, {"a"});
-  add(g, "total", t.sum, {}, {"lazy"});
+  const Graph g = lazy_chain(t);
   REQUIRE(run_graph(g, keeping({"total"}, &cache)).ok());
   CHECK(t.runs("quick") == 1);
   const RunResult again = run_graph(g, keeping({"total"}, &cache));
@@ -115,10 +124,7 @@ TEST_CASE("outputs that are not stored are made again for a reader that runs") {
   TemporaryFolder folder;
   Cache cache(folder.path());
   FakeTypes t;
-  Graph g;
-  add(g, "a", t.quick, {{"value", 2.0}});
-  add(g, "lazy", t.lazy_sum, {{"plus", 1.0}}, {"a"});
-  add(g, "total", t.sum, {}, {"lazy"});
+  Graph g = lazy_chain(t);
   REQUIRE(run_graph(g, keeping({"total"}, &cache)).ok());
   set(g, "total", "plus", 10.0);
   const RunResult r = run_graph(g, keeping({"total"}, &cache));

@@ -38,10 +38,6 @@ std::vector<std::string> event_names(const std::string& text) {
   return names;
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("json progress tells every event in order") {
@@ -49,15 +45,15 @@ TEST_CASE("json progress tells every event in order") {
         std::vector<std::string>{"plan", "start", "done", "note", "start", "done", "finished"});
   const std::string text = progress_of(ProgressMode::json, false, true);
   CHECK(event_names(text) == std::vector<std::string>{"plan", "start", "done", "note", "start", "failed", "finished"});
-  CHECK(has(text, "these numbers cannot be added"));
-  CHECK(has(text, "\"ok\":false"));
+  CHECK(contains(text, "these numbers cannot be added"));
+  CHECK(contains(text, "\"ok\":false"));
 }
 
 TEST_CASE("plain progress is a line per stage, and notes") {
   const std::string text = progress_of(ProgressMode::plain, true, false);
-  CHECK(has(text, "[1/2] read (file) "));
-  CHECK(has(text, "note: node \"read\": read a number\n"));
-  CHECK(has(text, "[2/2] last (sum) "));
+  CHECK(contains(text, "[1/2] read (file) "));
+  CHECK(contains(text, "note: node \"read\": read a number\n"));
+  CHECK(contains(text, "[2/2] last (sum) "));
 }
 
 TEST_CASE(
@@ -91,7 +87,7 @@ TEST_CASE(
       CAPTURE(s);
       CHECK(std::count_if(lines.begin(), lines.end(), [&](const std::string& l) { return l.ends_with(s); }) == 1);
     }
-    for (const std::string& l : lines) CHECK(has(l, fmt::format("/{}] ", g.nodes.size())));
+    for (const std::string& l : lines) CHECK(contains(l, fmt::format("/{}] ", g.nodes.size())));
   };
   const std::vector<std::string> all = {"] source (quick)", "] unread (lazy_sum)", "] lazy (lazy_sum)", "] old (sum)",
                                         "] file (write)"};
@@ -107,8 +103,8 @@ TEST_CASE(
 
 TEST_CASE("the bar erases itself, notes stay") {
   const std::string text = progress_of(ProgressMode::bar, true, false);
-  CHECK(has(text, "\x1b[K"));
-  CHECK(has(text, "note: node \"read\": read a number\n"));
+  CHECK(contains(text, "\x1b[K"));
+  CHECK(contains(text, "note: node \"read\": read a number\n"));
   const size_t last_line = text.rfind('\r');
   REQUIRE(last_line != std::string::npos);
   CHECK(text.substr(last_line) == "\r\x1b[K");
@@ -123,8 +119,8 @@ TEST_CASE("one file is watched, or several files are") {
 }
 
 TEST_CASE("automatic is the bar on a terminal only, and none is silent") {
-  CHECK(has(progress_of(ProgressMode::automatic, true, false), "\x1b[K"));
-  CHECK_FALSE(has(progress_of(ProgressMode::automatic, false, false), "\x1b[K"));
+  CHECK(contains(progress_of(ProgressMode::automatic, true, false), "\x1b[K"));
+  CHECK_FALSE(contains(progress_of(ProgressMode::automatic, false, false), "\x1b[K"));
   CHECK(progress_of(ProgressMode::none, true, true) == "");
   CHECK(progress_mode_from("auto") == ProgressMode::automatic);
   CHECK_FALSE(progress_mode_from("loud"));

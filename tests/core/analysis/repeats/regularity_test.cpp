@@ -8,6 +8,7 @@
 
 #include "core/procedural/pattern.h"
 #include "tests/exemplars.h"
+#include "tests/lattices.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -73,13 +74,6 @@ FeaturesPtr picture(Pattern pattern, double unit, double x, double y, double joi
     const double piece = std::clamp(p.edge * unit - joint + 0.5, 0.0, 1.0);
     return float(0.9 + piece * (shade - 0.9) + 0.1 * unit_double(random_bits(6, i, j)));
   }));
-}
-
-/// Whether a lattice repeats after (x, y), to a tenth of a cell.
-bool repeats_by(const Lattice& l, double x, double y) {
-  const double d = l.first.x * l.second.y - l.first.y * l.second.x;
-  const double i = (x * l.second.y - y * l.second.x) / d, j = (y * l.first.x - x * l.first.y) / d;
-  return std::abs(i - std::round(i)) < 0.1 && std::abs(j - std::round(j)) < 0.1;
 }
 
 /// Whether all of the lattice's steps are whole ones of the lattice of (ax, ay) and (bx, by), and at most `cells` of

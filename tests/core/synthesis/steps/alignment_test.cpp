@@ -7,6 +7,7 @@
 
 #include "core/base/hash.h"
 #include "core/synthesis/state/pieces.h"
+#include "tests/core/synthesis/fields.h"
 
 using namespace terrazzo;
 
@@ -34,25 +35,19 @@ Field shifted(int dx, int dy) {
   return field;
 }
 
-CorrectionLevel level_of(const PaddedLevel& exemplar, const std::vector<ExemplarPixel>& none, FixedPixels fixed = {}) {
-  return {.exemplar = exemplar, .similar = none, .window = {}, .phase = {}, .fixed = std::move(fixed)};
-}
-
 }  // namespace
 
 TEST_CASE("pieces that were moved apart find together again") {
-  const std::vector<ExemplarPixel> none;
   for (const bool wraps : {false, true}) {
     const PaddedLevel exemplar = noise(wraps);
     Field field = shifted(-2, 1);
     REQUIRE(Pieces(field).count() == 2);
-    align_pieces(field, 1, level_of(exemplar, none), 2, Task());
+    align_pieces(field, 1, test::level_of(exemplar), 2, Task());
     CHECK(Pieces(field).count() == 1);
   }
 }
 
 TEST_CASE("pieces whose pixels stand for blocks meet as well, the blocks' pixels one by one") {
-  const std::vector<ExemplarPixel> none;
   for (const bool wraps : {false, true}) {
     const PaddedLevel exemplar = noise(wraps);
     const auto blocks = [](int dx, int dy) {
@@ -64,13 +59,12 @@ TEST_CASE("pieces whose pixels stand for blocks meet as well, the blocks' pixels
     };
     Field field = blocks(1, -2);
     REQUIRE(Pieces(field, 2).count() == 2);
-    align_pieces(field, 2, level_of(exemplar, none), 2, Task());
+    align_pieces(field, 2, test::level_of(exemplar), 2, Task());
     CHECK(Pieces(field, 2).count() == 1);
   }
 }
 
 TEST_CASE("the order in which pieces move does not depend on the number of threads") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise(true);
   std::set<std::vector<uint32_t>> results;
   for (const int threads : {1, 4})
@@ -84,7 +78,7 @@ TEST_CASE("the order in which pieces move does not depend on the number of threa
                                   uint16_t((y + below(uint32_t(bits >> 32), 3)) % side.height)});
         }
       const int before = Pieces(field).count();
-      align_pieces(field, 1, level_of(exemplar, none), 2, Task());
+      align_pieces(field, 1, test::level_of(exemplar), 2, Task());
       CHECK(Pieces(field).count() < before);
       std::vector<uint32_t> result;
       for (const ExemplarPixel p : field.pixels) result.push_back(uint32_t(p.y) << 16 | p.x);
@@ -94,30 +88,27 @@ TEST_CASE("the order in which pieces move does not depend on the number of threa
 }
 
 TEST_CASE("beyond their reach pieces stay apart, and what fits stays where it is") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise(false);
   Field apart = shifted(0, 5);
-  align_pieces(apart, 1, level_of(exemplar, none), 2, Task());
+  align_pieces(apart, 1, test::level_of(exemplar), 2, Task());
   CHECK(Pieces(apart).count() == 2);
   Field whole = shifted(0, 0);
   const Field before = whole;
-  align_pieces(whole, 1, level_of(exemplar, none), 2, Task());
+  align_pieces(whole, 1, test::level_of(exemplar), 2, Task());
   CHECK(whole.pixels == before.pixels);
 }
 
 TEST_CASE("a piece with fixed pixels stays; its neighbour comes to it") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise(false);
   Field field = shifted(1, 2);
   KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   kept.keep[0] = Keep::always;
   const Field wanted = shifted(0, 0);
-  align_pieces(field, 1, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 2, Task());
+  align_pieces(field, 1, test::level_of(exemplar, FixedPixels(kept, field.size, 0, side)), 2, Task());
   CHECK(field.pixels == wanted.pixels);
 }
 
 TEST_CASE("no piece leaves an exemplar that does not tile") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = noise(false);
   // The right part would have to go one column further than windows may.
   Field field{{16, 8}, {}};
@@ -125,7 +116,7 @@ TEST_CASE("no piece leaves an exemplar that does not tile") {
     for (int x = 0; x < 16; x++) field.pixels.push_back({uint16_t(24 + x - (x < 8 ? 0 : 1)), uint16_t(9 + y)});
   KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   kept.keep[0] = Keep::always;
-  align_pieces(field, 1, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), 2, Task());
+  align_pieces(field, 1, test::level_of(exemplar, FixedPixels(kept, field.size, 0, side)), 2, Task());
   CHECK(Pieces(field).count() == 2);
   for (const ExemplarPixel p : field.pixels) CHECK(p.x < side.width - exemplar.keep_off());
 }

@@ -17,14 +17,6 @@ constexpr Size field_size{44, 40};
 constexpr Size large{150, 130};  // several windows at a time
 constexpr Rect wrong{18, 16, 5, 4};
 
-/// One piece, but for a few pixels that show another place.
-Field with_wrong_place() {
-  Field field = test::one_piece(field_size);
-  for (int y = wrong.y; y < wrong.bottom(); y++)
-    for (int x = wrong.x; x < wrong.right(); x++) field.at(x, y) = {uint16_t(x + 9 - 15), uint16_t(y + 11 + 20)};
-  return field;
-}
-
 void rework(Field& field, const CorrectionLevel& level) {
   UsagePenalty evenness(exemplar_size, 0, 1);
   repair_incoherent(field, level, evenness, 4, 1, Task());
@@ -47,7 +39,7 @@ int64_t incoherence(const Field& field, const CorrectionLevel& level) {
 
 TEST_CASE("a place unlike the exemplar is covered by what goes on around it") {
   const PaddedLevel exemplar = test::slopes(exemplar_size);
-  Field field = with_wrong_place();
+  Field field = test::with_wrong_place(field_size, wrong, {12, 47});
   rework(field, test::level_of(exemplar, field_size));
   CHECK(field.pixels == test::one_piece(field_size).pixels);
 }
@@ -69,13 +61,14 @@ TEST_CASE("what is like the exemplar stays, whether it shows seams or not") {
 
 TEST_CASE("reworking leaves fixed pixels alone") {
   const PaddedLevel exemplar = test::slopes(exemplar_size);
-  Field field = with_wrong_place();
+  Field field = test::with_wrong_place(field_size, wrong, {12, 47});
   KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++) kept.keep[size_t(y) * field_size.width + x] = Keep::always;
   rework(field, test::level_of(exemplar, field_size, false, FixedPixels(kept, field_size, 0, exemplar_size)));
   for (int y = wrong.y; y < wrong.bottom(); y++)
-    for (int x = wrong.x; x < wrong.right(); x++) CHECK(field.at(x, y) == with_wrong_place().at(x, y));
+    for (int x = wrong.x; x < wrong.right(); x++)
+      CHECK(field.at(x, y) == test::with_wrong_place(field_size, wrong, {12, 47}).at(x, y));
 }
 
 TEST_CASE("reworking shows nothing that a mask forbids") {
@@ -84,9 +77,9 @@ TEST_CASE("reworking shows nothing that a mask forbids") {
   const int u = 9 + wrong.x + 2, v = 11 + wrong.y + 1;
   usable[size_t(v) * exemplar_size.width + u] = 0;
   const PaddedLevel exemplar = test::slopes(exemplar_size, usable);
-  Field field = with_wrong_place();
+  Field field = test::with_wrong_place(field_size, wrong, {12, 47});
   rework(field, test::level_of(exemplar, field_size));
-  CHECK(field.pixels != with_wrong_place().pixels);
+  CHECK(field.pixels != test::with_wrong_place(field_size, wrong, {12, 47}).pixels);
   bool shown = false;
   for (const ExemplarPixel& p : field.pixels) shown |= p.x == u && p.y == v;
   CHECK_FALSE(shown);

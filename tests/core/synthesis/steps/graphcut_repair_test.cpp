@@ -7,6 +7,7 @@
 #include "core/synthesis/state/expansion.h"
 #include "core/synthesis/state/usage_penalty.h"
 #include "tests/core/synthesis/fields.h"
+#include "tests/core/synthesis/noise.h"
 
 using namespace terrazzo;
 
@@ -21,25 +22,11 @@ PaddedLevel noise(const std::vector<uint8_t>& usable = {}) {
   level.size = exemplar_size;
   level.usable = usable;
   for (int y = 0; y < exemplar_size.height; y++)
-    for (int x = 0; x < exemplar_size.width; x++) {
-      AppearanceVector v{};
-      for (int d = 0; d < appearance_dimensions; d++)
-        v[d] = int16_t(below(uint32_t(random_bits(7, x, y, d)), 2000)) - 1000;
-      level.vectors.push_back(v);
-    }
+    for (int x = 0; x < exemplar_size.width; x++) level.vectors.push_back(test::noise(x, y));
   return {level, false};
 }
 
 constexpr Rect wrong{18, 16, 5, 4};
-
-/// One piece, but for a few pixels that show another place.
-Field with_wrong_place() {
-  Field field = test::one_piece(field_size);
-  for (int y = wrong.y; y < wrong.bottom(); y++)
-    for (int x = wrong.x; x < wrong.right(); x++)
-      field.at(x, y) = {uint16_t(4 + x - wrong.x), uint16_t(5 + y - wrong.y)};
-  return field;
-}
 
 void mend(Field& field, const CorrectionLevel& level) {
   UsagePenalty evenness(exemplar_size, 0, 1);
@@ -61,7 +48,7 @@ int64_t mismatch(Field field, const CorrectionLevel& level) {
 
 TEST_CASE("what does not belong there is covered by what goes on around it") {
   const PaddedLevel exemplar = noise();
-  Field field = with_wrong_place();
+  Field field = test::with_wrong_place(field_size, wrong, {4, 5});
   mend(field, test::level_of(exemplar, field_size));
   CHECK(field.pixels == test::one_piece(field_size).pixels);
 }
@@ -75,12 +62,12 @@ TEST_CASE("a result without seams stays as it is") {
 
 TEST_CASE("fixed pixels stay, whatever they show") {
   const PaddedLevel exemplar = noise();
-  Field field = with_wrong_place();
+  Field field = test::with_wrong_place(field_size, wrong, {4, 5});
   KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++) kept.keep[size_t(y) * field_size.width + x] = Keep::always;
   mend(field, test::level_of(exemplar, field_size, false, FixedPixels(kept, field_size, 0, exemplar_size)));
-  CHECK(field.pixels == with_wrong_place().pixels);
+  CHECK(field.pixels == test::with_wrong_place(field_size, wrong, {4, 5}).pixels);
 }
 
 TEST_CASE("what a mask forbids is not shown") {
@@ -89,7 +76,7 @@ TEST_CASE("what a mask forbids is not shown") {
   const int u = 9 + wrong.x + 2, v = 11 + wrong.y + 1;
   usable[size_t(v) * exemplar_size.width + u] = 0;
   const PaddedLevel exemplar = noise(usable);
-  Field field = with_wrong_place();
+  Field field = test::with_wrong_place(field_size, wrong, {4, 5});
   mend(field, test::level_of(exemplar, field_size));
   bool shown = false;
   for (const ExemplarPixel& p : field.pixels) shown |= p.x == u && p.y == v;

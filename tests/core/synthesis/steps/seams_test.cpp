@@ -6,6 +6,7 @@
 
 #include "core/base/hash.h"
 #include "core/synthesis/state/pieces.h"
+#include "tests/core/synthesis/fields.h"
 #include "tests/core/synthesis/noise.h"
 #include "tests/run_node.h"
 
@@ -33,10 +34,6 @@ Field meeting_at(int seam) {
   return field;
 }
 
-CorrectionLevel level_of(const PaddedLevel& exemplar, const std::vector<ExemplarPixel>& none, FixedPixels fixed = {}) {
-  return {.exemplar = exemplar, .similar = none, .window = {}, .phase = {}, .fixed = std::move(fixed)};
-}
-
 int columns_of_first_piece(const Field& field, int row) {
   int x = 0;
   while (x < field.size.width && field.at(x, row).x == 4 + x) x++;
@@ -46,12 +43,11 @@ int columns_of_first_piece(const Field& field, int row) {
 }  // namespace
 
 TEST_CASE("a seam moves to where its two pieces agree, from either side") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = exemplar_with_repeat();
   for (const int seam : {9, 20}) {
     CAPTURE(seam);
     Field field = meeting_at(seam);
-    move_seams(field, level_of(exemplar, none), {}, Task());
+    move_seams(field, test::level_of(exemplar), {}, Task());
     for (int y = 0; y < field.size.height; y++) {
       // Output column x shows exemplar column 4 + x; the pieces agree over columns 16 to 20.
       CHECK(columns_of_first_piece(field, y) >= 16 - 4);
@@ -61,23 +57,21 @@ TEST_CASE("a seam moves to where its two pieces agree, from either side") {
 }
 
 TEST_CASE("a seam stays where nothing better is in reach, and fixed pixels stay anyway") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = exemplar_with_repeat();
   Field best = meeting_at(14);
   const Field before = best;
-  move_seams(best, level_of(exemplar, none), {}, Task());
+  move_seams(best, test::level_of(exemplar), {}, Task());
   CHECK(best.pixels == before.pixels);
 
   Field field = meeting_at(9);
   KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   for (int y = 0; y < field.size.height; y++) kept.keep[size_t(y) * field.size.width + 9] = Keep::always;
   const Field fixed = field;
-  move_seams(field, level_of(exemplar, none, FixedPixels(kept, field.size, 0, side)), {}, Task());
+  move_seams(field, test::level_of(exemplar, FixedPixels(kept, field.size, 0, side)), {}, Task());
   for (int y = 0; y < field.size.height; y++) CHECK(field.at(9, y) == fixed.at(9, y));
 }
 
 TEST_CASE("a seam does not go where controls want something else") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = exemplar_with_repeat();
   const auto halves = [](Size size, int middle) {
     return test::make_image(size, 1, [=](int x, int, int) { return x < middle ? 0.f : 1.f; });
@@ -91,7 +85,7 @@ TEST_CASE("a seam does not go where controls want something else") {
         {.exemplar = halves(side, 24), .target = halves(field.size, seam), .mode = Control::Mode::labels}};
     const ControlPyramid pyramid(controls, side, field.size, 1, Task());
     const LevelControl control(pyramid, 0, exemplar);
-    CorrectionLevel level = level_of(exemplar, none);
+    CorrectionLevel level = test::level_of(exemplar);
     level.window = PlaneWindow::all_of({field.size, false, false});
     level.control = &control;
     move_seams(field, level, {}, Task());
@@ -152,31 +146,28 @@ int blocks_of_other_tiles(const Field& field) {
 }  // namespace
 
 TEST_CASE("seams leave the middles of tiles for their joints") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = tiled_exemplar();
   Field field = meeting_in_tiles();
   REQUIRE(blocks_of_other_tiles(field) > 20);
-  move_seams(field, level_of(exemplar, none), {.reach = 8, .block = 2}, Task());
+  move_seams(field, test::level_of(exemplar), {.reach = 8, .block = 2}, Task());
   CHECK(blocks_of_other_tiles(field) == 0);
   // Both pieces are still there, and each goes on as in the exemplar.
   CHECK(Pieces(field, 2).count() == 2);
 }
 
 TEST_CASE("to be far from its piece costs a pixel: seams go to a joint all the same, but stay if that costs too much") {
-  const std::vector<ExemplarPixel> none;
   const PaddedLevel exemplar = tiled_exemplar();
   Field field = meeting_in_tiles();
   const Field before = field;
-  move_seams(field, level_of(exemplar, none), {.reach = 8, .stay = 8, .block = 2}, Task());
+  move_seams(field, test::level_of(exemplar), {.reach = 8, .stay = 8, .block = 2}, Task());
   CHECK(blocks_of_other_tiles(field) == 0);
 
   field = before;
-  move_seams(field, level_of(exemplar, none), {.reach = 8, .stay = 4000, .block = 2}, Task());
+  move_seams(field, test::level_of(exemplar), {.reach = 8, .stay = 4000, .block = 2}, Task());
   CHECK(field.pixels == before.pixels);
 }
 
 TEST_CASE("a large piece swallows a small one, unless to be large or far from it costs that") {
-  const std::vector<ExemplarPixel> none;
   AppearanceLevel level;
   level.size = {96, 64};
   for (int i = 0; i < level.size.area(); i++) level.vectors.push_back({int16_t(below(uint32_t(random_bits(8, i)), 4))});
@@ -188,7 +179,7 @@ TEST_CASE("a large piece swallows a small one, unless to be large or far from it
         const bool small = x >= 12 && x < 18 && y >= 7 && y < 13;
         field.pixels.push_back({uint16_t(4 + 2 * x + (small ? 25 : 0)), uint16_t(4 + 2 * y)});
       }
-    move_seams(field, level_of(plain, none), {.reach = 8, .stay = stay, .block = 2, .fair_piece = fair}, Task());
+    move_seams(field, test::level_of(plain), {.reach = 8, .stay = stay, .block = 2, .fair_piece = fair}, Task());
     int left = 0;
     for (int y = 0; y < 20; y++)
       for (int x = 0; x < 30; x++) left += field.at(x, y).x != 4 + 2 * x;
