@@ -14,6 +14,35 @@ inline std::string lowercase(std::string_view text) {
   return out;
 }
 
+inline bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+inline bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+/// What names in graphs are made of.
+inline bool is_word(char c) {
+  return is_digit(c) || is_letter(c) || c == '_';
+}
+
+/// The text as it stands in HTML and SVG, between tags or in a quoted attribute.
+inline std::string markup(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '&')
+      out += "&amp;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
 /// "1 file", "3 files": of things with a plain plural.
 inline std::string counted(int64_t count, std::string_view thing) {
   return std::to_string(count).append(" ").append(thing).append(count == 1 ? "" : "s");

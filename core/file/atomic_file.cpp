@@ -1,6 +1,5 @@
 #include "core/file/atomic_file.h"
 
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
@@ -29,11 +28,9 @@ constexpr std::string_view mark = "terrazzo";
 
 /// The processes that can be told dead from here: those of this host that are counted together with this one.
 std::string neighbourhood() {
-  std::array<char, 256> host{};
-  ::gethostname(host.data(), host.size() - 1);
   std::error_code missing;
   const fs::path processes = fs::read_symlink("/proc/self/ns/pid", missing);
-  return Hasher().add(std::string_view(host.data())).add(processes.native()).digest().hex().substr(0, 8);
+  return Hasher().add(host_name()).add(processes.native()).digest().hex().substr(0, 8);
 }
 
 struct Owner {
@@ -122,6 +119,33 @@ fs::path temporary_beside(const fs::path& target) {
   const std::string beginning = target.stem().string().substr(0, 100);
   return target.parent_path() / fmt::format(".{}.{}-{}-{}-{}{}", beginning, mark, neighbourhood(), ::getpid(), count++,
                                             target.extension().string());
+}
+
+void publish_file(const fs::path& temporary, const fs::path& target, bool sync) {
+  if (::rename(temporary.c_str(), target.c_str()) != 0) {
+    const int code = errno;
+    ::unlink(temporary.c_str());
+    throw_system_error("write", target, code);
+  }
+  if (!sync) return;
+  if (const File folder = File::open(target.parent_path(), O_RDONLY | O_DIRECTORY); folder.ok())
+    ::fsync(folder.descriptor());
+}
+
+void write_whole_file(const fs::path& target, std::string_view bytes, const fs::path& temporary, bool sync) {
+  try {
+    write_file(temporary, bytes, sync);
+  } catch (const FileError& e) {
+    ::unlink(temporary.c_str());
+    throw_system_error("write", target, e.code());
+  }
+  publish_file(temporary, target, sync);
+}
+
+void write_whole_file(const fs::path& target, std::string_view bytes) {
+  std::error_code missing;
+  if (fs::exists(target, missing) && !fs::is_regular_file(target, missing)) return write_file(target, bytes);
+  write_whole_file(target, bytes, temporary_beside(target));
 }
 
 void remove_abandoned(const fs::path& folder) {

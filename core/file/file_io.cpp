@@ -1,5 +1,6 @@
 #include "core/file/file_io.h"
 
+#include <array>
 #include <cerrno>
 #include <system_error>
 
@@ -60,8 +61,25 @@ void File::sync_and_close(const std::filesystem::path& path) {
   close(path);
 }
 
+void write_file(const std::filesystem::path& path, std::string_view bytes, bool sync) {
+  File file = File::open(path, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!file.ok()) throw_system_error("write", path, errno);
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(file.descriptor(), bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) throw_system_error("write", path, errno);
+    bytes.remove_prefix(size_t(put));
+  }
+  sync ? file.sync_and_close(path) : file.close(path);
+}
+
 std::string system_message(int code) {
   return std::generic_category().message(code);
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "host";
 }
 
 void throw_system_error(std::string_view verb, const std::filesystem::path& path, int code) {

@@ -53,8 +53,15 @@ class File {
   int descriptor_ = -1;
 };
 
+/// Makes the file or replaces its content, in place: it may be a device or a pipe. If `sync`, the content is on the
+/// disk afterwards. Throws FileError naming `path`.
+void write_file(const std::filesystem::path& path, std::string_view bytes, bool sync = false);
+
 /// What the operating system says about an error number ("No space left on device").
 std::string system_message(int code);
+
+/// What this machine is called, where several share a file system.
+std::string host_name();
 
 /// Throws FileError "cannot <verb> <path>: <what the system says>".
 [[noreturn]] void throw_system_error(std::string_view verb, const std::filesystem::path& path, int code);

@@ -316,9 +316,7 @@ bool has_kind_of(const JsonValue& v, ParamType type) {
 
 /// ".5", "5." and "+5" as JSON spells them; anything else as it is.
 std::string json_spelling(const std::string& number) {
-  const auto digit_at = [](const std::string& text, size_t i) {
-    return i < text.size() && text[i] >= '0' && text[i] <= '9';
-  };
+  const auto digit_at = [](const std::string& text, size_t i) { return i < text.size() && is_digit(text[i]); };
   std::string out = number.starts_with('+') && !number.starts_with("+-") ? number.substr(1) : number;
   const size_t first = out.starts_with('-') ? 1 : 0;
   if (first < out.size() && out[first] == '.' && digit_at(out, first + 1)) out.insert(first, "0");

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text.h"
 #include "graphs/document/layout.h"
 
 namespace terrazzo {
@@ -25,29 +26,6 @@ std::string_view box_colour(const NodeType& type) {
   if (type.category == "analysis") return "#f3e5f5";
   if (type.category == "synthesis") return "#fff3e0";
   return type.category == "sink" ? "#eceff1" : "#ffffff";
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 /// One wire by positions: of nodes in the graph, of ports in the lists of their boxes.
@@ -106,7 +84,7 @@ class Drawing {
         "font-family=\"DejaVu Sans, Verdana, sans-serif\" font-size=\"11\">\n"
         "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"white\"/>\n",
         width, height);
-    if (!graph_.summary.empty()) out_ += fmt::format("<title>{}</title>\n", escaped(graph_.summary));
+    if (!graph_.summary.empty()) out_ += fmt::format("<title>{}</title>\n", markup(graph_.summary));
     for (size_t w = 0; w < wires_.size(); w++) draw_wire(wires_[w], layout.ways[w]);
     for (size_t i = 0; i < boxes_.size(); i++) draw_box(i, layout.corners[i]);
     draw_legend(layout.height);
@@ -152,12 +130,12 @@ class Drawing {
     const GraphNode &from = graph_.nodes[wire.from], &to = graph_.nodes[wire.to];
     out_ += fmt::format(
         "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"><title>{}: {}.{} to {}.{}</title></path>\n",
-        path, wire_colours[size_t(wire.type)], name_of(wire.type), escaped(from.name),
-        boxes_[wire.from].outputs[wire.output], escaped(to.name), boxes_[wire.to].inputs[wire.input]);
+        path, wire_colours[size_t(wire.type)], name_of(wire.type), markup(from.name),
+        boxes_[wire.from].outputs[wire.output], markup(to.name), boxes_[wire.to].inputs[wire.input]);
   }
 
   void draw_text(double x, double y, std::string_view attributes, const std::string& text) {
-    out_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\"{}>{}</text>\n", x, y, attributes, escaped(text));
+    out_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\"{}>{}</text>\n", x, y, attributes, markup(text));
   }
 
   void draw_box(size_t i, Point corner) {

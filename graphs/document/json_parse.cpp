@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text.h"
 #include "graphs/document/json.h"
 #include "graphs/document/utf8.h"
 
@@ -11,13 +12,6 @@ namespace terrazzo {
 namespace {
 
 using Kind = JsonValue::Kind;
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_word(char c) {
-  return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
 
 /// A recursive descent over text whose UTF-8 has been verified. The first syntax error ends it, as a Problem thrown.
 class Parser {
@@ -291,12 +285,12 @@ class Parser {
         fail(fmt::format("expected \":\" after the name {}, found {}", in_quotes(m.name), found_here()));
       at_++;
       skip_space();
-      m.value = parse_value(depth, fmt::format("a value for {}", in_quotes(m.name)));
-      m.value.comments_before = std::move(above);
       if (!seen.insert(m.name).second)
         duplicates.push_back({m.place, "",
                               fmt::format("{} stands here twice; the first is at line {}", in_quotes(m.name),
                                           object.find(m.name)->place.line)});
+      m.value = parse_value(depth, fmt::format("a value for {}", in_quotes(m.name)));
+      m.value.comments_before = std::move(above);
       object.members.push_back(std::move(m));
     } while (more_follow(object, object.members.back().value, '}', "entry"));
   }

@@ -1,11 +1,11 @@
 #include "graphs/document/parameters.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
+#include "core/base/text.h"
 #include "graphs/document/convert.h"
 
 namespace terrazzo {
@@ -13,13 +13,6 @@ namespace terrazzo {
 namespace fs = std::filesystem;
 
 namespace {
-
-bool is_word(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
-}
-bool is_letter(char c) {
-  return std::isalpha(static_cast<unsigned char>(c));
-}
 
 bool takes_range(ParamType type) {
   return type == ParamType::integer || type == ParamType::number || type == ParamType::size ||

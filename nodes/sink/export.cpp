@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <mutex>
 
@@ -178,13 +177,6 @@ void add_pictures(const Report& report, const fs::path& path, std::vector<Job>& 
   }
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw Error(fmt::format("cannot write {}: is the disk full?", path.string()));
-}
-
 /// No two files may have the same name.
 void require_distinct(const std::vector<Job>& jobs) {
   std::map<fs::path, std::string> names;
@@ -247,7 +239,7 @@ void compute(NodeContext& node) {
   require_distinct(jobs);
   for (Job& job : jobs) job.temporary = node.stage(job.target);
   if (report)
-    write_text(node.stage(report_path), is_csv(report_path) ? report_as_csv(*report) : report_as_json(*report));
+    write_file(node.stage(report_path), is_csv(report_path) ? report_as_csv(*report) : report_as_json(*report));
   write_all(node, jobs);
 }
 

@@ -7,6 +7,7 @@
 #include <pwd.h>
 #include <unistd.h>
 
+#include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
 #include "core/node/serialize.h"
 #include "runner/cache/cache_records.h"
@@ -136,7 +137,7 @@ void Cache::store_value(const Value& value, double seconds, const Task& task) {
     const std::filesystem::path temporary = state_->folder.temporary(target, state_->pins.owner());
     const bool sync = seconds >= seconds_worth_syncing;
     save_value(value, temporary, task, seconds, sync);
-    state_->folder.publish(temporary, target, sync);
+    publish_file(temporary, target, sync);
   } catch (const Error& e) {
     state_->warn_unwritten(e);
   }

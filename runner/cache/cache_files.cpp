@@ -18,10 +18,6 @@ namespace {
 /// Two changes may fall into one tick of a file system's clock: what changed this recently may change unseen.
 constexpr int64_t unsettled_ns = 2 * ns_per_second;
 
-int64_t ns_of(const timespec& t) {
-  return int64_t{t.tv_sec} * ns_per_second + t.tv_nsec;
-}
-
 std::optional<FileStamp> stamp_of(const struct stat& status) {
   if (!S_ISREG(status.st_mode)) return std::nullopt;
   return FileStamp{uint64_t(status.st_size), ns_of(status.st_mtim), ns_of(status.st_ctim), uint64_t(status.st_ino)};

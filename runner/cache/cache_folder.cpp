@@ -10,10 +10,10 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/file/atomic_file.h"
 
 namespace terrazzo {
 
@@ -23,10 +23,6 @@ constexpr std::array<std::string_view, 3> kind_folders = {"values", "stages", "f
 constexpr std::string_view value_suffix = ".tzv", temporary_suffix = ".tmp";
 /// Times of use are kept this coarsely: reading the cache should not mean writing to it all the time.
 constexpr int64_t use_granularity_ns = 3600 * ns_per_second;
-
-int64_t ns_of(const timespec& t) {
-  return int64_t{t.tv_sec} * ns_per_second + t.tv_nsec;
-}
 
 void note_use(const char* path, const struct stat& status) {
   if (now_ns() - ns_of(status.st_mtim) > use_granularity_ns) ::utimensat(AT_FDCWD, path, nullptr, 0);
@@ -62,6 +58,10 @@ void add_to_scan(CacheScan& scan, EntryKind kind, const std::filesystem::path& p
 }
 
 }  // namespace
+
+int64_t ns_of(const timespec& t) {
+  return int64_t{t.tv_sec} * ns_per_second + t.tv_nsec;
+}
 
 int64_t now_ns() {
   timespec t;
@@ -102,31 +102,10 @@ std::filesystem::path CacheFolder::temporary(const std::filesystem::path& target
   return target.parent_path() / fmt::format("{}-{}{}", owner, temporaries_++, temporary_suffix);
 }
 
-void CacheFolder::publish(const std::filesystem::path& temporary, const std::filesystem::path& target,
-                          bool sync) const {
-  if (::rename(temporary.c_str(), target.c_str()) != 0) {
-    const int code = errno;
-    ::unlink(temporary.c_str());
-    throw_system_error("write", target, code);
-  }
-  if (!sync) return;
-  if (const File folder = File::open(target.parent_path(), O_RDONLY | O_DIRECTORY); folder.ok())
-    ::fsync(folder.descriptor());
-}
-
 void CacheFolder::write(const std::filesystem::path& target, const std::vector<uint8_t>& bytes,
                         const std::string& owner, bool sync) {
-  const std::filesystem::path path = temporary(target, owner);
-  try {
-    File file = File::open(path, O_WRONLY | O_CREAT | O_TRUNC);
-    if (!file.ok()) throw_system_error("write", path, errno);
-    file.write_at(0, bytes.data(), bytes.size(), path);
-    if (sync) file.sync_and_close(path);
-  } catch (const FileError&) {
-    ::unlink(path.c_str());
-    throw;
-  }
-  publish(path, target, sync);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  write_whole_file(target, text, temporary(target, owner), sync);
 }
 
 namespace {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <time.h>
+
 #include "core/base/hash.h"
 #include "core/file/file_io.h"
 
@@ -42,6 +44,7 @@ struct CacheScan {
 };
 
 inline constexpr int64_t ns_per_second = 1'000'000'000;
+int64_t ns_of(const timespec& t);
 /// Wall-clock time, since the epoch.
 int64_t now_ns();
 
@@ -59,8 +62,7 @@ class CacheFolder {
 
   /// A name beside `target`, whose folder is made, to write to. `owner` tells whose it is. Throws FileError.
   std::filesystem::path temporary(const std::filesystem::path& target, const std::string& owner);
-  /// Moves a finished temporary file to its place. If `sync`, it is there after a power failure too. Throws FileError.
-  void publish(const std::filesystem::path& temporary, const std::filesystem::path& target, bool sync) const;
+  /// Writes all of the bytes or nothing. If `sync`, they are there after a power failure too. Throws FileError.
   void write(const std::filesystem::path& target, const std::vector<uint8_t>& bytes, const std::string& owner,
              bool sync);
 

@@ -1,6 +1,5 @@
 #include "runner/cache/cache_pins.h"
 
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -20,20 +19,13 @@ namespace {
 
 constexpr int64_t trusted_without_lock_ns = 24 * 3600 * ns_per_second;
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  if (::gethostname(name.data(), name.size() - 1) != 0) return "host";
-  return name.data();
-}
-
 /// Locks are released when their last descriptor is closed; this one is given up as soon as the reader is done.
 bool is_alive(const File& file, const std::string& name) {
   const bool locked_by_us = lock_file(file, LOCK_EX | LOCK_NB);
   if (!locked_by_us && errno == EWOULDBLOCK) return true;
   if (locked_by_us && name.starts_with(host_name() + "-")) return false;
   struct stat status;
-  return ::fstat(file.descriptor(), &status) == 0 &&
-         now_ns() - int64_t{status.st_mtim.tv_sec} * ns_per_second < trusted_without_lock_ns;
+  return ::fstat(file.descriptor(), &status) == 0 && now_ns() - ns_of(status.st_mtim) < trusted_without_lock_ns;
 }
 
 void add_pins(const File& file, const std::filesystem::path& path, std::set<Digest>& values) {

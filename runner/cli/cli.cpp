@@ -1,4 +1,3 @@
-#include "runner/cli/cli.h"
 
 #include <algorithm>
 #include <charconv>
@@ -17,6 +16,7 @@
 #include "core/base/text.h"
 #include "core/file/file_io.h"
 #include "graphs/document/problem.h"
+#include "nodes/source/material_folder.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
 #include "runner/report/progress.h"
@@ -125,6 +125,20 @@ void check_writable(const char* option, const std::string& path) {
   const bool was_there = std::filesystem::exists(path, missing);
   if (!std::ofstream(path, std::ios::app)) throw UsageError(fmt::format("{} {}: cannot write there", option, path));
   if (!was_there) std::filesystem::remove(path, missing);
+}
+
+std::string for_command_line(std::string message, const std::string& folder) {
+  const auto replace = [&](std::string_view graph_advice, const std::string& advice) {
+    if (const size_t at = message.find(graph_advice); at != message.npos)
+      message.replace(at, graph_advice.size(), advice);
+  };
+  replace(advice_on_map_names,
+          fmt::format("rename the files, or name them outright: `terrazzo run graphs/material.json --set material={} "
+                      "--set 'exemplar.maps={{\"base_color\": \"FILE\"}}' --set out=OUT`",
+                      folder));
+  replace(advice_on_one_file,
+          fmt::format("for a single picture: `terrazzo run graphs/texture.json --set image={} --set out=OUT`", folder));
+  return message;
 }
 
 uint64_t parse_bytes(const std::string& text, const std::string& option) {

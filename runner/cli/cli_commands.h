@@ -15,9 +15,12 @@ class App;
 /// command line puts what it does into `chosen`, which returns the exit code.
 namespace terrazzo {
 
+/// The program. Exit codes are those below.
+int run_command_line(int argc, const char* const* argv);
+
 inline constexpr int exit_done = 0;
-inline constexpr int exit_failed = 1;
-inline constexpr int exit_usage = 2;
+inline constexpr int exit_failed = 1;  ///< a node failed, or something could not be written
+inline constexpr int exit_usage = 2;   ///< bad usage or an invalid graph
 inline constexpr int exit_cancelled = 130;
 
 /// A wrong value on the command line; becomes exit code 2.
@@ -38,6 +41,9 @@ void add_compare_command(CLI::App& app, Chosen& chosen);
 /// Better to say it before the run than after it: throws UsageError unless the option's file can be written. No file if
 /// `path` is empty.
 void check_writable(const char* option, const std::string& path);
+/// A message about the folder of a material, which advises the writer of a graph, with advice for someone who has named
+/// `folder` to a command that takes no parameters of nodes.
+std::string for_command_line(std::string message, const std::string& folder);
 /// "512M", "2G", "1.5 GiB" in bytes. Throws UsageError.
 uint64_t parse_bytes(const std::string& text, const std::string& option);
 /// 1536 MiB as "1.5 GiB".

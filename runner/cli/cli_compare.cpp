@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/image/image_file.h"
+#include "nodes/sink/export_report.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
 #include "runner/cli/signals.h"
@@ -55,18 +55,6 @@ Graph compare_graph(const CompareFlags& flags) {
   return graph;
 }
 
-std::string as_json(const Report& report) {
-  using Json = nlohmann::ordered_json;
-  Json figures = Json::array();
-  for (const Report::Figure& f : report.figures()) {
-    const Json value = std::visit([](const auto& v) { return Json(v); }, f.value);
-    figures.push_back({{"name", f.name}, {"value", value}, {"help", f.help}});
-  }
-  return Json({{"title", report.title()}, {"figures", std::move(figures)}})
-             .dump(2, ' ', false, Json::error_handler_t::replace) +
-         "\n";
-}
-
 std::string as_table(const Report& report) {
   size_t names = 0;
   for (const Report::Figure& f : report.figures()) names = std::max(names, f.name.size());
@@ -92,7 +80,7 @@ int compare(const CompareFlags& flags) {
   if (!result.ok()) return exit_failed;
   const ReportPtr report = std::get<ReportPtr>(result.kept.at("figures").at("report"));
   if (is_page(flags.sheet)) write_report_page(*report, flags.sheet);
-  answer("{}", flags.json ? as_json(*report) : as_table(*report));
+  answer("{}", flags.json ? report_as_json(*report) : as_table(*report));
   return exit_done;
 }
 

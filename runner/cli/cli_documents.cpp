@@ -4,18 +4,17 @@
 #include <fmt/format.h>
 
 #include "core/base/text.h"
+#include "core/file/atomic_file.h"
 #include "graphs/document/draw.h"
 #include "graphs/document/load.h"
 #include "graphs/document/migrate.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
-#include "runner/cli/folder_advice.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/starting_graph.h"
 #include "runner/engine/memory_graph.h"
 #include "runner/engine/preflight.h"
 #include "runner/engine/schedule.h"
-#include "runner/report/text_file.h"
 
 namespace terrazzo {
 

@@ -12,7 +12,6 @@
 #include "graphs/document/override.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
-#include "runner/cli/folder_advice.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/stock_graphs.h"
 #include "runner/cli/watch.h"

@@ -5,7 +5,9 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <unistd.h>
+
+#include "core/file/atomic_file.h"
+#include "core/file/file_io.h"
 
 namespace terrazzo {
 
@@ -80,18 +82,16 @@ void History::save() const {
   if (!changed_) return;
   std::error_code failure;
   fs::create_directories(path_.parent_path(), failure);
-  const fs::path temporary = path_.string() + fmt::format(".{}", ::getpid());
-  std::ofstream out(temporary);
-  out << first_line << '\n';
+  std::string text = fmt::format("{}\n", first_line);
   for (const auto& [node, ingredients] : nodes_)
     for (const Ingredient& i : ingredients)
-      out << fmt::format("{}\t{}\t{}\t{}\n", on_one_line(node), on_one_line(i.what), i.digest.hex(),
-                         on_one_line(i.shown));
-  out.close();
-  if (out)
-    fs::rename(temporary, path_, failure);
-  else
-    fs::remove(temporary, failure);
+      text +=
+          fmt::format("{}\t{}\t{}\t{}\n", on_one_line(node), on_one_line(i.what), i.digest.hex(), on_one_line(i.shown));
+  try {
+    write_whole_file(path_, text);
+  } catch (const FileError&) {
+    // Without it, plans cannot say what has changed since.
+  }
 }
 
 }  // namespace terrazzo

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runner/report/text_file.h"
+#include "core/file/atomic_file.h"
 
 namespace terrazzo {
 

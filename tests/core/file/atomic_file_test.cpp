@@ -3,11 +3,14 @@
 #include <chrono>
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/file/file_io.h"
 #include "core/node/node.h"
 #include "tests/run_node.h"
 #include "tests/runner/fakes.h"
@@ -137,4 +140,34 @@ TEST_CASE("staging a file clears its folder of what killed runs left") {
   CHECK(node.stage(folder.path() / "out/y.png") != temporary);
   CHECK(fs::exists(temporary));
   CHECK_THROWS_WITH_AS(node.stage(temporary / "z.png"), doctest::Contains("expected a folder to write to"), Error);
+}
+
+TEST_CASE("a whole file replaces what was there, or nothing is touched") {
+  const TemporaryFolder folder;
+  const fs::path at = folder.path() / "a.txt";
+  write_whole_file(at, "one");
+  write_whole_file(at, "two");
+  CHECK(read_text(at) == "two");
+  CHECK(listing(folder.path()) == std::vector<std::string>{"a.txt"});
+
+  const std::string nowhere = (folder.path() / "not there/a.txt").string();
+  CHECK_THROWS_WITH_AS(write_whole_file(nowhere, "three"),
+                       ("cannot write " + nowhere + ": No such file or directory").c_str(), FileError);
+  fs::create_directories(folder.path() / "full/folder");
+  write_text(folder.path() / "finished", "four");
+  CHECK_THROWS_AS(publish_file(folder.path() / "finished", folder.path() / "full"), FileError);
+  CHECK_THROWS_AS(write_whole_file(folder.path() / "full", "five"), FileError);
+  CHECK(listing(folder.path()) == std::vector<std::string>{"a.txt", "full"});
+}
+
+TEST_CASE("a pipe is written in place") {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const File reader = File::open(pipe, O_RDWR | O_NONBLOCK);
+  write_whole_file(pipe, "text");
+  std::string got(8, ' ');
+  CHECK(::read(reader.descriptor(), got.data(), got.size()) == 4);
+  CHECK(got == "text    ");
+  CHECK(listing(folder.path()) == std::vector<std::string>{"pipe"});
 }
