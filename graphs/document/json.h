@@ -54,6 +54,12 @@ struct ParsedJson {
 };
 
 /// Reads UTF-8 text; columns count characters. A byte order mark is skipped. Never throws for anything in `text`.
+///
+/// A recursive descent of our own. A reader on nlohmann-json's SAX interface (3.11.2) was built and compared. The
+/// library gives neither the place of a token, nor comments, nor the spelling of integers; it takes 01 for two numbers
+/// and a zero byte for the end of the file. So each event had to find its token in the text again, and each message had
+/// to walk the grammar a second time. It read the same values out of 200,000 mutated documents, in 351 lines against
+/// 336 here, took 1.3 times as long on 20 MB, and compiled to 84 KB against 49 KB.
 ParsedJson parse_json(std::string_view text);
 
 /// What a value is, for messages: `the text "abc"`, `the number 3`, `a list of 2`, ...

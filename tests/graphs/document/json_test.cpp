@@ -87,6 +87,9 @@ TEST_CASE("nesting is limited") {
   CHECK(parse_json(nested(json_depth_limit)).problems.empty());
   CHECK(problem_in(nested(json_depth_limit + 1)) == "1:65 nested deeper than 64 levels");
   CHECK(parse_json(std::string(1000000, '[')).problems.size() == 1);
+  std::string objects;
+  for (int i = 0; i < 100000; i++) objects += "{\"a\":";
+  CHECK(problem_in(objects) == "1:321 nested deeper than 64 levels");
 }
 
 TEST_CASE("all duplicate names are found, and a syntax error beside them") {
@@ -94,6 +97,14 @@ TEST_CASE("all duplicate names are found, and a syntax error beside them") {
   REQUIRE(json.problems.size() == 3);
   CHECK_FALSE(json.value);
   CHECK(json.problems[0].place.column == 24);
+}
+
+TEST_CASE("a name that stands twice is found even if its value cannot be read, in the order of places") {
+  const ParsedJson json = parse_json("{\"a\": 1, \"a\": {\"b\": 1, \"b\": ?}}");
+  REQUIRE(json.problems.size() == 3);
+  CHECK(json.problems[0].place.column == 10);
+  CHECK(json.problems[1].place.column == 24);
+  CHECK(json.problems[2].message == "expected a value for \"b\", found \"?\"");
 }
 
 TEST_CASE("comments are kept with what they are about") {
