@@ -78,10 +78,7 @@ NodeType filter_bank_node() {
   t.compute = compute;
   t.preflight = [](const Params& params, const InputForecasts& inputs) {
     const std::string& map = std::get<std::string>(params.at("map"));
-    const Texts wanted = map.empty() ? Texts{} : Texts{map};
-    check_all([&] { preflight_maps("map", wanted, inputs.at("material").front()); },
-              [&] { preflight_one_shape("material", inputs); });
-    return Forecast{};
+    return preflight_analysis("map", map.empty() ? Texts{} : Texts{map}, inputs);
   };
   return t;
 }

@@ -83,9 +83,7 @@ NodeType guidance_node() {
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
   t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    check_all([&] { preflight_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front()); },
-              [&] { preflight_one_shape("material", inputs); });
-    return Forecast{};
+    return preflight_analysis("maps", std::get<Texts>(params.at("maps")), inputs);
   };
   return t;
 }

@@ -60,9 +60,7 @@ NodeType progression_node() {
   };
   t.compute = compute;
   t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    check_all([&] { preflight_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front()); },
-              [&] { preflight_one_shape("material", inputs); });
-    return Forecast{};
+    return preflight_analysis("maps", std::get<Texts>(params.at("maps")), inputs);
   };
   return t;
 }

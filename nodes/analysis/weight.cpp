@@ -49,9 +49,7 @@ NodeType weight_node() {
   t.preflight = [](const Params& params, const InputForecasts& inputs) {
     std::vector<std::string> weighted;
     for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) weighted.push_back(name);
-    check_all([&] { preflight_maps("weights", weighted, inputs.at("material").front()); },
-              [&] { preflight_one_shape("material", inputs); });
-    return Forecast{};
+    return preflight_analysis("weights", weighted, inputs);
   };
   return t;
 }

@@ -89,6 +89,13 @@ void preflight_one_shape(const std::string& port, const InputForecasts& inputs) 
   if (!maps.empty()) require_one_shape(port, maps);
 }
 
+Forecast preflight_analysis(const std::string& param, const std::vector<std::string>& wanted,
+                            const InputForecasts& inputs) {
+  check_all([&] { preflight_maps(param, wanted, inputs.at("material").front()); },
+            [&] { preflight_one_shape("material", inputs); });
+  return {};
+}
+
 Digest map_recipe(const NodeContext& node, const Image& map) {
   Hasher h;
   h.add("map of").add(node.type().name).add(node.type().version);

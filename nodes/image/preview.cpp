@@ -56,22 +56,8 @@ Param number(std::string name, double fallback, double min, double max, std::str
           .unit = std::move(unit)};
 }
 
-}  // namespace
-
-NodeType preview_node() {
-  NodeType t;
-  t.name = "preview";
-  t.version = 2;
-  t.category = "image";
-  t.summary = "Renders a material under a movable light";
-  t.help =
-      "GGX reflection (Walter et al. 2007, Heitz 2014) with normal mapping in either convention, ambient occlusion, "
-      "metals, emission, and parallax and shadows marched through the height map. The depth of the relief is read from "
-      "the normals; without a normal map it is a twentieth of the material's width, and normals come from the height. "
-      "With several lights, maps that do not fit together show at once: bumps must be lit from the side of the light.";
-  t.inputs = {{.name = "material", .type = ValueType::material, .help = "any maps; what is missing is made up for"}};
-  t.outputs = {{.name = "image", .type = ValueType::image, .help = "8-bit colour picture"}};
-  t.params = {
+std::vector<Param> params() {
+  return {
       {.name = "shape",
        .type = ParamType::choice,
        .fallback = "plane",
@@ -111,6 +97,24 @@ NodeType preview_node() {
        .min_count = 3,
        .max_count = 3},
   };
+}
+
+}  // namespace
+
+NodeType preview_node() {
+  NodeType t;
+  t.name = "preview";
+  t.version = 2;
+  t.category = "image";
+  t.summary = "Renders a material under a movable light";
+  t.help =
+      "GGX reflection (Walter et al. 2007, Heitz 2014) with normal mapping in either convention, ambient occlusion, "
+      "metals, emission, and parallax and shadows marched through the height map. The depth of the relief is read from "
+      "the normals; without a normal map it is a twentieth of the material's width, and normals come from the height. "
+      "With several lights, maps that do not fit together show at once: bumps must be lit from the side of the light.";
+  t.inputs = {{.name = "material", .type = ValueType::material, .help = "any maps; what is missing is made up for"}};
+  t.outputs = {{.name = "image", .type = ValueType::image, .help = "8-bit colour picture"}};
+  t.params = params();
   t.persist = Persist::payload;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.memory_hint = [](const NodeContext& node) {

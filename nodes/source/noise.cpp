@@ -46,20 +46,8 @@ void compute(NodeContext& node) {
   node.output("image", noise_image(spec, info, node.key()));
 }
 
-}  // namespace
-
-NodeType noise_node() {
-  NodeType t;
-  t.name = "noise";
-  t.category = "source";
-  t.summary = "Makes a noise picture of one channel";
-  t.help =
-      "Value, Perlin (gradient) and simplex noise, Worley's distance to scattered points (worley) or to the borders "
-      "between them (worley_edges), summed over octaves. Computed when pulled, so a huge noise costs nothing until it "
-      "is "
-      "read. Values are in 0..1 and survive a 16-bit file.";
-  t.outputs = {{.name = "image", .type = ValueType::image, .help = "one channel, 0..1"}};
-  t.params = {
+std::vector<Param> params() {
+  return {
       {.name = "basis",
        .type = ParamType::choice,
        .fallback = "perlin",
@@ -122,6 +110,22 @@ NodeType noise_node() {
        .help = "What the noise is meant as.",
        .choices = meanings()},
   };
+}
+
+}  // namespace
+
+NodeType noise_node() {
+  NodeType t;
+  t.name = "noise";
+  t.category = "source";
+  t.summary = "Makes a noise picture of one channel";
+  t.help =
+      "Value, Perlin (gradient) and simplex noise, Worley's distance to scattered points (worley) or to the borders "
+      "between them (worley_edges), summed over octaves. Computed when pulled, so a huge noise costs nothing until it "
+      "is "
+      "read. Values are in 0..1 and survive a 16-bit file.";
+  t.outputs = {{.name = "image", .type = ValueType::image, .help = "one channel, 0..1"}};
+  t.params = params();
   t.persist = Persist::derived;
   t.compute = compute;
   return t;

@@ -35,30 +35,15 @@ std::vector<std::string> check(const Params& params) {
   return {fmt::format("\"palette\": {} come in {}, not in \"{}\"", type->name, palette_names(*type), palette)};
 }
 
-}  // namespace
-
-NodeType pattern_node() {
-  NodeType t;
-  t.name = "pattern";
-  t.category = "source";
-  t.summary = "Makes a procedural material: bricks, stones, cloth ... with all maps consistent";
-  t.help =
-      "Describes a surface and derives every map from it: base colour, normal (green up), height, roughness and "
-      "ambient "
-      "occlusion agree at every pixel. Useful as an exemplar when none is at hand, for examples and for tests. Kinds:";
+std::vector<Param> params() {
   std::string palettes = "The colours it comes in; empty for the kind's first. ";
   std::vector<std::string> names;
   for (const PatternType& p : pattern_types()) {
     names.push_back(p.name);
-    t.help += fmt::format(" {} ({}; {:g} across);", p.name, p.summary, p.scale);
     palettes += fmt::format("{}: {}; ", p.name, palette_names(p));
   }
-  t.help.back() = '.';
   palettes.replace(palettes.size() - 2, 2, ".");
-  t.outputs = {{.name = "material",
-                .type = ValueType::material,
-                .help = "base_color, normal, height, roughness, ambient_occlusion, all of one size"}};
-  t.params = {
+  return {
       {.name = "kind", .type = ParamType::choice, .fallback = "bricks", .help = "What to make.", .choices = names},
       {.name = "size",
        .type = ParamType::size,
@@ -103,6 +88,26 @@ NodeType pattern_node() {
        .fallback = true,
        .help = "The material continues at its opposite border."},
   };
+}
+
+}  // namespace
+
+NodeType pattern_node() {
+  NodeType t;
+  t.name = "pattern";
+  t.category = "source";
+  t.summary = "Makes a procedural material: bricks, stones, cloth ... with all maps consistent";
+  t.help =
+      "Describes a surface and derives every map from it: base colour, normal (green up), height, roughness and "
+      "ambient "
+      "occlusion agree at every pixel. Useful as an exemplar when none is at hand, for examples and for tests. Kinds:";
+  for (const PatternType& p : pattern_types())
+    t.help += fmt::format(" {} ({}; {:g} across);", p.name, p.summary, p.scale);
+  t.help.back() = '.';
+  t.outputs = {{.name = "material",
+                .type = ValueType::material,
+                .help = "base_color, normal, height, roughness, ambient_occlusion, all of one size"}};
+  t.params = params();
   t.persist = Persist::payload;
   t.check = check;
   t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 9 * sizeof(float); };

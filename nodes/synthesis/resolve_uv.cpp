@@ -9,6 +9,105 @@
 
 namespace terrazzo {
 
+namespace {
+
+std::vector<Port> inputs() {
+  return {{.name = "uv", .type = ValueType::uv_map, .help = "which exemplar pixel each output pixel shows"},
+          {.name = "material", .type = ValueType::material, .help = "the exemplar, with all maps that are wanted"},
+          {.name = "kept",
+           .type = ValueType::material,
+           .help = "a result that the uv map keeps pixels of, resolved before: `join` leaves its heights as they "
+                   "are",
+           .optional = true},
+          {.name = "holes",
+           .type = ValueType::image,
+           .help = "a mask, stretched over the result: where it is white, nothing of `kept` is kept",
+           .optional = true}};
+}
+
+std::vector<Param> params() {
+  return {{.name = "blend",
+           .type = ParamType::number,
+           .fallback = 0.0,
+           .help = "How far from a seam pixels are blended. 0: not at all; 2 to 3 hides most seams.",
+           .min = 0,
+           .max = largest_blend,
+           .unit = "pixels of the uv map"},
+          {.name = "join",
+           .type = ParamType::number,
+           .fallback = 0.0,
+           .help = "How far from a seam height maps of one channel give way so that pieces meet: below 1 a part of the "
+                   "analysed exemplar's shorter side, else pixels of the uv map. 0: not at all. Where they do, `blend` "
+                   "does not count for them.",
+           .min = 0,
+           .max = farthest_join},
+          {.name = "kept_at",
+           .type = ParamType::numbers,
+           .fallback = Numbers{0, 0},
+           .help = "Where the top left pixel of `kept` lies in the result: [x, y].",
+           .min = 0,
+           .max = 32768,
+           .unit = "pixels of the uv map",
+           .max_count = 2},
+          {.name = "scale",
+           .type = ParamType::number,
+           .fallback = 1.0,
+           .help = "How much larger the material is than the exemplar that was analysed, and the result than the uv "
+                   "map. 0: as much as it is.",
+           .min = 0,
+           .max = largest_scale}};
+}
+
+std::vector<std::string> check(const Params& params) {
+  const double scale = std::get<double>(params.at("scale"));
+  std::vector<std::string> problems;
+  if (scale > 0 && scale < 1)
+    problems.push_back(
+        fmt::format("\"scale\": expected 1 or more, or 0 for whatever the material's size says; found "
+                    "{}",
+                    scale));
+  const auto& at = std::get<Numbers>(params.at("kept_at"));
+  if (at.size() != 2 || at[0] != std::floor(at[0]) || at[1] != std::floor(at[1]))
+    problems.push_back("\"kept_at\": expected [x, y] in whole pixels");
+  return problems;
+}
+
+size_t memory_hint(const NodeContext& node) {
+  const auto material = node.input<Material>("material");
+  const auto uv = node.input<UvMap>("uv");
+  const auto kept = node.optional_input<Material>("kept");
+  const double pixels = double(uv->size().area()) * double(material->size().area()) / double(uv->exemplar().area());
+  double values = 0;
+  for (const Map& m : material->maps()) {
+    // The exemplar, and for blending its linear pixels and their local means.
+    values += double(m.image->size().area()) * m.image->channels() * (node.number("blend") > 0 ? 3 : 1);
+    // The solution and its forces at half the result's size, and those of all coarser levels.
+    if (node.number("join") > 0 && can_join(m.image->info())) {
+      values += 2 * pixels / 3;
+      if (kept) values += double(kept->size().area()) + pixels / 3;
+    }
+  }
+  return size_t(values * sizeof(float));
+}
+
+void compute(NodeContext& node) {
+  const Numbers& at = node.numbers("kept_at");
+  const ResolveOptions options{.blend = node.number("blend"),
+                               .join = node.number("join"),
+                               .scale = node.number("scale"),
+                               .kept = node.optional_input<Material>("kept"),
+                               .kept_at = {int(at[0]), int(at[1])},
+                               .holes = node.optional_input<Image>("holes")};
+  node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv"), options, node.task()));
+}
+
+Forecast preflight(const Params& params, const InputForecasts& inputs) {
+  preflight_one_shape("material", inputs);
+  return same_maps_as("material")(params, inputs);
+}
+
+}  // namespace
+
 NodeType resolve_uv_node() {
   NodeType t;
   t.name = "resolve_uv";
@@ -33,95 +132,15 @@ NodeType resolve_uv_node() {
       "result is seen at once: tiles of a larger surface, each resolved by itself, fit together only without it. "
       "With `scale`, an exemplar that is larger than the analysed one is shown: analyse and synthesize a copy made "
       "smaller by `resize`, which is quicker and sees larger features, and give resolve_uv the original.";
-  t.inputs = {{.name = "uv", .type = ValueType::uv_map, .help = "which exemplar pixel each output pixel shows"},
-              {.name = "material", .type = ValueType::material, .help = "the exemplar, with all maps that are wanted"},
-              {.name = "kept",
-               .type = ValueType::material,
-               .help = "a result that the uv map keeps pixels of, resolved before: `join` leaves its heights as they "
-                       "are",
-               .optional = true},
-              {.name = "holes",
-               .type = ValueType::image,
-               .help = "a mask, stretched over the result: where it is white, nothing of `kept` is kept",
-               .optional = true}};
+  t.inputs = inputs();
   t.outputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps in the uv map's size, times `scale`"}};
-  t.params = {
-      {.name = "blend",
-       .type = ParamType::number,
-       .fallback = 0.0,
-       .help = "How far from a seam pixels are blended. 0: not at all; 2 to 3 hides most seams.",
-       .min = 0,
-       .max = largest_blend,
-       .unit = "pixels of the uv map"},
-      {.name = "join",
-       .type = ParamType::number,
-       .fallback = 0.0,
-       .help = "How far from a seam height maps of one channel give way so that pieces meet: below 1 a part of the "
-               "analysed exemplar's shorter side, else pixels of the uv map. 0: not at all. Where they do, `blend` "
-               "does not count for them.",
-       .min = 0,
-       .max = farthest_join},
-      {.name = "kept_at",
-       .type = ParamType::numbers,
-       .fallback = Numbers{0, 0},
-       .help = "Where the top left pixel of `kept` lies in the result: [x, y].",
-       .min = 0,
-       .max = 32768,
-       .unit = "pixels of the uv map",
-       .max_count = 2},
-      {.name = "scale",
-       .type = ParamType::number,
-       .fallback = 1.0,
-       .help = "How much larger the material is than the exemplar that was analysed, and the result than the uv "
-               "map. 0: as much as it is.",
-       .min = 0,
-       .max = largest_scale}};
+  t.params = params();
   t.persist = Persist::derived;
-  t.check = [](const Params& params) {
-    const double scale = std::get<double>(params.at("scale"));
-    std::vector<std::string> problems;
-    if (scale > 0 && scale < 1)
-      problems.push_back(
-          fmt::format("\"scale\": expected 1 or more, or 0 for whatever the material's size says; found "
-                      "{}",
-                      scale));
-    const auto& at = std::get<Numbers>(params.at("kept_at"));
-    if (at.size() != 2 || at[0] != std::floor(at[0]) || at[1] != std::floor(at[1]))
-      problems.push_back("\"kept_at\": expected [x, y] in whole pixels");
-    return problems;
-  };
-  t.memory_hint = [](const NodeContext& node) {
-    const auto material = node.input<Material>("material");
-    const auto uv = node.input<UvMap>("uv");
-    const auto kept = node.optional_input<Material>("kept");
-    const double pixels = double(uv->size().area()) * double(material->size().area()) / double(uv->exemplar().area());
-    double values = 0;
-    for (const Map& m : material->maps()) {
-      // The exemplar, and for blending its linear pixels and their local means.
-      values += double(m.image->size().area()) * m.image->channels() * (node.number("blend") > 0 ? 3 : 1);
-      // The solution and its forces at half the result's size, and those of all coarser levels.
-      if (node.number("join") > 0 && can_join(m.image->info())) {
-        values += 2 * pixels / 3;
-        if (kept) values += double(kept->size().area()) + pixels / 3;
-      }
-    }
-    return size_t(values * sizeof(float));
-  };
-  t.compute = [](NodeContext& node) {
-    const Numbers& at = node.numbers("kept_at");
-    const ResolveOptions options{.blend = node.number("blend"),
-                                 .join = node.number("join"),
-                                 .scale = node.number("scale"),
-                                 .kept = node.optional_input<Material>("kept"),
-                                 .kept_at = {int(at[0]), int(at[1])},
-                                 .holes = node.optional_input<Image>("holes")};
-    node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv"), options, node.task()));
-  };
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    preflight_one_shape("material", inputs);
-    return same_maps_as("material")(params, inputs);
-  };
+  t.check = check;
+  t.memory_hint = memory_hint;
+  t.compute = compute;
+  t.preflight = preflight;
   return t;
 }
 

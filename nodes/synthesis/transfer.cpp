@@ -87,35 +87,8 @@ Forecast preflight(const Params& params, const InputForecasts& inputs) {
   return {};
 }
 
-}  // namespace
-
-NodeType transfer_node() {
-  NodeType t;
-  t.name = "transfer";
-  t.version = synthesis_version;
-  t.category = "synthesis";
-  t.summary = "Synthesis steered by a target image";
-  t.help =
-      "As synthesize, but a target says what goes where. \"exemplar_control\" is an image of the exemplar (a blurred "
-      "luminance, a wear or moisture map, painted labels), \"target\" the same thing for the result, of any size: it "
-      "is "
-      "stretched over it. A picture becomes visible in the texture (texture transfer, Efros & Freeman 2001), a mix map "
-      "or "
-      "progression is followed with mode values, a painted layout with mode labels. Several controls work together; "
-      "the "
-      "n-th target belongs to the n-th exemplar control.";
-  t.inputs = {
-      index_port(),
-      {.name = "exemplar_control",
-       .type = ValueType::image,
-       .help = "what the exemplar has where; of its shape, at any size",
-       .list = true},
-      {.name = "target",
-       .type = ValueType::image,
-       .help = "what is wanted where; as many images, with as many channels each (labels may be grey or colours)",
-       .list = true}};
-  t.outputs = {uv_output()};
-  t.params = with_synthesis_params({
+std::vector<Param> params() {
+  return {
       result_size_param(),
       tileable_param(),
       {.name = "strength",
@@ -152,7 +125,38 @@ NodeType transfer_node() {
                "twentieth counts as one, and its lightest. range: darkest and "
                "lightest become the same. none: values mean the same already.",
        .choices = {"histogram", "range", "none"}},
-  });
+  };
+}
+
+}  // namespace
+
+NodeType transfer_node() {
+  NodeType t;
+  t.name = "transfer";
+  t.version = synthesis_version;
+  t.category = "synthesis";
+  t.summary = "Synthesis steered by a target image";
+  t.help =
+      "As synthesize, but a target says what goes where. \"exemplar_control\" is an image of the exemplar (a blurred "
+      "luminance, a wear or moisture map, painted labels), \"target\" the same thing for the result, of any size: it "
+      "is "
+      "stretched over it. A picture becomes visible in the texture (texture transfer, Efros & Freeman 2001), a mix map "
+      "or "
+      "progression is followed with mode values, a painted layout with mode labels. Several controls work together; "
+      "the "
+      "n-th target belongs to the n-th exemplar control.";
+  t.inputs = {
+      index_port(),
+      {.name = "exemplar_control",
+       .type = ValueType::image,
+       .help = "what the exemplar has where; of its shape, at any size",
+       .list = true},
+      {.name = "target",
+       .type = ValueType::image,
+       .help = "what is wanted where; as many images, with as many channels each (labels may be grey or colours)",
+       .list = true}};
+  t.outputs = {uv_output()};
+  t.params = with_synthesis_params(params());
   t.check = check_synthesis_params;
   t.steps = described_synthesis_steps();
   t.compute = compute;
