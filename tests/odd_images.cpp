@@ -1,4 +1,4 @@
-#include "odd_images.h"
+#include "tests/odd_images.h"
 
 #include <fstream>
 #include <iterator>

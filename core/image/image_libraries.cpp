@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "module_folder.h"
 
 namespace terrazzo {
 

@@ -6,8 +6,8 @@
 
 #include <doctest/doctest.h>
 
-#include "../run_node.h"
 #include "core/base/error.h"
+#include "tests/run_node.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "textures.h"
+#include "tests/core/metrics/textures.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;

@@ -7,10 +7,10 @@
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 
-#include "../odd_images.h"
-#include "../run_node.h"
 #include "core/base/error.h"
 #include "core/image/image_file.h"
+#include "tests/odd_images.h"
+#include "tests/run_node.h"
 #include "tests/texts.h"
 
 using namespace terrazzo;

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "../run_node.h"
+#include "tests/run_node.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;

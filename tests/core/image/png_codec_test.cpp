@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include "../odd_images.h"
-#include "../run_node.h"
+#include "tests/odd_images.h"
+#include "tests/run_node.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;

@@ -6,8 +6,8 @@
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
+#include "tests/core/metrics/textures.h"
 #include "tests/run_node.h"
-#include "textures.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;

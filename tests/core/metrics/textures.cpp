@@ -1,4 +1,4 @@
-#include "textures.h"
+#include "tests/core/metrics/textures.h"
 
 #include "core/base/hash.h"
 

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "../odd_images.h"
-#include "../run_node.h"
 #include "core/base/error.h"
 #include "core/exemplar/uv_image.h"
 #include "core/image/color.h"
 #include "core/image/image_file.h"
 #include "nodes/common/registry.h"
+#include "tests/odd_images.h"
+#include "tests/run_node.h"
 #include "tests/texts.h"
 
 using namespace terrazzo;

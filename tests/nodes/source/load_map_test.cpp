@@ -2,10 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include "../odd_images.h"
-#include "../run_node.h"
 #include "core/base/error.h"
 #include "core/image/image_file.h"
+#include "tests/odd_images.h"
+#include "tests/run_node.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;

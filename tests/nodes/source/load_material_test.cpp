@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "../odd_images.h"
-#include "../run_node.h"
 #include "core/base/error.h"
 #include "core/image/image_file.h"
 #include "nodes/common/registry.h"
 #include "test_paths.h"
+#include "tests/odd_images.h"
+#include "tests/run_node.h"
 #include "tests/texts.h"
 
 using namespace terrazzo;

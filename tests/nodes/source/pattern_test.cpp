@@ -6,8 +6,8 @@
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
-#include "../run_node.h"
 #include "nodes/common/registry.h"
+#include "tests/run_node.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;

@@ -4,8 +4,8 @@
 
 #include <doctest/doctest.h>
 
-#include "../../run_node.h"
 #include "core/image/normal.h"
+#include "tests/run_node.h"
 
 using namespace terrazzo;
 using namespace terrazzo::render;
