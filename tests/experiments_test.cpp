@@ -20,13 +20,15 @@ std::set<std::string> sections() {
 
 }  // namespace
 
-TEST_CASE("every tuning constant cites a section of tests/bench/experiments.md") {
+TEST_CASE("every tuning constant cites a section of tests/bench/experiments.md, or says that it was not measured") {
+  const std::string unmeasured = "not measured: ";  // and why it is what it is
   const std::set<std::string> known = sections();
   REQUIRE(known.count("seams"));
   for (const terrazzo::TuningConstant* c : terrazzo::tuning_constants()) {
     if (c->name.rfind("test_", 0) == 0) continue;  // of another test
     CAPTURE(c->name);
     CAPTURE(c->measured);
-    CHECK(known.count(c->measured));
+    const bool says_why = c->measured.starts_with(unmeasured) && c->measured.size() > unmeasured.size();
+    CHECK((says_why || known.count(c->measured)));
   }
 }

@@ -31,7 +31,7 @@ struct TuningConstant {
   std::string name;      ///< "seams.reach"
   std::string unit;      ///< "pixels"; empty: a plain number
   std::string trades;    ///< what more and less of it bring
-  std::string measured;  ///< a heading of tests/bench/experiments.md
+  std::string measured;  ///< a heading of tests/bench/experiments.md, or "not measured: " and why it is what it is
   std::variant<int*, double*> value;
 
   double number() const;
@@ -44,8 +44,8 @@ std::vector<const TuningConstant*> tuning_constants();
 /// integer is to take a fraction.
 void override_tuning(std::string_view name, double value);
 
-/// What differs from its default, "name=value" each in order of names; empty in a usual run. Part of every cache key, so
-/// that results of such runs stay among themselves.
+/// What differs from its default, "name=value" each in order of names; empty in a usual run. Part of every cache key,
+/// so that results of such runs stay among themselves.
 std::string overridden_tuning();
 
 namespace detail {
@@ -89,7 +89,7 @@ class Tunable {
   const T& operator*() const { return values_; }
 
  private:
-  T values_{};
+  mutable T values_{};  // overridden through add_constants(); the object itself is const
 };
 
 }  // namespace terrazzo

@@ -6,7 +6,7 @@
 
 namespace terrazzo {
 
-/// What is suggested to try, packed into 32 bits, more than once perhaps.
+/// Candidates packed into 32 bits, as they are proposed: the same one may come several times.
 class CandidateVotes {
  public:
   struct Candidate {
@@ -17,7 +17,8 @@ class CandidateVotes {
   void clear() { all_.clear(); }
   void add(uint32_t what) { all_.push_back(what); }
 
-  /// Each once, those suggested most often first: they fit best more often than not, and tell the others off sooner.
+  /// Each candidate once, the most proposed first: those fit best more often than not, so that the others are rejected
+  /// early.
   const std::vector<Candidate>& by_votes() {
     std::sort(all_.begin(), all_.end());
     voted_.clear();

@@ -6,6 +6,8 @@ namespace terrazzo {
 
 namespace {
 
+constexpr int full_radius = 2;  // 24 pixels: as many as PixelCorrector has room for
+
 Window sorted_window(int radius) {
   Window w;
   for (int j = -radius; j <= radius; j++)
@@ -19,7 +21,7 @@ Window sorted_window(int radius) {
 }  // namespace
 
 const Window& full_window() {
-  static const Window window = sorted_window(2);
+  static const Window window = sorted_window(full_radius);
   return window;
 }
 

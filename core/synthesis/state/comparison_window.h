@@ -5,8 +5,8 @@
 
 namespace terrazzo {
 
-/// A comparison window: offsets of the pixels around an output pixel that are held against a candidate's surroundings,
-/// the most telling first.
+/// A comparison window: offsets of the pixels around an output pixel that are compared with a candidate's
+/// neighbourhood. Those that reject most candidates come first.
 using Window = std::vector<std::array<int, 2>>;
 /// All 24 pixels of the 5x5 neighbourhood, nearest first.
 const Window& full_window();

@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "core/base/tuning.h"
 #include "core/image/distribution.h"
 #include "core/image/image_ops.h"
 #include "core/image/resample.h"
@@ -20,12 +21,45 @@ namespace terrazzo {
 
 namespace {
 
-// What the largest difference of values costs, relative to missing a label.
-constexpr double values_factor = 8;
-// Of the exemplar's longer side: features that are not to be taken apart for the sake of their values.
-constexpr double feature_side = 1.0 / 16;
-// Ranks of the exemplar's values beyond which all are alike: of the few pixels of the extremes no surface can be made.
-constexpr double extreme_ranks = 0.05;
+struct Tuning {
+  double values_factor = 8;
+  double feature_side = 1.0 / 16;
+  double extreme_ranks = 0.05;
+  double least_demand = 0.05;
+  int gray_bin_bits = 4;
+  int color_bin_bits = 2;
+};
+const Tunable<Tuning> tuning(
+    "control",
+    {
+        {&Tuning::values_factor, "values_factor", "cost of a wrong label",
+         "higher: the largest difference of values costs more, and the picture shows more clearly; lower: features "
+         "stay "
+         "whole",
+         "control"},
+        {&Tuning::feature_side, "feature_side", "exemplar sides",
+         "higher: values may differ as they do in larger features, which stay whole; lower: the picture shows more "
+         "clearly",
+         "control"},
+        {&Tuning::extreme_ranks, "extreme_ranks", "share of the exemplar's pixels",
+         "higher: more of the darkest and of the lightest values count as one, so that enough pixels show them; lower: "
+         "the picture keeps its contrast",
+         "control"},
+        {&Tuning::least_demand, "least_demand", "share of an even use",
+         "higher: pixels whose values the target does not want stay cheap, for transitions; lower: they are avoided",
+         "not measured: above 0, as transitions need such pixels"},
+        {&Tuning::gray_bin_bits, "gray_bin_bits", "bits, 1..8",
+         "higher: demand is counted by finer grey values; lower: bins hold enough pixels to serve it",
+         "not measured: 16 bins of a 256-pixel exemplar hold some thousand pixels each"},
+        {&Tuning::color_bin_bits, "color_bin_bits", "bits per channel, 1..8", "the same for each channel of colours",
+         "not measured: 64 bins of a 256-pixel exemplar hold some thousand pixels each"},
+    });
+
+// Smaller ranges of values are taken for this one, so that noise does not become a picture.
+constexpr double least_range = 1.0 / 255;
+constexpr double most_weight = 1e9;  // keeps sums of weighted squares within 64 bits
+constexpr int deviation_windows = 512,
+              distance_pairs = 1024;  // sample sizes: the means they give vary by a few per cent
 
 using Plane = std::vector<float>;
 
@@ -57,13 +91,11 @@ void put(const Image& image, ControlPlanes& planes, int first, const Encode& enc
 /// How a channel's values become bytes.
 struct ByteScale {
   double low, high;    ///< become 0 and 255
-  double least, most;  ///< what lies beyond them is taken for them
+  double least, most;  ///< values are clamped to them first
   uint8_t operator()(double v) const {
     return uint8_t(std::floor(255 * std::clamp((std::clamp(v, least, most) - low) / (high - low), 0.0, 1.0) + 0.5));
   }
 };
-
-constexpr double least_range = 1.0 / 255;
 
 void put_values(const Control& control, ControlPlanes& exemplar, ControlPlanes& target, int first, const Task& task) {
   const ImagePtr has = values_at_size(control.exemplar, exemplar.size, task);
@@ -78,8 +110,8 @@ void put_values(const Control& control, ControlPlanes& exemplar, ControlPlanes& 
       high = std::max<double>(high, wanted[c].max());
     }
     const bool by_rank = control.match == Control::Match::histogram;
-    scales.push_back({low, std::max(high, low + least_range), by_rank ? own[c].quantile(extreme_ranks) : low,
-                      by_rank ? own[c].quantile(1 - extreme_ranks) : high});
+    scales.push_back({low, std::max(high, low + least_range), by_rank ? own[c].quantile(tuning->extreme_ranks) : low,
+                      by_rank ? own[c].quantile(1 - tuning->extreme_ranks) : high});
     if (by_rank)
       curves.push_back(matching_curve(wanted[c], own[c]));
     else if (control.match == Control::Match::range)
@@ -103,7 +135,7 @@ ControlPlanes empty(Size size, int channels) {
   return {size, channels, std::vector<uint8_t>(size_t(size.area()) * channels)};
 }
 
-/// The rounded mean of the up to four pixels below.
+/// Each pixel is the rounded mean of the up to four finer ones that it covers.
 ControlPlanes halved(const ControlPlanes& in) {
   ControlPlanes out = empty({(in.size.width + 1) / 2, (in.size.height + 1) / 2}, in.channels);
   tbb::parallel_for(0, out.size.height, [&](int y) {
@@ -131,11 +163,10 @@ void check(const Control& control, Size exemplar) {
 
 /// How much the channels [first, end) vary within a feature: their mean deviation in windows of its size.
 double deviation_within_features(const ControlPlanes& planes, int first, int end) {
-  constexpr int windows = 512;
   const Size size = planes.size;
-  const int reach = std::max(1, int(std::max(size.width, size.height) * feature_side / 2));
+  const int reach = std::max(1, int(std::max(size.width, size.height) * tuning->feature_side / 2));
   double total = 0;
-  for (int i = 0; i < windows; i++) {
+  for (int i = 0; i < deviation_windows; i++) {
     const int x = int(below(uint32_t(random_bits(33, i)), uint32_t(size.width)));
     const int y = int(below(uint32_t(random_bits(34, i)), uint32_t(size.height)));
     const int left = std::max(0, x - reach), right = std::min(size.width - 1, x + reach);
@@ -152,19 +183,18 @@ double deviation_within_features(const ControlPlanes& planes, int first, int end
       total += std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)));
     }
   }
-  return total / windows / (end - first);
+  return total / deviation_windows / (end - first);
 }
 
-/// The mean distance of appearance vectors that have nothing to do with each other.
+/// The mean squared distance of random pairs of appearance vectors.
 double typical_distance(const PaddedLevel& level) {
-  constexpr int pairs = 1024;
   int64_t sum = 0;
-  for (int i = 0; i < pairs; i++) {
+  for (int i = 0; i < distance_pairs; i++) {
     const auto [x, y] = level.place(random_bits(31, i));
     const auto [u, v] = level.place(random_bits(32, i));
     sum += squared_distance(*level.at(x, y), *level.at(u, v));
   }
-  return double(sum) / pairs;
+  return double(sum) / distance_pairs;
 }
 
 }  // namespace
@@ -206,15 +236,15 @@ LevelControl::LevelControl(const ControlPyramid& pyramid, int level, const Padde
   for (const ControlPyramid::Part& part : pyramid.parts()) {
     // Two labels differ in two channels.
     const double whole = 255.0 * 255 * (part.labels ? 2 : part.count);
-    const double factor = part.strength * typical * (part.labels ? 1 : values_factor) / whole;
-    const double weight = std::min(factor * (1 << weight_bits), 1e9);
+    const double factor = part.strength * typical * (part.labels ? 1 : tuning->values_factor) / whole;
+    const double weight = std::min(factor * (1 << weight_bits), most_weight);
     const int end = part.first + part.count;
-    // Else the few places that have the wanted value all around them would be shown again and again.
+    // Without slack the few places that have the wanted value all around them would be shown over and over.
     const double slack =
         part.labels ? 0
                     : deviation_within_features(exemplar_, part.first, end) / std::sqrt(std::max(1.0, part.strength));
-    parts_.push_back(
-        {part.first, end, uint64_t(std::floor(weight + 0.5)), part.labels, int(slack), part.count == 1 ? 4 : 2});
+    parts_.push_back({part.first, end, uint64_t(std::floor(weight + 0.5)), part.labels, int(slack),
+                      part.count == 1 ? tuning->gray_bin_bits : tuning->color_bin_bits});
     influence_ = std::max(influence_, std::min(1.0, part.strength));
   }
 }
@@ -222,7 +252,8 @@ LevelControl::LevelControl(const ControlPyramid& pyramid, int level, const Padde
 uint64_t LevelControl::key(const uint8_t* values) const {
   uint64_t key = 0;
   for (const Part& part : parts_) {
-    if (part.labels)  // Coarse pixels mix them; few would have to serve all borders if mixtures were told apart.
+    if (part.labels)  // The label that covers most: if mixtures had bins of their own, few pixels would serve all
+                      // borders.
       key = random_bits(key, uint64_t(std::max_element(values + part.first, values + part.end) - values));
     else
       for (int c = part.first; c < part.end; c++) key = random_bits(key, values[c] >> (8 - part.bin_bits));
@@ -234,8 +265,6 @@ std::vector<double> LevelControl::demand(const std::vector<uint8_t>& usable) con
   struct Counts {
     int64_t has = 0, wants = 0;
   };
-  // Pixels that nothing like is wanted may still be needed in between.
-  constexpr double least = 0.05;
   std::map<uint64_t, Counts> bins;
   std::vector<double> demand(size_t(exemplar_.size.area()));
   const auto is_usable = [&](size_t i) { return usable.empty() || usable[i]; };
@@ -250,7 +279,7 @@ std::vector<double> LevelControl::demand(const std::vector<uint8_t>& usable) con
     if (!is_usable(i)) continue;
     const Counts& bin = bins.at(key(exemplar_.at(int64_t(i))));
     const double ratio = wants > 0 ? double(bin.wants) / double(wants) * double(has) / double(bin.has) : 1.0;
-    demand[i] = 1 + influence_ * (std::max(least, ratio) - 1);
+    demand[i] = 1 + influence_ * (std::max(tuning->least_demand, ratio) - 1);
   }
   return demand;
 }

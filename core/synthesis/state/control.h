@@ -12,12 +12,12 @@
 
 namespace terrazzo {
 
-/// Steers which part of the exemplar goes where (texture transfer, Efros & Freeman 2001; layouts painted with labels,
-/// Hertzmann et al. 2001): places of the exemplar are preferred where the exemplar's control is like the target's.
+/// A guidance map: steers which part of the exemplar goes where (texture transfer, Efros & Freeman 2001; layouts
+/// painted with labels, Hertzmann et al. 2001). Exemplar pixels are preferred where their control is like the target's.
 struct Control {
   enum class Mode : uint8_t {
     values,  ///< grey values or colours: the nearer, the better
-    labels,  ///< every value is a thing of its own: the same or not
+    labels,  ///< values are names: two are the same label or they are not
   };
   enum class Match : uint8_t {
     none,       ///< the target's values mean what the exemplar's mean
@@ -29,7 +29,7 @@ struct Control {
   double strength = 1;
   Mode mode = Mode::values;
   Match match = Match::histogram;  ///< only for values
-  double leeway = 0;               ///< only for labels: how many pixels of the output borders may run elsewhere
+  double leeway = 0;               ///< only for labels: output pixels by which borders between labels may move
 };
 
 /// Control values of the exemplar or the output at one level: bytes, all controls' channels interleaved.
@@ -43,8 +43,8 @@ struct ControlPlanes {
 /// All controls of a synthesis, at every level.
 class ControlPyramid {
  public:
-  /// Throws Error about "exemplar_control" or "target" if an image does not suit. Levels have half the size, rounded
-  /// up, of the one before and average what is below: of labels, how much each covers.
+  /// Throws Error about "exemplar_control" or "target" if an image does not suit. Each level has half the size of the
+  /// finer one, rounded up, and averages its pixels; for labels these are the areas that each label covers.
   ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size output, int levels, const Task& task);
 
   /// The channels of one control.
@@ -70,14 +70,14 @@ class LevelControl {
   LevelControl(const ControlPyramid& pyramid, int level, const PaddedLevel& exemplar);
 
   const uint8_t* target(int64_t pixel) const { return target_.at(pixel); }
-  /// At the border of the level beyond it.
+  /// The same with coordinates beyond the right or lower border clamped to it.
   const uint8_t* target_near(int x, int y) const {
     const Size size = target_.size;
     return target_.at(int64_t{std::min(y, size.height - 1)} * size.width + std::min(x, size.width - 1));
   }
-  /// The cost of showing an exemplar pixel where `target` is wanted, on the scale of one compared vector: at strength
-  /// 1, to miss a label costs as much as a random place's surroundings would. Values may differ at no cost by as much
-  /// as they do within the exemplar's features.
+  /// The cost of showing an exemplar pixel where `target` is wanted, on the scale of one compared vector. At strength 1
+  /// a wrong label costs as much as the mean distance of two unrelated vectors. Differences of values are free up to
+  /// their deviation within the exemplar's features.
   uint64_t cost(int x, int y, const uint8_t* target) const {
     const uint8_t* has = exemplar_.at(int64_t{y} * exemplar_.size.width + x);
     uint64_t sum = 0;
@@ -91,7 +91,7 @@ class LevelControl {
     }
     return std::min<uint64_t>(sum >> weight_bits, most);
   }
-  /// How often each exemplar pixel is wanted relative to the others; 0 for pixels that are not usable.
+  /// How often the target wants each exemplar pixel, relative to the others; 0 for pixels that are not usable.
   std::vector<double> demand(const std::vector<uint8_t>& usable) const;
 
  private:
@@ -100,12 +100,12 @@ class LevelControl {
     int end;
     uint64_t weight;
     bool labels;
-    int slack;     ///< by how much values may differ at no cost
-    int bin_bits;  ///< leading bits of a value that tell it from others when demand is counted
+    int slack;     ///< values may differ by so much at no cost
+    int bin_bits;  ///< leading bits of a value that choose its histogram bin when demand is counted
   };
   uint64_t key(const uint8_t* values) const;
-  static constexpr int weight_bits = 16;
-  static constexpr uint64_t most = uint64_t{1} << 27;  // with a window's 24 vectors still within 32 bits
+  static constexpr int weight_bits = 16;               // fraction bits of a part's weight
+  static constexpr uint64_t most = uint64_t{1} << 27;  // times a window's 24 vectors it still fits 32 bits
   const ControlPlanes& exemplar_;
   const ControlPlanes& target_;
   std::vector<Part> parts_;

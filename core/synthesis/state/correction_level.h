@@ -10,17 +10,17 @@
 
 namespace terrazzo {
 
-/// What all steps on one level look at: the exemplar and its candidates, the part of the plane, what is fixed and what
-/// steers. Borrows everything.
+/// What all steps on one level read: the exemplar and its k-coherent candidates, the part of the plane that is held,
+/// fixed pixels and controls. Borrows everything.
 struct CorrectionLevel {
   const PaddedLevel& exemplar;
-  const std::vector<ExemplarPixel>& similar;  ///< per_pixel positions for every exemplar pixel
+  const std::vector<ExemplarPixel>& similar;  ///< k-coherent candidates: per_pixel positions for every exemplar pixel
   int per_pixel = 0;
   int level = 0;       ///< 0 = finest; part of every random choice
-  PlaneWindow window;  ///< what the field holds of the plane
-  PartPhases phase;    ///< of a regular exemplar: every output pixel keeps its place in the lattice's cell
+  PlaneWindow window;  ///< the part of the plane that the field holds
+  PartPhases phase;    ///< of a regular exemplar: output pixels keep their phase in the lattice's cell
   FixedPixels fixed;   ///< pixels of the plane that are not corrected
-  const LevelControl* control = nullptr;  ///< null: nothing steers
+  const LevelControl* control = nullptr;  ///< null: there are no controls
 };
 
 }  // namespace terrazzo

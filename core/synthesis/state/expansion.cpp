@@ -6,20 +6,45 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/base/tuning.h"
+
 namespace terrazzo {
 
 namespace {
 
-// What a joint differs from what lies beside it: about a deviation of the first component.
-constexpr double edge = appearance_limit / 5.0;
-// What of a mismatch no edge hides: between alike tiles a seam may as well be anywhere.
-constexpr double seen_on_edges = 0.1;
+struct Tuning {
+  double edge = appearance_limit / 5.0;
+  double seen_on_edges = 0.1;
+};
+const Tunable<Tuning> tuning(
+    "expansion",
+    {
+        {&Tuning::edge, "edge", "appearance units",
+         "how much a joint differs from what lies beside it: about a deviation of the first component. Lower: weaker "
+         "edges hide seams too, within bricks; higher: only strong joints attract seams",
+         "seams"},
+        {&Tuning::seen_on_edges, "seen_on_edges", "share of a mismatch",
+         "higher: seams along joints must fit as well; lower: seams keep to joints, but in grids of alike tiles they "
+         "run anywhere along them",
+         "seams"},
+    });
 
 double distance(const AppearanceVector* a, const AppearanceVector* b) {
   return std::sqrt(double(squared_distance(*a, *b)));
 }
 
 }  // namespace
+
+ExpansionGround::ExpansionGround(Field& f, const CorrectionLevel& l, int b, bool edges_hide)
+    : field(f),
+      level(l),
+      block(b),
+      along_edges(edges_hide),
+      node(f.pixels.size(), untouched),
+      edge_(tuning->edge),
+      seen_on_edges_(tuning->seen_on_edges) {
+  if (along_edges) find_edges();
+}
 
 void ExpansionGround::find_edges() {
   const PaddedLevel& e = level.exemplar;
@@ -49,13 +74,13 @@ int64_t ExpansionGround::mismatch(ExemplarPixel a, ExemplarPixel b, int side) co
   for (int k = 0; k < block; k++) {
     const AppearanceVector* here = on_side(a, dx, dy, k);
     const AppearanceVector* there = on_side(b, -dx, -dy, k);
-    // Roots make it a metric, without which a cut is not the best way to expand.
-    double shows = distance(here, there - step) + distance(here + step, there);
+    // Distances, not their squares: only for a metric is a minimum cut the best expansion.
+    double visible = distance(here, there - step) + distance(here + step, there);
     if (along_edges) {
-      const double hiding = 1 + (edge_at(here, step) + edge_at(there - step, step)) / edge;
-      shows *= seen_on_edges + (1 - seen_on_edges) / (hiding * std::sqrt(hiding));
+      const double hiding = 1 + (edge_at(here, step) + edge_at(there - step, step)) / edge_;
+      visible *= seen_on_edges_ + (1 - seen_on_edges_) / (hiding * std::sqrt(hiding));
     }
-    sum += shows;
+    sum += visible;
   }
   return int64_t(sum * mismatch_unit);
 }
@@ -127,7 +152,7 @@ void Expansion::connect(int n) {
     const int node = ground_.node[size_t(m)];
     if (node < 0) {
       cut_.prefer_source(n, ground_.mismatch(kept, other, side) - ground_.mismatch(f.offered, other, side));
-    } else if (side < 2) {  // free as well; each pair once
+    } else if (side < 2) {  // both are free: each pair once
       const ExemplarPixel offered = free_[size_t(node)].offered;
       const int64_t neither = ground_.mismatch(kept, other, side), first = ground_.mismatch(f.offered, other, side),
                     second = ground_.mismatch(kept, offered, side), both = ground_.mismatch(f.offered, offered, side);

@@ -14,8 +14,8 @@ struct Field {
   const ExemplarPixel& at(int x, int y) const { return pixels[size_t(y) * size.width + x]; }
 };
 
-/// Where (x, y) lies in `pixels` of a field of that size; around the other side where it tiles, -1 beyond a border
-/// where it does not.
+/// The index of (x, y) in `pixels` of a field of that size. Positions beyond a border wrap around if the field tiles
+/// there; else -1.
 inline int64_t pixel_index(Size size, int x, int y, bool tile_x, bool tile_y) {
   if (x < 0 || x >= size.width) {
     if (!tile_x) return -1;
@@ -28,10 +28,10 @@ inline int64_t pixel_index(Size size, int x, int y, bool tile_x, bool tile_y) {
   return int64_t{y} * size.width + x;
 }
 
-/// The four sides of a pixel, so that side (s + 2) % 4 is opposite.
+/// Steps to the four neighbours of a pixel; side (s + 2) % 4 is opposite.
 inline constexpr int sides[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
 
-/// The pixel on that side of one; -1 beyond a border.
+/// The index of a pixel's neighbour on that side; -1 beyond a border.
 inline int64_t pixel_beside(Size size, int pixel, int side, bool tile_x, bool tile_y) {
   return pixel_index(size, pixel % size.width + sides[side][0], pixel / size.width + sides[side][1], tile_x, tile_y);
 }

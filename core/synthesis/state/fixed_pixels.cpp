@@ -27,7 +27,7 @@ FixedPixels::FixedPixels(const KeptPixels& kept, Size output, int level, Size ex
         fixed_[size_t(y / block) * size.width + x / block] = 0;
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) {
-      // The middle of what lies below tells best where in the exemplar the pixel is.
+      // The finest pixel in the middle stands for the block.
       const int u = std::min(x * block + middle, output.width - 1), v = std::min(y * block + middle, output.height - 1);
       const size_t below = size_t(v) * output.width + u;
       const ExemplarPixel p = kept.pixels[below];

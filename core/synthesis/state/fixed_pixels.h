@@ -8,21 +8,21 @@
 
 namespace terrazzo {
 
-/// How long an output pixel that is there already stays as it is. What is kept at first gives way where others continue
-/// it better, so that the seam between old and new can look for its place. To what is never kept, seams that move do
-/// not lead back.
+/// How long an output pixel that is there already stays as it is. Those that are kept at first may be replaced later,
+/// so that the seam between old and new can look for its place. Moving seams never restores what a pixel of `never`
+/// showed.
 enum class Keep : uint8_t { never, at_first, always };
 
 /// Output pixels that are there already.
 struct KeptPixels {
-  std::vector<ExemplarPixel> pixels{};  ///< what each output pixel shows; of those never kept it does not matter
-  std::vector<Keep> keep{};             ///< of each output pixel. Both are empty if none is kept
+  std::vector<ExemplarPixel> pixels{};  ///< what each output pixel shows; arbitrary where `keep` is `never`
+  std::vector<Keep> keep{};             ///< of each output pixel; both are empty if none is kept
   bool empty() const { return keep.empty(); }
-  /// Where between those that always stay, around the border of a result of that size, a lattice can bend.
+  /// The gaps between those that always stay, around the border of a result of that size: a lattice can bend there.
   LatticeGaps gaps(Size output) const;
 };
 
-/// What of a level the kept pixels decide: the level's pixels below which all finest ones are kept.
+/// The fixed pixels of a level: those all of whose finest pixels are kept.
 class FixedPixels {
  public:
   /// Nothing is fixed.
@@ -32,20 +32,20 @@ class FixedPixels {
 
   bool any() const { return !fixed_.empty(); }
   bool at(size_t pixel) const { return !fixed_.empty() && fixed_[pixel]; }
-  /// Whether `shown`, of this level, is what a pixel showed that is not to show it any more.
+  /// Whether `shown`, of this level, is what a pixel with Keep::never showed before.
   bool is_past(size_t pixel, ExemplarPixel shown) const { return any() && !begin_[pixel] && pixels_[pixel] == shown; }
   /// What a fixed pixel shows.
   ExemplarPixel shown(size_t pixel) const { return pixels_[pixel]; }
   /// Puts the fixed pixels into a field of the level.
   void apply(Field& field, const PlaneWindow& window) const;
-  /// The same for a field that begins: pixels that are kept at first, too.
+  /// The same when a field is initialized: pixels that are kept at first, too.
   void begin(Field& field, const PlaneWindow& window) const;
 
  private:
   void put(const std::vector<uint8_t>& which, Field& field, const PlaneWindow& window) const;
 
   std::vector<uint8_t> fixed_;
-  std::vector<uint8_t> begin_;  // whether what lies in the middle below is kept at first
+  std::vector<uint8_t> begin_;  // whether the finest pixel in the middle is kept at first
   std::vector<ExemplarPixel> pixels_;
 };
 

@@ -10,12 +10,22 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
+#include "core/base/tuning.h"
 #include "core/image/image_ops.h"
 #include "core/numeric/distance_transform.h"
 
 namespace terrazzo {
 
 namespace {
+
+struct Tuning {
+  double around_core = 1.5;
+};
+const Tunable<Tuning> tuning(
+    "labels", {{&Tuning::around_core, "around_core", "leeways",
+                "how far from a disc of the leeway's radius that fits into an area the area still has leeway. Higher: "
+                "sharper corners may become round; lower: borders keep to their line near corners",
+                "not measured: the corners of a square are 1.41 away"}});
 
 /// A value in 255ths; grey as a colour.
 using Label = std::array<int, 4>;
@@ -85,14 +95,11 @@ void require_comparable(const Image& exemplar, const Image& target) {
                           describe(exemplar), describe(target)));
 }
 
-/// How far from where it fits a disc as large as the leeway still speaks for what is around, as a multiple of its
-/// radius: the corners of a square are 1.41 away.
-constexpr double around_core = 1.5;
-
-/// Where a label's border may run elsewhere: up to `leeway` from pixels of others, but not in parts so thin, or tips
-/// so sharp, that no disc of that size fits.
-std::vector<uint8_t> gives_way(const std::vector<uint8_t>& is_label, Size size, double leeway) {
-  const auto beyond = int64_t(leeway * leeway), around = int64_t(around_core * around_core * leeway * leeway);
+/// Where a label's border may move: up to `leeway` from pixels of others, but not in parts so thin, or tips so sharp,
+/// that no disc of that radius fits.
+std::vector<uint8_t> movable_border(const std::vector<uint8_t>& is_label, Size size, double leeway) {
+  const auto beyond = int64_t(leeway * leeway),
+             around = int64_t(tuning->around_core * tuning->around_core * leeway * leeway);
   const auto all_where = [&](const auto& test) {
     std::vector<uint8_t> out(is_label.size());
     for (size_t i = 0; i < out.size(); i++) out[i] = test(i);
@@ -136,8 +143,8 @@ std::vector<uint8_t> wanted_labels(const std::vector<uint8_t>& target, int count
     }
   };
   for_each_shown([&](size_t) {
-    const std::vector<uint8_t> gives = gives_way(is_label, size, leeway);
-    for (size_t i = 0; i < free.size(); i++) free[i] |= gives[i];
+    const std::vector<uint8_t> movable = movable_border(is_label, size, leeway);
+    for (size_t i = 0; i < free.size(); i++) free[i] |= movable[i];
   });
   for_each_shown([&](size_t label) {
     const std::vector<int64_t> distances = squared_distances(is_label, size, false);

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/base/error.h"
 #include "core/base/hash.h"
+#include "core/base/tuning.h"
 #include "core/synthesis/state/rounds.h"
 #include "core/synthesis/state/usage_penalty.h"
 
@@ -13,7 +16,26 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int random_places = 16;
+struct Tuning {
+  int near = 20;
+  int random_places = 16;
+  int rim_stride = 2;
+  int near_stride = 2;
+};
+const Tunable<Tuning> tuning(
+    "patches", {
+                   {&Tuning::near, "near", "pixels from a window's middle",
+                    "higher: what is repaired repeats less; lower: more places may fit, and fewer windows stay broken",
+                    "graphcut_repair"},
+                   {&Tuning::random_places, "random_places", "candidates for a window",
+                    "higher: a better patch is found now and then; costs time", "graphcut_repair"},
+                   {&Tuning::rim_stride, "rim_stride", "pixels of the rim",
+                    "higher: fewer of the rim's pixels propose candidates, which saves time; lower: more candidates",
+                    "not measured: neighbours propose the same candidates"},
+                   {&Tuning::near_stride, "near_stride", "pixels in x and y",
+                    "higher: fewer pixels are searched for repeats, which saves time; lower: smaller repeats are found",
+                    "not measured: repeats of fewer than 2x2 pixels do not matter"},
+               });
 
 // Places pack the exemplar position that a window's middle would show.
 uint32_t packed(int u, int v) {
@@ -29,15 +51,22 @@ int row(uint32_t place) {
 }  // namespace
 
 Patches::Patches(ExpansionGround& ground, const UsagePenalty& usage, uint64_t seed)
-    : ground_(ground), usage_(usage), seed_(seed), rim_(scattered_rim()), expansion_(ground) {}
+    : ground_(ground), usage_(usage), seed_(seed), rim_(scattered_rim()), expansion_(ground) {
+  if (near() <= half || tuning->rim_stride < 1 || tuning->near_stride < 1)
+    throw Error(fmt::format("tuning: patches.near must be above {}, strides above 0", half));
+}
 
-/// The window's pixels around its core, far apart from one to the next, so that a misfit is soon seen.
+int Patches::near() {
+  return tuning->near;
+}
+
+/// The window's pixels around its core, each far from the one before, so that sums soon exceed their limit.
 std::vector<Patches::Offset> Patches::scattered_rim() {
   std::vector<Offset> rim;
   for (int y = -half; y <= half; y++)
     for (int x = -half; x <= half; x++)
       if (std::max(std::abs(x), std::abs(y)) > core) rim.push_back({x, y});
-  constexpr size_t stride = 37;
+  constexpr size_t stride = 37;  // coprime to the number of pixels: each comes once
   static_assert(((2 * half + 1) * (2 * half + 1) - (2 * core + 1) * (2 * core + 1)) % stride != 0);
   std::vector<Offset> scattered;
   for (size_t i = 0; i < rim.size(); i++) scattered.push_back(rim[i * stride % rim.size()]);
@@ -87,7 +116,7 @@ int64_t Patches::index(int x, int y) const {
 void Patches::collect_places(int x, int y) {
   const CorrectionLevel& level = ground_.level;
   places_.clear();
-  for (size_t i = 0; i < rim_.size(); i += 2) {
+  for (size_t i = 0; i < rim_.size(); i += size_t(tuning->rim_stride)) {
     const Offset& o = rim_[i];
     const ExemplarPixel p = pixel(x + o.x, y + o.y);
     add_place(x, y, p.x - o.x, p.y - o.y);
@@ -97,14 +126,14 @@ void Patches::collect_places(int x, int y) {
       add_place(x, y, q.x - o.x, q.y - o.y);
     }
   }
-  for (int k = 0; k < random_places; k++) {
+  for (int k = 0; k < tuning->random_places; k++) {
     auto [u, v] = level.exemplar.place(random_bits(seed_, level.level, x, y, k));
     level.phase.snap(x, y, u, v);
     add_place(x, y, u, v);
   }
 }
 
-/// Unless the window would hang over the exemplar's border or be out of phase.
+/// Adds a candidate unless its patch would leave the exemplar or be out of phase.
 void Patches::add_place(int x, int y, int u, int v) {
   const PaddedLevel& e = ground_.level.exemplar;
   const int least = half + e.keep_off();
@@ -113,8 +142,7 @@ void Patches::add_place(int x, int y, int u, int v) {
   places_.add(packed(u, v));
 }
 
-/// How much the rim of a place differs from what the window's shows, dearer the more often the place is in use; gives
-/// up beyond the limit.
+/// The distance between the patch's rim and the window's, times the place's usage penalty; stops beyond the limit.
 int64_t Patches::misfit_at(uint32_t place, int64_t limit) const {
   const PaddedLevel& e = ground_.level.exemplar;
   const AppearanceVector* middle = e.at(column(place), row(place));
@@ -125,10 +153,11 @@ int64_t Patches::misfit_at(uint32_t place, int64_t limit) const {
   return sum;
 }
 
-/// Whether what the core would show is there already beyond the window, other than by continuing into it.
+/// Whether the core would repeat what shows near the window already, other than what continues into the window.
 bool Patches::shows_near(int x, int y, uint32_t place) const {
-  for (int dy = -near; dy <= near; dy += 2)
-    for (int dx = -near; dx <= near; dx += 2) {
+  const int near = this->near(), stride = tuning->near_stride;
+  for (int dy = -near; dy <= near; dy += stride)
+    for (int dx = -near; dx <= near; dx += stride) {
       if (std::max(std::abs(dx), std::abs(dy)) <= half) continue;
       const int64_t i = index(x + dx, y + dy);
       if (i < 0) continue;
@@ -141,7 +170,8 @@ bool Patches::shows_near(int x, int y, uint32_t place) const {
 }
 
 std::vector<int32_t> core_sums(const std::vector<int32_t>& values, Size size, const PlaneWindow& window) {
-  constexpr int half = Patches::half, core = Patches::core, near = Patches::near;
+  constexpr int half = Patches::half, core = Patches::core;
+  const int near = Patches::near();
   const bool closed_x = window.closed_x && size.width > 2 * near, closed_y = window.closed_y && size.height > 2 * near;
   std::vector<int32_t> across(values.size(), 0), out(values.size(), 0);
   tbb::parallel_for(0, size.height, [&](int y) {
@@ -178,8 +208,8 @@ std::vector<int> worst_first(const std::vector<int32_t>& sums, int64_t least, Si
 
 void for_each_window(std::span<const int> windows, const Field& field, const PlaneWindow& part, const Task& task,
                      const std::function<void(int x, int y)>& work) {
-  // A window's pixels change, and what lies up to `near` from the middle is looked at.
-  Rounds rounds(field, part, (Patches::near + Patches::half) / 3 + 1);
+  // A window's own pixels are written, those up to `near` from its middle are read.
+  Rounds rounds(field, part, (Patches::near() + Patches::half) / 3 + 1);
   for (const int i : windows) rounds.add(i, {&i, 1});
   for (const std::vector<int>& round : rounds.all())
     tbb::parallel_for(size_t{0}, round.size(), [&](size_t i) {

@@ -11,21 +11,20 @@
 
 namespace terrazzo {
 
-/// Windows of 13x13 pixels, named by their middles, and what of the exemplar might cover them (patch fitting: Kwatra et
-/// al., Graphcut textures, 2003). Not thread-safe; several may work at the same time, as for_each_window() has them.
+/// Windows of 13x13 pixels, named by their middles, and the exemplar's patches that might cover them (patch fitting:
+/// Kwatra et al., Graphcut textures, 2003). Not thread-safe; for_each_window() lets several work at the same time.
 class Patches {
  public:
-  static constexpr int half = 6;   ///< of a window, without its middle
-  static constexpr int core = 4;   ///< the same without the rim
-  static constexpr int near = 20;  ///< what shows so near the middle already is not shown again
-  /// From this level on there are so many pixels that not all windows are worth the time.
-  static constexpr int many_pixels = 1;
+  static constexpr int half = 6;  ///< a window's pixels to each side of its middle
+  static constexpr int core = 4;  ///< the same without the rim, which is compared
+  /// What shows up to so many pixels from the middle already is not offered; greater than `half`.
+  static int near();
 
-  /// `usage`: what is in use too often fits less well.
+  /// `usage`: over-used patches fit less well. Throws Error if the tuning constants do not suit one another.
   Patches(ExpansionGround& ground, const UsagePenalty& usage, uint64_t seed);
 
-  /// The places whose surroundings fit a window's rim best, at most so many, the best first. They are those that the
-  /// rim, its similar pixels and chance suggest; none is in the core's surroundings already, or out of phase.
+  /// The places whose patches fit a window's rim best, at most so many, the best first. Candidates come from the rim's
+  /// pixels, their k-coherent candidates and chance; none shows near by already or is out of phase.
   const std::vector<uint32_t>& fitting(int x, int y, size_t most);
   /// Offers a window one of those places: a minimum cut takes as much of it as lowers the mismatch.
   void lay(int x, int y, uint32_t place);
@@ -47,19 +46,18 @@ class Patches {
   const UsagePenalty& usage_;
   uint64_t seed_;
   std::vector<Offset> rim_;
-  std::vector<const AppearanceVector*> shown_;  // by the rim
+  std::vector<const AppearanceVector*> shown_;  // what the rim shows
   CandidateVotes places_;
-  std::vector<int64_t> misfits_;  // of the places that fit
+  std::vector<int64_t> misfits_;  // of fitting_
   std::vector<uint32_t> fitting_;
   Expansion expansion_;
 };
 
-/// The sums of the values of every pixel's core; 0 where the window does not lie in the field.
+/// The sum of values over the core around every pixel; 0 where the window does not lie within the field.
 std::vector<int32_t> core_sums(const std::vector<int32_t>& values, Size size, const PlaneWindow& window);
-/// The middles of windows whose sum is above that, the largest first. No window's middle lies in another's core.
+/// The middles of windows whose sum is above `least`, the largest first. No window's middle lies in another's core.
 std::vector<int> worst_first(const std::vector<int32_t>& sums, int64_t least, Size size);
-/// Works on windows one after the other, as far as they lie near one another, and otherwise at the same time. Throws
-/// Cancelled.
+/// Works on windows in that order; those that lie far enough apart at the same time. Throws Cancelled.
 void for_each_window(std::span<const int> windows, const Field& field, const PlaneWindow& part, const Task& task,
                      const std::function<void(int x, int y)>& work);
 

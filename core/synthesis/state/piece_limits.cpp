@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/tuning.h"
 #include "core/synthesis/state/pieces.h"
 #include "core/synthesis/state/usage_penalty.h"
 
@@ -9,26 +10,46 @@ namespace terrazzo {
 
 namespace {
 
-constexpr PieceLimits irregular_pieces{0.119, 0.3};
-// With a lattice less is out of phase, so pieces grow more readily.
-constexpr PieceLimits pieces_on_lattice{0.055, 0.1};
-constexpr double most_coherence = 3;
+struct Tuning {
+  double large = 0.119;
+  double fragment = 0.3;
+  double large_on_lattice = 0.055;
+  double fragment_on_lattice = 0.1;
+  double most_coherence = 3;
+};
+const Tunable<Tuning> tuning(
+    "piece_limits",
+    {
+        {&Tuning::large, "large", "share of the exemplar's area",
+         "higher: larger pieces, fewer seams, less broken; lower: less is copied verbatim", "piece_limits"},
+        {&Tuning::fragment, "fragment", "share of large",
+         "higher: more small pieces give way to their neighbours; lower: small pieces stay and more seams with them",
+         "piece_limits"},
+        {&Tuning::large_on_lattice, "large_on_lattice", "share of the exemplar's area",
+         "the same with a lattice, where less is out of phase and pieces grow more readily", "piece_limits"},
+        {&Tuning::fragment_on_lattice, "fragment_on_lattice", "share of large_on_lattice", "the same with a lattice",
+         "piece_limits"},
+        {&Tuning::most_coherence, "most_coherence", "factor",
+         "higher: the largest pieces stop growing for certain; lower: on lattices they go on growing", "piece_limits"},
+    });
 
 }  // namespace
 
 PieceLimits PieceLimits::of(bool regular) {
-  return regular ? pieces_on_lattice : irregular_pieces;
+  return regular ? PieceLimits{tuning->large_on_lattice, tuning->fragment_on_lattice}
+                 : PieceLimits{tuning->large, tuning->fragment};
 }
 
 std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence,
                                       const PieceLimits& limits) {
   const Pieces pieces(field, 1, level.window.closed_x, level.window.closed_y);
-  const double fair = limits.large * double(level.exemplar.size().area());
+  const double most_coherence = tuning->most_coherence;
+  const double large = limits.large * double(level.exemplar.size().area());
   std::vector<uint32_t> factors(field.pixels.size());
   for (size_t i = 0; i < factors.size(); i++) {
-    const double size = pieces.area(pieces.of(int(i))) / fair;
-    const double dearness = size < limits.fragment ? 2 - size / limits.fragment : std::max(1.0, size);
-    factors[i] = uint32_t(std::min(most_coherence, coherence * dearness) * unit_factor);
+    const double size = pieces.area(pieces.of(int(i))) / large;
+    const double penalty = size < limits.fragment ? 2 - size / limits.fragment : std::max(1.0, size);
+    factors[i] = uint32_t(std::min(most_coherence, coherence * penalty) * unit_factor);
   }
   return factors;
 }

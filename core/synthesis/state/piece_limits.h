@@ -8,17 +8,19 @@
 
 namespace terrazzo {
 
-/// What is too large and too small for a piece.
+/// Between which sizes continuing a piece costs no more than usual.
 struct PieceLimits {
-  double large;     ///< of the exemplar
-  double fragment;  ///< of a large piece
+  double large;     ///< the upper size, as a share of the exemplar's area
+  double fragment;  ///< the lower size, as a share of the upper
 
+  /// `regular`: the exemplar has a lattice.
   static PieceLimits of(bool regular);
 };
 
-/// The factor on continuing the piece that each pixel is in, in `unit_factor`. The larger a piece has become beyond a
-/// fair size, the less it pays to continue it, so that none comes back as a landmark. Fragments are dear as well: they
-/// give way to their neighbours, for there are fewer seams between a few pieces of a size than among many.
+/// The coherence factor of the piece that each pixel is in, in `unit_factor`: what continuing the piece costs. It rises
+/// with the size of pieces above the upper limit, so that none becomes a landmark that repeats. It rises towards
+/// smaller sizes below the lower limit, so that fragments give way to their neighbours: fewer, equal pieces have fewer
+/// seams.
 std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence,
                                       const PieceLimits& limits);
 

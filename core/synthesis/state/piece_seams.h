@@ -9,18 +9,18 @@
 
 namespace terrazzo {
 
-/// One exemplar pixel on each side of where a piece meets another.
+/// A pixel's length of seam: the exemplar pixels that a piece and its neighbour show on the two sides.
 struct PieceSeam {
   ExemplarPixel inside;  ///< what the piece shows
-  ExemplarPixel beyond;  ///< what the other shows
+  ExemplarPixel beyond;  ///< what its neighbour shows
   int dx, dy;            ///< from inside to beyond
 };
 using PieceSeams = std::vector<PieceSeam>;
 
-/// The pieces of a field, where they meet, and how well they would fit there if they showed another part of the
+/// The pieces of a field, their seams, and how well they would fit along them if they showed another part of the
 /// exemplar. A pixel of the field stands for a block of `block` x `block` pixels of the level, which continue the
-/// exemplar pixel it names. Pieces stay those of the field as it was at first. Any number of threads may ask, as long
-/// as none changes what they ask about.
+/// exemplar pixel it names. Which pixels belong to a piece is decided once, by the field at construction. Any number of
+/// threads may read as long as none changes the pixels that they read.
 class PieceGround {
  public:
   PieceGround(const Field& field, int block, const CorrectionLevel& level)
@@ -31,7 +31,7 @@ class PieceGround {
 
   const Pieces& pieces() const { return pieces_; }
 
-  /// The pixel beyond a side; -1 if there is none.
+  /// The pixel's neighbour on a side; -1 if there is none.
   int64_t beyond(int pixel, int side) const {
     return pixel_beside(field_.size, pixel, side, level_.window.closed_x, level_.window.closed_y);
   }
@@ -46,7 +46,7 @@ class PieceGround {
       }
   }
 
-  /// Adds the seams along one side of a pixel, which is a border.
+  /// Adds the seams along one side of a pixel, which must be a border.
   void add_seams(int pixel, int side, PieceSeams& seams) const {
     const auto [dx, dy] = sides[side];
     const ExemplarPixel p = field_.pixels[size_t(pixel)], q = field_.pixels[size_t(beyond(pixel, side))];
@@ -54,15 +54,16 @@ class PieceGround {
   }
 
   bool is_fixed(int piece) const;
-  /// Whether the exemplar has usable pixels for the whole piece where a move would take it.
+  /// Whether the whole piece would show usable pixels of the exemplar if it were moved there.
   bool has_room(int piece, int dx, int dy) const;
-  /// What moved pieces and those beyond their seams show too differently there; gives up beyond the limit.
+  /// The squared distances along a moved piece's seams: between what it shows and what continues its neighbour, and the
+  /// other way around. Stops beyond the limit.
   int64_t mismatch(const PieceSeams& seams, int dx, int dy, int64_t limit) const;
-  /// The factor on that for a piece which is out of phase with the lattice once moved.
+  /// The factor on that for being out of phase with the lattice once moved.
   double penalty(int piece, int dx, int dy) const;
 
  private:
-  /// The k-th pixel along one of the sides of the block that begins with p.
+  /// The k-th pixel along the side towards (dx, dy) of the block that begins with p.
   ExemplarPixel on_side(ExemplarPixel p, int dx, int dy, int k) const;
 
   const Field& field_;

@@ -5,8 +5,8 @@
 namespace terrazzo {
 
 /// The pieces of a field: connected pixels that continue one another in the exemplar, not across its border. Numbered
-/// in the order of their first pixels. Pixels may stand for blocks of several exemplar pixels a side. Pieces go on
-/// around the borders of a field that wraps: taken apart there, they would come to meet in a seam.
+/// in the order of their first pixels. Pixels may stand for blocks of several exemplar pixels a side. Pieces continue
+/// across the borders of a field that wraps, or a seam would appear there.
 class Pieces {
  public:
   explicit Pieces(const Field& field, int block = 1, bool wraps_x = false, bool wraps_y = false);

@@ -18,7 +18,7 @@ Stretch around(int first, int length, int by, int all, bool tiles) {
   }
   const int from = first - by, count = length + 2 * by;
   const bool crosses = from < 0 || from + count > all;
-  // Sub-passes and levels go by even and odd positions, which do not go on across the border of an odd length.
+  // Sub-passes and levels alternate between even and odd positions, which breaks off at the border of an odd length.
   if (count >= all || (crosses && all % 2 != 0)) return {0, all, true};
   return {from, count, false};
 }

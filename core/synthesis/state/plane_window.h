@@ -8,18 +8,18 @@ namespace terrazzo {
 struct Plane {
   Size size;
   bool tile_x = false;  ///< it wraps around in x
-  bool tile_y = false;
+  bool tile_y = false;  ///< and in y
 };
 
-/// Which part of a plane a field holds: its columns and rows are positions of the plane, counted from `part`'s corner.
+/// Which part of a plane a field holds. Its columns and rows count from `part`'s corner.
 struct PlaneWindow {
   Plane plane;
-  Rect part;              ///< hangs over a border only where the plane wraps around it
-  bool closed_x = false;  ///< the part is all of an axis along which the plane wraps, so it wraps as well
-  bool closed_y = false;
+  Rect part;              ///< crosses a border only where the plane wraps
+  bool closed_x = false;  ///< the part holds all of x and the plane wraps there, so that the field wraps as well
+  bool closed_y = false;  ///< the same in y
 
   static PlaneWindow all_of(const Plane& plane);
-  /// Holds `part` and, as far as the plane goes, what lies up to `by` pixels around it.
+  /// Holds `part` and up to `by` pixels around it, as far as the plane has them.
   static PlaneWindow around(const Rect& part, int by, const Plane& plane);
 
   Size size() const { return {part.width, part.height}; }
@@ -28,10 +28,10 @@ struct PlaneWindow {
   int y(int row) const { return onto(part.y + row, plane.size.height); }
   /// The same as an index into values of the whole plane, row by row.
   size_t index(int column, int row) const { return size_t(y(row)) * plane.size.width + x(column); }
-  /// The column and the row of a position that the part holds, or that lies around the plane's border from there.
+  /// The column and the row of a position that the part holds; where the field wraps, of any position.
   int column(int x) const { return closed_x ? wrap(x, part.width) : x - part.x; }
   int row(int y) const { return closed_y ? wrap(y, part.height) : y - part.y; }
-  /// The columns and rows of a rectangle that the part holds; all of an axis that is closed.
+  /// A rectangle of the plane as columns and rows; all of an axis that is closed.
   Rect held(const Rect& r) const;
 
  private:

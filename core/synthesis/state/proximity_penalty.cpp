@@ -5,29 +5,59 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/base/tuning.h"
 #include "core/synthesis/state/usage_penalty.h"
 
 namespace terrazzo {
 
 namespace {
 
-constexpr int blocks_per_side = 8;  // of the exemplar
-// How many blocks a place looks to each side of its own: seven eighths of the exemplar's side in all, and five, so that
-// what is nearer counts twice. Looking farther drives what comes again to one and the same distance.
-constexpr int reaches[] = {3, 2};
-constexpr double most_excess = 2;
-constexpr size_t cells_at_once = 16;
-constexpr double most_counts = double(1 << 24);
+struct Tuning {
+  double most_excess = 2;
+  double most_counts = double(1 << 24);
+  int blocks_per_side = 8;
+  int far_reach = 3;
+  int near_reach = 2;
+  int cells_per_side = 16;
+  int smallest_cell = 2;
+};
+const Tunable<Tuning> tuning(
+    "proximity_penalty",
+    {
+        {&Tuning::most_excess, "most_excess", "repeats near by",
+         "higher: cells that repeat many times near by cost still more; lower: they are no worse than a few repeats",
+         "not measured: keeps factors in the range of other terms"},
+        {&Tuning::most_counts, "most_counts", "counters of two bytes",
+         "higher: larger planes are counted too; costs memory and time", "not measured: 32 MiB"},
+        {&Tuning::blocks_per_side, "blocks_per_side", "blocks along the exemplar's shorter side",
+         "higher: a finer map of what is near, whose reaches are shorter; costs time and memory", "proximity_penalty"},
+        {&Tuning::far_reach, "far_reach", "blocks to each side",
+         "higher: repeats must be farther apart, which drives them to one distance just beyond; lower: they come "
+         "nearer",
+         "proximity_penalty"},
+        {&Tuning::near_reach, "near_reach", "blocks to each side",
+         "within it repeats count twice. Higher: more of them do; lower: repeats come side by side",
+         "proximity_penalty"},
+        {&Tuning::cells_per_side, "cells_per_side", "cells along the exemplar's longer side",
+         "higher: use is counted by smaller features; costs time. Lower: copies of parts of cells are not noticed",
+         "not measured: features of a sixteenth are the smallest that repeat visibly"},
+        {&Tuning::smallest_cell, "smallest_cell", "pixels",
+         "the least side of a cell. Higher: less time at coarse levels; lower: smaller features count there",
+         "not measured: use of single pixels is noise"},
+    });
+
+constexpr size_t cells_at_once = 16;  // compared together, which vectorizes
 constexpr uint32_t most = std::numeric_limits<uint16_t>::max();
 
 int block_side(Size exemplar) {
-  return std::max(1, std::min(exemplar.width, exemplar.height) / blocks_per_side);
+  return std::max(1, std::min(exemplar.width, exemplar.height) / tuning->blocks_per_side);
 }
 
 }  // namespace
 
 ExemplarCells::ExemplarCells(Size exemplar) : columns(size_t(exemplar.width)), row_starts(size_t(exemplar.height)) {
-  const int side = std::max(2, std::max(exemplar.width, exemplar.height) / 16);
+  const int longer = std::max(exemplar.width, exemplar.height);
+  const int side = std::max(tuning->smallest_cell, longer / tuning->cells_per_side);
   const int across = (exemplar.width + side - 1) / side, down = (exemplar.height + side - 1) / side;
   for (int x = 0; x < exemplar.width; x++) columns[x] = uint32_t(x / side);
   for (int y = 0; y < exemplar.height; y++) row_starts[y] = uint32_t(y / side * across);
@@ -46,13 +76,13 @@ ProximityPenalty::ProximityPenalty(Size exemplar, std::vector<double> areas, dou
 
 bool ProximityPenalty::is_worth_it(Size exemplar, const ExemplarCells& cells, const Plane& plane) {
   const double side = block_side(exemplar);
-  return double(plane.size.area()) / (side * side) * double(cells.count) <= most_counts;
+  return double(plane.size.area()) / (side * side) * double(cells.count) <= tuning->most_counts;
 }
 
 void ProximityPenalty::count(const Field& field, const ExemplarCells& cells) {
   count_shown(field, cells);
   factors_.assign(shown_.size(), unit_factor);
-  for (const int reach : reaches) {
+  for (const int reach : {tuning->far_reach, tuning->near_reach}) {
     sum_around(reach);
     raise_factors(reach);
   }
@@ -66,7 +96,7 @@ void ProximityPenalty::count_shown(const Field& field, const ExemplarCells& cell
   });
 }
 
-/// Adds up each block's counts and those of the blocks around it in a line.
+/// Sums the counts of the blocks up to `reach` from each block of a line.
 void ProximityPenalty::sum_along(const Line& line, int reach, const Counts& counts, Counts& sums) const {
   std::vector<uint32_t> sum(cells_, 0);
   const auto counts_at = [&](int i) { return &counts[size_t(line.first + wrap(i, line.length) * line.step) * cells_]; };
@@ -79,7 +109,7 @@ void ProximityPenalty::sum_along(const Line& line, int reach, const Counts& coun
     const uint16_t* from = counts_at(i);
     for (size_t c = 0; c < cells_; c++) sum[c] -= from[c];
   };
-  const bool all = line.closed && 2 * reach + 1 >= line.length;  // each once, whichever block asks
+  const bool all = line.closed && 2 * reach + 1 >= line.length;  // the whole line, each block once
   for (int i = all ? 0 : -reach; i < (all ? line.length : reach); i++)
     if (holds(i)) add(i);
   for (int i = 0; i < line.length; i++) {
@@ -102,11 +132,13 @@ void ProximityPenalty::sum_around(int reach) {
 }
 
 void ProximityPenalty::raise_factors(int reach) {
-  // Of an exemplar smaller than what a place looks at, everything may come more often.
+  // Where the reach covers more than the exemplar, everything may show more than once.
   const double looked_at = double(2 * reach + 1) * side_, area = double(exemplar_.area());
   const double times = std::max(1.0, looked_at * looked_at / area);
   std::vector<double> once(cells_);
-  Counts whole_once(cells_);  // the same rounded down: most counts do not exceed it, which several at once tell soon
+  const double most_excess = tuning->most_excess;
+  Counts whole_once(
+      cells_);  // the same rounded down: most counts do not exceed it, and a vector of them is tested at once
   for (size_t c = 0; c < cells_; c++) {
     once[c] = std::max(1.0, areas_[c] * times);
     whole_once[c] = uint16_t(std::min(double(most), once[c]));

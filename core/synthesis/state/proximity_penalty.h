@@ -8,7 +8,7 @@
 
 namespace terrazzo {
 
-/// The cells of an exemplar by which its use is counted: 16x16 of them, or fewer of at least 2x2 pixels.
+/// The cells of an exemplar by which its use is counted: 16 along its longer side, or fewer of at least 2x2 pixels.
 struct ExemplarCells {
   explicit ExemplarCells(Size exemplar);
   size_t of(int x, int y) const { return row_starts[y] + columns[x]; }
@@ -19,25 +19,24 @@ struct ExemplarCells {
   std::vector<uint32_t> row_starts;  ///< the first cell of every y's row of cells
 };
 
-/// How often every cell of the exemplar shows around every place of a plane, as a factor on the cost of showing it
-/// there: above 1 where it shows more than once within half the exemplar's side or so, and more so within a third. Even
-/// use of the exemplar says nothing about where: the same stones side by side are what the eye finds first. Any number
-/// of threads may ask while none counts.
+/// A factor on the cost of showing each cell of the exemplar at each place of a plane: above 1 where the cell shows
+/// more than once near by. UsagePenalty evens out how often cells show, but not where: the same stones side by side are
+/// what the eye finds first. Any number of threads may read while none counts.
 class ProximityPenalty {
  public:
-  /// `areas`: how many pixels of each cell are usable; `weight`: what a doubled use adds to the cost.
+  /// `areas`: how many pixels of each cell are usable; `weight`: what showing a cell twice near by adds to its cost.
   ProximityPenalty(Size exemplar, std::vector<double> areas, double weight, const Plane& plane);
-  /// Whether that pays: in a plane of very many exemplars everything comes a thousand times, and to count it takes more
-  /// memory than it is worth.
+  /// Whether counting pays: in a plane of very many exemplars everything repeats a thousand times, and the counts take
+  /// more memory than they are worth.
   static bool is_worth_it(Size exemplar, const ExemplarCells& cells, const Plane& plane);
   /// The field must hold the whole plane.
   void count(const Field& field, const ExemplarCells& cells);
-  /// For showing each cell at a position of the plane, in 1/4096.
+  /// The factors of all cells at a position of the plane, in unit_factor (usage_penalty.h).
   const uint16_t* factors(int x, int y) const { return &factors_[block(x, y) * cells_]; }
 
  private:
   using Counts = std::vector<uint16_t>;  // of every block and cell
-  /// Blocks one after the other, in x or in y.
+  /// A row or a column of blocks.
   struct Line {
     int first;
     int step;
@@ -55,10 +54,10 @@ class ProximityPenalty {
   double weight_;
   Plane plane_;
   size_t cells_;
-  int side_;  // of a block: what is near is told for all of its pixels alike
+  int side_;  // of a block: its pixels share their counts
   int columns_, rows_;
-  Counts shown_;          // by every block
-  Counts across_, sums_;  // what blocks around it show: those beside it, and all
+  Counts shown_;          // pixels of each cell in every block
+  Counts across_, sums_;  // their sums over neighbouring blocks: of the row, and of the square
   Counts factors_;
 };
 

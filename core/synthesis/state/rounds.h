@@ -9,8 +9,8 @@
 
 namespace terrazzo {
 
-/// Jobs on parts of a field that are done one after the other, put into rounds: those of a round lie so far apart that
-/// it does not matter which comes first, and all that come earlier and lie near are in earlier rounds.
+/// Schedules jobs on parts of a field, whose order matters, in rounds: the jobs of a round lie so far apart that they
+/// can run at the same time, and every earlier job near by is in an earlier round.
 class Rounds {
  public:
   /// The pixels of two jobs of one round lie more than three times `reach` apart.
@@ -31,8 +31,8 @@ class Rounds {
   const std::vector<std::vector<int>>& all() const { return rounds_; }
 
  private:
-  /// Calls `visit` for the cells of the pixels and two more on each side. As jobs both look and mark there, four cells
-  /// lie between those of a round, or three and a narrow one where the field wraps around.
+  /// Calls `visit` for the cells of the pixels and two more on each side. As every job marks so many, four cells lie
+  /// between the jobs of a round, or three and a narrow one where the field wraps around.
   template <typename Visit>
   void for_each_near(std::span<const int> pixels, const Visit& visit) const {
     int previous = -1;
@@ -52,7 +52,7 @@ class Rounds {
   const PlaneWindow& window_;
   int side_;
   Size cells_;
-  std::vector<int> last_;  // the round after the last of each cell
+  std::vector<int> last_;  // of each cell: the first round without a job near it
   std::vector<std::vector<int>> rounds_;
 };
 

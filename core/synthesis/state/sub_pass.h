@@ -4,9 +4,9 @@
 
 namespace terrazzo {
 
-/// Every second pixel of every second row.
+/// Every second pixel of every second row: the pixels that one sub-pass of a correction corrects.
 struct SubPass {
-  /// `wanted`: columns and rows of the field; `odd_x`, `odd_y`: which of their positions in the plane.
+  /// `wanted`: columns and rows of the field; `odd_x`, `odd_y`: 1 for odd positions of the plane, 0 for even ones.
   SubPass(const PlaneWindow& window, const Rect& wanted, int odd_x, int odd_y)
       : first_x(wanted.x + ((window.part.x + wanted.x + odd_x) & 1)),
         first_y(wanted.y + ((window.part.y + wanted.y + odd_y) & 1)),

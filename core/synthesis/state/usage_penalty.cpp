@@ -2,13 +2,41 @@
 
 #include <algorithm>
 
+#include "core/base/tuning.h"
+
 namespace terrazzo {
 
-// Pixels of a cell that hardly ever should be used: keeps the excess finite.
+namespace {
+
+struct Tuning {
+  double most_excess = 4;
+  double gain = 0.3;
+  double most_step = 1;
+  double least_price = 0.25;
+  double most_price = 4;
+};
+const Tunable<Tuning> tuning(
+    "usage_penalty",
+    {
+        {&Tuning::most_excess, "most_excess", "uses too many",
+         "higher: cells used many times too often cost still more; lower: they are no worse than a few times",
+         "not measured: keeps factors in the range of other terms"},
+        {&Tuning::gain, "gain", "price per excess",
+         "the integral gain. Higher: rare features come back sooner, but use oscillates; lower: they stay rare",
+         "usage_penalty"},
+        {&Tuning::most_step, "most_step", "uses too many",
+         "higher: one count raises the price of over-used cells more, and use oscillates; lower: they stay over-used",
+         "not measured: as large as the fall of a cell that is not used at all"},
+        {&Tuning::least_price, "least_price", "factor",
+         "lower: cells that fit badly are forced in; higher: rare features are lost", "usage_penalty"},
+        {&Tuning::most_price, "most_price", "factor",
+         "higher: popular cells are avoided at any cost; lower: they stay over-used", "usage_penalty"},
+    });
+
+// Pixels expected of a cell that should not be used: keeps the excess finite.
 constexpr double least_expected = 1e-6;
-// How much a count adds to a cell's price, for a use that is doubled; and what prices may become.
-constexpr double insistence = 0.3;
-constexpr double least_price = 0.25, most_price = 4;
+
+}  // namespace
 
 UsagePenalty::UsagePenalty(Size exemplar, double weight, double least_factor, const std::vector<double>& demand)
     : weight_(weight),
@@ -62,16 +90,18 @@ void UsagePenalty::count(std::span<const ExemplarPixel> pixels, const FixedPixel
   const double even = std::max(least_expected, double(free) / double(factors_.size()));
   for (size_t i = 0; i < use.size(); i++) {
     const double expected = shares_.empty() ? even : std::max(least_expected, double(free) * shares_[i]);
-    // Where less is wanted than there is, a few pieces of it are better than bits of everything: to show one once is
-    // not too much, and to leave others out hardly too little.
+    // Where less is wanted than the cell holds, a few whole pieces are better than bits of everything: to show all of
+    // it once is not too much, and to leave it out hardly too little.
     const double used = double(use[i]), once = std::max(expected, areas_[i]);
-    const double excess = used > once ? std::min(4.0, used / once - 1) : std::min(0.0, (used - expected) / once);
-    // What is used too little is made cheaper as what is used too much is made dearer, but only so far: to be
-    // everywhere alike is not worth breaking features for.
+    const double excess =
+        used > once ? std::min(tuning->most_excess, used / once - 1) : std::min(0.0, (used - expected) / once);
+    // Under-used cells become cheaper as over-used ones become more expensive, but only down to a limit: an even use is
+    // not worth broken features.
     double factor = std::max(least_factor_, 1.0 + weight_ * excess);
     if (!prices_.empty()) {
-      prices_[i] = std::clamp(prices_[i] * (1 + insistence * std::min(1.0, excess)), least_price, most_price);
-      factor = std::max(least_price, factor * prices_[i]);
+      const double raised = prices_[i] * (1 + tuning->gain * std::min(tuning->most_step, excess));
+      prices_[i] = std::clamp(raised, tuning->least_price, tuning->most_price);
+      factor = std::max(tuning->least_price, factor * prices_[i]);
     }
     factors_[i] = uint32_t(unit_factor * factor);
   }

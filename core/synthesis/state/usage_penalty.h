@@ -11,30 +11,30 @@
 
 namespace terrazzo {
 
-/// Costs are multiplied by factors of 1/4096 (integers, so that every machine decides alike).
+/// Factors on costs are integers in 1/4096, so that every machine chooses alike.
 inline constexpr uint32_t unit_factor = 4096;
 
-/// How often each cell of the exemplar (it is divided into 16x16) is in use, as a factor on the cost of using it once
-/// more: above 1 where use exceeds an even share, and once all of the cell, below 1 where it falls short of it.
+/// A factor on the cost of using each cell of the exemplar (ExemplarCells) once more: above 1 for cells that show more
+/// than an even share, and more than once as a whole; below 1 for cells that show less than their share.
 class UsagePenalty {
  public:
-  /// `weight`: how much a doubled use adds to the cost; 0 turns the term off. `least_factor`: what the cost of
-  /// a cell that is used too little falls to at most. `demand`: how often each exemplar pixel is wanted, relative to
-  /// the others; empty: all alike.
+  /// `weight`: what a doubled use adds to the cost; 0 turns the term off. `least_factor`: the smallest factor of cells
+  /// that are used too little. `demand`: how often each exemplar pixel is wanted, relative to the others; empty:
+  /// equally.
   UsagePenalty(Size exemplar, double weight, double least_factor, const std::vector<double>& demand = {});
   /// Fixed pixels do not count.
   void recount(const Field& field, const FixedPixels& fixed);
-  /// The same once and for all: recount() does nothing from now on.
+  /// The same for the last time: recount() does nothing from now on.
   void count_for_good(std::span<const ExemplarPixel> pixels, const FixedPixels& fixed);
-  /// From now on every count makes what is used too much dearer than the last, and what is used too little cheaper (the
-  /// integral part of a controller): what fits badly everywhere would otherwise be used too little for ever.
+  /// From now on factors accumulate: every count raises the price of cells that are used too much and lowers that of
+  /// cells that are used too little (integral control). Else cells that fit badly everywhere would stay under-used.
   void insist();
-  /// From now on every count also tells what shows near by (ProximityPenalty), until one is for good. The fields that
-  /// are counted must hold the whole plane. Fixed pixels count there.
+  /// From now on every count includes what shows near by (ProximityPenalty), until count_for_good(). Counted fields
+  /// must hold the whole plane. Fixed pixels count there.
   void look_around(const Plane& plane);
   bool active() const { return weight_ > 0; }
   uint32_t factor(int x, int y) const { return factors_[cells_.of(x, y)]; }
-  /// For showing each cell at a position of the plane, by what shows near by there alone; null unless it looks around.
+  /// The factors of all cells at a position of the plane for what shows near by; null without look_around().
   const uint16_t* nearby_factors(int x, int y) const { return nearby_ ? nearby_->factors(x, y) : nullptr; }
   size_t cell(int x, int y) const { return cells_.of(x, y); }
 
@@ -46,9 +46,9 @@ class UsagePenalty {
   bool settled_ = false;
   Size exemplar_;
   ExemplarCells cells_;
-  std::vector<double> areas_;   // of the cells: their usable pixels
-  std::vector<double> shares_;  // of all use, by cell; empty: all alike
-  std::vector<double> prices_;  // what all counts have made of each cell; empty: only the last matters
+  std::vector<double> areas_;   // usable pixels of each cell
+  std::vector<double> shares_;  // the wanted share of each cell; empty: equal
+  std::vector<double> prices_;  // accumulated factors; empty: only the last count matters
   std::vector<uint32_t> factors_;
   std::optional<ProximityPenalty> nearby_;
 };

@@ -6,47 +6,72 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/base/tuning.h"
+
 namespace terrazzo {
 
 namespace {
 
 constexpr int reach = WindowCoherence::reach, side = WindowCoherence::side;
-constexpr double usual_share = 0.95;
-constexpr double asked_windows = 1024;  // of the exemplar, at most about so many
-// Distances below and above the usual one between which incoherence rises.
-constexpr double alike = 0.8, unlike = 1.2;
+
+struct Tuning {
+  double usual_share = 0.95;
+  double sampled_windows = 1024;
+  double alike = 0.8;
+  double unlike = 1.2;
+};
+const Tunable<Tuning> tuning(
+    "window_coherence",
+    {
+        {&Tuning::usual_share, "usual_share", "share of the exemplar's windows",
+         "higher: only windows unlike nearly all of the exemplar are repaired; lower: more are, at the cost of rare "
+         "features",
+         "coherence_repair"},
+        {&Tuning::sampled_windows, "sampled_windows", "windows of the exemplar",
+         "higher: the usual distance is known more exactly; costs time",
+         "not measured: about fifty of them lie beyond usual_share"},
+        {&Tuning::alike, "alike", "usual distances",
+         "up to it a window is coherent. Higher: less is repaired; lower: more windows count as slightly incoherent",
+         "not measured: symmetric to unlike"},
+        {&Tuning::unlike, "unlike", "usual distances",
+         "from it on a window is fully incoherent. Higher: repairs also weigh how unlike windows are; lower: they "
+         "count "
+         "windows",
+         "not measured: symmetric to alike"},
+    });
+
 constexpr int64_t no_distance = std::numeric_limits<int64_t>::max();
 
-/// The squared distance of a window's row and what lies side by side from `first` on.
+/// The squared distance between a window's row and the exemplar's row from `first` on.
 int64_t row_distance(const AppearanceVector* const* row, const AppearanceVector* first) {
   int64_t sum = 0;
   for (int x = 0; x < side; x++) sum += squared_distance(*row[x], first[x]);
   return sum;
 }
 
-/// Looks for the exemplar's window that is most like one, and nearer than a limit.
+/// Searches the exemplar's window that is nearest to a given one, and nearer than a limit.
 class NearestWindow {
  public:
   NearestWindow(const CorrectionLevel& level, const WindowCoherence::Window& shown, int64_t limit = no_distance)
       : level_(level), shown_(shown), least_(limit) {
     for (size_t i = 0; i < shown.size(); i++) wanted_[i] = level.exemplar.at(shown[i].x, shown[i].y);
   }
-  /// That to the nearest so far; the limit if there is none.
+  /// The squared distance to the nearest so far; the limit if there is none.
   int64_t distance() const { return least_; }
 
-  /// The windows that the window's pixels go on with, until one is near enough.
+  /// Considers the windows that the window's pixels continue, until one is near enough.
   void consider_continued(int64_t enough) {
     constexpr int middle = side * side / 2;
     continue_with(middle);
     for (int i = 0; i < side * side && least_ > enough; i++) continue_with(i);
   }
 
-  /// Those that similar pixels of some of the window's suggest.
+  /// Considers those that k-coherent candidates of the window's corners and middle continue.
   void consider_similar(int64_t enough) {
     const int width = level_.exemplar.size().width;
     for (int dy = -reach; dy <= reach && least_ > enough; dy += reach)
       for (int dx = -reach; dx <= reach; dx += reach) {
-        if ((dx == 0) != (dy == 0)) continue;  // corners and the middle are enough
+        if ((dx == 0) != (dy == 0)) continue;
         const ExemplarPixel p = shown_[(dy + reach) * side + dx + reach];
         const size_t first = (size_t(p.y) * width + p.x) * size_t(level_.per_pixel);
         for (int k = 0; k < level_.per_pixel; k++) {
@@ -56,7 +81,7 @@ class NearestWindow {
       }
   }
 
-  /// The window around a place.
+  /// Considers the window around a place.
   void consider(int u, int v) {
     const Size size = level_.exemplar.size();
     if (u < reach || v < reach || u >= size.width - reach || v >= size.height - reach) return;
@@ -80,12 +105,13 @@ class NearestWindow {
   const CorrectionLevel& level_;
   const WindowCoherence::Window& shown_;
   std::array<const AppearanceVector*, side * side> wanted_;
+  // The window's pixels, the candidates of five of them, and own_distance()'s place and its four neighbours.
   std::array<uint32_t, side * side + 5 * most_similar + 5> tried_;
   ptrdiff_t count_ = 0;
   int64_t least_;
 };
 
-/// How much the exemplar's window around a place differs from those most like it.
+/// The squared distance from the exemplar's window around a place to the nearest other one.
 int64_t own_distance(const CorrectionLevel& level, int u, int v) {
   WindowCoherence::Window window;
   for (int i = 0; i < side * side; i++) window[i] = {uint16_t(u + i % side - reach), uint16_t(v + i / side - reach)};
@@ -98,7 +124,7 @@ int64_t own_distance(const CorrectionLevel& level, int u, int v) {
 
 double usual_distance(const CorrectionLevel& level) {
   const Size size = level.exemplar.size();
-  const int step = std::max(1, int(std::sqrt(double(size.area()) / asked_windows)));
+  const int step = std::max(1, int(std::sqrt(double(size.area()) / tuning->sampled_windows)));
   const int columns = (size.width - 2 * reach + step - 1) / step, rows = (size.height - 2 * reach + step - 1) / step;
   if (columns <= 0 || rows <= 0) return 0;
   std::vector<int64_t> distances(size_t(columns) * rows);
@@ -108,7 +134,8 @@ double usual_distance(const CorrectionLevel& level) {
   });
   std::erase(distances, no_distance);
   if (distances.empty()) return 0;
-  const auto usual = distances.begin() + ptrdiff_t(usual_share * double(distances.size()));
+  const size_t rank = std::min(distances.size() - 1, size_t(tuning->usual_share * double(distances.size())));
+  const auto usual = distances.begin() + ptrdiff_t(rank);
   std::nth_element(distances.begin(), usual, distances.end());
   return double(*usual);
 }
@@ -124,6 +151,7 @@ int32_t WindowCoherence::incoherence(const Window& shown) const {
   for (int i = 1; i < side * side && continuous; i++)
     continuous = shown[i].x == first.x + i % side && shown[i].y == first.y + i / side;
   if (continuous) return 0;
+  const double alike = tuning->alike, unlike = tuning->unlike;
   const auto enough = int64_t(usual_ * alike * alike), limit = int64_t(usual_ * unlike * unlike);
   NearestWindow nearest(level_, shown, limit);
   nearest.consider_continued(enough);

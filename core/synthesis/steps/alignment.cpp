@@ -6,17 +6,35 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/base/tuning.h"
 #include "core/synthesis/state/piece_seams.h"
 
 namespace terrazzo {
 
 namespace {
 
-constexpr int smallest_piece = 4;  // pixels; smaller ones are left to correction
-constexpr int sweeps = 2;
+struct Tuning {
+  int smallest_piece = 4;
+  int sweeps = 2;
+  int worthwhile = 61;
+};
+const Tunable<Tuning> tuning(
+    "alignment",
+    {
+        {&Tuning::smallest_piece, "smallest_piece", "pixels of the level",
+         "higher: less time; smaller pieces are left to correction. Lower: small pieces fit better when it begins",
+         "not measured: correction replaces smaller pieces anyway"},
+        {&Tuning::sweeps, "sweeps", "rounds over all pieces",
+         "higher: pieces follow neighbours that moved after them; costs time",
+         "not measured: in a third few pieces move"},
+        {&Tuning::worthwhile, "worthwhile", "64ths of the mismatch",
+         "what a move must lower it to. Higher: pieces move for small gains; lower: they stay in place",
+         "not measured: above 64 pieces would move for losses"},
+    });
+
+constexpr int64_t worthwhile_unit = 64;
+// From so many seams on a single piece's moves are tried in parallel. It changes the time only, not the result.
 constexpr size_t many_seams = 1000;
-// A move must lower the mismatch by this much, in 1/64.
-constexpr int64_t worthwhile = 61;
 
 class PieceAligner {
  public:
@@ -34,7 +52,7 @@ class PieceAligner {
   }
 
   void align() {
-    for (int sweep = 0; sweep < sweeps; sweep++)
+    for (int sweep = 0; sweep < tuning->sweeps; sweep++)
       for (int round = 0; round < rounds(); round++)
         tbb::parallel_for(round_begin_[round], round_begin_[round + 1], [&](int i) {
           task_.check();
@@ -46,10 +64,10 @@ class PieceAligner {
 
  private:
   bool can_move(int piece) const {
-    return pieces_.area(piece) * block_ * block_ >= smallest_piece && !ground_.is_fixed(piece);
+    return pieces_.area(piece) * block_ * block_ >= tuning->smallest_piece && !ground_.is_fixed(piece);
   }
 
-  /// Where the pieces that can move meet others. That stays, since a move changes what pixels show, not whose they are.
+  /// The borders of the pieces that can move. They do not change: a move changes what pixels show, not their pieces.
   void find_borders() {
     const int count = pieces_.count();
     border_begin_.assign(size_t(count) + 1, 0);
@@ -77,8 +95,8 @@ class PieceAligner {
     return {borders_.data() + border_begin_[piece], border_begin_[size_t(piece) + 1] - border_begin_[piece]};
   }
 
-  /// Pieces move one after the other, the largest first. Those that do not meet can move at the same time: a piece has
-  /// its turn one round after the last of its larger neighbours.
+  /// Pieces move one after the other, the largest first. Those that do not meet can move at the same time: a piece
+  /// moves one round after the last of its larger neighbours.
   void find_rounds() {
     std::vector<int> order;
     for (int piece = 0; piece < pieces_.count(); piece++)
@@ -103,7 +121,7 @@ class PieceAligner {
 
   int rounds() const { return int(round_begin_.size()) - 1; }
 
-  /// Whether a piece or one beside it has moved in a turn or after it. If not, to move the piece again changes nothing.
+  /// Whether a piece or one of its neighbours has moved since a turn. If not, trying it again changes nothing.
   bool changed_since(int piece, int turn) const {
     if (moved_[size_t(piece)] >= turn) return true;
     return std::ranges::any_of(borders(piece), [&](uint32_t b) {
@@ -126,12 +144,13 @@ class PieceAligner {
   /// Whether the piece has moved.
   bool move(int piece) {
     const PieceSeams seams = seams_of(piece);
-    const int64_t stay = cost(piece, seams, 0, 0, std::numeric_limits<int64_t>::max()) * worthwhile / 64;
+    const int64_t stay =
+        cost(piece, seams, 0, 0, std::numeric_limits<int64_t>::max()) * tuning->worthwhile / worthwhile_unit;
     const int across = 2 * reach_ + 1, moves = across * across;
     const auto cost_of = [&](int m, int64_t limit) {
       return cost(piece, seams, m % across - reach_, m / across - reach_, limit);
     };
-    // Where few pieces are left to a round, the largest keep all threads busy.
+    // Rounds of few, large pieces keep all threads busy by the moves of each piece.
     std::vector<int64_t> costs;
     if (seams.size() >= many_seams) {
       costs.resize(size_t(moves));

@@ -5,11 +5,11 @@
 namespace terrazzo {
 
 /// Moves whole pieces (connected pixels that continue one another in the exemplar) by up to `reach` pixels to where
-/// they fit their neighbours best. Upsampling leaves a piece's place uncertain by about a pixel, and pixel by pixel it
-/// cannot be mended: each pixel is held where it is by the rest of its piece. Pieces move one after the other, the
-/// largest first. A pixel of the field stands for a block of `block` x `block` pixels of the level, which continue the
-/// exemplar pixel it names: pieces hold whole blocks when they have just been upsampled. `level.fixed` tells which
-/// pixels of the field are fixed. Throws Cancelled.
+/// they fit their neighbours best. Upsampling leaves a piece's offset uncertain by about a pixel, and correction cannot
+/// repair that: each pixel is held in place by the rest of its piece. Pieces move one after the other, the largest
+/// first. A pixel of the field stands for a block of `block` x `block` pixels of the level, which continue the exemplar
+/// pixel it names, as just after upsampling. `level.fixed` refers to pixels of the field; their pieces stay. Throws
+/// Cancelled.
 void align_pieces(Field& field, int block, const CorrectionLevel& level, int reach, const Task& task);
 
 }  // namespace terrazzo

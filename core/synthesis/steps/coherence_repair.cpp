@@ -1,11 +1,13 @@
 #include "core/synthesis/steps/coherence_repair.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "core/base/tuning.h"
 #include "core/synthesis/state/patches.h"
 #include "core/synthesis/state/usage_penalty.h"
 #include "core/synthesis/state/window_coherence.h"
@@ -14,50 +16,75 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int32_t unlike = WindowCoherence::most / 2;      // windows that are so unlike any begin the work
-constexpr int64_t worthwhile = WindowCoherence::most / 2;  // what incoherence must fall by
+struct Tuning {
+  double incoherent = 0.5;
+  double worthwhile = 0.5;
+  int sparse_level = 1;
+  int sparse_stride = 2;
+};
+const Tunable<Tuning> tuning(
+    "coherence_repair",
+    {
+        {&Tuning::incoherent, "incoherent", "incoherence, 0..1",
+         "higher: only windows unlike anything are repaired; lower: more are, which costs time and rare features",
+         "coherence_repair"},
+        {&Tuning::worthwhile, "worthwhile", "incoherent windows",
+         "how much a repair must lower the sum around it. Higher: rare features survive; lower: less is left broken",
+         "coherence_repair"},
+        {&Tuning::sparse_level, "sparse_level", "level",
+         "the coarsest level where only some windows are examined. Higher: less time; lower: no incoherent window is "
+         "missed",
+         "coherence_repair"},
+        {&Tuning::sparse_stride, "sparse_stride", "windows in x and y",
+         "higher: fewer windows are examined there, which saves time", "coherence_repair"},
+    });
 
-/// What a field shows around a window, far enough to tell how like the exemplar all is that the window has a part in.
+/// Incoherence in WindowCoherence's fixed-point unit.
+int64_t fixed_point(double incoherence) {
+  return int64_t(incoherence * WindowCoherence::most);
+}
+
+/// What a field shows around a window: all windows that share pixels with it, to measure their incoherence.
 class Surroundings {
  public:
-  static constexpr int touched =
-      Patches::half + WindowCoherence::reach;  // windows of pixels that may change lie so near
+  /// The middles of windows that share pixels with the window lie so near.
+  static constexpr int touched = Patches::half + WindowCoherence::reach;
 
   Surroundings(const Field& field, const PlaneWindow& part, const WindowCoherence& window_coherence)
       : field_(field), part_(part), window_coherence_(window_coherence) {}
 
-  /// Goes to a pixel's surroundings, and gives the incoherence of all windows that the window around it has a part in.
+  /// Reads the surroundings of a pixel. Returns the summed incoherence of all windows that share pixels with its
+  /// window.
   int64_t read(int x, int y) {
     go_to(x, y);
     for_each(pixels_held, [&](int dx, int dy) { read_pixel(dx, dy); });
-    begun_ = shown_;
+    before_ = shown_;
     int64_t sum = 0;
-    for_each(touched, [&](int dx, int dy) { sum += begun_unlikeness_[at(dx, dy)] = incoherence(dx, dy); });
+    for_each(touched, [&](int dx, int dy) { sum += incoherence_before_[at(dx, dy)] = incoherence(dx, dy); });
     return sum;
   }
 
-  /// The same once the window's pixels may show something else than at first; gives up beyond the limit, and at once
-  /// if they do not.
+  /// The same after the window's pixels may have changed; stops beyond the limit. Returns the limit if none has.
   int64_t read_again(int64_t limit) {
     changed_.fill(0);
     bool any = false;
     for_each(Patches::half, [&](int dx, int dy) {
       read_pixel(dx, dy);
-      const bool changed = shown_[at(dx, dy)] != begun_[at(dx, dy)];
+      const bool changed = shown_[at(dx, dy)] != before_[at(dx, dy)];
       any |= changed;
       if (changed) mark(dx, dy);
     });
     if (!any) return limit;
     int64_t sum = 0;
-    for_each(touched, [&](int dx, int dy) { sum += changed_[at(dx, dy)] ? 0 : begun_unlikeness_[at(dx, dy)]; });
+    for_each(touched, [&](int dx, int dy) { sum += changed_[at(dx, dy)] ? 0 : incoherence_before_[at(dx, dy)]; });
     for_each(touched, [&](int dx, int dy) {
       if (changed_[at(dx, dy)] && sum < limit) sum += incoherence(dx, dy);
     });
     return sum;
   }
 
-  /// That of the window around one pixel alone.
-  int32_t unlikeness_at(int x, int y) {
+  /// The incoherence of the window around one pixel alone.
+  int32_t incoherence_at(int x, int y) {
     go_to(x, y);
     for_each(WindowCoherence::reach, [&](int dx, int dy) { read_pixel(dx, dy); });
     return incoherence(0, 0);
@@ -88,14 +115,14 @@ class Surroundings {
     const int64_t i = index(dx, dy);
     if (i >= 0) shown_[at(dx, dy)] = field_.pixels[size_t(i)];
   }
-  /// The windows that a pixel is in have changed.
+  /// Marks the windows that a pixel is in as changed.
   void mark(int dx, int dy) {
     for_each(WindowCoherence::reach, [&](int wx, int wy) { changed_[at(dx + wx, dy + wy)] = 1; });
   }
   static bool holds(int middle, int length, bool closed) {
     return closed || (middle >= WindowCoherence::reach && middle < length - WindowCoherence::reach);
   }
-  /// Of a window that the field does not hold all of: none.
+  /// 0 for windows that the field does not hold as a whole.
   int32_t incoherence(int dx, int dy) const {
     if (!holds(x_ + dx, field_.size.width, part_.closed_x) || !holds(y_ + dy, field_.size.height, part_.closed_y))
       return 0;
@@ -109,23 +136,23 @@ class Surroundings {
   const PlaneWindow& part_;
   const WindowCoherence& window_coherence_;
   int x_ = 0, y_ = 0;
-  PerPixel<ExemplarPixel> shown_{}, begun_{};
-  PerPixel<int32_t> begun_unlikeness_{};
+  PerPixel<ExemplarPixel> shown_{}, before_{};
+  PerPixel<int32_t> incoherence_before_{};
   PerPixel<uint8_t> changed_{};
 };
 
-/// One per thread.
-class Reworker {
+/// Repairs one window at a time. One per thread.
+class Repairer {
  public:
-  Reworker(ExpansionGround& ground, const UsagePenalty& usage, const WindowCoherence& window_coherence, int tries,
+  Repairer(ExpansionGround& ground, const UsagePenalty& usage, const WindowCoherence& window_coherence, int tries,
            uint64_t seed)
       : field_(ground.field),
         tries_(tries),
         patches_(ground, usage, seed),
         surroundings_(ground.field, ground.level.window, window_coherence) {}
 
-  void rework(int x, int y) {
-    int64_t least = surroundings_.read(x, y) - worthwhile;
+  void repair(int x, int y) {
+    int64_t least = surroundings_.read(x, y) - fixed_point(tuning->worthwhile);
     if (least <= 0) return;
     save(before_);
     best_ = before_;
@@ -141,7 +168,7 @@ class Reworker {
     restore(best_);
   }
 
-  int32_t incoherence(int x, int y) { return surroundings_.unlikeness_at(x, y); }
+  int32_t incoherence(int x, int y) { return surroundings_.incoherence_at(x, y); }
 
  private:
   using Pixels = std::vector<ExemplarPixel>;
@@ -175,21 +202,22 @@ void repair_incoherent(Field& field, const CorrectionLevel& level, UsagePenalty&
   const WindowCoherence window_coherence(level);
   task.check();
   ExpansionGround ground(field, level);
-  tbb::enumerable_thread_specific<Reworker> reworkers(
-      [&] { return Reworker(ground, usage, window_coherence, tries, seed); });
+  tbb::enumerable_thread_specific<Repairer> repairers(
+      [&] { return Repairer(ground, usage, window_coherence, tries, seed); });
   const Size size = field.size;
   std::vector<int32_t> values(field.pixels.size());
-  const int step = level.level <= Patches::many_pixels ? 2 : 1;  // every second window, in x and in y
+  const int step = level.level <= tuning->sparse_level ? std::max(1, tuning->sparse_stride) : 1;
+  const int64_t incoherent = fixed_point(tuning->incoherent);
   tbb::parallel_for(0, (size.height + step - 1) / step, [&](int row) {
     task.check();
     for (int x = 0; x < size.width; x += step)
-      values[size_t(row) * step * size.width + x] = reworkers.local().incoherence(x, row * step);
+      values[size_t(row) * step * size.width + x] = repairers.local().incoherence(x, row * step);
   });
   std::vector<int32_t> sums = core_sums(values, size, level.window);
   for (size_t i = 0; i < sums.size(); i++)
-    if (values[i] < unlike) sums[i] = 0;
+    if (values[i] < incoherent) sums[i] = 0;
   for_each_window(worst_first(sums, 0, size), field, level.window, task,
-                  [&](int x, int y) { reworkers.local().rework(x, y); });
+                  [&](int x, int y) { repairers.local().repair(x, y); });
 }
 
 }  // namespace terrazzo

@@ -1,379 +1,49 @@
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/synthesis/steps/correction.cpp"
 #include "core/synthesis/steps/correction.h"
 
-#include <array>
-
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/base/error.h"
 #include "core/base/geometry.h"
-#include "core/base/hash.h"
+#include "core/base/tuning.h"
 #include "core/synthesis/state/sub_pass.h"
+#include "core/synthesis/steps/correction_kernel.h"
 
-HWY_BEFORE_NAMESPACE();
 namespace terrazzo {
-namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// Corrects single pixels: gathers what surrounds them, collects candidates and picks the best. One per thread and
-/// tile. `steered`: the exemplar has a mask or the level a control.
-template <bool steered>
-class PixelCorrector {
- public:
-  PixelCorrector(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
-                 const UsagePenalty& usage)
-      : field_(field),
-        level_(level),
-        pass_(pass),
-        usage_(usage),
-        exemplar_(level.exemplar.at(0, 0)),
-        stride_(level.exemplar.stride()),
-        pass_bits_(random_bits(pass.seed, level.level, pass.pass)),
-        dear_coherence_(!pass.piece_coherence.empty() || pass.coherence > unit_factor),
-        taps_(int(pass.window->size())) {
-    for (int t = 0; t < taps_; t++) {
-      const auto [dx, dy] = (*pass.window)[t];
-      exemplar_offsets_[t] = dy * stride_ + dx;
-      field_offsets_[t] = ptrdiff_t{dy} * field.size.width + dx;
-      continued_[t] = packed(dx, dy);
-    }
-    for (int n = 0; n < 9; n++) around_offsets_[n] = ptrdiff_t{step(n, 1)} * field.size.width + step(n, 0);
-  }
-
-  HWY_ATTR ExemplarPixel best(int x, int y) {
-    const ExemplarPixel* own = &field_.at(x, y);
-    const bool inside = is_inside(x, y);
-    if (!steered && inside && continues_all_around(own)) return *own;
-    x_ = level_.window.x(x);
-    y_ = level_.window.y(y);
-    nearby_ = usage_.nearby_factors(x_, y_);
-    if constexpr (steered)
-      if (level_.control) target_ = level_.control->target(int64_t(level_.window.index(x, y)));
-    if (inside)
-      gather_inside(own);
-    else
-      gather_at_border(x, y);
-    candidates_ = 0;
-    best_cost_ = ~uint64_t{0};
-    best_ = *own;
-    propose_continued(own->x, own->y, coherence(own));
-    consider(ids_[0], factors_[0]);
-    // Nothing is cheaper than what costs nothing, as inside a piece of the exemplar.
-    if (best_cost_ == 0) return best_;
-    propose_others();
-    for (size_t i = 1; i < continued_candidates_; i++) consider(ids_[i], factors_[i]);
-    for (size_t i = continued_candidates_; i < candidates_; i++) consider(ids_[i], unit_factor);
-    return best_;
-  }
-
- private:
-  static uint32_t packed(int x, int y) { return (uint32_t(y) << 16) + uint32_t(x); }
-  static uint32_t packed(const ExemplarPixel& p) { return packed(p.x, p.y); }
-
-  static constexpr int step(int n, int axis) {
-    constexpr int steps[9][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
-    return steps[n][axis];
-  }
-
-  /// Far enough from the border that no neighbour needs looking for.
-  bool is_inside(int x, int y) const {
-    constexpr int reach = ring_radii[rings - 1];
-    return x >= reach && y >= reach && x < field_.size.width - reach && y < field_.size.height - reach;
-  }
-
-  /// Whether the pixel and its window show one connected place of the exemplar: they then fit without any difference.
-  bool continues_all_around(const ExemplarPixel* centre) const {
-    const uint32_t own = packed(*centre);
-    for (int t = 0; t < taps_; t++)
-      if (packed(centre[field_offsets_[t]]) != own + continued_[t]) return false;
-    return true;
-  }
-
-  uint32_t coherence(const ExemplarPixel* continued) const {
-    if (pass_.piece_coherence.empty()) return pass_.coherence;
-    return pass_.piece_coherence[size_t(continued - field_.pixels.data())];
-  }
-
-  /// The pixel at a place; null beyond the border of an output that does not tile.
-  const ExemplarPixel* neighbour(int x, int y) const {
-    const int64_t i = pixel_index(field_.size, x, y, level_.window.closed_x, level_.window.closed_y);
-    return i < 0 ? nullptr : &field_.pixels[size_t(i)];
-  }
-
-  HWY_ATTR void gather_inside(const ExemplarPixel* centre) {
-    for (int n = 0; n < 9; n++) around_[n] = centre + around_offsets_[n];
-    for (int r = 0; r < rings; r++)
-      for (int n = 0; n < 8; n++) ring_ids_[r][n] = packed(centre[ring_radii[r] * around_offsets_[n + 1]]);
-    for (int t = 0; t < taps_; t++) want(t, centre[field_offsets_[t]], exemplar_offsets_[t]);
-    count_ = taps_;
-  }
-
-  HWY_ATTR void gather_at_border(int x, int y) {
-    for (int n = 0; n < 9; n++) around_[n] = neighbour(x + step(n, 0), y + step(n, 1));
-    for (int r = 0; r < rings; r++)
-      for (int n = 0; n < 8; n++) {
-        const ExemplarPixel* p = neighbour(x + ring_radii[r] * step(n + 1, 0), y + ring_radii[r] * step(n + 1, 1));
-        ring_ids_[r][n] = p ? packed(*p) : no_id;
-      }
-    count_ = 0;
-    for (int t = 0; t < taps_; t++) {
-      const auto [dx, dy] = (*pass_.window)[t];
-      if (const ExemplarPixel* p = neighbour(x + dx, y + dy)) want(count_++, *p, exemplar_offsets_[t]);
-    }
-  }
-
-  /// What the window's pixel shows, and where a candidate's own is, counted from it.
-  HWY_INLINE HWY_ATTR void want(int tap, const ExemplarPixel& shown, ptrdiff_t offset) {
-    copy(exemplar_[shown.y * stride_ + shown.x], wanted_[tap]);
-    offsets_[tap] = offset;
-  }
-
-  HWY_INLINE void propose_continued(int x, int y, uint32_t factor) {
-    level_.exemplar.settle_inside(x, y);
-    const uint32_t id = packed(x, y);
-    for (size_t i = 0; i < candidates_; i++)
-      if (ids_[i] == id) return;
-    ids_[candidates_] = id;
-    factors_[candidates_++] = factor;
-  }
-
-  HWY_ATTR void propose_others() {
-    for (int n = 1; n < 9; n++)
-      if (around_[n]) propose_continued(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), coherence(around_[n]));
-    continued_candidates_ = candidates_;
-    size_t count = 0;
-    const size_t per_pixel = size_t(level_.per_pixel), width = size_t(level_.exemplar.size().width);
-    for (int n = 0; n < 9; n++) {
-      if (!around_[n]) continue;
-      const ExemplarPixel* similar = level_.similar.data() + (around_[n]->y * width + around_[n]->x) * per_pixel;
-      for (size_t k = 0; k < per_pixel; k++, count++) {
-        proposed_x_[count] = similar[k].x - step(n, 0);
-        proposed_y_[count] = similar[k].y - step(n, 1);
-      }
-    }
-    const uint64_t bits = more_random_bits(pass_bits_, x_, y_);
-    for (int k = 0; k < pass_.random_candidates; k++, count++) {
-      auto [u, v] = level_.exemplar.place(more_random_bits(bits, k));
-      level_.phase.snap(x_, y_, u, v);
-      level_.exemplar.unwind(u, v);
-      proposed_x_[count] = u;
-      proposed_y_[count] = v;
-    }
-    settle_proposed(count);
-    add_new(count);
-  }
-
-  /// Adds those of the proposed candidates that continue nothing. To meet one twice would cost time only, and so most
-  /// are told by the places they hash to; but one that continues a neighbour must not come back without its factor.
-  HWY_ATTR void add_new(size_t count) {
-    recent_.fill(no_id);
-    size_t candidates = candidates_;
-    for (size_t i = 0; i < count; i++) {
-      const uint32_t id = settled_ids_[i];
-      uint32_t& recent = recent_[(id * 0x9e3779b1u) >> (32 - recent_bits)];
-      bool is_new = recent != id;
-      recent = id;
-      if (dear_coherence_)
-        for (size_t c = 0; c < continued_candidates_; c++) is_new &= ids_[c] != id;
-      ids_[candidates] = id;
-      candidates += is_new;
-    }
-    candidates_ = candidates;
-  }
-
-  HWY_INLINE HWY_ATTR void consider(uint32_t id, uint32_t factor) {
-    const int x = int(id & 0xffff), y = int(id >> 16);
-    uint64_t difference = 0;
-    if constexpr (steered) {
-      if (!level_.exemplar.is_usable(x, y)) return;
-      if (level_.control) difference = level_.control->cost(x, y, target_) * uint64_t(count_);
-    }
-    if (usage_.active()) factor = uint32_t((uint64_t{factor} * usage_.factor(x, y)) / unit_factor);
-    if (nearby_) factor = uint32_t(uint64_t{factor} * nearby_[usage_.cell(x, y)] / unit_factor);
-    const AppearanceVector* centre = exemplar_ + (y * stride_ + x);
-    // The nearest pixels tell most candidates off, before the dearer terms, which only raise the cost.
-    difference += tap_distance(centre, 0);
-    if (difference * factor >= best_cost_) return;
-    factor += factor / 4 * repeats(id);
-    if (level_.phase.active()) factor = uint32_t(std::min(most_factor, factor * level_.phase.penalty(x, y, x_, y_)));
-    for (int t = taps_at_once; t < count_ && difference * factor < best_cost_; t += taps_at_once)
-      difference += tap_distance(centre, t);
-    if (difference * factor >= best_cost_) return;
-    best_cost_ = difference * factor;
-    best_ = {uint16_t(x), uint16_t(y)};
-  }
-
-#if HWY_TARGET == HWY_SCALAR
-  void settle_proposed(size_t count) {
-    for (size_t i = 0; i < count; i++) {
-      int x = proposed_x_[i], y = proposed_y_[i];
-      level_.exemplar.settle_inside(x, y);
-      settled_ids_[i] = packed(x, y);
-    }
-  }
-  uint32_t repeats(uint32_t id) const {
-    const auto is_near = [](uint32_t a, uint32_t b, int radius) { return 2 * std::abs(int(a) - int(b)) < radius; };
-    uint32_t count = 0;
-    for (int r = 0; r < rings; r++)
-      for (const uint32_t other : ring_ids_[r])
-        count += is_near(id & 0xffff, other & 0xffff, ring_radii[r]) && is_near(id >> 16, other >> 16, ring_radii[r]);
-    return count;
-  }
-  uint32_t tap_distance(const AppearanceVector* centre, int first) const {
-    uint32_t sum = 0;
-    for (int t = first; t < std::min(first + taps_at_once, count_); t++)
-      sum += uint32_t(squared_distance(wanted_[t], centre[offsets_[t]]));
-    return sum;
-  }
-  static void copy(const AppearanceVector& from, AppearanceVector& to) {
-    to = from;
-  }
-#else
-  /// PaddedLevel::settle_inside for all proposed candidates.
-  HWY_ATTR void settle_proposed(size_t count) {
-    const hn::CappedTag<int32_t, 16> d;
-    const PaddedLevel& exemplar = level_.exemplar;
-    const auto least = hn::Set(d, exemplar.keep_off());
-    const auto settle = [&](auto v, int length) HWY_ATTR {
-      return hn::Min(hn::Max(v, least), hn::Set(d, length - 1 - exemplar.keep_off()));
-    };
-    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-      const auto x = settle(hn::Load(d, &proposed_x_[i]), exemplar.size().width);
-      const auto y = settle(hn::Load(d, &proposed_y_[i]), exemplar.size().height);
-      hn::Store(hn::BitCast(hn::RebindToUnsigned<decltype(d)>(), hn::Or(x, hn::ShiftLeft<16>(y))),
-                hn::RebindToUnsigned<decltype(d)>(), &settled_ids_[i]);
-    }
-  }
-
-  /// How many of the pixels a little way off show nearly what the candidate would show here. A piece that comes back
-  /// after a few pixels makes combed streaks, a pixel that comes back at once makes waffles.
-  HWY_INLINE HWY_ATTR uint32_t repeats(uint32_t id) const {
-    const hn::CappedTag<uint32_t, 8> d32;
-    const hn::Repartition<uint16_t, decltype(d32)> d16;
-    const auto own = hn::BitCast(d16, hn::Set(d32, id));
-    auto count = hn::Zero(d32);
-    for (int r = 0; r < rings; r++)
-      for (size_t n = 0; n < 8; n += hn::Lanes(d32)) {
-        const auto other = hn::BitCast(d16, hn::Load(d32, &ring_ids_[r][n]));
-        const auto apart = hn::Or(hn::SaturatedSub(own, other), hn::SaturatedSub(other, own));
-        // Left over in x or y beyond the largest distance whose double is below the radius.
-        const auto beyond = hn::SaturatedSub(apart, hn::Set(d16, uint16_t((ring_radii[r] - 1) / 2)));
-        const auto is_near = hn::Eq(hn::BitCast(d32, beyond), hn::Zero(d32));
-        count = hn::Add(count, hn::IfThenElseZero(is_near, hn::Set(d32, 1)));
-      }
-    return hn::GetLane(hn::SumOfLanes(d32, count));
-  }
-
-  /// The squared distance of `taps_at_once` pixels of the window, or as many as there are, from the `first` one on.
-  HWY_INLINE HWY_ATTR uint32_t tap_distance(const AppearanceVector* centre, int first) const {
-    const hn::Full128<int16_t> d16;
-    const hn::Full128<int32_t> d32;
-    auto even = hn::Zero(d32), odd = hn::Zero(d32);
-    const auto add = [&](int t) HWY_ATTR {
-      const auto difference = hn::Sub(hn::Load(d16, wanted_[t].data()), hn::LoadU(d16, centre[offsets_[t]].data()));
-      even = hn::ReorderWidenMulAccumulate(d32, difference, difference, even, odd);
-    };
-    if (first + taps_at_once <= count_) {
-#pragma GCC unroll 8
-      for (int t = 0; t < taps_at_once; t++) add(first + t);
-    } else {
-      for (int t = first; t < count_; t++) add(t);
-    }
-    return uint32_t(hn::GetLane(hn::SumOfLanes(d32, hn::Add(even, odd))));
-  }
-  HWY_INLINE HWY_ATTR static void copy(const AppearanceVector& from, AppearanceVector& to) {
-    const hn::Full128<int16_t> d16;
-    hn::Store(hn::LoadU(d16, from.data()), d16, to.data());
-  }
-#endif
-
-  static constexpr int taps_at_once = 8;
-  static constexpr double most_factor = 1e9;
-  static constexpr int rings = 3;
-  static constexpr int ring_radii[rings] = {1, 3, correction_reach};
-  static constexpr int most_taps = 24;
-  static constexpr int most_candidates = 128;
-  static constexpr int recent_bits = 7;
-  static constexpr uint32_t no_id = ~uint32_t{0};  // a place that no exemplar that fits into memory has
-  template <typename T>
-  using ForCandidates = std::array<T, most_candidates>;
-
-  const Field& field_;
-  const CorrectionLevel& level_;
-  const CorrectionPass& pass_;
-  const UsagePenalty& usage_;
-  const AppearanceVector* exemplar_;  // its first pixel
-  ptrdiff_t stride_;
-  uint64_t pass_bits_;
-  bool dear_coherence_;  // it may cost more to continue a neighbour than not to
-  int taps_;
-  std::array<ptrdiff_t, 9> around_offsets_{};
-  std::array<ptrdiff_t, most_taps> field_offsets_{}, exemplar_offsets_{};
-  std::array<uint32_t, most_taps> continued_{};  // what a window's pixel has more than its centre, if it continues it
-
-  // Of the pixel under way:
-  int x_ = 0, y_ = 0;  // in the plane
-  const uint8_t* target_ = nullptr;
-  const uint16_t* nearby_ = nullptr;  // factors of what shows near by, of every cell
-  std::array<const ExemplarPixel*, 9> around_;
-  alignas(32) std::array<std::array<uint32_t, 8>, rings> ring_ids_;
-  int count_ = 0;  // pixels of the window
-  std::array<ptrdiff_t, most_taps> offsets_;
-  alignas(16) std::array<AppearanceVector, most_taps> wanted_;
-  alignas(64) ForCandidates<int32_t> proposed_x_{}, proposed_y_{};
-  alignas(64) ForCandidates<uint32_t> settled_ids_;
-  ForCandidates<uint32_t> ids_, factors_;
-  size_t candidates_ = 0, continued_candidates_ = 0;
-  std::array<uint32_t, 1 << recent_bits> recent_;
-  uint64_t best_cost_ = 0;
-  ExemplarPixel best_;
-};
-
-template <bool steered>
-HWY_ATTR void correct_pixels(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
-                             const UsagePenalty& usage, const SubPass& part, const Rect& tile, ExemplarPixel* out) {
-  PixelCorrector<steered> corrector(field, level, pass, usage);
-  for (int row = tile.y; row < tile.bottom(); row++)
-    for (int column = tile.x; column < tile.right(); column++) {
-      const int x = part.x(column), y = part.y(row);
-      out[size_t(row) * part.columns + column] =
-          level.fixed.any() && level.fixed.at(level.window.index(x, y)) ? field.at(x, y) : corrector.best(x, y);
-    }
-}
-
-/// A tile of a sub-pass' pixels, into `out`, which holds all of them.
-HWY_ATTR void correct_tile(const Field& field, const CorrectionLevel& level, const CorrectionPass& pass,
-                           const UsagePenalty& usage, const SubPass& part, const Rect& tile, ExemplarPixel* out) {
-  const auto correct = level.control || level.exemplar.masked() ? correct_pixels<true> : correct_pixels<false>;
-  correct(field, level, pass, usage, part, tile, out);
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace terrazzo
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace terrazzo {
-
-HWY_EXPORT(correct_tile);
 
 namespace {
 
-// What one task corrects of a sub-pass; few enough pixels that the coarsest levels still make several tasks.
+struct Tuning {
+  double repeat_penalty = 0.25;
+};
+const Tunable<Tuning> tuning(
+    "correction", {{&Tuning::repeat_penalty, "repeat_penalty", "factor per repeat",
+                    "higher: stones and leaves are not filled by one small patch over and over; lower: exemplars with "
+                    "fine, regular texture keep it",
+                    "correction"}});
+
+// What one task corrects of a sub-pass: few enough pixels that the coarsest levels still make several tasks. It changes
+// the time only, not the result.
 constexpr int tile_columns = 32;
 constexpr int tile_rows = 4;
+
+void require_room(const CorrectionPass& pass) {
+  if (pass.window->size() > size_t(most_window_pixels) || pass.random_candidates > most_random_candidates)
+    throw Error(
+        fmt::format("a correction pass takes windows of at most {} pixels and {} random candidates, found {} and {}",
+                    most_window_pixels, most_random_candidates, pass.window->size(), pass.random_candidates));
+}
 
 }  // namespace
 
 void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, UsagePenalty& usage,
              const Task& task) {
+  require_room(pass);
+  const CorrectionInputs inputs{field, level, pass, usage, uint32_t(tuning->repeat_penalty * unit_factor)};
   std::vector<ExemplarPixel> next;
   for (int sub = 0; sub < sub_passes; sub++) {
     usage.recount(field, level.fixed);
-    // What the sub-passes that follow look at has to be right as well.
+    // What the following sub-passes read has to be right as well.
     const Rect wanted = intersect(whole(field.size), grown(pass.wanted, correction_reach * (sub_passes - 1 - sub)));
     const SubPass part(level.window, wanted, (sub ^ pass.pass) & 1, sub >> 1);
     if (part.columns <= 0 || part.rows <= 0) continue;
@@ -383,8 +53,7 @@ void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& p
     tbb::parallel_for(0, tiles_across * tiles_down, [&](int i) {
       task.check();
       const Rect tile{i / tiles_down * tile_columns, i % tiles_down * tile_rows, tile_columns, tile_rows};
-      HWY_DYNAMIC_DISPATCH(correct_tile)
-      (field, level, pass, usage, part, intersect(tile, {0, 0, part.columns, part.rows}), next.data());
+      correct_tile(inputs, part, intersect(tile, {0, 0, part.columns, part.rows}), next.data());
     });
     tbb::parallel_for(0, part.rows, [&](int row) {
       for (int i = 0; i < part.columns; i++) field.at(part.x(i), part.y(row)) = next[size_t(row) * part.columns + i];
@@ -393,4 +62,3 @@ void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& p
 }
 
 }  // namespace terrazzo
-#endif

@@ -8,7 +8,7 @@
 
 namespace terrazzo {
 
-/// What a column of a course looks like: the mean of each strip along it.
+/// The appearance of a column of a course: the mean of each of its strips, from one bed joint to the next.
 inline constexpr int course_strips = 4;
 using ColumnLook = std::array<AppearanceVector, course_strips>;
 
@@ -19,23 +19,22 @@ struct CourseColumns {
   struct Cut {
     int column = 0;
     int32_t cost = 0;
-    int off_middle = 0;  ///< by how many columns, of the joint that it goes through; at most farthest_off_middle
+    int off_middle = 0;  ///< columns from the middle of the joint that it cuts; at most farthest_off_middle
   };
   static constexpr int farthest_off_middle = 3;
-  /// Before which columns a result may begin to show the course, or stop, if need be after the last: ascending, and
-  /// what either costs.
+  /// The columns before which a run may begin or end, and what either costs; ascending, perhaps one past the last.
   std::vector<Cut> cuts;
 };
 
-/// What a result shows from one of its columns on, up to the next run's.
+/// Consecutive columns of the exemplar that a result shows from one of its columns on, up to the next run.
 struct CourseRun {
   int begin = 0;   ///< the first column of the result
   int course = 0;  ///< of the exemplar
-  int from = 0;    ///< the exemplar's column that shows there
+  int from = 0;    ///< the exemplar's column that it shows there
   bool operator==(const CourseRun&) const = default;
 };
 
-/// What it costs more, or less, to show a column of the exemplar in the result's columns from `begin` to before `end`.
+/// An addition to the cost of showing a column of the exemplar in the result's columns from `begin` to before `end`.
 struct ColumnPrice {
   int course = 0;
   int column = 0;
@@ -43,11 +42,11 @@ struct ColumnPrice {
   int32_t price = 0;
 };
 
-/// A course of the exemplar that may be shown.
+/// A course of the exemplar that a result may show.
 struct TriedCourse {
   const CourseColumns* columns = nullptr;
-  /// Whether a run may begin that shows column `least_shift + i` in the result's first column, or its column `x` where
-  /// that would be x steps further on. Empty: all may.
+  /// Element i: whether runs may begin whose shift is `least_shift + i`. A run's shift is the exemplar's column that it
+  /// shows, or would show if it were extended, in the result's first column. Empty: all may.
   std::vector<uint8_t> in_phase{};
   int least_shift = 0;
   bool fits(int shift) const { return in_phase.empty() || in_phase[size_t(shift - least_shift)]; }
@@ -55,20 +54,21 @@ struct TriedCourse {
 
 struct CourseFit {
   int step = 1;      ///< columns of the exemplar to one of the result
-  int shortest = 1;  ///< columns of the result that a run takes at least, but where the result begins or ends
-  int again = 0;  ///< columns of the exemplar by which a run must go back if it goes on in the course of the one before
-  double per_difference = 0;    ///< what a column costs by which the exemplar's differs from it,
-  int32_t most_incoherent = 0;  ///< and at most
-  int32_t per_gap = 0;          ///< each column costs by which a joint, put together from two, is too wide or narrow
-  bool closed = false;          ///< the result wraps around: its last run goes on with its first columns
+  int shortest = 1;  ///< the minimum length of runs in columns of the result, except at its borders
+  /// A run that goes back in the course of the one before goes back by at least so many columns of the exemplar.
+  int least_step_back = 0;
+  double per_difference = 0;    ///< the cost per difference() of a column from what is shown,
+  int32_t most_difference = 0;  ///< and its limit
+  int32_t per_gap = 0;          ///< the cost per column by which a joint joined from two parts is too wide or narrow
+  bool closed = false;          ///< the result wraps: its last run continues with its first columns
 };
 
-/// What two columns differ by.
+/// The squared distance of two columns, scaled.
 int32_t difference(const ColumnLook& a, const ColumnLook& b);
 
-/// The sequence of runs of the exemplar's courses that costs least, in what it differs from `shown` by, in prices and
-/// in cuts (dynamic programming; Viterbi, Error bounds for convolutional codes, 1967), ascending. `courses` have 65534
-/// cuts at most, all together. Empty if a result that wraps cannot be cut at all. Thread-safe.
+/// The sequence of runs of the exemplar's courses, ascending, whose costs are least: differences from `shown`, prices
+/// and cuts (dynamic programming; Viterbi, Error bounds for convolutional codes, 1967). `courses` have at most 65534
+/// cuts in all. Empty if a result that wraps cannot be cut at all. Thread-safe.
 std::vector<CourseRun> fitting_runs(const std::vector<ColumnLook>& shown, const std::vector<TriedCourse>& courses,
                                     const std::vector<ColumnPrice>& prices, const CourseFit& fit);
 

@@ -6,14 +6,41 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/base/tuning.h"
+
 namespace terrazzo {
 
 namespace {
 
-// What it costs to go over to or from another place of the exemplar in a joint and in the middle of a brick, in units
-// and course heights, and which columns are surely either.
-constexpr double cut_joint = 0.5, cut_brick = 6;
-constexpr double surely_brick = 0.5, surely_joint = 0.9;
+struct Tuning {
+  double cut_joint = 0.5;
+  double cut_brick = 6;
+  double surely_brick = 0.5;
+  double surely_joint = 0.9;
+  double brick_cut_spacing = 0.25;
+};
+const Tunable<Tuning> tuning(
+    "exemplar_courses",
+    {
+        {&Tuning::cut_joint, "cut_joint", "mean differences times course heights",
+         "the cost of cutting a course in a joint. Higher: longer runs of the exemplar; lower: bricks mix more freely",
+         "course_layout"},
+        {&Tuning::cut_brick, "cut_brick", "mean differences times course heights",
+         "the same in a brick. Higher: bricks stay whole; lower: figures improve, but bricks in two colours come back",
+         "course_layout"},
+        {&Tuning::surely_brick, "surely_brick", "likelihood of a joint, 0..1",
+         "higher: faint joints are cut like bricks; lower: cuts go through bricks that look like joints",
+         "not measured: even odds"},
+        {&Tuning::surely_joint, "surely_joint", "likelihood of a joint, 0..1",
+         "higher: only clear joints are cut at the price of a joint; lower: doubtful ones are too",
+         "not measured: between it and surely_brick prices change gradually"},
+        {&Tuning::brick_cut_spacing, "brick_cut_spacing", "course heights",
+         "higher: fewer columns of bricks can be cut, which saves time; lower: cuts find a better column",
+         "not measured: cuts of bricks are rare"},
+    });
+
+// Of all pairs of columns, cost_per_difference() compares every seventh with another one, far from it.
+constexpr size_t pair_stride = 7, pair_factor = 13, pair_offset = 5;
 
 /// A course may reach into the exemplar's border, which is not shown: there the result stays as it is.
 bool shows(const BlockSource& source, const Coursing& coursing, int along, int across) {
@@ -25,27 +52,29 @@ bool shows(const BlockSource& source, const Coursing& coursing, int along, int a
   return source.exemplar.holds(x, y);
 }
 
-/// Joints are cut in or near their middle; bricks now and then, for want of anything better.
+/// Joints can be cut in or near their middle; bricks at some columns, at a higher cost.
 std::vector<CourseColumns::Cut> cuts_of(const ExemplarCourse& course, double height) {
   constexpr int far = CourseColumns::farthest_off_middle;
-  const int length = int(course.joint.size()), often = std::max(1, int((course.end - course.begin) / 4));
+  const Tuning t = *tuning;
+  const int length = int(course.joint.size());
+  const int spacing = std::max(1, int((course.end - course.begin) * t.brick_cut_spacing));
   std::map<int, CourseColumns::Cut> out;
   const auto add = [&](int u, double brick, int off_middle) {
-    out[u] = {u, int32_t((cut_joint + (cut_brick - cut_joint) * brick) * cost_unit * height), off_middle};
+    out[u] = {u, int32_t((t.cut_joint + (t.cut_brick - t.cut_joint) * brick) * cost_unit * height), off_middle};
   };
-  for (int u = 0; u < length; u += often) add(u, 1, 0);
+  for (int u = 0; u < length; u += spacing) add(u, 1, 0);
   for (int begin = 0, end = 0; begin < length; begin = end + 1) {
     double sum = 0, moment = 0;
     float most = 0;
-    for (end = begin; end < length && course.joint[size_t(end)] >= surely_brick; end++) {
+    for (end = begin; end < length && course.joint[size_t(end)] >= t.surely_brick; end++) {
       most = std::max(most, course.joint[size_t(end)]);
       sum += course.joint[size_t(end)];
       moment += course.joint[size_t(end)] * (end + 0.5);
     }
     if (begin == end) continue;
-    // Of a joint at the exemplar's border no one knows the middle.
+    // Joints cut by the exemplar's border have unknown centres.
     const int middle = begin == 0 ? 0 : end == length ? length : int(moment / sum + 0.5);
-    const double brick = std::max(0.0, (surely_joint - most) / (surely_joint - surely_brick));
+    const double brick = std::max(0.0, (t.surely_joint - most) / (t.surely_joint - t.surely_brick));
     for (int u = std::max(begin, middle - far); u <= std::min(end, middle + far); u++) add(u, brick, u - middle);
   }
   std::vector<CourseColumns::Cut> cuts;
@@ -89,8 +118,8 @@ double cost_per_difference(const std::vector<CourseColumns>& columns, const Cour
     for (size_t b = a; b < columns.size(); b++) {
       if (coursing.courses[a].kind != coursing.courses[b].kind) continue;
       const std::vector<ColumnLook>&p = columns[a].looks, &q = columns[b].looks;
-      // Some of all pairs.
-      for (size_t i = 0; i < p.size(); i += 7, count++) sum += difference(p[i], q[(i * 13 + 5) % q.size()]);
+      for (size_t i = 0; i < p.size(); i += pair_stride, count++)
+        sum += difference(p[i], q[(i * pair_factor + pair_offset) % q.size()]);
     }
   return sum > 0 ? cost_unit * count / sum : 0;
 }

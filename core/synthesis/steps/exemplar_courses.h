@@ -10,14 +10,14 @@
 
 namespace terrazzo {
 
-/// What two columns of one kind of course differ by on average. Costs are multiples of it.
+/// The cost of the mean difference between two columns of one kind of course: the unit of all costs.
 inline constexpr int cost_unit = 256;
 
-/// The means of a column's strips, added pixel by pixel.
+/// Accumulates a column's pixels into the means of its strips.
 class StripMeans {
  public:
   StripMeans(double begin, double end) : begin_(begin), end_(end) {}
-  /// `across`: the middle of a pixel, between the course's begin and end.
+  /// `across`: the position of a pixel's middle, between the course's begin and end.
   void add(double across, const AppearanceVector& v) {
     const auto strip =
         size_t(std::clamp(int((across - begin_) / (end_ - begin_) * course_strips), 0, course_strips - 1));
@@ -37,19 +37,19 @@ class StripMeans {
   std::array<std::array<int, appearance_dimensions>, course_strips> sum_{};
 };
 
-/// Where a result may take blocks of pixels from.
+/// The blocks of exemplar pixels that a result may show.
 struct BlockSource {
   const PaddedLevel& exemplar;  ///< the finest level
   int block = 1;                ///< pixels along each side
   bool holds(int x, int y) const { return exemplar.holds(x, y) && exemplar.holds(x + block - 1, y + block - 1); }
 };
 
-/// The columns of all the exemplar's courses, and where they can be cut. `looks`: of the coursing's level. `step`:
-/// columns of the exemplar to one of the result.
+/// The columns of all the exemplar's courses, and where they can be cut. `looks`: the coursing's level. `step`: columns
+/// of the exemplar to one of the result.
 std::vector<CourseColumns> exemplar_courses(const AppearanceLevel& looks, const Coursing& coursing,
                                             const BlockSource& source, int step);
 
-/// The factor on differences that makes one between two columns of one kind cost_unit on average.
+/// The factor that scales differences so that those between two columns of one kind are cost_unit on average.
 double cost_per_difference(const std::vector<CourseColumns>& columns, const Coursing& coursing);
 
 }  // namespace terrazzo

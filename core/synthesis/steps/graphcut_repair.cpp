@@ -3,12 +3,31 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "core/base/tuning.h"
 #include "core/synthesis/state/patches.h"
 #include "core/synthesis/state/usage_penalty.h"
 
 namespace terrazzo {
 
 namespace {
+
+struct Tuning {
+  int worse = 1;
+  int worse_where_fine = 3;
+  int fine_level = 1;
+};
+const Tunable<Tuning> tuning(
+    "graphcut_repair",
+    {
+        {&Tuning::worse, "worse", "average mismatches",
+         "how visible seams must be. Higher: fewer windows are repaired, which saves time; lower: more seams close",
+         "graphcut_repair"},
+        {&Tuning::worse_where_fine, "worse_where_fine", "average mismatches",
+         "the same at fine levels, which have many windows", "not measured: bounds the time of fine levels"},
+        {&Tuning::fine_level, "fine_level", "level",
+         "the coarsest level that counts as fine. Higher: less time; lower: more seams close at fine levels",
+         "not measured: bounds the time of fine levels"},
+    });
 
 /// The mismatch of every pixel with its right and its lower neighbour.
 std::vector<int32_t> mismatches(const ExpansionGround& ground) {
@@ -27,7 +46,7 @@ std::vector<int32_t> mismatches(const ExpansionGround& ground) {
   return out;
 }
 
-/// The middles of windows whose seams show more, or much more, than they do on average, the worst first.
+/// The middles of windows whose seams mismatch more than the average, the worst first.
 std::vector<int> worst_windows(const ExpansionGround& ground) {
   const Size size = ground.field.size;
   const std::vector<int32_t> values = mismatches(ground);
@@ -35,7 +54,8 @@ std::vector<int> worst_windows(const ExpansionGround& ground) {
   for (const int32_t v : values) total += v;
   const int64_t average = total * (2 * Patches::core + 1) * (2 * Patches::core + 1) / size.area();
   return worst_first(core_sums(values, size, ground.level.window),
-                     average * (ground.level.level <= Patches::many_pixels ? 3 : 1), size);
+                     average * (ground.level.level <= tuning->fine_level ? tuning->worse_where_fine : tuning->worse),
+                     size);
 }
 
 }  // namespace

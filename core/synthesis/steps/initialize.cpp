@@ -7,16 +7,41 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/hash.h"
+#include "core/base/tuning.h"
 
 namespace terrazzo {
 
 namespace {
 
-// Of a block: where a mask or controls make some places better than others, and where none does.
-constexpr int steered_draws = 16, free_draws = 4;
-constexpr int near_blocks = 3;  // so far off what a block shows had better not show again
+struct Tuning {
+  int blocks_per_side = 4;
+  int smallest_block = 4;
+  int steered_draws = 16;
+  int free_draws = 4;
+  int near_blocks = 3;
+};
+const Tunable<Tuning> tuning(
+    "initialize",
+    {
+        {&Tuning::blocks_per_side, "blocks_per_side", "blocks along the exemplar's shorter side",
+         "higher: smaller blocks mix more, and large features are cut; lower: large features stay whole and repeat",
+         "not measured: a block holds the largest features of most exemplars"},
+        {&Tuning::smallest_block, "smallest_block", "pixels of the coarsest level",
+         "the least side of a block. Higher: tiny exemplars keep their features; lower: they mix more",
+         "not measured: only exemplars below 16 pixels at the coarsest level reach it"},
+        {&Tuning::steered_draws, "steered_draws", "random blocks",
+         "under a mask or controls. Higher: the layout follows them more closely; lower: it varies more",
+         "not measured: the passes that follow choose again"},
+        {&Tuning::free_draws, "free_draws", "random blocks",
+         "without them. Higher: less repeats near by, more at one distance just beyond; lower: blocks repeat side by "
+         "side",
+         "proximity_penalty"},
+        {&Tuning::near_blocks, "near_blocks", "blocks",
+         "how far repeats count. Higher: they are pushed farther away; lower: they come nearer",
+         "not measured: three quarters of the exemplar, as far as proximity_penalty counts"},
+    });
 
-/// The exemplar position from which a block starts.
+/// The exemplar position of a random block's first pixel.
 std::array<int, 2> random_start(const PaddedLevel& exemplar, int side, uint64_t bits) {
   if (exemplar.masked()) {
     const auto [u, v] = exemplar.place(bits);
@@ -29,7 +54,7 @@ std::array<int, 2> random_start(const PaddedLevel& exemplar, int side, uint64_t 
   return {start(uint32_t(bits), exemplar.size().width), start(uint32_t(bits >> 32), exemplar.size().height)};
 }
 
-/// Places one block after the other, each at the best of some random places.
+/// Places one block after the other, each the best of several random ones.
 class BlockPlacing {
  public:
   BlockPlacing(const Plane& plane, const PaddedLevel& exemplar, const LevelControl* control, const PartPhases& phase,
@@ -39,7 +64,7 @@ class BlockPlacing {
         control_(control),
         phase_(phase),
         seed_(seed),
-        side_(std::max(4, std::min(exemplar.size().width, exemplar.size().height) / 4)),
+        side_(block_side(exemplar.size())),
         columns_((plane.size.width + side_ - 1) / side_),
         rows_((plane.size.height + side_ - 1) / side_) {}
 
@@ -62,6 +87,10 @@ class BlockPlacing {
  private:
   using Start = std::array<int, 2>;  // the exemplar position of a block's first pixel
 
+  static int block_side(Size exemplar) {
+    return std::max(tuning->smallest_block, std::min(exemplar.width, exemplar.height) / tuning->blocks_per_side);
+  }
+
   bool steered() const { return control_ || exemplar_.masked(); }
   Rect block(int column, int row) const {
     return intersect(whole(plane_.size), {column * side_, row * side_, side_, side_});
@@ -70,9 +99,10 @@ class BlockPlacing {
   Start best_start(int column, int row) const {
     const uint64_t bits = random_bits(seed_, Purpose::blocks, column, row);
     Start best = start(column, row, bits);
-    if (!steered() && phase_.active()) return best;  // a cell that comes again is what a lattice is
+    if (!steered() && phase_.active()) return best;  // cells of a lattice are meant to repeat
     double least = misfit(column, row, best);
-    for (int draw = 1; draw < (steered() ? steered_draws : free_draws) && least > 0; draw++) {
+    const int draws = steered() ? tuning->steered_draws : tuning->free_draws;
+    for (int draw = 1; draw < draws && least > 0; draw++) {
       const Start other = start(column, row, random_bits(bits, draw));
       const double misfit = this->misfit(column, row, other);
       if (misfit >= least) continue;
@@ -93,7 +123,7 @@ class BlockPlacing {
     return steered() ? steered_misfit(block(column, row), start) : shown_near(column, row, start);
   }
 
-  /// What a mask and controls have against a block's pixels.
+  /// What a block's pixels cost under a mask and controls.
   double steered_misfit(const Rect& block, const Start& start) const {
     uint64_t misfit = 0;
     for (int y = 0; y < block.height; y++)
@@ -107,8 +137,9 @@ class BlockPlacing {
     return double(misfit);
   }
 
-  /// How many of a block's pixels blocks show that are there already, the nearer they show the more.
+  /// How many of a block's pixels the blocks placed so far show near by, weighted by nearness.
   double shown_near(int column, int row, const Start& start) const {
+    const int near_blocks = tuning->near_blocks;
     double sum = 0;
     for (int down = -near_blocks; down <= near_blocks; down++)
       for (int across = -near_blocks; across <= near_blocks; across++) {
@@ -117,7 +148,7 @@ class BlockPlacing {
         const int du = starts_[size_t(other)][0] - start[0], dv = starts_[size_t(other)][1] - start[1];
         const int width = side_ - std::abs(du), height = side_ - std::abs(dv);
         if (width <= 0 || height <= 0) continue;
-        const double dx = across * side_ - du, dy = down * side_ - dv;  // from a pixel to where it shows again
+        const double dx = across * side_ - du, dy = down * side_ - dv;  // from a pixel to its repeat
         sum += double(width) * height * std::max(0.0, 1 - std::sqrt(dx * dx + dy * dy) / (near_blocks * side_));
       }
     return sum;
@@ -133,14 +164,14 @@ class BlockPlacing {
   std::vector<Start> starts_;  // of the blocks that are placed
 };
 
-/// Moves a position by up to `amplitude` pixels each way, any number of times around an exemplar that tiles.
+/// Displaces a position by up to `amplitude` pixels each way, around the borders of an exemplar that tiles.
 void displace(int& u, int& v, const PaddedLevel& exemplar, double amplitude, uint64_t bits) {
   u += int(std::floor(amplitude * (2 * unit_double(bits << 32) - 1) + 0.5));
   v += int(std::floor(amplitude * (2 * unit_double(bits) - 1) + 0.5));
   exemplar.unwind(u, v);
 }
 
-/// Brings the first pixel of a block to where all four lie in the exemplar and continue one another.
+/// Clamps the first pixel of a block to where all four lie in the exemplar and continue one another.
 void settle_block(int& u, int& v, const PaddedLevel& exemplar) {
   u++, v++;
   exemplar.settle_inside(u, v);
@@ -175,8 +206,8 @@ Field block_starts(const Field& parent, const PlaneWindow& window, const PaddedL
       const int x = window.x(column), y = window.y(row);
       int u = 2 * p.x, v = 2 * p.y;
       if (amplitude > 0) displace(u, v, exemplar, amplitude, random_bits(seed, Purpose::jitter, level, x, y));
-      // At the finest level pieces fit one another already; to round each to the lattice would undo that, unless the
-      // lattice is right to the pixel.
+      // At the finest level pieces fit one another already; to snap each to the lattice would undo that, unless the
+      // lattice is exact to the pixel.
       if (level > 0 || amplitude > 0 || phase.is_whole()) phase.snap(2 * x, 2 * y, u, v);
       exemplar.unwind(u, v);
       settle_block(u, v, exemplar);

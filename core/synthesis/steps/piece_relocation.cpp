@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/hash.h"
+#include "core/base/tuning.h"
 #include "core/synthesis/state/candidate_votes.h"
 #include "core/synthesis/state/piece_seams.h"
 #include "core/synthesis/state/rounds.h"
@@ -17,16 +18,42 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int smallest_piece = 16;    // blocks
-constexpr int near = 8;               // blocks; what shows so near a piece already is not shown by it again,
-constexpr double shown_again = 0.05;  // but for so much of the piece
-constexpr double worthwhile = 0.9;    // what the misfit must fall to
-constexpr size_t asked_seams = 128;   // for votes_by_candidate
-constexpr int random_places = 256;
-constexpr size_t counted_pixels = 16;  // for how often what a piece shows is in use
+struct Tuning {
+  double repeated = 0.05;
+  double worthwhile = 0.9;
+  int smallest_piece = 16;
+  int near = 8;
+  int voting_seams = 128;
+  int random_places = 256;
+  int usage_samples = 16;
+};
+const Tunable<Tuning> tuning(
+    "piece_relocation",
+    {
+        {&Tuning::repeated, "repeated", "share of a piece",
+         "so much of a piece may show near by already. Higher: more places may fit; lower: less repeats",
+         "piece_relocation"},
+        {&Tuning::worthwhile, "worthwhile", "share of the misfit",
+         "what a move must lower it to. Higher: pieces move for small gains; lower: they stay in place",
+         "not measured: a tenth is more than seams vary by a pixel's shift"},
+        {&Tuning::smallest_piece, "smallest_piece", "blocks",
+         "higher: less time; smaller pieces are left to correction. Lower: small pieces find better places",
+         "not measured: correction replaces smaller pieces"},
+        {&Tuning::near, "near", "blocks", "higher: repeats must be farther apart; lower: more places may fit",
+         "piece_relocation"},
+        {&Tuning::voting_seams, "voting_seams", "seam pixels", "higher: more of a seam proposes candidates; costs time",
+         "not measured: their candidates agree soon"},
+        {&Tuning::random_places, "random_places", "candidates for a piece",
+         "higher: better places are found, which are used more often; costs time. Lower: use stays even",
+         "piece_relocation"},
+        {&Tuning::usage_samples, "usage_samples", "pixels of a piece",
+         "higher: usage is known more exactly; costs time",
+         "not measured: cells are larger than what lies between them"},
+    });
+
 constexpr int64_t no_limit = std::numeric_limits<int64_t>::max();
 
-/// From what a piece shows to what it might.
+/// The offset from what a piece shows to what it might show.
 struct Move {
   int dx = 0;
   int dy = 0;
@@ -35,7 +62,7 @@ struct Move {
   uint32_t packed() const { return uint32_t(dy + 0x8000) << 16 | uint32_t(dx + 0x8000); }
 };
 
-/// A piece as it lies in the exemplar, which is how it lies in the field, whatever border it goes around there.
+/// A piece's bounds in the exemplar. They are contiguous there even if the piece wraps around the field's border.
 struct Outline {
   int first = 0;           ///< its first pixel in the field
   ExemplarPixel at_first;  ///< what that shows
@@ -51,11 +78,11 @@ struct Outline {
   }
 };
 
-/// Refills one piece at a time. One per thread.
-class Refiller {
+/// Relocates one piece at a time. One per thread.
+class Relocator {
  public:
-  Refiller(Field& field, int block, const CorrectionLevel& level, const PieceGround& ground, const UsagePenalty& usage,
-           uint64_t seed)
+  Relocator(Field& field, int block, const CorrectionLevel& level, const PieceGround& ground, const UsagePenalty& usage,
+            uint64_t seed)
       : field_(field),
         block_(block),
         level_(level),
@@ -64,11 +91,11 @@ class Refiller {
         usage_(usage),
         seed_(seed) {}
 
-  void refill(int piece) {
+  void relocate(int piece) {
     find_seams(piece);
     const Outline outline(field_, pieces_.members(piece));
-    suggest_moves(outline);
-    int64_t least = int64_t(double(cost(piece, {}, no_limit)) * worthwhile);
+    propose_moves(outline);
+    int64_t least = int64_t(double(cost(piece, {}, no_limit)) * tuning->worthwhile);
     Move best;
     for (const auto& [packed, votes] : moves_.by_votes()) {
       const Move move = Move::unpacked(packed);
@@ -91,7 +118,7 @@ class Refiller {
     return seams_.empty() ? 0 : double(ground_.mismatch(seams_, 0, 0, no_limit)) / double(seams_.size());
   }
 
-  /// All that lies within a piece's outline, as far as the field goes.
+  /// The field's pixels within a piece's bounds.
   std::vector<int> pixels_within(const Outline& o) const {
     std::vector<int> pixels;
     for (int v = o.low.y; v <= o.high.y; v += block_)
@@ -103,7 +130,7 @@ class Refiller {
   }
 
  private:
-  /// Far apart from one to the next, so that a misfit is soon seen.
+  /// Each far from the one before, so that sums soon exceed their limit.
   void find_seams(int piece) {
     in_order_.clear();
     seams_.clear();
@@ -115,7 +142,7 @@ class Refiller {
     for (size_t i = 0; i < count; i++) seams_.push_back(in_order_[i * stride % count]);
   }
 
-  /// The field's pixel that would show an exemplar position if the piece went on to there; -1 if there is none.
+  /// The field's pixel that would show an exemplar position if the piece extended there; -1 if there is none.
   int64_t pixel_showing(const Outline& o, int u, int v) const {
     const auto blocks = [this](int d) { return d >= 0 ? d / block_ : -((block_ - 1 - d) / block_); };
     return pixel_index(field_.size, o.first % field_.size.width + blocks(u - o.at_first.x),
@@ -123,30 +150,30 @@ class Refiller {
                        level_.window.closed_y);
   }
 
-  void suggest_moves(const Outline& o) {
+  void propose_moves(const Outline& o) {
     moves_.clear();
-    for (size_t i = 0; i < std::min(seams_.size(), asked_seams); i++) {
+    for (size_t i = 0; i < std::min(seams_.size(), size_t(tuning->voting_seams)); i++) {
       const PieceSeam& s = seams_[i];
-      suggest_similar(o, s.inside, s.inside.x, s.inside.y);
-      suggest_similar(o, s.beyond, s.inside.x + s.dx, s.inside.y + s.dy);
+      propose_similar(o, s.inside, s.inside.x, s.inside.y);
+      propose_similar(o, s.beyond, s.inside.x + s.dx, s.inside.y + s.dy);
     }
-    for (int k = 0; k < random_places; k++) {
+    for (int k = 0; k < tuning->random_places; k++) {
       const auto [u, v] = level_.exemplar.place(random_bits(seed_, level_.level, o.first, k));
-      suggest(o, {u - o.at_first.x, v - o.at_first.y});
+      propose(o, {u - o.at_first.x, v - o.at_first.y});
     }
   }
 
-  /// Moves that take (x, y) to where the exemplar is similar to that pixel.
-  void suggest_similar(const Outline& o, ExemplarPixel pixel, int x, int y) {
+  /// Proposes moves of (x, y) to the k-coherent candidates of that pixel.
+  void propose_similar(const Outline& o, ExemplarPixel pixel, int x, int y) {
     const size_t first = (size_t(pixel.y) * level_.exemplar.size().width + pixel.x) * size_t(level_.per_pixel);
     for (int k = 0; k < level_.per_pixel; k++) {
       const ExemplarPixel similar = level_.similar[first + size_t(k)];
-      suggest(o, {similar.x - x, similar.y - y});
+      propose(o, {similar.x - x, similar.y - y});
     }
   }
 
-  /// The nearest in phase, if it leaves the piece in the exemplar.
-  void suggest(const Outline& o, const Move& move) {
+  /// Proposes the nearest move in phase, if the piece stays in the exemplar.
+  void propose(const Outline& o, const Move& move) {
     int u = o.at_first.x + move.dx, v = o.at_first.y + move.dy;
     level_.phase.snap(o.first % field_.size.width * block_, o.first / field_.size.width * block_, u, v);
     const Move m{u - o.at_first.x, v - o.at_first.y};
@@ -156,16 +183,16 @@ class Refiller {
   }
 
   int64_t cost(int piece, const Move& m, int64_t limit) const {
-    const double factor = ground_.penalty(piece, m.dx, m.dy) * use(piece, m);
+    const double factor = ground_.penalty(piece, m.dx, m.dy) * usage_factor(piece, m);
     const int64_t c = ground_.mismatch(seams_, m.dx, m.dy, limit == no_limit ? limit : int64_t(limit / factor) + 1);
     return int64_t(double(c) * factor);
   }
 
-  /// How often what a piece would show is in use, as a factor; from some of its pixels.
-  double use(int piece, const Move& m) const {
+  /// The mean usage penalty of what a piece would show, from some of its pixels.
+  double usage_factor(int piece, const Move& m) const {
     if (!usage_.active()) return 1;
     const std::span<const int> members = pieces_.members(piece);
-    const size_t step = std::max<size_t>(1, members.size() / counted_pixels);
+    const size_t step = std::max<size_t>(1, members.size() / size_t(std::max(1, tuning->usage_samples)));
     const Size e = level_.exemplar.size();
     uint64_t sum = 0, count = 0;
     for (size_t i = step / 2; i < members.size(); i += step, count++) {
@@ -182,7 +209,7 @@ class Refiller {
   }
 
   bool shows_near(int piece, const Outline& o, const Move& m) const {
-    const int most = int(shown_again * pieces_.area(piece)), around = near * block_;
+    const int most = int(tuning->repeated * pieces_.area(piece)), around = tuning->near * block_;
     int shown = 0;
     for (int v = o.low.y - around; v <= o.high.y + around; v += block_)
       for (int u = o.low.x - around; u <= o.high.x + around; u += block_) {
@@ -214,24 +241,24 @@ void relocate_pieces(Field& field, int block, const CorrectionLevel& level, cons
                      const Task& task) {
   const PieceGround ground(field, block, level);
   const Pieces& pieces = ground.pieces();
-  tbb::enumerable_thread_specific<Refiller> refillers(
-      [&] { return Refiller(field, block, level, ground, usage, seed); });
+  tbb::enumerable_thread_specific<Relocator> relocators(
+      [&] { return Relocator(field, block, level, ground, usage, seed); });
   std::vector<int> order;
   for (int piece = 0; piece < pieces.count(); piece++)
-    if (pieces.area(piece) >= smallest_piece && !ground.is_fixed(piece)) order.push_back(piece);
+    if (pieces.area(piece) >= tuning->smallest_piece && !ground.is_fixed(piece)) order.push_back(piece);
   std::vector<double> misfits(size_t(pieces.count()), 0.0);
   tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
     task.check();
-    misfits[size_t(order[i])] = refillers.local().misfit(order[i]);
+    misfits[size_t(order[i])] = relocators.local().misfit(order[i]);
   });
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return misfits[a] > misfits[b]; });
-  Rounds rounds(field, level.window, near / 3 + 1);
+  Rounds rounds(field, level.window, tuning->near / 3 + 1);
   for (const int piece : order)
-    rounds.add(piece, refillers.local().pixels_within(Outline(field, pieces.members(piece))));
+    rounds.add(piece, relocators.local().pixels_within(Outline(field, pieces.members(piece))));
   for (const std::vector<int>& round : rounds.all())
     tbb::parallel_for(0, int(round.size()), [&](int i) {
       task.check();
-      refillers.local().refill(round[size_t(i)]);
+      relocators.local().relocate(round[size_t(i)]);
     });
 }
 

@@ -6,6 +6,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "core/base/tuning.h"
 #include "core/synthesis/state/expansion.h"
 #include "core/synthesis/state/pieces.h"
 #include "core/synthesis/state/rounds.h"
@@ -14,12 +15,26 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int smallest_piece = 2;  // pixels; smaller ones only give way
-constexpr int sweeps = 2;
-// What it costs each of its pixels that a piece is of a fair size, in units of appearance space, and how many times as
-// much it can be.
-constexpr double fair_pressure = appearance_limit / 55.0;
-constexpr double most_pressure = 3;
+struct Tuning {
+  double fair_pressure = appearance_limit / 55.0;
+  double most_pressure = 3;
+  int smallest_piece = 2;
+  int sweeps = 2;
+};
+const Tunable<Tuning> tuning(
+    "seams",
+    {
+        {&Tuning::fair_pressure, "fair_pressure", "appearance units per pixel",
+         "the cost of a pixel in a piece of a fair size. Higher: large pieces give way; lower: they swallow small ones",
+         "seams"},
+        {&Tuning::most_pressure, "most_pressure", "fair pressures",
+         "higher: the largest pieces give way still more; lower: from some size on they grow", "seams"},
+        {&Tuning::smallest_piece, "smallest_piece", "pixels of the field",
+         "higher: less time, as smaller pieces only give way; lower: single pixels may spread",
+         "not measured: single pixels are errors rather than pieces"},
+        {&Tuning::sweeps, "sweeps", "rounds over all pieces",
+         "higher: seams follow those that moved after them; costs time", "seams"},
+    });
 
 class SeamMover {
  public:
@@ -30,7 +45,7 @@ class SeamMover {
         stay_(int32_t(moves.stay * mismatch_unit)),
         expansion_(ground) {}
 
-  /// Offers what is left of the piece to the pixels in its reach, under that pressure and more with every pixel away.
+  /// Offers the piece's remaining pixels' continuations to the pixels in its reach, at that cost and more per distance.
   void spread(std::span<const int> piece, int32_t pressure) {
     std::vector<Reached> rim, next;
     for (const int i : piece) {
@@ -64,7 +79,7 @@ class SeamMover {
     return pixel_beside(ground_.field.size, pixel, side, window.closed_x, window.closed_y);
   }
 
-  /// Whether the exemplar goes on there; moves to it.
+  /// Steps to the exemplar's neighbour on that side, if it has one.
   bool step(ExemplarPixel& p, int side) const {
     const int block = ground_.block, x = p.x + sides[side][0] * block, y = p.y + sides[side][1] * block;
     const PaddedLevel& e = ground_.level.exemplar;
@@ -80,15 +95,15 @@ class SeamMover {
   Expansion expansion_;
 };
 
-/// What is kept is as large as it is.
+/// The cost of a pixel in each piece, by its size. Pieces with fixed pixels cannot shrink and count as fair.
 std::vector<int32_t> pressures(const Pieces& pieces, double fair, const FixedPixels& fixed) {
   std::vector<int32_t> out(size_t(pieces.count()), 0);
   if (fair <= 0) return out;
   for (int piece = 0; piece < pieces.count(); piece++) {
     const bool kept =
         fixed.any() && std::ranges::any_of(pieces.members(piece), [&](int i) { return fixed.at(size_t(i)); });
-    out[size_t(piece)] =
-        int32_t(fair_pressure * mismatch_unit * (kept ? 1 : std::min(most_pressure, pieces.area(piece) / fair)));
+    out[size_t(piece)] = int32_t(tuning->fair_pressure * mismatch_unit *
+                                 (kept ? 1 : std::min(tuning->most_pressure, pieces.area(piece) / fair)));
   }
   return out;
 }
@@ -100,7 +115,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.area(a) > pieces.area(b); });
   Rounds rounds(field, level.window, moves.reach);
   for (const int piece : order)
-    if (pieces.area(piece) >= smallest_piece) rounds.add(piece, pieces.members(piece));
+    if (pieces.area(piece) >= tuning->smallest_piece) rounds.add(piece, pieces.members(piece));
   const Field before = field;
   const std::vector<int32_t> pressure = pressures(pieces, moves.fair_piece, level.fixed);
   ExpansionGround ground(field, level, moves.block, true);
@@ -118,7 +133,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
 }  // namespace
 
 void move_seams(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
-  for (int i = 0; i < sweeps; i++) sweep(field, level, moves, task);
+  for (int i = 0; i < tuning->sweeps; i++) sweep(field, level, moves, task);
 }
 
 }  // namespace terrazzo

@@ -52,7 +52,7 @@ std::string text(const std::vector<CourseRun>& runs) {
   return out;
 }
 
-const CourseFit fit{.step = 1, .shortest = 4, .again = 12, .per_difference = 0.01, .most_incoherent = 1000};
+const CourseFit fit{.step = 1, .shortest = 4, .least_step_back = 12, .per_difference = 0.01, .most_difference = 1000};
 
 }  // namespace
 
@@ -90,7 +90,7 @@ TEST_CASE("a course does not repeat itself at once, but goes back far enough") {
   const auto runs = fitting_runs(looks(bricks({2, 2, 2, 2})), {{&a}}, {}, fit);
   for (size_t i = 1; i < runs.size(); i++) {
     const int ended = runs[i - 1].from + runs[i].begin - runs[i - 1].begin;
-    CHECK((runs[i].from >= ended || ended - runs[i].from >= fit.again));
+    CHECK((runs[i].from >= ended || ended - runs[i].from >= fit.least_step_back));
   }
 }
 

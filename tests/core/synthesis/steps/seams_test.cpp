@@ -47,7 +47,7 @@ TEST_CASE("a seam moves to where its two pieces agree, from either side") {
   for (const int seam : {9, 20}) {
     CAPTURE(seam);
     Field field = meeting_at(seam);
-    move_seams(field, test::level_of(exemplar), {}, Task());
+    move_seams(field, test::level_of(exemplar), {.reach = 8}, Task());
     for (int y = 0; y < field.size.height; y++) {
       // Output column x shows exemplar column 4 + x; the pieces agree over columns 16 to 20.
       CHECK(columns_of_first_piece(field, y) >= 16 - 4);
@@ -60,14 +60,14 @@ TEST_CASE("a seam stays where nothing better is in reach, and fixed pixels stay 
   const PaddedLevel exemplar = exemplar_with_repeat();
   Field best = meeting_at(14);
   const Field before = best;
-  move_seams(best, test::level_of(exemplar), {}, Task());
+  move_seams(best, test::level_of(exemplar), {.reach = 8}, Task());
   CHECK(best.pixels == before.pixels);
 
   Field field = meeting_at(9);
   KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   for (int y = 0; y < field.size.height; y++) kept.keep[size_t(y) * field.size.width + 9] = Keep::always;
   const Field fixed = field;
-  move_seams(field, test::level_of(exemplar, FixedPixels(kept, field.size, 0, side)), {}, Task());
+  move_seams(field, test::level_of(exemplar, FixedPixels(kept, field.size, 0, side)), {.reach = 8}, Task());
   for (int y = 0; y < field.size.height; y++) CHECK(field.at(9, y) == fixed.at(9, y));
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("a seam does not go where controls want something else") {
     CorrectionLevel level = test::level_of(exemplar);
     level.window = PlaneWindow::all_of({field.size, false, false});
     level.control = &control;
-    move_seams(field, level, {}, Task());
+    move_seams(field, level, {.reach = 8}, Task());
     for (int y = 0; y < field.size.height; y++)
       for (int x = 0; x < field.size.width; x++)
         CHECK(control.cost(field.at(x, y).x, field.at(x, y).y, control.target_near(x, y)) <=

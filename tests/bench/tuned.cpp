@@ -1,0 +1,74 @@
+// The whole command line with tuning constants that can be changed without recompiling (core/base/tuning.h).
+
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/tuning.h"
+#include "runner/cli/cli.h"
+
+using namespace terrazzo;
+
+namespace {
+
+constexpr int exit_usage = 2;
+constexpr std::string_view usage =
+    "usage: terrazzo_tuned [--tune NAME=VALUE]... COMMAND...    terrazzo with other constants; its results have cache "
+    "keys "
+    "of their own\n"
+    "       terrazzo_tuned --tunings                            lists the constants\n";
+
+/// The word after `option`, or its value after "="; moves on to it. Null if the word is another one.
+const char* value_of(std::string_view option, int& i, int argc, const char* const* argv) {
+  const std::string_view word = argv[i];
+  if (word == option) {
+    if (i + 1 == argc) throw Error(fmt::format("{} needs NAME=VALUE", option));
+    return argv[++i];
+  }
+  return word.starts_with(option) && word.substr(option.size()).starts_with("=") ? argv[i] + option.size() + 1
+                                                                                 : nullptr;
+}
+
+void tune(std::string_view text) {
+  const size_t at = text.find('=');
+  double value = 0;
+  const std::string_view digits = at == std::string_view::npos ? "" : text.substr(at + 1);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (digits.empty() || error != std::errc() || end != digits.data() + digits.size())
+    throw Error(fmt::format("expected NAME=NUMBER, found \"{}\"", text));
+  override_tuning(text.substr(0, at), value);
+}
+
+void list() {
+  for (const TuningConstant* c : tuning_constants())
+    fmt::print("{} = {}{}{}\n    {}\n    measured: {}\n", c->name, c->number(), c->unit.empty() ? "" : " ", c->unit,
+               c->trades, c->measured);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<const char*> rest = {argv[0]};
+  bool lists = false;
+  try {
+    for (int i = 1; i < argc; i++) {
+      if (std::string_view(argv[i]) == "--tunings")
+        lists = true;
+      else if (const char* text = value_of("--tune", i, argc, argv))
+        tune(text);
+      else
+        rest.push_back(argv[i]);
+    }
+  } catch (const Error& e) {
+    fmt::print(stderr, "{}\n{}", e.what(), usage);
+    return exit_usage;
+  }
+  if (lists) {
+    list();
+    return 0;
+  }
+  return run_command_line(int(rest.size()), rest.data());
+}
