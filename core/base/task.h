@@ -31,4 +31,26 @@ class Task {
   std::function<void(double)> progress_;
 };
 
+/// Makes a task the one that this thread works for, for as long as the object lives. Pixels are computed wherever they
+/// are asked for, deep inside code that was given no task: what computes them asks here whether to go on. A loop that
+/// pulls pixels on other threads says so on each of them.
+class WorksFor {
+ public:
+  /// `task` must outlive the object.
+  explicit WorksFor(const Task& task) : before_(current_) { current_ = &task; }
+  ~WorksFor() { current_ = before_; }
+  WorksFor(const WorksFor&) = delete;
+  WorksFor& operator=(const WorksFor&) = delete;
+
+  /// The task this thread works for; one that is never cancelled if nobody has said.
+  static const Task& task() {
+    static const Task nobody;
+    return current_ ? *current_ : nobody;
+  }
+
+ private:
+  static inline thread_local const Task* current_ = nullptr;
+  const Task* before_;
+};
+
 }  // namespace terrazzo

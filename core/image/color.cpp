@@ -184,10 +184,11 @@ ImagePtr convert_color(const ImagePtr& image, const std::string& to, const std::
   }
   const Digest recipe =
       Hasher().add("convert_color 1").add(c.identity).add(from).add(info.color_space).add(image->digest()).digest();
-  return Image::computed(info, recipe, [image, convert](const Rect& region, float* out) {
-    image->read(region, out);
-    apply(convert, out, image->channels(), region.area());
-  });
+  const auto compute = [convert](std::span<const PixelView> in, const Rect& region, float* out) {
+    in[0].read(region, out);
+    apply(convert, out, in[0].channels(), region.area());
+  };
+  return Image::computed(info, recipe, {.sources = {image}, .compute = compute, .work = 20});
 }
 
 std::vector<fs::path> color_config_files(const std::string& given) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <stdexcept>
 
 #include <Imath/half.h>
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/image/computed_pixels.h"
 
 namespace terrazzo {
 
@@ -48,15 +50,6 @@ class HalfPixels : public PixelSource {
   size_t stride_;
   int channels_;
   std::vector<uint16_t> pixels_;
-};
-
-class FunctionPixels : public PixelSource {
- public:
-  explicit FunctionPixels(std::function<void(const Rect&, float*)> read) : read_(std::move(read)) {}
-  void read(const Rect& r, float* out) const override { read_(r, out); }
-
- private:
-  std::function<void(const Rect&, float*)> read_;
 };
 
 void check(const ImageInfo& info) {
@@ -120,17 +113,29 @@ ImagePtr Image::from_halfs(ImageInfo info, std::vector<uint16_t> pixels) {
   return ImagePtr(new Image(std::move(info), digest, std::move(source)));
 }
 
-ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::shared_ptr<const PixelSource> source) {
+Image::~Image() {
+  release_later(std::move(source_));
+}
+
+ImagePtr Image::computed(ImageInfo info, const Digest& recipe, Operation operation) {
   check(info);
   Hasher h;
   h.add("computed image");
   info.add_to(h);
   h.add(recipe);
+  auto source = ComputedPixels::make(info.size, info.channels, std::move(operation));
   return ImagePtr(new Image(std::move(info), h.digest(), std::move(source)));
 }
 
+ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::shared_ptr<const PixelSource> source) {
+  return computed(std::move(info), recipe,
+                  [source = std::move(source)](const Rect& region, float* out) { source->read(region, out); });
+}
+
 ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::function<void(const Rect&, float*)> read) {
-  return computed(std::move(info), recipe, std::make_shared<FunctionPixels>(std::move(read)));
+  Operation made_from_nothing{
+      .sources = {}, .compute = [read = std::move(read)](auto, const Rect& region, float* out) { read(region, out); }};
+  return computed(std::move(info), recipe, std::move(made_from_nothing));
 }
 
 ImagePtr Image::with_digest(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSource> source) {
@@ -146,6 +151,41 @@ ImagePtr Image::redescribed(const ImagePtr& image, ImageInfo info) {
   h.add("redescribed image").add(image->digest());
   info.add_to(h);
   return ImagePtr(new Image(std::move(info), h.digest(), image->source_));
+}
+
+PixelView::PixelView(const Image& image)
+    : size_(image.size()), channels_(image.channels()), source_(image.source().get()) {}
+
+PixelView::PixelView(const Image& image, const std::vector<PixelBlock>& blocks) : PixelView(image) {
+  blocks_ = &blocks;
+}
+
+const PixelBlock& PixelView::block_around(const Rect& region) const {
+  for (const PixelBlock& block : *blocks_)
+    if (intersect(block.rect, region) == region) return block;
+  throw std::logic_error("an operation reads pixels that it has not asked for");
+}
+
+void PixelView::read(const Rect& region, float* out) const {
+  if (!blocks_) return source_->read(region, out);
+  const PixelBlock& block = block_around(region);
+  const size_t row = size_t(region.width) * channels_, stride = size_t(block.rect.width) * channels_;
+  const float* in = block.pixels.get() + (region.y - block.rect.y) * stride + (region.x - block.rect.x) * channels_;
+  for (int y = 0; y < region.height; y++) std::copy_n(in + y * stride, row, out + y * row);
+}
+
+std::vector<float> PixelView::read(const Rect& region) const {
+  std::vector<float> out(size_t(region.area()) * channels_);
+  read(region, out.data());
+  return out;
+}
+
+const float* PixelView::in_place(const Rect& region) const {
+  const PixelBlock* block = blocks_ ? &block_around(region) : nullptr;
+  const Rect all = block ? block->rect : whole(size_);
+  const float* pixels = block ? block->pixels.get() : source_->in_memory();
+  if (!pixels || (region.width != all.width && region.height != 1)) return nullptr;
+  return pixels + (size_t(region.y - all.y) * all.width + (region.x - all.x)) * channels_;
 }
 
 std::vector<float> Image::read(const Rect& region) const {
@@ -178,17 +218,29 @@ std::vector<Run> runs_of(int first, int count, int length, Outside outside) {
   return runs;
 }
 
+Rect block_of(const Run& columns, const Run& rows) {
+  return {columns.source, rows.source, columns.repeats ? 1 : columns.count, rows.repeats ? 1 : rows.count};
+}
+
 }  // namespace
 
-std::vector<float> read_padded(const Image& image, const Rect& region, Outside outside) {
+std::vector<Rect> padded_parts(Size size, const Rect& region, Outside outside) {
+  if (intersect(region, whole(size)) == region) return {region};
+  std::vector<Rect> parts;
+  const std::vector<Run> columns = runs_of(region.x, region.width, size.width, outside);
+  for (const Run& rows : runs_of(region.y, region.height, size.height, outside))
+    for (const Run& run : columns) parts.push_back(block_of(run, rows));
+  return parts;
+}
+
+std::vector<float> read_padded(const PixelView& image, const Rect& region, Outside outside) {
   const int c = image.channels();
   if (intersect(region, whole(image.size())) == region) return image.read(region);
   std::vector<float> out(size_t(region.area()) * c);
-  const std::vector<Run> columns = runs_of(region.x, region.width, image.width(), outside);
-  for (const Run& rows : runs_of(region.y, region.height, image.height(), outside))
+  const std::vector<Run> columns = runs_of(region.x, region.width, image.size().width, outside);
+  for (const Run& rows : runs_of(region.y, region.height, image.size().height, outside))
     for (const Run& run : columns) {
-      // One read for the whole block: the image may be computed, and its own surroundings read with every block.
-      const Rect block{run.source, rows.source, run.repeats ? 1 : run.count, rows.repeats ? 1 : rows.count};
+      const Rect block = block_of(run, rows);
       const std::vector<float> pixels = image.read(block);
       for (int y = 0; y < rows.count; y++)
         for (int x = 0; x < run.count; x++)
@@ -227,6 +279,7 @@ ImagePtr materialized(const ImagePtr& image, const Task& task) {
   const int strips = (info.size.height + rows - 1) / rows;
   std::atomic<int> done{0};
   tbb::parallel_for(0, strips, [&](int strip) {
+    const WorksFor scope(task);
     task.progress(double(done++) / strips);
     const int y = strip * rows;
     image->read({0, y, info.size.width, std::min(rows, info.size.height - y)},

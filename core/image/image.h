@@ -73,6 +73,48 @@ class PixelSource {
 class Image;
 using ImagePtr = std::shared_ptr<const Image>;
 
+/// The pixels of a part of an image, row by row, channels interleaved.
+struct PixelBlock {
+  Rect rect;
+  std::unique_ptr<float[]> pixels;
+};
+
+/// What an operation reads an image's pixels through: the image, or blocks of it that have been computed already. Must
+/// not outlive either.
+class PixelView {
+ public:
+  PixelView(const Image& image);  // NOLINT(google-explicit-constructor): every image can be read
+  PixelView(const Image& image, const std::vector<PixelBlock>& blocks);
+
+  Size size() const { return size_; }
+  int channels() const { return channels_; }
+  /// As Image::read; the region must lie inside one of the blocks, if there are any.
+  void read(const Rect& region, float* out) const;
+  std::vector<float> read(const Rect& region) const;
+  /// The region's pixels without a copy, if they lie in memory as floats one after the other; else null.
+  const float* in_place(const Rect& region) const;
+
+ private:
+  const PixelBlock& block_around(const Rect& region) const;
+  Size size_;
+  int channels_;
+  const PixelSource* source_;
+  const std::vector<PixelBlock>* blocks_ = nullptr;
+};
+
+/// How the pixels of an image are made from those of others.
+struct Operation {
+  std::vector<ImagePtr> sources;
+  /// The parts of a source that a region of the result is made from, each inside the source; none: the same region.
+  std::function<std::vector<Rect>(size_t source, const Rect& region)> reads{};
+  /// Makes the pixels of a region. Reads of each source only what lies inside one of the parts that `reads` names. Safe
+  /// to call from any number of threads at once; must not wait for work on other threads.
+  std::function<void(std::span<const PixelView> sources, const Rect& region, float* out)> compute;
+  /// About how many values are multiplied, added or looked up for each value of the result. Weighs what it costs to
+  /// compute pixels twice; says nothing about the result.
+  double work = 1;
+};
+
 /// An immutable picture: a description and a way to read it region by region. Values of maps read from 8- and 16-bit
 /// files are in [0, 1] and survive the way to a file of the same depth exactly; normals are stored encoded
 /// (n * 0.5 + 0.5), in the convention of `info().normal_y`.
@@ -82,8 +124,10 @@ class Image {
   static ImagePtr from_floats(ImageInfo info, std::vector<float> pixels);
   /// The same, kept as IEEE half floats (bit patterns).
   static ImagePtr from_halfs(ImageInfo info, std::vector<uint16_t> pixels);
-  /// Pixels computed when they are asked for. `recipe` must cover everything they depend on: it stands in for the
-  /// content in the digest.
+  /// Pixels computed from other images' when they are asked for, see core/image/computed_pixels.h. `recipe` must cover
+  /// everything they depend on: it stands in for the content in the digest.
+  static ImagePtr computed(ImageInfo info, const Digest& recipe, Operation operation);
+  /// The same for pixels that are made from no other image, or only from images that lie in memory.
   static ImagePtr computed(ImageInfo info, const Digest& recipe, std::shared_ptr<const PixelSource> source);
   static ImagePtr computed(ImageInfo info, const Digest& recipe,
                            std::function<void(const Rect& region, float* out)> read);
@@ -91,6 +135,9 @@ class Image {
   static ImagePtr with_digest(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSource> source);
   /// The same pixels under another description; size and channels must not change.
   static ImagePtr redescribed(const ImagePtr& image, ImageInfo info);
+  Image(const Image&) = delete;
+  Image& operator=(const Image&) = delete;
+  ~Image();
 
   const ImageInfo& info() const { return info_; }
   Size size() const { return info_.size; }
@@ -99,13 +146,16 @@ class Image {
   int channels() const { return info_.channels; }
   const Digest& digest() const { return digest_; }
 
-  /// Reads a region that lies inside the image; `out` holds region.area() * channels() floats. Thread-safe.
+  /// Reads a region that lies inside the image; `out` holds region.area() * channels() floats. Thread-safe. Throws
+  /// Cancelled if pixels have to be computed and the task that the thread works for (see WorksFor) is cancelled.
   void read(const Rect& region, float* out) const { source_->read(region, out); }
   std::vector<float> read(const Rect& region) const;
   /// The whole image as floats.
   std::vector<float> pixels() const { return read(whole(size())); }
   /// All pixels without a copy if they lie in memory as floats; else null.
   const float* in_memory() const { return source_->in_memory(); }
+  /// Where the pixels come from; the same for images that differ in their description only.
+  const std::shared_ptr<const PixelSource>& source() const { return source_; }
 
  private:
   Image(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSource> source);
@@ -116,7 +166,9 @@ class Image {
 
 /// Reads a region that may stick out of the image; outside it the border pixels continue, or the image wraps around.
 enum class Outside : uint8_t { clamp, wrap };
-std::vector<float> read_padded(const Image& image, const Rect& region, Outside outside);
+std::vector<float> read_padded(const PixelView& image, const Rect& region, Outside outside);
+/// The parts of an image of that size that read_padded reads.
+std::vector<Rect> padded_parts(Size size, const Rect& region, Outside outside);
 
 /// Pulls an image strip by strip (full-width bands of rows, top to bottom): the way to look at every pixel without
 /// holding the image. `visit(region, pixels)`; strips hold about a million floats.
@@ -124,6 +176,6 @@ void for_each_strip(const Image& image, const std::function<void(const Rect&, co
 
 /// An image whose pixels lie in memory: `image` itself if they do already, else a copy that has been pulled, in
 /// parallel. Tells `task` how far it is.
-ImagePtr materialized(const ImagePtr& image, const Task& task = {});
+ImagePtr materialized(const ImagePtr& image, const Task& task = WorksFor::task());
 
 }  // namespace terrazzo

@@ -36,9 +36,9 @@ Vector3 reoriented(const Vector3& base, const Vector3& detail) {
   return normalized({t[0] * along - u[0], t[1] * along - u[1], t[2] * along - u[2]});
 }
 
-void normals_from_height(const Image& height, const Rect& region, double height_scale, SlopeFilter filter,
+void normals_from_height(const PixelView& height, const Rect& region, double height_scale, SlopeFilter filter,
                          Outside outside, NormalY normal_y, float* out) {
-  const Rect around = grown(region, 1);
+  const Rect around = grown(region, slope_reach);
   const std::vector<float> h = read_padded(height, around, outside);
   const float side = filter == SlopeFilter::central ? 0.0f : filter == SlopeFilter::sobel ? 1.0f : 3.0f;
   const float middle = filter == SlopeFilter::central ? 1.0f : filter == SlopeFilter::sobel ? 2.0f : 10.0f;

@@ -29,9 +29,12 @@ Vector3 reoriented(const Vector3& base, const Vector3& detail);
 /// most even over directions), or not at all.
 enum class SlopeFilter : uint8_t { sobel, scharr, central };
 
+/// How many pixels around a region count for its normals.
+inline constexpr int slope_reach = 1;
+
 /// Normals of a height field, encoded, one for each pixel of `region`, which lies inside the image. `height_scale`: how
 /// many pixels tall a height of 1 is.
-void normals_from_height(const Image& height, const Rect& region, double height_scale, SlopeFilter filter,
+void normals_from_height(const PixelView& height, const Rect& region, double height_scale, SlopeFilter filter,
                          Outside outside, NormalY normal_y, float* out);
 
 }  // namespace terrazzo

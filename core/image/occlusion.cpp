@@ -44,7 +44,7 @@ void raise_horizon(const float* here, const float* there, float slope_per_height
 
 }  // namespace
 
-void occlusion_from_height(const Image& height, const Rect& region, const OcclusionOptions& options, float* out) {
+void occlusion_from_height(const PixelView& height, const Rect& region, const OcclusionOptions& options, float* out) {
   const int apron = options.radius;
   const Rect around = grown(region, apron);
   const std::vector<float> h = read_padded(height, around, options.outside);

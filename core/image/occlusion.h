@@ -15,7 +15,7 @@ struct OcclusionOptions {
 /// (horizon-based ambient occlusion; Bavoil and Sainz 2008, and for height fields Timonen and Westerholm 2010). In a
 /// direction whose horizon has the slope t, 1 / (1 + t^2) of the sky is left. Slopes fade with distance to nothing at
 /// the radius, so that no occluder appears suddenly. Writes one value in [0, 1] per pixel of `region`, which lies
-/// inside the image; cost grows with the radius. Thread-safe.
-void occlusion_from_height(const Image& height, const Rect& region, const OcclusionOptions& options, float* out);
+/// inside the image, from heights up to the radius around it; cost grows with the radius. Thread-safe.
+void occlusion_from_height(const PixelView& height, const Rect& region, const OcclusionOptions& options, float* out);
 
 }  // namespace terrazzo

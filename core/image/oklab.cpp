@@ -58,10 +58,11 @@ ImagePtr to_oklab(const ImagePtr& image, const std::string& config) {
   info.color_space = "raw";
   info.depth = Depth::f32;
   const Digest recipe = Hasher().add("oklab 2").add(source->digest()).digest();
-  return Image::computed(info, recipe, [source, converter](const Rect& region, float* out) {
-    const std::vector<float> in = source->read(region);
-    converter(in.data(), source->channels(), size_t(region.area()), out);
-  });
+  const auto compute = [converter](std::span<const PixelView> in, const Rect& region, float* out) {
+    const std::vector<float> pixels = in[0].read(region);
+    converter(pixels.data(), in[0].channels(), size_t(region.area()), out);
+  };
+  return Image::computed(info, recipe, {.sources = {source}, .compute = compute, .work = 20});
 }
 
 }  // namespace terrazzo

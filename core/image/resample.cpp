@@ -58,14 +58,31 @@ void add_weighted(const float* in, float weight, size_t count, float* out) {
   for (size_t i = 0; i < count; i++) out[i] += weight * in[i];
 }
 
-void filter_rows(const Image& source, const AxisFilter& filter, Outside outside, const Rect& region, bool linear,
-                 float* out) {
+/// As span_of, for all results between two: taps move on with them.
+std::pair<int, int> span_between(const AxisFilter& filter, int first, int count) {
+  return span_of({filter.taps(first), filter.taps(first + count - 1)});
+}
+
+/// What rows of the result are made from; may lie outside the source.
+Rect around_in_rows(const AxisFilter& filter, const Rect& region) {
+  const auto [left, right] = span_between(filter, region.x, region.width);
+  return {left, region.y, right - left, region.height};
+}
+
+Rect around_in_columns(const AxisFilter& filter, const Rect& region) {
+  const auto [top, bottom] = span_between(filter, region.y, region.height);
+  return {region.x, top, region.width, bottom - top};
+}
+
+/// `to_average`, if given, describes the source: it is averaged in linear light.
+void filter_rows(const PixelView& source, const AxisFilter& filter, Outside outside, const Rect& region,
+                 const ImageInfo* to_average, float* out) {
   const int channels = source.channels();
   const std::vector<Taps> taps = taps_of(filter, region.x, region.width);
   const auto [left, right] = span_of(taps);
   const Rect from{left, region.y, right - left, region.height};
   std::vector<float> pixels = read_padded(source, from, outside);
-  if (linear) to_linear(source.info(), pixels.data(), from.area());
+  if (to_average) to_linear(*to_average, pixels.data(), from.area());
   const size_t row_values = size_t(region.width) * channels;
   for (int y = 0; y < region.height; y++) {
     const float* in = &pixels[size_t(y) * from.width * channels];
@@ -81,7 +98,8 @@ void filter_rows(const Image& source, const AxisFilter& filter, Outside outside,
   }
 }
 
-void filter_columns(const Image& source, const AxisFilter& filter, Outside outside, const Rect& region, float* out) {
+void filter_columns(const PixelView& source, const AxisFilter& filter, Outside outside, const Rect& region,
+                    float* out) {
   const std::vector<Taps> taps = taps_of(filter, region.y, region.height);
   const auto [top, bottom] = span_of(taps);
   const std::vector<float> pixels = read_padded(source, {region.x, top, region.width, bottom - top}, outside);
@@ -130,21 +148,31 @@ AxisFilter gaussian_filter(double sigma) {
 }
 
 ImagePtr filtered(const ImagePtr& source, const ImageInfo& info, const Digest& recipe, const AxisFilter& horizontal,
-                  const AxisFilter& vertical, Outside outside, const Task* keep_rows) {
+                  const AxisFilter& vertical, Outside outside) {
   const bool copies = horizontal.copies && vertical.copies;
   ImageInfo between;
   between.size = {info.size.width, source->height()};
   between.channels = info.channels;
   Hasher rows_recipe;
   rows_recipe.add("filtered horizontally").add(recipe);
-  ImagePtr rows = Image::computed(between, rows_recipe.digest(), [=](const Rect& region, float* out) {
-    filter_rows(*source, horizontal, outside, region, !copies, out);
-  });
-  if (keep_rows && !vertical.copies) rows = materialized(rows, *keep_rows);
-  return Image::computed(info, recipe, [=](const Rect& region, float* out) {
-    filter_columns(*rows, vertical, outside, region, out);
+  const Size from = source->size();
+  Operation across{.sources = {source}, .compute = {}, .work = double(horizontal.taps(0).weights.size())};
+  across.reads = [=](size_t, const Rect& region) {
+    return padded_parts(from, around_in_rows(horizontal, region), outside);
+  };
+  across.compute = [=, given = source->info()](std::span<const PixelView> in, const Rect& region, float* out) {
+    filter_rows(in[0], horizontal, outside, region, copies ? nullptr : &given, out);
+  };
+  const ImagePtr rows = Image::computed(between, rows_recipe.digest(), std::move(across));
+  Operation down{.sources = {rows}, .compute = {}, .work = double(vertical.taps(0).weights.size())};
+  down.reads = [=, size = between.size](size_t, const Rect& region) {
+    return padded_parts(size, around_in_columns(vertical, region), outside);
+  };
+  down.compute = [=](std::span<const PixelView> in, const Rect& region, float* out) {
+    filter_columns(in[0], vertical, outside, region, out);
     if (!copies) to_stored(info, out, region.area());
-  });
+  };
+  return Image::computed(info, recipe, std::move(down));
 }
 
 ImagePtr resampled(const ImagePtr& source, Size size, const std::string& filter, Outside outside,

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/task.h"
 #include "core/image/image.h"
 
 /// Separable filters on images: scaling and Gaussian blur, with the kernels of OpenImageIO's Filter1D. The sums are
@@ -37,10 +36,9 @@ AxisFilter scaling_filter(const std::string& name, int from, int to);
 AxisFilter gaussian_filter(double sigma);
 
 /// The filtered image, computed when pulled. `info` describes the result: its size, and else what `source` says.
-/// `recipe` as for Image::computed. With `keep_rows`, the image is filtered horizontally now and held in memory as
-/// floats: worth it for kernels so tall that every strip pulled would filter many more rows than it has.
+/// `recipe` as for Image::computed.
 ImagePtr filtered(const ImagePtr& source, const ImageInfo& info, const Digest& recipe, const AxisFilter& horizontal,
-                  const AxisFilter& vertical, Outside outside, const Task* keep_rows = nullptr);
+                  const AxisFilter& vertical, Outside outside);
 
 /// The image at another size, computed when pulled, by a filter of scaling_filter_names(); "auto" takes nearest for
 /// masks and guidance. The image itself if it has that size.

@@ -140,12 +140,17 @@ Rect divided(const Rect& r, int by) {
   return {r.x / by, r.y / by, r.width / by, r.height / by};
 }
 
-void read_parts(const std::vector<Part>& parts, int channels, Outside outside, const Rect& region, float* out) {
-  for (const Part& p : parts) {
-    const Rect shown = intersect(region, p.cell);
+/// What a part shows of its image in what a region shows of the part.
+Rect shown_of(const Part& part, const Rect& shown) {
+  return {shown.x - part.place.x, shown.y - part.place.y, shown.width, shown.height};
+}
+
+void read_parts(const std::vector<Part>& parts, std::span<const PixelView> images, int channels, Outside outside,
+                const Rect& region, float* out) {
+  for (size_t i = 0; i < parts.size(); i++) {
+    const Rect shown = intersect(region, parts[i].cell);
     if (shown.empty()) continue;
-    const Rect from{shown.x - p.place.x, shown.y - p.place.y, shown.width, shown.height};
-    const std::vector<float> pixels = read_padded(*p.image, from, outside);
+    const std::vector<float> pixels = read_padded(images[i], shown_of(parts[i], shown), outside);
     const size_t row = size_t(shown.width) * channels;
     for (int y = 0; y < shown.height; y++)
       std::copy_n(&pixels[y * row], row,
@@ -153,13 +158,27 @@ void read_parts(const std::vector<Part>& parts, int channels, Outside outside, c
   }
 }
 
-ImagePtr map_of_parts(const ImageInfo& info, std::vector<Part> parts, Outside outside) {
+/// What is common to images that show parts.
+Operation operation_on(const std::vector<Part>& parts, Outside outside) {
+  Operation operation{.sources = {}, .compute = {}};
+  for (const Part& p : parts) operation.sources.push_back(p.image);
+  operation.reads = [=](size_t i, const Rect& region) -> std::vector<Rect> {
+    const Rect shown = intersect(region, parts[i].cell);
+    if (shown.empty()) return {};
+    return padded_parts(parts[i].image->size(), shown_of(parts[i], shown), outside);
+  };
+  return operation;
+}
+
+ImagePtr map_of_parts(const ImageInfo& info, const std::vector<Part>& parts, Outside outside) {
   Hasher recipe;
   recipe.add("atlas").add(int(outside)).add(info.size.width).add(info.size.height);
   for (const Part& p : parts) recipe.add(p.image->digest()).add(p.place.x).add(p.place.y).add(p.cell.x).add(p.cell.y);
-  return Image::computed(info, recipe.digest(), [=, parts = std::move(parts)](const Rect& region, float* out) {
-    read_parts(parts, info.channels, outside, region, out);
-  });
+  Operation operation = operation_on(parts, outside);
+  operation.compute = [=, channels = info.channels](std::span<const PixelView> in, const Rect& region, float* out) {
+    read_parts(parts, in, channels, outside, region, out);
+  };
+  return Image::computed(info, recipe.digest(), std::move(operation));
 }
 
 /// How many times smaller than the material a map can be in the atlas.
@@ -183,7 +202,7 @@ ImagePtr atlas_map(const std::vector<Exemplar>& exemplars, const std::string& na
     parts.push_back({nearest_at_size(map, {place.width, place.height}), place, divided(layout.cells[i], divisor)});
   }
   info.size = {layout.size.width / divisor, layout.size.height / divisor};
-  return map_of_parts(info, std::move(parts), outside);
+  return map_of_parts(info, parts, outside);
 }
 
 ImagePtr constant(Size size, float value) {
@@ -204,11 +223,13 @@ ImagePtr atlas_mask(const std::vector<Exemplar>& exemplars, const Layout& layout
   Hasher recipe;
   recipe.add("atlas mask").add(info.size.width).add(info.size.height);
   for (const Part& p : parts) recipe.add(p.image->digest()).add(p.place.x).add(p.place.y);
-  return Image::computed(info, recipe.digest(), [parts = std::move(parts)](const Rect& region, float* out) {
+  Operation operation = operation_on(parts, Outside::clamp);
+  operation.compute = [=](std::span<const PixelView> in, const Rect& region, float* out) {
     std::fill_n(out, region.area(), 0.0f);
-    read_parts(parts, 1, Outside::clamp, region, out);
+    read_parts(parts, in, 1, Outside::clamp, region, out);
     for (int64_t i = 0; i < region.area(); i++) out[i] = out[i] > 0.5f ? 1.0f : 0.0f;
-  });
+  };
+  return Image::computed(info, recipe.digest(), std::move(operation));
 }
 
 ImagePtr atlas_labels(const Layout& layout) {
@@ -220,7 +241,7 @@ ImagePtr atlas_labels(const Layout& layout) {
     const float label = count > 1 ? float(double(i) / double(count - 1)) : 0.0f;
     parts.push_back({constant({cell.width, cell.height}, label), cell, cell});
   }
-  return map_of_parts(info, std::move(parts), Outside::clamp);
+  return map_of_parts(info, parts, Outside::clamp);
 }
 
 }  // namespace

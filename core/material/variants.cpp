@@ -88,10 +88,14 @@ void flip_vectors(const ImageInfo& info, const Flip& flip, float* pixels, int64_
   if (flip.quarters) turn_vectors(info, cosines[flip.quarters], sines[flip.quarters], pixels, count);
 }
 
-void read_flipped(const Image& map, const Flip& flip, const Rect& region, float* out) {
-  const auto a = flip.source(region.x, region.y, map.size());
-  const auto b = flip.source(region.right() - 1, region.bottom() - 1, map.size());
-  const Rect from{std::min(a[0], b[0]), std::min(a[1], b[1]), std::abs(a[0] - b[0]) + 1, std::abs(a[1] - b[1]) + 1};
+Rect before_flip(const Flip& flip, const Rect& region, Size size) {
+  const auto a = flip.source(region.x, region.y, size);
+  const auto b = flip.source(region.right() - 1, region.bottom() - 1, size);
+  return {std::min(a[0], b[0]), std::min(a[1], b[1]), std::abs(a[0] - b[0]) + 1, std::abs(a[1] - b[1]) + 1};
+}
+
+void read_flipped(const PixelView& map, const ImageInfo& info, const Flip& flip, const Rect& region, float* out) {
+  const Rect from = before_flip(flip, region, map.size());
   const std::vector<float> pixels = map.read(from);
   const int n = map.channels();
   float* o = out;
@@ -100,7 +104,7 @@ void read_flipped(const Image& map, const Flip& flip, const Rect& region, float*
       const auto [u, v] = flip.source(x, y, map.size());
       o = std::copy_n(&pixels[(size_t(v - from.y) * from.width + (u - from.x)) * n], n, o);
     }
-  if (holds_vectors(map.info())) flip_vectors(map.info(), flip, out, region.area());
+  if (holds_vectors(info)) flip_vectors(info, flip, out, region.area());
 }
 
 ImagePtr flipped(const ImagePtr& map, const Flip& flip) {
@@ -108,8 +112,13 @@ ImagePtr flipped(const ImagePtr& map, const Flip& flip) {
   info.size = flip.target(map->size());
   const Digest recipe =
       Hasher().add("flipped").add(map->digest()).add(flip.mirror_x).add(flip.mirror_y).add(flip.quarters).digest();
-  return Image::computed(info, recipe,
-                         [map, flip](const Rect& region, float* out) { read_flipped(*map, flip, region, out); });
+  const auto reads = [flip, size = map->size()](size_t, const Rect& region) {
+    return std::vector<Rect>{before_flip(flip, region, size)};
+  };
+  const auto compute = [flip, given = map->info()](std::span<const PixelView> in, const Rect& region, float* out) {
+    read_flipped(in[0], given, flip, region, out);
+  };
+  return Image::computed(info, recipe, {.sources = {map}, .reads = reads, .compute = compute, .work = 4});
 }
 
 // --- Rotation by any angle
@@ -157,7 +166,8 @@ struct Block {
   }
 };
 
-Block block_around(const Image& map, const Affine& affine, const Rect& tile, Outside outside) {
+/// What a tile of the result is averaged from; may lie outside the source.
+Rect rect_around(const Affine& affine, const Rect& tile) {
   double low[2] = {1e30, 1e30}, high[2] = {-1e30, -1e30};
   for (const int x : {tile.x, tile.right() - 1})
     for (const int y : {tile.y, tile.bottom() - 1}) {
@@ -168,8 +178,7 @@ Block block_around(const Image& map, const Affine& affine, const Rect& tile, Out
       }
     }
   const int left = int(portable::floor_int(low[0])) - 2, top = int(portable::floor_int(low[1])) - 2;
-  const Rect rect{left, top, int(portable::floor_int(high[0])) + 4 - left, int(portable::floor_int(high[1])) + 4 - top};
-  return {rect, map.channels(), read_padded(map, rect, outside)};
+  return {left, top, int(portable::floor_int(high[0])) + 4 - left, int(portable::floor_int(high[1])) + 4 - top};
 }
 
 void sample(const Block& block, double x, double y, bool interpolated, float* out) {
@@ -201,10 +210,20 @@ ImagePtr turned(const ImagePtr& map, const Turn& turn, Outside outside) {
   Hasher recipe;
   add_size(recipe.add("turned").add(map->digest()).add(turn.degrees).add(int(outside)), turn.from);
   const Affine affine = turn.affine(map->size(), info.size);
-  return Image::computed(info, recipe.digest(), [=](const Rect& region, float* out) {
+  Operation operation{.sources = {map}, .compute = {}, .work = 20};
+  operation.reads = [=, size = map->size()](size_t, const Rect& region) {
+    std::vector<Rect> parts;
+    for_each_tile(region, [&](const Rect& tile) {
+      const std::vector<Rect> of_tile = padded_parts(size, rect_around(affine, tile), outside);
+      parts.insert(parts.end(), of_tile.begin(), of_tile.end());
+    });
+    return parts;
+  };
+  operation.compute = [=](std::span<const PixelView> in, const Rect& region, float* out) {
     const bool interpolated = can_be_averaged(info);
     for_each_tile(region, [&](const Rect& tile) {
-      Block block = block_around(*map, affine, tile, outside);
+      const Rect around = rect_around(affine, tile);
+      Block block{around, info.channels, read_padded(in[0], around, outside)};
       if (interpolated) to_linear(info, block.pixels.data(), block.rect.area());
       for (int y = tile.y; y < tile.bottom(); y++) {
         float* row = out + (size_t(y - region.y) * region.width + (tile.x - region.x)) * info.channels;
@@ -216,7 +235,8 @@ ImagePtr turned(const ImagePtr& map, const Turn& turn, Outside outside) {
         if (interpolated) to_stored(info, row, tile.width);
       }
     });
-  });
+  };
+  return Image::computed(info, recipe.digest(), std::move(operation));
 }
 
 /// 1 in the part of a rotated material that lies between pixel centres of the exemplar, none of it beyond its border.

@@ -197,10 +197,11 @@ class ValueWriter {
     }
   }
 
-  static void pull(const Image& image, int y, int rows, float* out) {
+  void pull(const Image& image, int y, int rows, float* out) const {
     constexpr int rows_at_once = 32;
     const size_t row = size_t(image.width()) * size_t(image.channels());
     tbb::parallel_for(0, (rows + rows_at_once - 1) / rows_at_once, [&](int i) {
+      const WorksFor scope(task_);
       const int first = i * rows_at_once;
       image.read({0, y + first, image.width(), std::min(rows_at_once, rows - first)}, out + size_t(first) * row);
     });

@@ -5,15 +5,10 @@ namespace terrazzo {
 
 namespace {
 
-/// From here on the horizontal pass is done once and kept, rather than anew around every strip that is pulled.
-constexpr double tall_radius = 8;
-
 void compute(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
-  const double radius = node.number("radius");
-  const AxisFilter filter = gaussian_filter(radius);
-  node.output("image", filtered(image, image->info(), node.key(), filter, filter, edges_of(node),
-                                radius >= tall_radius ? &node.task() : nullptr));
+  const AxisFilter filter = gaussian_filter(node.number("radius"));
+  node.output("image", filtered(image, image->info(), node.key(), filter, filter, edges_of(node)));
 }
 
 }  // namespace
@@ -25,7 +20,7 @@ NodeType blur_node() {
   t.summary = "Gaussian blur";
   t.help =
       "Colours stored as srgb_texture are blurred in linear light, normals as vectors that are made unit length again, "
-      "everything else as it is. Small blurs are computed when their pixels are read.";
+      "everything else as it is. Computed when its pixels are read.";
   t.inputs = {image_port("image", "the image to blur")};
   t.outputs = {image_port("image", "the blurred image")};
   t.params = {
@@ -38,10 +33,6 @@ NodeType blur_node() {
        .unit = "pixels"},
       edges_param()};
   t.persist = Persist::digest;
-  t.memory_hint = [](const NodeContext& node) -> size_t {
-    const ImagePtr image = node.input<Image>("image");
-    return node.number("radius") < tall_radius ? 0 : size_t(image->size().area()) * image->channels() * sizeof(float);
-  };
   t.compute = compute;
   return t;
 }

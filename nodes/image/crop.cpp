@@ -45,12 +45,13 @@ ImagePtr cropped(const NodeContext& node, const Map& map, const Rect& rect, Size
   ImageInfo info = map.image->info();
   info.size = {own.width, own.height};
   const Outside outside = edges_of(node);
-  return Image::computed(
-      info, map_recipe(node, *map.image), [image = map.image, own, outside](const Rect& region, float* out) {
-        const std::vector<float> pixels =
-            read_padded(*image, {own.x + region.x, own.y + region.y, region.width, region.height}, outside);
-        std::copy(pixels.begin(), pixels.end(), out);
-      });
+  const auto around = [=](const Rect& r) { return Rect{own.x + r.x, own.y + r.y, r.width, r.height}; };
+  const auto reads = [=](size_t, const Rect& region) { return padded_parts(size, around(region), outside); };
+  const auto copy = [=](std::span<const PixelView> in, const Rect& region, float* out) {
+    const std::vector<float> pixels = read_padded(in[0], around(region), outside);
+    std::copy(pixels.begin(), pixels.end(), out);
+  };
+  return Image::computed(info, map_recipe(node, *map.image), {.sources = {map.image}, .reads = reads, .compute = copy});
 }
 
 void compute(NodeContext& node) {

@@ -21,9 +21,14 @@ void compute(NodeContext& node) {
   const double scale = node.number("height_scale");
   const SlopeFilter filter = slope_filter(node.text("filter"));
   const Outside outside = edges_of(node);
-  node.output("normal", Image::computed(info, node.key(), [=](const Rect& region, float* out) {
-                normals_from_height(*height, region, scale, filter, outside, info.normal_y, out);
-              }));
+  Operation operation{.sources = {height}, .compute = {}, .work = 10};
+  operation.reads = [=, size = info.size](size_t, const Rect& region) {
+    return padded_parts(size, grown(region, slope_reach), outside);
+  };
+  operation.compute = [=](std::span<const PixelView> in, const Rect& region, float* out) {
+    normals_from_height(in[0], region, scale, filter, outside, info.normal_y, out);
+  };
+  node.output("normal", Image::computed(info, node.key(), std::move(operation)));
 }
 
 }  // namespace

@@ -16,8 +16,14 @@ void compute(NodeContext& node) {
                                  .radius = int(node.integer("radius")),
                                  .strength = node.number("strength"),
                                  .outside = edges_of(node)};
-  const ImagePtr occlusion = Image::computed(
-      info, node.key(), [=](const Rect& region, float* out) { occlusion_from_height(*height, region, options, out); });
+  Operation operation{.sources = {height}, .compute = {}, .work = 16.0 * options.radius};
+  operation.reads = [=, size = info.size](size_t, const Rect& region) {
+    return padded_parts(size, grown(region, options.radius), options.outside);
+  };
+  operation.compute = [=](std::span<const PixelView> in, const Rect& region, float* out) {
+    occlusion_from_height(in[0], region, options, out);
+  };
+  const ImagePtr occlusion = Image::computed(info, node.key(), std::move(operation));
   node.output("occlusion", materialized(occlusion, node.task()));
 }
 

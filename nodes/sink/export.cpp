@@ -80,10 +80,9 @@ ImagePtr with_normals(const ImagePtr& image, const std::string& wish) {
   if (wish == "keep" || info.semantic != Semantic::normal || info.normal_y == wanted || info.channels < 2) return image;
   info.normal_y = wanted;
   const Digest recipe = Hasher().add("flipped green").add(image->digest()).digest();
-  return Image::computed(info, recipe, [image](const Rect& region, float* out) {
-    image->read(region, out);
-    const int64_t values = region.area() * image->channels();
-    for (int64_t i = 1; i < values; i += image->channels()) out[i] = 1.0f - out[i];
+  return pixel_by_pixel(info, recipe, {image}, [n = info.channels](auto in, float* out, int64_t count) {
+    std::copy_n(in[0], count * n, out);
+    for (int64_t i = 1; i < count * n; i += n) out[i] = 1.0f - out[i];
   });
 }
 

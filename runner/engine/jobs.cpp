@@ -160,6 +160,8 @@ std::string of_targets(const NodeContext& context, std::string message) {
 }
 
 void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
+  const Task pulls(options.cancelled, {});
+  const WorksFor scope(pulls);
   const Stage& stage = plan.stages[job.stage];
   switch (job.kind) {
     case Job::Kind::begin:

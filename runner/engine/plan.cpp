@@ -199,11 +199,10 @@ std::map<std::string, Digest> names_of(const NodeType& type, const Digest& key,
 Resolution resolve(const Plan& plan, int index, Cache* cache, const History* history) {
   const Stage& stage = plan.stages[index];
   InputNames inputs;
+  Places sources;
+  for (const int source : stage.sources) sources[plan.stages[source].node->name] = source;
   for (const auto& [port, wires] : stage.node->inputs)
-    for (const Wire& w : wires)
-      for (const int source : stage.sources)
-        if (plan.stages[source].node->name == w.node)
-          inputs[port].push_back(plan.stages[source].known->names.at(w.port));
+    for (const Wire& w : wires) inputs[port].push_back(plan.stages[sources.at(w.node)].known->names.at(w.port));
 
   Resolution r;
   r.ingredients =

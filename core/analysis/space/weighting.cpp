@@ -25,11 +25,10 @@ ImagePtr unit_normals(const ImagePtr& map) {
   info.normal_y = NormalY::up;
   info.channels = 3;
   const float flip = map->info().normal_y == NormalY::down ? -1.0f : 1.0f;
-  return Image::computed(info, recipe("unit normals", map), [map, flip](const Rect& r, float* out) {
-    const int channels = map->channels();
-    const std::vector<float> in = map->read(r);
-    for (int64_t i = 0; i < r.area(); i++, out += 3) {
-      const float x = in[i * channels] * 2 - 1, y = (in[i * channels + 1] * 2 - 1) * flip;
+  const int channels = map->channels();
+  return pixel_by_pixel(info, recipe("unit normals", map), {map}, [=](auto in, float* out, int64_t count) {
+    for (int64_t i = 0; i < count; i++, out += 3) {
+      const float x = in[0][i * channels] * 2 - 1, y = (in[0][i * channels + 1] * 2 - 1) * flip;
       const float squared = std::min(1.0f, x * x + y * y);
       out[0] = x;
       out[1] = y;

@@ -30,6 +30,7 @@ Texture averaged(const Image& image, int factor, Decode decode, const Task& task
   const Size size{(info.size.width + factor - 1) / factor, (info.size.height + factor - 1) / factor};
   std::vector<float> out(size_t(size.area()) * c, 0.f);
   tbb::parallel_for(0, size.height, [&](int row) {
+    const WorksFor scope(task);
     task.check();
     const Rect band{0, row * factor, info.size.width, std::min(factor, info.size.height - row * factor)};
     std::vector<float> in = image.read(band);

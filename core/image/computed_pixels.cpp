@@ -1,0 +1,231 @@
+#include "core/image/computed_pixels.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <set>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "core/image/kept_pixels.h"
+#include "core/image/pull_plan.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int64_t values_at_once = int64_t{1} << 20;          ///< that a pull computes of the image,
+constexpr int64_t most_values_at_once = 16 * values_at_once;  ///< and of a larger one that it is made from
+constexpr int64_t least_values_of_a_strip = int64_t{1} << 16;
+constexpr auto patience = std::chrono::milliseconds(50);  ///< until a waiting thread looks whether it is cancelled
+
+int rows_of(Size size, int channels, int64_t values) {
+  return int(std::max<int64_t>(usual_strip_rows, values / (int64_t{size.width} * channels)));
+}
+
+}  // namespace
+
+/// All pixels, as far as they have been computed. Threads take strips until there are none left.
+struct ComputedPixels::Filling {
+  Filling(Size size, int channels)
+      : pixels(size, channels),
+        rows(rows_of(size, channels, least_values_of_a_strip)),
+        strips((size.height + rows - 1) / rows) {}
+
+  /// A strip for the calling thread; -1 if all have been taken.
+  int take() {
+    const std::lock_guard lock(mutex);
+    if (failure) std::rethrow_exception(failure);
+    if (!returned.empty()) {
+      const int strip = returned.back();
+      returned.pop_back();
+      return strip;
+    }
+    return next < strips ? next++ : -1;
+  }
+
+  KeptPixels pixels;
+  const int rows;  ///< of a strip
+  const int strips;
+  std::mutex mutex;
+  std::condition_variable changed;
+  int next = 0;               ///< the first strip that nobody has taken
+  int done = 0;               ///< how many have been computed
+  std::vector<int> returned;  ///< taken by threads that were cancelled
+  std::exception_ptr failure;
+};
+
+ComputedPixels::ComputedPixels(Size size, int channels, Operation operation)
+    : size_(size), channels_(channels), operation_(std::make_shared<Operation>(std::move(operation))) {}
+
+std::shared_ptr<const ComputedPixels> ComputedPixels::make(Size size, int channels, Operation operation) {
+  std::shared_ptr<ComputedPixels> made(new ComputedPixels(size, channels, std::move(operation)));
+  made->choose_kept();
+  return made;
+}
+
+std::shared_ptr<const ComputedPixels> ComputedPixels::of(const Image& image) {
+  return std::dynamic_pointer_cast<const ComputedPixels>(image.source());
+}
+
+/// Decides for the sources whether their pixels are to be kept, now that there is one more reader.
+void ComputedPixels::choose_kept() {
+  std::set<std::shared_ptr<const ComputedPixels>> sources;
+  for (const ImagePtr& image : operation_->sources)
+    if (auto source = of(*image)) sources.insert(std::move(source));
+  const auto length = [&] { return PullPlan(*this, PullPlan::Until::to_be_kept).length(); };
+  if (length() > longest_pull)
+    for (const auto& source : sources)
+      if (source->pull_length_ > 1) source->to_be_kept_ = true;
+  if (PullPlan(*this, PullPlan::Until::to_be_kept).work_by_strips(usual_strip_rows) > most_work_repeated)
+    for (const auto& source : sources) source->to_be_kept_ = true;
+  for (const auto& source : sources) {
+    const int readers = ++source->readers_;
+    if (readers > 1 && int64_t{readers} * source->pull_length_ > most_images_repeated) source->to_be_kept_ = true;
+  }
+  pull_length_ = int(length());
+}
+
+std::shared_ptr<const Operation> ComputedPixels::operation() const {
+  if (is_kept_) return nullptr;
+  const std::lock_guard lock(mutex_);
+  return operation_;
+}
+
+void ComputedPixels::read(const Rect& region, float* out) const {
+  if (!is_kept_) {
+    PullPlan plan(*this, PullPlan::Until::kept);
+    if (plan.passes_by_kept()) {
+      plan.keep_pixels();
+      plan = PullPlan(*this, PullPlan::Until::kept);
+    }
+    if (plan.length() > 0) {
+      const int rows = rows_at_once(plan, region);
+      for (int y = 0; y < region.height; y += rows)
+        plan.pull({region.x, region.y + y, region.width, std::min(rows, region.height - y)},
+                  out + int64_t{y} * region.width * channels_);
+      return;
+    }
+  }
+  filling_->pixels.read(region, out);
+}
+
+int ComputedPixels::rows_at_once(PullPlan& plan, const Rect& region) const {
+  if (plan.length() == 1) return region.height;
+  int rows = std::min(region.height, rows_of({region.width, 1}, channels_, values_at_once));
+  while (rows > 1 && plan.most_values({region.x, region.y, region.width, rows}) > most_values_at_once)
+    rows = (rows + 1) / 2;
+  return rows;
+}
+
+std::shared_ptr<ComputedPixels::Filling> ComputedPixels::filling() const {
+  const std::lock_guard lock(mutex_);
+  if (!filling_) filling_ = std::make_shared<Filling>(size_, channels_);
+  return filling_;
+}
+
+void ComputedPixels::compute_strip(Filling& filling, int strip) const {
+  const int y = strip * filling.rows;
+  const Rect region{0, y, size_.width, std::min(filling.rows, size_.height - y)};
+  PullPlan plan(*this, PullPlan::Until::kept);
+  if (plan.length() == 0) return;  // another thread has computed everything since
+  if (float* rows = filling.pixels.rows_in_memory(y)) return plan.pull(region, rows);
+  const std::unique_ptr<float[]> pixels(new float[size_t(region.area()) * channels_]);
+  plan.pull(region, pixels.get());
+  filling.pixels.write_rows(y, region.height, pixels.get());
+}
+
+/// Computes strips until all have been taken.
+void ComputedPixels::help(Filling& filling) const {
+  for (int strip; (strip = filling.take()) >= 0;) {
+    try {
+      compute_strip(filling, strip);
+    } catch (const Cancelled&) {
+      // Others may go on with it.
+      const std::lock_guard lock(filling.mutex);
+      filling.returned.push_back(strip);
+      filling.changed.notify_all();
+      throw;
+    } catch (...) {
+      const std::lock_guard lock(filling.mutex);
+      filling.failure = std::current_exception();
+      filling.changed.notify_all();
+      throw;
+    }
+    const std::lock_guard lock(filling.mutex);
+    if (++filling.done == filling.strips) filling.changed.notify_all();
+  }
+}
+
+/// Until the strips that other threads have taken are computed.
+void ComputedPixels::await(Filling& filling) const {
+  std::unique_lock lock(filling.mutex);
+  while (filling.done < filling.strips) {
+    if (filling.failure) std::rethrow_exception(filling.failure);
+    if (!filling.returned.empty()) {
+      lock.unlock();
+      help(filling);
+      lock.lock();
+      continue;
+    }
+    filling.changed.wait_for(lock, patience);
+    WorksFor::task().check();
+  }
+}
+
+void ComputedPixels::finish() const {
+  std::shared_ptr<const Operation> unneeded;
+  const std::lock_guard lock(mutex_);
+  is_kept_ = true;
+  unneeded.swap(operation_);
+}
+
+/// The next thread that asks starts anew.
+void ComputedPixels::give_up(const std::shared_ptr<Filling>& filling) const {
+  const std::lock_guard lock(mutex_);
+  if (filling_ == filling && filling->failure) filling_.reset();
+}
+
+void ComputedPixels::keep() const {
+  if (is_kept_) return;
+  const std::shared_ptr<Filling> all = filling();
+  const Task& task = WorksFor::task();
+  task.check();
+  try {
+    if (all->strips == 1)
+      help(*all);
+    else
+      // Isolated: a thread that waits for others must not pick up work that waits for it.
+      tbb::this_task_arena::isolate([&] {
+        tbb::parallel_for(0, std::min(all->strips, tbb::this_task_arena::max_concurrency()), [&](int) {
+          const WorksFor scope(task);
+          help(*all);
+        });
+      });
+    await(*all);
+  } catch (...) {
+    give_up(all);
+    throw;
+  }
+  finish();
+}
+
+void release_later(std::shared_ptr<const PixelSource> source) {
+  static thread_local std::vector<std::shared_ptr<const PixelSource>>* pending = nullptr;
+  if (!source) return;
+  if (pending) return pending->push_back(std::move(source));
+  std::vector<std::shared_ptr<const PixelSource>> released;
+  pending = &released;
+  while (source) {
+    source.reset();  // what it is made from joins the others
+    if (released.empty()) continue;
+    source = std::move(released.back());
+    released.pop_back();
+  }
+  pending = nullptr;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,174 @@
+#include "core/image/pull_plan.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace terrazzo {
+
+namespace {
+
+/// Parts are put together if that adds no more than a quarter to them: a call for each costs as much as some pixels do.
+constexpr double most_area_added = 1.25;
+constexpr int64_t area_of_a_call = 4096;
+constexpr size_t most_parts = 8;
+
+double cost_of_union(const Rect& a, const Rect& b) {
+  return double(united(a, b).area()) - most_area_added * double(a.area() + b.area()) - double(area_of_a_call);
+}
+
+/// Adds a part to those that are needed of an image.
+void add_part(std::vector<Rect>& parts, Rect part) {
+  if (part.empty()) return;
+  while (!parts.empty()) {
+    const auto best = std::min_element(parts.begin(), parts.end(), [&](const Rect& a, const Rect& b) {
+      return cost_of_union(a, part) < cost_of_union(b, part);
+    });
+    if (*best == part) return;
+    if (cost_of_union(*best, part) > 0 && parts.size() < most_parts) break;
+    part = united(*best, part);
+    parts.erase(best);
+  }
+  parts.push_back(part);
+}
+
+int64_t area_of(const std::vector<Rect>& parts) {
+  int64_t area = 0;
+  for (const Rect& part : parts) area += part.area();
+  return area;
+}
+
+std::vector<Rect> parts_read(const Operation& operation, size_t source, const Rect& region) {
+  return operation.reads ? operation.reads(source, region) : std::vector<Rect>{region};
+}
+
+}  // namespace
+
+PullPlan::PullPlan(const ComputedPixels& image, Until until) {
+  order(image, until);
+  for (const Step& step : steps_)
+    for (const int source : step.sources)
+      if (source >= 0) steps_[source].readers++;
+}
+
+/// Depth first, with a stack of its own: images may lie in a row by the thousands.
+void PullPlan::order(const ComputedPixels& image, Until until) {
+  struct Open {
+    Step step;
+    size_t next = 0;
+  };
+  std::unordered_map<const ComputedPixels*, int> places;
+  std::vector<Open> open;
+  const auto enter = [&](std::shared_ptr<const ComputedPixels> entered, std::shared_ptr<const Operation> operation) {
+    places.emplace(entered.get(), -1);
+    open.push_back({Step{std::move(entered), std::move(operation), {}}});
+  };
+  // The caller holds the image.
+  enter({std::shared_ptr<const ComputedPixels>(), &image}, image.operation());
+  if (!open.back().step.operation) return;
+  while (!open.empty()) {
+    Open& top = open.back();
+    if (top.next == top.step.operation->sources.size()) {
+      places[top.step.image.get()] = static_cast<int>(steps_.size());
+      steps_.push_back(std::move(top.step));
+      open.pop_back();
+      continue;
+    }
+    std::shared_ptr<const ComputedPixels> source = ComputedPixels::of(*top.step.operation->sources[top.next]);
+    const auto known = places.find(source.get());
+    if (known != places.end()) {
+      top.step.sources.push_back(known->second);
+      top.next++;
+      continue;
+    }
+    const bool ends = !source || (until == Until::to_be_kept && source->to_be_kept());
+    std::shared_ptr<const Operation> operation = ends ? nullptr : source->operation();
+    if (operation) {
+      enter(std::move(source), std::move(operation));  // and come back when it has a place
+    } else {
+      top.step.sources.push_back(-1);
+      top.next++;
+    }
+  }
+}
+
+bool PullPlan::passes_by_kept() const {
+  return std::any_of(steps_.begin(), steps_.end(), [](const Step& s) { return s.image->to_be_kept(); });
+}
+
+void PullPlan::keep_pixels() {
+  for (Step& step : steps_) {
+    if (step.image->to_be_kept()) step.image->keep();
+    step = Step();
+  }
+  steps_.clear();
+}
+
+/// Works out what is needed of each image for a region of the last.
+void PullPlan::demand(const Rect& region) {
+  for (Step& step : steps_) {
+    step.parts.clear();
+    step.open_readers = step.readers;
+  }
+  steps_.back().parts = {region};
+  for (auto step = steps_.rbegin(); step != steps_.rend(); ++step)
+    for (size_t s = 0; s < step->sources.size(); s++)
+      if (step->sources[s] >= 0)
+        for (const Rect& part : step->parts)
+          for (const Rect& read : parts_read(*step->operation, s, part)) add_part(steps_[step->sources[s]].parts, read);
+}
+
+void PullPlan::compute(Step& step, float* out) {
+  std::vector<PixelView> sources;
+  sources.reserve(step.sources.size());
+  for (size_t s = 0; s < step.sources.size(); s++) {
+    const Image& image = *step.operation->sources[s];
+    if (step.sources[s] < 0)
+      sources.emplace_back(image);
+    else
+      sources.emplace_back(image, steps_[step.sources[s]].blocks);
+  }
+  for (const Rect& part : step.parts) {
+    if (out) return step.operation->compute(sources, part, out);
+    PixelBlock block{part, std::unique_ptr<float[]>(new float[size_t(part.area()) * step.image->channels()])};
+    step.operation->compute(sources, part, block.pixels.get());
+    step.blocks.push_back(std::move(block));
+  }
+}
+
+void PullPlan::let_go(const Step& step) {
+  for (const int source : step.sources)
+    if (source >= 0 && --steps_[source].open_readers == 0) steps_[source].blocks.clear();
+}
+
+void PullPlan::pull(const Rect& region, float* out) {
+  demand(region);
+  for (Step& step : steps_) {
+    WorksFor::task().check();
+    compute(step, &step == &steps_.back() ? out : nullptr);
+    let_go(step);
+  }
+}
+
+int64_t PullPlan::most_values(const Rect& region) {
+  demand(region);
+  int64_t most = 0;
+  for (const Step& step : steps_) most = std::max(most, area_of(step.parts) * step.image->channels());
+  return most;
+}
+
+double PullPlan::work_by_strips(int rows) {
+  const Size size = steps_.back().image->size();
+  if (size.height <= rows) return 1;
+  demand({0, (size.height - rows) / 2, size.width, rows});
+  const double share = double(rows) / size.height;
+  double once = 0, by_strips = 0;
+  for (const Step& step : steps_) {
+    const double work = step.operation->work * double(step.image->size().area()) * step.image->channels();
+    const double needed = double(area_of(step.parts)) / double(step.image->size().area()) / share;
+    once += work * std::min(1.0, needed);
+    by_strips += work * needed;
+  }
+  return by_strips / once;
+}
+
+}  // namespace terrazzo
