@@ -108,6 +108,10 @@ LeaseAttempt Cache::try_lease(const Digest& key) {
   return terrazzo::try_lease(state_->folder.leases(), key);
 }
 
+bool Cache::is_leased(const Digest& key) const {
+  return lease_is_taken(state_->folder.leases(), key);
+}
+
 bool Cache::has_value(const Digest& value) {
   state_->pins.pin(value);
   return CacheFolder::use(state_->folder.path_of(EntryKind::value, value));

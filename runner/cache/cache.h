@@ -60,6 +60,8 @@ class Cache {
 
   /// Asks to be the one who computes a stage, see runner/cache/cache_leases.h.
   LeaseAttempt try_lease(const Digest& key);
+  /// Whether somebody is computing the stage.
+  bool is_leased(const Digest& key) const;
 
   /// Whether the value is there (its checksums are only verified by load). A value asked for is pinned: no process
   /// evicts it while this Cache object lives.

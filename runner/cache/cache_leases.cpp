@@ -38,6 +38,12 @@ LeaseAttempt try_lease(const std::filesystem::path& folder, const Digest& key) {
   return {};
 }
 
+bool lease_is_taken(const std::filesystem::path& folder, const Digest& key) {
+  const File file = File::open(folder / key.hex(), O_RDWR);
+  // The file goes with the lease, unless its owner was killed: then nobody locks it.
+  return file.ok() && !lock_file(file, LOCK_SH | LOCK_NB) && errno == EWOULDBLOCK;
+}
+
 void remove_abandoned_leases(const std::filesystem::path& folder) {
   std::error_code failure;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {

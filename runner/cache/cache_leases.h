@@ -32,6 +32,9 @@ struct LeaseAttempt {
 /// Does not wait. Where files cannot be written or locked there are no leases.
 LeaseAttempt try_lease(const std::filesystem::path& folder, const Digest& key);
 
+/// Whether somebody has the stage's lease; takes and leaves nothing. False where that cannot be told.
+bool lease_is_taken(const std::filesystem::path& folder, const Digest& key);
+
 /// Removes the files of processes that were killed.
 void remove_abandoned_leases(const std::filesystem::path& folder);
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "runner/engine/history.h"
-
 namespace terrazzo {
 
 namespace {
@@ -21,17 +19,14 @@ uint64_t expected_memory(const NodeContext& context) {
 }  // namespace
 
 Coordinator::Coordinator(Plan& plan, const RunOptions& options, int threads, uint64_t memory)
-    : plan_(plan), options_(options), max_running_(threads), memory_(memory), live_(plan.stages.size()) {
-  for (size_t i = 0; i < plan.stages.size(); i++) {
-    const Stage& s = plan.stages[i];
-    places_[s.node->name] = static_cast<int>(i);
-    live_[i].unnamed_sources = static_cast<int>(s.sources.size());
-    live_[i].open_readers = static_cast<int>(s.readers.size());
-    StageOutcome outcome;
-    outcome.node = s.node->name;
-    outcome.kind = s.expected() ? StageOutcome::Kind::unfinished : StageOutcome::Kind::idle;
-    outcomes_.push_back(outcome);
-  }
+    : plan_(plan),
+      options_(options),
+      states_(plan),
+      admission_(remaining_seconds(plan, options.history), threads, memory),
+      held_(plan.stages.size()),
+      outcomes_(plan, options),
+      values_(plan.stages.size()) {
+  for (size_t i = 0; i < plan.stages.size(); i++) places_[plan.stages[i].node->name] = static_cast<int>(i);
 }
 
 void Coordinator::begin() {
@@ -39,8 +34,8 @@ void Coordinator::begin() {
     if (plan_.stages[i].needed && plan_.stages[i].sources.empty()) look_up(static_cast<int>(i));
 }
 
-/// All its inputs have names.
 void Coordinator::look_up(int stage) {
+  name(stage, NameEvent::inputs_named);
   if (plan_.stages[stage].known)
     resolved(stage);
   else
@@ -49,132 +44,97 @@ void Coordinator::look_up(int stage) {
 
 void Coordinator::resolved(int stage) {
   const Stage& s = plan_.stages[stage];
-  StageOutcome& outcome = outcomes_[stage];
-  if (s.known->record) {
-    outcome.notes = s.known->record->notes;
-    outcome.files = s.known->record->files;
-  }
+  outcomes_.looked_up(stage);
   if (!s.known->must_run.empty()) {
-    live_[stage].wanted = true;
-    if (!s.known->names.empty()) named(stage);
-    compute(stage);
-    return;
+    name(stage, s.known->names.empty() ? NameEvent::not_found : NameEvent::found);
+    move(stage, ValueEvent::compute);
+    return ask_sources(stage);
   }
-  if (s.known->record) {
-    outcome.kind = StageOutcome::Kind::reused;
-    if (options_.history) options_.history->remember(s.node->name, s.known->ingredients);
-  } else {
-    outcome.kind = StageOutcome::Kind::idle;
-  }
+  name(stage, NameEvent::found);
   // A plan gives no reason for what nobody is going to ask for, unless a stored result turns out damaged.
   const bool at_rest = !may_be_asked(stage), planned_to_rest = s.reason.empty();
-  if (at_rest || planned_to_rest) tell_not_run(stage);
-  if (at_rest) close(stage);
-  named(stage);
-  if (s.kept) want_values(stage);
+  if (at_rest || planned_to_rest) outcomes_.rests(stage);
+  if (at_rest) move(stage, ValueEvent::rest);
+  if (s.kept && !s.used_outputs.empty()) want_values(stage);
 }
 
-/// It is certain by now that it will not be computed for a reader.
-void Coordinator::tell_not_run(int stage) {
-  if (std::exchange(live_[stage].told, true) || !options_.observer) return;
-  const Stage& s = plan_.stages[stage];
-  if (outcomes_[stage].kind != StageOutcome::Kind::reused) return options_.observer->spared(s);
-  options_.observer->reused(s);
-  for (const std::string& note : outcomes_[stage].notes) options_.observer->noted(s, note);
-}
-
-/// Its outputs have names: its readers may know all of theirs now.
-void Coordinator::named(int stage) {
-  if (live_[stage].settled) return;
-  live_[stage].settled = true;
+/// Changes the state of a stage's names. Once it is named, its readers may know all their inputs.
+void Coordinator::name(int stage, NameEvent event) {
+  states_.advance(stage, event);
+  if (states_.name(stage) != NameState::named) return;
   for (const int reader : plan_.stages[stage].readers)
-    if (--live_[reader].unnamed_sources == 0) put_off(Step::look_up, reader);
+    if (states_.inputs_named(reader)) put_off(Step::look_up, reader);
 }
 
-bool Coordinator::has_values(int stage) const {
-  const Live& l = live_[stage];
-  return std::all_of(plan_.stages[stage].used_outputs.begin(), plan_.stages[stage].used_outputs.end(),
-                     [&](const std::string& port) { return l.values.count(port) == 1; });
+/// Changes the state of a stage's values. Once it does not need its sources' values any more, they may go.
+void Coordinator::move(int stage, ValueEvent event) {
+  const bool claimed = claims_sources(states_.value(stage));
+  states_.advance(stage, event);
+  if (!claimed || claims_sources(states_.value(stage))) return;
+  for (const int source : plan_.stages[stage].sources) put_off(Step::let_go, source);
 }
 
 /// Whether a stage that need not run by itself might have to compute for a reader.
 bool Coordinator::may_be_asked(int stage) const {
-  const Stage& s = plan_.stages[stage];
-  const bool loadable = s.known->record && s.type().persist == Persist::payload && s.known->stored;
-  return !loadable && (live_[stage].open_readers > 0 || s.kept);
+  return states_.claimed(stage) && !plan_.stages[stage].loadable();
 }
 
 void Coordinator::want_values(int stage) {
-  Live& l = live_[stage];
-  if (l.wanted || has_values(stage)) return;
-  l.wanted = true;
-  const Stage& s = plan_.stages[stage];
-  if (s.known->record && s.type().persist == Persist::payload && s.known->stored)
-    enqueue(Job::Kind::load, stage);
-  else
-    compute(stage);
+  const ValueState now = states_.value(stage);
+  if (now != ValueState::open && now != ValueState::resting) return;  // on their way, or there
+  if (plan_.stages[stage].loadable()) {
+    move(stage, ValueEvent::load);
+    return enqueue(Job::Kind::load, stage);
+  }
+  move(stage, ValueEvent::compute);
+  ask_sources(stage);
 }
 
-void Coordinator::compute(int stage) {
-  Live& l = live_[stage];
-  reopen(stage);
-  l.awaiting = true;
-  l.awaited_sources = 0;
+void Coordinator::ask_sources(int stage) {
+  if (states_.inputs_held(stage)) return start_computing(stage);
   for (const int source : plan_.stages[stage].sources)
-    if (!has_values(source)) l.awaited_sources++;
-  if (l.awaited_sources == 0) return enqueue_compute(stage);
-  for (const int source : plan_.stages[stage].sources)
-    if (!has_values(source)) put_off(Step::want_values, source);
+    if (states_.value(source) != ValueState::held) put_off(Step::want_values, source);
 }
 
-void Coordinator::enqueue_compute(int stage) {
-  live_[stage].awaiting = false;
+void Coordinator::start_computing(int stage) {
+  move(stage, ValueEvent::inputs_held);
   enqueue(Job::Kind::compute, stage);
 }
 
-void Coordinator::values_there(int stage) {
-  live_[stage].wanted = false;
+/// A stage's values have come into memory, if only for those who wait for them.
+void Coordinator::values_there(int stage, ValueEvent event) {
+  move(stage, event);
   for (const int reader : plan_.stages[stage].readers)
-    if (live_[reader].awaiting && --live_[reader].awaited_sources == 0) enqueue_compute(reader);
+    if (states_.value(reader) == ValueState::awaiting && states_.inputs_held(reader)) start_computing(reader);
+  let_go_if_unclaimed(stage);
 }
 
 void Coordinator::loaded(Job& job) {
-  const int stage = job.stage;
-  if (job.values.empty()) {
-    plan_.stages[stage].known->stored = false;
-    return compute(stage);
+  if (!job.values.empty()) {
+    values_[job.stage] = std::move(job.values);
+    held_.hold_loaded(job.stage, values_[job.stage]);
+    return values_there(job.stage, ValueEvent::read);
   }
-  live_[stage].values = std::move(job.values);
-  values_there(stage);
-  release_if_unread(stage);
+  plan_.stages[job.stage].known->stored = false;
+  move(job.stage, ValueEvent::unreadable);
+  ask_sources(job.stage);
 }
 
 void Coordinator::computed(Job& job) {
-  const int stage = job.stage;
-  Stage& s = plan_.stages[stage];
-  StageOutcome& outcome = outcomes_[stage];
-  outcome.kind = job.made_elsewhere ? StageOutcome::Kind::reused : StageOutcome::Kind::run;
-  if (!job.made_elsewhere) outcome.seconds += job.record->seconds;
-  outcome.notes = job.record->notes;
-  outcome.files = job.record->files;
-  if (job.made_elsewhere) {
-    tell_not_run(stage);
-  } else if (options_.observer) {
-    options_.observer->finished(s, job.record->seconds);
-    if (!std::exchange(live_[stage].told, true))
-      for (const std::string& note : outcome.notes) options_.observer->noted(s, note);
-  }
-  if (options_.history) options_.history->remember(s.node->name, s.known->ingredients);
+  Stage& s = plan_.stages[job.stage];
+  outcomes_.computed(job);
   if (options_.cache && !job.made_elsewhere) enqueue_store(job);
   if (s.known->names.empty()) s.known->names = job.record->outputs;
-  live_[stage].values = std::move(job.values);
-  std::erase_if(live_[stage].values, [&](const auto& value) {
+  if (states_.name(job.stage) == NameState::nameless) name(job.stage, NameEvent::computed);
+  std::map<std::string, Value>& values = values_[job.stage] = std::move(job.values);
+  std::erase_if(values, [&](const auto& value) {
     return std::find(s.used_outputs.begin(), s.used_outputs.end(), value.first) == s.used_outputs.end();
   });
-  named(stage);
-  values_there(stage);
-  close(stage);
-  release_if_unread(stage);
+  if (job.made_elsewhere)
+    held_.hold_loaded(job.stage, values);
+  else
+    held_.hold_computed(job.stage, values, s.sources);
+  values_there(job.stage, ValueEvent::computed);
 }
 
 void Coordinator::enqueue_store(const Job& job) {
@@ -188,36 +148,20 @@ void Coordinator::enqueue_store(const Job& job) {
   if (payload) store->values = job.values;
   store->record = job.record;
   store->lease = job.lease;
-  waiting_.push_front(store);  // others may wait for it
-}
-
-/// It will not ask for its sources' values again.
-void Coordinator::close(int stage) {
-  if (live_[stage].closed) return;
-  live_[stage].closed = true;
-  for (const int source : plan_.stages[stage].sources) {
-    live_[source].open_readers--;
-    put_off(Step::release_if_unread, source);
-  }
-}
-
-/// It asks for its sources' values after all: a stored result could not be read.
-void Coordinator::reopen(int stage) {
-  if (!live_[stage].closed) return;
-  live_[stage].closed = false;
-  for (const int source : plan_.stages[stage].sources) live_[source].open_readers++;
+  admission_.add(std::move(store));
 }
 
 /// Lets values go after their last reader, and with them the claim on the values they would be made from.
-void Coordinator::release_if_unread(int stage) {
-  Live& l = live_[stage];
-  const Stage& s = plan_.stages[stage];
-  if (l.open_readers > 0 || s.kept) return;
-  l.values.clear();
-  const bool at_rest = s.known && s.known->must_run.empty() && !l.wanted && !l.awaiting;
-  if (!at_rest || !l.settled) return;
-  tell_not_run(stage);
-  close(stage);
+void Coordinator::let_go_if_unclaimed(int stage) {
+  if (states_.claimed(stage)) return;
+  if (states_.value(stage) == ValueState::held) {
+    values_[stage].clear();
+    held_.release(stage);
+    move(stage, ValueEvent::let_go);
+  } else if (states_.value(stage) == ValueState::open && states_.name(stage) == NameState::named) {
+    outcomes_.rests(stage);
+    move(stage, ValueEvent::rest);
+  }
 }
 
 std::unique_ptr<NodeContext> Coordinator::make_context(int stage) {
@@ -225,7 +169,7 @@ std::unique_ptr<NodeContext> Coordinator::make_context(int stage) {
   std::map<std::string, std::vector<Value>> inputs;
   for (const auto& [port, wires] : s.node->inputs)
     for (const Wire& w : wires)
-      inputs[port].push_back(converted(live_[places_.at(w.node)].values.at(w.port), s.type().find_input(port)->type));
+      inputs[port].push_back(converted(values_[places_.at(w.node)].at(w.port), s.type().find_input(port)->type));
   RunObserver* observer = options_.observer;
   std::function<void(double)> progress;
   if (observer) progress = [observer, &s](double fraction) { observer->progressed(s, fraction); };
@@ -241,33 +185,31 @@ void Coordinator::enqueue(Job::Kind kind, int stage) {
     job->context = make_context(stage);
     job->memory = expected_memory(*job->context);
   }
-  waiting_.push_back(std::move(job));
+  admission_.add(std::move(job));
 }
 
-void Coordinator::settle(Job& job) {
-  if (job.kind != Job::Kind::begin) running_--;
-  if (job.kind == Job::Kind::compute) {
-    computing_--;
-    memory_in_use_ -= job.memory;
-  }
-  made_folders_.insert(made_folders_.end(), job.made_folders.begin(), job.made_folders.end());
-  if (job.busy) job.span.what = "wait";
-  if (job.span.end > 0) spans_.push_back(job.span);
-  if (job.cancelled || (options_.cancelled && options_.cancelled->load())) cancelled_ = true;
-  if (job.failure) {
-    if (job.blames_input.empty() || blamed_inputs_.insert(job.blames_input).second)
-      failures_.push_back({plan_.stages[job.stage].node->name, *job.failure});
-    outcomes_[job.stage].kind = StageOutcome::Kind::failed;
-    if (options_.observer) options_.observer->failed(plan_.stages[job.stage], *job.failure);
-  }
-  if (job.failure || job.cancelled) return;
-  if (job.busy) {
-    job.busy = false;
-    waiting_.push_back(std::make_shared<Job>(std::move(job)));
+void Coordinator::settle(const JobPtr& job) {
+  if (options_.cancelled && options_.cancelled->load()) cancelled_ = true;
+  if (job->resumed) return resume(job);
+  if (job->kind != Job::Kind::begin) admission_.ended(*job);
+  outcomes_.ended(*job);
+  if (job->cancelled) cancelled_ = true;
+  if (job->failure) outcomes_.failed(*job);
+  if (job->failure || job->cancelled) return;
+  if (job->busy) {
+    move(job->stage, ValueEvent::busy);
+    if (!stopping()) postponed_.push_back(job);
     return;
   }
-  react(job);
+  react(*job);
   take_steps();
+}
+
+/// To be tried again, behind what has come in the meantime.
+void Coordinator::resume(const JobPtr& job) {
+  outcomes_.add(job->span);
+  job->resumed = job->busy = false;
+  if (!stopping()) admission_.add(job);
 }
 
 void Coordinator::take_steps() {
@@ -281,8 +223,8 @@ void Coordinator::take_steps() {
       case Step::want_values:
         want_values(stage);
         break;
-      case Step::release_if_unread:
-        release_if_unread(stage);
+      case Step::let_go:
+        let_go_if_unclaimed(stage);
         break;
     }
   }
@@ -307,32 +249,14 @@ void Coordinator::react(Job& job) {
 std::vector<JobPtr> Coordinator::admit() {
   if (stopping())
     // What has been computed is still put into the cache, unless the user is in a hurry.
-    std::erase_if(waiting_, [&](const JobPtr& j) { return cancelled_ || j->kind != Job::Kind::store; });
-  std::vector<JobPtr> admitted;
-  for (auto at = waiting_.begin(); at != waiting_.end() && running_ < max_running_;) {
-    Job& job = **at;
-    const bool compute = job.kind == Job::Kind::compute;
-    const bool too_large = compute && computing_ > 0 && memory_in_use_ + job.memory > memory_;
-    // To wait for another process takes a thread, so it is done while there is nothing else to do.
-    if (too_large || (job.waited && running_ > 0)) {
-      ++at;
-      continue;
-    }
-    running_++;
-    if (compute) {
-      computing_++;
-      memory_in_use_ += job.memory;
-    }
-    admitted.push_back(std::move(*at));
-    at = waiting_.erase(at);
-  }
-  return admitted;
+    admission_.forget_if([&](const Job& j) { return cancelled_ || j.kind != Job::Kind::store; });
+  return admission_.admit(held_.bytes());
 }
 
 std::map<std::string, std::map<std::string, Value>> Coordinator::take_kept() {
   std::map<std::string, std::map<std::string, Value>> kept;
-  for (size_t i = 0; i < live_.size(); i++)
-    if (plan_.stages[i].kept) kept[plan_.stages[i].node->name] = std::move(live_[i].values);
+  for (size_t i = 0; i < values_.size(); i++)
+    if (plan_.stages[i].kept) kept[plan_.stages[i].node->name] = std::move(values_[i]);
   return kept;
 }
 

@@ -1,6 +1,8 @@
 #include "runner/engine/history.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -15,7 +17,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view first_line = "terrazzo history 1";
+constexpr std::string_view first_line = "terrazzo history 2", first_line_before_seconds = "terrazzo history 1";
+
+/// Stands where the name of an ingredient would.
+constexpr std::string_view seconds_line = "seconds";
+
+/// Times that differ by less are not worth writing the file again.
+constexpr double notable_change = 0.25;
 
 /// One line each: node, what, digest, shown, separated by tabs.
 bool parse(const std::string& line, std::string& node, Ingredient& ingredient) {
@@ -23,6 +31,13 @@ bool parse(const std::string& line, std::string& node, Ingredient& ingredient) {
   std::string digest;
   return std::getline(in, node, '\t') && std::getline(in, ingredient.what, '\t') && std::getline(in, digest, '\t') &&
          Digest::parse(digest, ingredient.digest) && std::getline(in, ingredient.shown);
+}
+
+std::optional<double> parse_seconds(const std::string& text) {
+  double seconds = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (failure != std::errc() || !std::isfinite(seconds) || seconds < 0) return std::nullopt;
+  return seconds;
 }
 
 std::string on_one_line(std::string text) {
@@ -49,12 +64,21 @@ History::History(const fs::path& folder, const fs::path& graph_file)
     : path_(folder / "history" / (Hasher().add(fs::weakly_canonical(graph_file).string()).digest().hex() + ".txt")) {
   std::ifstream in(path_);
   std::string line;
-  if (!std::getline(in, line) || line != first_line) return;
+  if (!std::getline(in, line) || (line != first_line && line != first_line_before_seconds)) return;
   while (std::getline(in, line)) {
     std::string node;
     Ingredient ingredient;
-    if (parse(line, node, ingredient)) nodes_[node].push_back(ingredient);
+    if (!parse(line, node, ingredient)) continue;
+    if (ingredient.what != seconds_line)
+      nodes_[node].push_back(ingredient);
+    else if (const std::optional<double> seconds = parse_seconds(ingredient.shown))
+      seconds_[node] = *seconds;
   }
+}
+
+std::optional<double> History::seconds(const std::string& node) const {
+  const auto at = seconds_.find(node);
+  return at == seconds_.end() ? std::nullopt : std::optional(at->second);
 }
 
 std::string History::first_difference(const std::string& node, const std::vector<Ingredient>& now) const {
@@ -70,7 +94,12 @@ std::string History::first_difference(const std::string& node, const std::vector
   return "";
 }
 
-void History::remember(const std::string& node, const std::vector<Ingredient>& now) {
+void History::remember(const std::string& node, const std::vector<Ingredient>& now, double seconds) {
+  const auto [known, is_new] = seconds_.emplace(node, seconds);
+  if (is_new || std::abs(seconds - known->second) > notable_change * known->second) {
+    known->second = seconds;
+    changed_ = true;
+  }
   std::vector<Ingredient>& before = nodes_[node];
   const auto same = [](const Ingredient& a, const Ingredient& b) { return a.what == b.what && a.digest == b.digest; };
   if (std::equal(before.begin(), before.end(), now.begin(), now.end(), same)) return;
@@ -87,6 +116,8 @@ void History::save() const {
     for (const Ingredient& i : ingredients)
       text +=
           fmt::format("{}\t{}\t{}\t{}\n", on_one_line(node), on_one_line(i.what), i.digest.hex(), on_one_line(i.shown));
+  for (const auto& [node, seconds] : seconds_)
+    text += fmt::format("{}\t{}\t{}\t{:.3g}\n", on_one_line(node), seconds_line, Digest().hex(), seconds);
   try {
     write_whole_file(path_, text);
   } catch (const FileError&) {

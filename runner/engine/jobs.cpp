@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <new>
-#include <thread>
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -109,22 +108,13 @@ void load(Job& job, const Stage& stage, const std::map<std::string, Digest>& nam
   }
 }
 
-/// Whether this job is to compute the stage now: nobody else is at it, or nobody can tell. Waits for a while only,
-/// since a result may have to be stored by this thread before somebody else's can be had.
+/// Whether this job is to compute the stage now: nobody else is at it, or nobody can tell. Does not wait.
 bool claim(Job& job, const Stage& stage, const RunOptions& options) {
   if (!options.cache || stage.type().persist != Persist::payload || stage.type().is_sink()) return true;
-  constexpr auto pause = std::chrono::milliseconds(5);
-  for (int i = 0; i < 10; i++) {
-    LeaseAttempt attempt = options.cache->try_lease(stage.known->key);
-    job.lease = std::move(attempt.lease);
-    if (!attempt.taken) return true;
-    if (!job.waited) {
-      if (options.observer) options.observer->waits(stage);
-      break;
-    }
-    job.context->task().check();
-    std::this_thread::sleep_for(pause);
-  }
+  LeaseAttempt attempt = options.cache->try_lease(stage.known->key);
+  job.lease = std::move(attempt.lease);
+  if (!attempt.taken) return true;
+  if (!job.waited && options.observer) options.observer->waits(stage);
   job.waited = job.busy = true;
   return false;
 }

@@ -25,6 +25,7 @@ struct Job {
   std::shared_ptr<Lease> lease;          ///< out for compute, in for store: given up once its result is stored
   bool made_elsewhere = false;           ///< out for compute: values and record are what another process has stored
   bool busy = false;                     ///< out for compute: another process is at it; to be tried again
+  bool resumed = false;                  ///< was busy, and there is reason to try it again
   bool waited = false;                   ///< has been busy before
   bool cancelled = false;
   std::optional<std::string> failure;  ///< a complete message

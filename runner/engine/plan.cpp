@@ -113,11 +113,6 @@ std::string why_must_run(const Stage& stage, const Resolution& r, Cache* cache, 
   return r.names.empty() || stage.target ? why_new(stage, r, cache, history) : "";
 }
 
-/// Whether a stage's values can be had without running it.
-bool loadable(const Stage& s) {
-  return s.known && s.known->record && s.type().persist == Persist::payload && s.known->stored;
-}
-
 enum class Want : uint8_t { none, maybe, surely };
 
 std::string name_of_reader(const Plan& plan, const Stage& s, const std::vector<bool>& asks) {
@@ -128,7 +123,7 @@ std::string name_of_reader(const Plan& plan, const Stage& s, const std::vector<b
 
 void decide_settled(Stage& s, Want want, const std::string& reader) {
   const bool lazy = s.type().persist == Persist::derived;
-  const bool idle = want == Want::none || loadable(s);
+  const bool idle = want == Want::none || s.loadable();
   s.state = lazy ? StageState::derived : s.type().is_sink() ? StageState::up_to_date : StageState::cached;
   if (idle) return;
   if (lazy) {
@@ -165,7 +160,7 @@ void decide_states(Plan& plan) {
       surely[i] = true;
     } else {
       decide_settled(s, want, name_of_reader(plan, s, want == Want::surely ? surely : maybe));
-      const bool reads = want != Want::none && !loadable(s);
+      const bool reads = want != Want::none && !s.loadable();
       surely[i] = reads && want == Want::surely;
       maybe[i] = reads && want == Want::maybe;
     }

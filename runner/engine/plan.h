@@ -47,6 +47,8 @@ struct Stage {
   const NodeType& type() const { return *node->type; }
   /// Whether a run is going to reuse or compute it; a lazy stage that has never run may not be asked for.
   bool expected() const { return needed && (state != StageState::derived || known->record); }
+  /// Whether its values can be had without running it.
+  bool loadable() const { return known && known->record && type().persist == Persist::payload && known->stored; }
 };
 
 struct PlanOptions {

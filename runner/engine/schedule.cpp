@@ -14,11 +14,15 @@
 #include "core/base/text.h"
 #include "runner/engine/coordinator.h"
 #include "runner/engine/history.h"
+#include "runner/engine/lease_waiter.h"
 #include "runner/engine/stale_outputs.h"
 
 namespace terrazzo {
 
 namespace {
+
+namespace flow = tbb::flow;
+using Clock = std::chrono::steady_clock;
 
 uint64_t half_of_memory() {
   return static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(::sysconf(_SC_PAGE_SIZE)) / 2;
@@ -42,29 +46,75 @@ std::string_view span_name(Job::Kind kind) {
   return names[static_cast<size_t>(kind)];
 }
 
-/// The flow graph of every run: jobs go round between many workers and one coordinator until none is left.
-void execute(Coordinator& coordinator, const Plan& plan, const RunOptions& options,
-             std::chrono::steady_clock::time_point start) {
-  namespace flow = tbb::flow;
-  ThreadNumbers threads;
-  const auto now = [start] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  flow::graph graph;
-  flow::function_node<JobPtr, JobPtr> work(graph, flow::unlimited, [&](const JobPtr& job) {
-    job->span = {std::string(span_name(job->kind)), job->stage, threads.current(), now(), 0};
-    perform(*job, plan, options);
-    job->span.end = now();
-    return job;
-  });
+/// Waits are drawn on rows of their own, below those of the threads.
+constexpr int first_waiting_row = 1000;
+
+/// The flow graph of every run: jobs go round between many workers and one coordinator until none is left. Those whose
+/// stage another process is computing wait outside of it.
+class JobGraph {
+ public:
+  JobGraph(Coordinator& coordinator, const Plan& plan, const RunOptions& options, Clock::time_point start)
+      : coordinator_(coordinator), plan_(plan), options_(options), start_(start) {
+    flow::make_edge(flow::output_port<0>(coordinate_), work_);
+    flow::make_edge(work_, coordinate_);
+  }
+
+  void run() {
+    coordinate_.try_put(std::make_shared<Job>());
+    graph_.wait_for_all();
+  }
+
+ private:
   using Coordinate = flow::multifunction_node<JobPtr, std::tuple<JobPtr>>;
-  Coordinate coordinate(graph, flow::serial, [&](const JobPtr& job, Coordinate::output_ports_type& ports) {
-    coordinator.settle(*job);
-    for (JobPtr& next : coordinator.admit()) std::get<0>(ports).try_put(next);
-  });
-  flow::make_edge(flow::output_port<0>(coordinate), work);
-  flow::make_edge(work, coordinate);
-  coordinate.try_put(std::make_shared<Job>());
-  graph.wait_for_all();
-}
+
+  double seconds_at(Clock::time_point t) const { return std::chrono::duration<double>(t - start_).count(); }
+
+  JobPtr work(const JobPtr& job) {
+    job->span = {std::string(span_name(job->kind)), job->stage, threads_.current(), seconds_at(Clock::now()), 0};
+    perform(*job, plan_, options_);
+    job->span.end = seconds_at(Clock::now());
+    return job;
+  }
+
+  void coordinate(const JobPtr& job, Coordinate::output_ports_type& ports) {
+    try {
+      const bool stored = job->kind == Job::Kind::store;
+      coordinator_.settle(job);
+      for (JobPtr& next : coordinator_.admit()) std::get<0>(ports).try_put(next);
+      for (JobPtr& busy : coordinator_.take_postponed()) {
+        graph_.reserve_wait();
+        waiter_.add(std::move(busy));
+      }
+      if (coordinator_.stopping())
+        waiter_.give_all_back();
+      else if (stored)
+        waiter_.look_now();
+    } catch (...) {
+      waiter_.give_all_back();  // or the graph would wait for them for ever
+      throw;
+    }
+  }
+
+  void take_back(JobPtr job, const LeaseWaiter::Wait& wait) {
+    job->span = {"wait", job->stage, first_waiting_row + wait.row, seconds_at(wait.start), seconds_at(wait.end)};
+    job->resumed = true;
+    coordinate_.try_put(std::move(job));
+    graph_.release_wait();
+  }
+
+  Coordinator& coordinator_;
+  const Plan& plan_;
+  const RunOptions& options_;
+  const Clock::time_point start_;
+  ThreadNumbers threads_;
+  flow::graph graph_;
+  flow::function_node<JobPtr, JobPtr> work_{graph_, flow::unlimited, [this](const JobPtr& job) { return work(job); }};
+  Coordinate coordinate_{graph_, flow::serial,
+                         [this](const JobPtr& job, Coordinate::output_ports_type& ports) { coordinate(job, ports); }};
+  LeaseWaiter waiter_{[this](const Job& job) { return options_.cache->is_leased(plan_.stages[job.stage].known->key); },
+                      [this](JobPtr job, const LeaseWaiter::Wait& wait) { take_back(std::move(job), wait); },
+                      options_.cancelled};
+};
 
 /// Only now: as long as nodes run, one may be about to write into a folder that another has made and left empty.
 void remove_if_empty(const std::vector<std::filesystem::path>& folders) {
@@ -90,7 +140,7 @@ std::string RunResult::summary() const {
 }
 
 RunResult run_plan(Plan plan, const RunOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   const uint64_t memory = options.memory > 0 ? options.memory : half_of_memory();
   if (options.observer) options.observer->planned(plan);
@@ -98,22 +148,23 @@ RunResult run_plan(Plan plan, const RunOptions& options) {
   Coordinator coordinator(plan, options, threads, memory);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
   tbb::task_arena arena(threads);
-  arena.execute([&] { execute(coordinator, plan, options, start); });
+  arena.execute([&] { JobGraph(coordinator, plan, options, start).run(); });
 
-  remove_if_empty(coordinator.take_made_folders());
+  Outcomes& outcomes = coordinator.outcomes();
+  remove_if_empty(outcomes.take_made_folders());
   if (options.history) options.history->save();
   RunResult result;
   result.cancelled = coordinator.cancelled();
-  result.failures = coordinator.take_failures();
-  result.stages = coordinator.take_outcomes();
+  result.failures = outcomes.take_failures();
+  result.stages = outcomes.take_stages();
   if (result.ok())
     for (auto& [stage, note] : notes_on_stale_outputs(plan, result.stages)) {
       if (options.observer) options.observer->noted(plan.stages[stage], note);
       result.stages[stage].notes.push_back(std::move(note));
     }
   result.kept = coordinator.take_kept();
-  result.spans = coordinator.take_spans();
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.spans = outcomes.take_spans();
+  result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   if (result.ok() && result.count(StageOutcome::Kind::unfinished) > 0)
     throw std::logic_error("the scheduler came to rest before its work was done");
   return result;

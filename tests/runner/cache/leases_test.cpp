@@ -2,6 +2,7 @@
 #include <thread>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 
 #include "runner/cache/cache_folder.h"
@@ -121,6 +122,56 @@ TEST_CASE("when the other one goes without a result, the stage is computed after
   CHECK(r.ok());
   CHECK(waits.count == 1);
   CHECK(outcome(r, "slow") == "run");
+}
+
+TEST_CASE("a run with one thread goes on with other stages while it waits for another one") {
+  OneStage s;
+  LeaseAttempt other = try_lease(s.leases, key_of_slow());
+  REQUIRE(other.lease);
+  constexpr int steps = 10;
+  for (int i = 0; i < steps; i++)
+    add(s.graph, fmt::format("step{}", i), s.t.sum, {{"plus", 10.0 + i}},
+        {i == 0 ? "a" : fmt::format("step{}", i - 1)});
+  struct GiveUp : RunObserver {
+    LeaseAttempt& lease;
+    explicit GiveUp(LeaseAttempt& l) : lease(l) {}
+    void finished(const Stage& stage, double) override {
+      if (stage.node->name == fmt::format("step{}", steps - 1)) lease.lease.reset();
+    }
+  } observer(other);
+  RunOptions options = keeping({"slow", fmt::format("step{}", steps - 1)}, &s.cache);
+  options.threads = 1;
+  options.observer = &observer;
+  const RunResult r = run_graph(s.graph, options);
+  REQUIRE(r.ok());
+  CHECK(outcome(r, "slow") == "run");
+  double start = r.seconds, end = 0;
+  int waits = 0;
+  for (const Span& span : r.spans)
+    if (span.what == "wait") {
+      CHECK(span.thread > 0);  // it takes no worker's time
+      start = std::min(start, span.start);
+      end = std::max(end, span.end);
+      waits++;
+    }
+  CHECK(waits >= 1);
+  int steps_meanwhile = 0;
+  for (const Span& span : r.spans) steps_meanwhile += span.what == "run" && span.start >= start && span.end <= end;
+  CHECK(steps_meanwhile > 0);
+}
+
+TEST_CASE("the lease of a process is seen without taking it") {
+  const TemporaryFolder folder;
+  const Digest key{1, 2};
+  CHECK_FALSE(lease_is_taken(folder.path(), key));
+  CHECK(listing(folder.path()).empty());
+  LeaseAttempt one = try_lease(folder.path(), key);
+  CHECK(lease_is_taken(folder.path(), key));
+  CHECK_FALSE(lease_is_taken(folder.path(), Digest{2, 1}));
+  one.lease.reset();
+  CHECK_FALSE(lease_is_taken(folder.path(), key));
+  write_text(folder.path() / key.hex(), "");  // as a process leaves it that is killed
+  CHECK_FALSE(lease_is_taken(folder.path(), key));
 }
 
 TEST_CASE("a run that waits for another one can be cancelled") {

@@ -1,0 +1,126 @@
+#include "runner/engine/admission.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "runner/engine/history.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr double unknown_seconds = 1;
+
+double expected_seconds(const Stage& stage, const History* history) {
+  const bool computes = stage.needed && (stage.state == StageState::run || stage.state == StageState::depends);
+  if (!computes || stage.type().persist == Persist::derived) return 0;
+  if (stage.known && stage.known->record) return stage.known->record->seconds;
+  const std::optional<double> before = history ? history->seconds(stage.node->name) : std::nullopt;
+  return before.value_or(unknown_seconds);
+}
+
+/// What needs no memory comes first.
+constexpr int urgency_of_values = 2;
+
+int urgency_of(Job::Kind kind) {
+  switch (kind) {
+    case Job::Kind::begin:
+    case Job::Kind::store:
+      return 0;
+    case Job::Kind::look_up:
+      return 1;
+    case Job::Kind::load:
+    case Job::Kind::compute:
+      break;
+  }
+  return urgency_of_values;
+}
+
+}  // namespace
+
+std::vector<double> remaining_seconds(const Plan& plan, const History* history) {
+  std::vector<double> remaining(plan.stages.size(), 0);
+  for (size_t i = remaining.size(); i-- > 0;) {
+    for (const int reader : plan.stages[i].readers) remaining[i] = std::max(remaining[i], remaining[reader]);
+    remaining[i] += expected_seconds(plan.stages[i], history);
+  }
+  return remaining;
+}
+
+bool Admission::Rank::operator<(const Rank& other) const {
+  const bool loads = kind == Job::Kind::load, other_loads = other.kind == Job::Kind::load;
+  return std::tuple(urgency, -remaining, loads, stage, arrival) <
+         std::tuple(other.urgency, -other.remaining, other_loads, other.stage, other.arrival);
+}
+
+void Admission::add(JobPtr job) {
+  if (job->kind == Job::Kind::compute) waiting_computations_++;
+  const Rank rank = {urgency_of(job->kind), remaining_[job->stage], job->kind, job->stage, arrivals_++};
+  waiting_.emplace(rank, Waiting{std::move(job)});
+}
+
+bool Admission::fits(const Job& job, uint64_t held) const {
+  return computing_ == 0 || in_use_ + held + job.memory <= memory_;
+}
+
+bool Admission::may_load(uint64_t held) const {
+  return in_use_ + held < memory_ || (running_ == 0 && waiting_computations_ == 0);
+}
+
+bool Admission::overdue() const {
+  return !refusals_.empty() && computations_ - refusals_.front().computations_before >= patience;
+}
+
+bool Admission::may_start(const Queue::iterator& at, uint64_t held) {
+  Waiting& waiting = at->second;
+  if (overdue()) return false;
+  if (waiting.job->kind == Job::Kind::load) return may_load(held);
+  if (fits(*waiting.job, held)) return true;
+  if (!std::exchange(waiting.refused, true)) refusals_.push_back({at->first, computations_});
+  return false;
+}
+
+Admission::Queue::iterator Admission::remove(Queue::iterator at) {
+  if (at->second.job->kind == Job::Kind::compute) waiting_computations_--;
+  if (at->second.refused)
+    std::erase_if(refusals_, [&](const Refusal& r) { return r.rank.arrival == at->first.arrival; });
+  return waiting_.erase(at);
+}
+
+Admission::Queue::iterator Admission::start(Queue::iterator at, std::vector<JobPtr>& admitted) {
+  const JobPtr& job = admitted.emplace_back(at->second.job);
+  running_++;
+  if (job->kind == Job::Kind::compute) {
+    computing_++;
+    computations_++;
+    in_use_ += job->memory;
+  }
+  return remove(at);
+}
+
+std::vector<JobPtr> Admission::admit(uint64_t held) {
+  std::vector<JobPtr> admitted;
+  while (running_ < threads_ && !waiting_.empty() && waiting_.begin()->first.urgency < urgency_of_values)
+    start(waiting_.begin(), admitted);
+  while (overdue() && running_ < threads_) {
+    const auto at = waiting_.find(refusals_.front().rank);
+    if (!fits(*at->second.job, held)) break;
+    start(at, admitted);
+  }
+  for (auto at = waiting_.begin(); at != waiting_.end() && running_ < threads_;)
+    at = may_start(at, held) ? start(at, admitted) : std::next(at);
+  return admitted;
+}
+
+void Admission::ended(const Job& job) {
+  running_--;
+  if (job.kind != Job::Kind::compute) return;
+  computing_--;
+  in_use_ -= job.memory;
+}
+
+void Admission::forget_if(const std::function<bool(const Job&)>& unwanted) {
+  for (auto at = waiting_.begin(); at != waiting_.end();) at = unwanted(*at->second.job) ? remove(at) : std::next(at);
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,72 @@
+#include "runner/engine/outcomes.h"
+
+#include "runner/engine/history.h"
+
+namespace terrazzo {
+
+Outcomes::Outcomes(const Plan& plan, const RunOptions& options)
+    : plan_(plan), options_(options), told_(plan.stages.size(), false) {
+  for (const Stage& s : plan.stages) {
+    StageOutcome outcome;
+    outcome.node = s.node->name;
+    outcome.kind = s.expected() ? StageOutcome::Kind::unfinished : StageOutcome::Kind::idle;
+    stages_.push_back(outcome);
+  }
+}
+
+void Outcomes::looked_up(int stage) {
+  const Stage& s = plan_.stages[stage];
+  StageOutcome& outcome = stages_[stage];
+  const std::optional<StageRecord>& record = s.known->record;
+  if (record) {
+    outcome.notes = record->notes;
+    outcome.files = record->files;
+  }
+  if (!s.known->must_run.empty()) return;
+  outcome.kind = record ? StageOutcome::Kind::reused : StageOutcome::Kind::idle;
+  if (record && options_.history) options_.history->remember(s.node->name, s.known->ingredients, record->seconds);
+}
+
+void Outcomes::note(int stage) {
+  for (const std::string& note : stages_[stage].notes) options_.observer->noted(plan_.stages[stage], note);
+}
+
+void Outcomes::rests(int stage) {
+  if (told_[stage]) return;
+  told_[stage] = true;
+  if (!options_.observer) return;
+  if (stages_[stage].kind != StageOutcome::Kind::reused) return options_.observer->spared(plan_.stages[stage]);
+  options_.observer->reused(plan_.stages[stage]);
+  note(stage);
+}
+
+void Outcomes::computed(const Job& job) {
+  const Stage& s = plan_.stages[job.stage];
+  StageOutcome& outcome = stages_[job.stage];
+  outcome.kind = job.made_elsewhere ? StageOutcome::Kind::reused : StageOutcome::Kind::run;
+  outcome.notes = job.record->notes;
+  outcome.files = job.record->files;
+  if (job.made_elsewhere) {
+    rests(job.stage);
+  } else {
+    outcome.seconds += job.record->seconds;
+    if (options_.observer) options_.observer->finished(s, job.record->seconds);
+    if (options_.observer && !told_[job.stage]) note(job.stage);
+    told_[job.stage] = true;
+  }
+  if (options_.history) options_.history->remember(s.node->name, s.known->ingredients, job.record->seconds);
+}
+
+void Outcomes::failed(const Job& job) {
+  if (job.blames_input.empty() || blamed_inputs_.insert(job.blames_input).second)
+    failures_.push_back({plan_.stages[job.stage].node->name, *job.failure});
+  stages_[job.stage].kind = StageOutcome::Kind::failed;
+  if (options_.observer) options_.observer->failed(plan_.stages[job.stage], *job.failure);
+}
+
+void Outcomes::ended(const Job& job) {
+  made_folders_.insert(made_folders_.end(), job.made_folders.begin(), job.made_folders.end());
+  if (job.span.end > 0 && !job.busy) spans_.push_back(job.span);
+}
+
+}  // namespace terrazzo

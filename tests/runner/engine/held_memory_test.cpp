@@ -1,0 +1,98 @@
+#include "runner/engine/held_memory.h"
+
+#include <doctest/doctest.h>
+
+#include "core/material/material.h"
+#include "tests/runner/fakes.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+
+ImagePtr floats(Size size, int channels) {
+  return make_image(size, channels, [](int, int, int) { return 0.5f; });
+}
+
+/// A recipe that reads from nothing, by a name of its own.
+ImagePtr recipe(uint64_t number) {
+  return Image::computed({.size = {8, 8}}, Digest{number, 1}, [](const Rect&, float*) {});
+}
+
+}  // namespace
+
+TEST_CASE("values take what their pixels, vectors and positions take") {
+  HeldMemory held(8);
+  held.hold_computed(0, {{"out", floats({10, 4}, 3)}}, {});
+  CHECK(held.bytes() == 480);
+  std::vector<uint16_t> halfs(20);
+  held.hold_computed(1, {{"out", Image::from_halfs({.size = {5, 4}, .depth = Depth::f16}, halfs)}}, {});
+  CHECK(held.bytes() == 480 + 40);
+  held.hold_computed(2, {{"out", UvMap::make({6, 5}, {9, 9}, std::vector<ExemplarPixel>(30))}}, {});
+  CHECK(held.bytes() == 480 + 40 + 120);
+  held.hold_computed(3, {{"out", recipe(1)}}, {});
+  CHECK(held.bytes() == 480 + 40 + 120);
+  AppearanceLevel level{.size = {4, 4}, .vectors = std::vector<AppearanceVector>(16), .mean = {}, .basis = {}};
+  level.usable.assign(16, 1);
+  const AppearancePtr looks = Appearance::make({level}, 3, false);
+  held.hold_computed(4, {{"out", looks}}, {});
+  CHECK(held.bytes() == 640 + 16 * 16 + 16);
+  held.hold_computed(5, {{"out", Index::make(looks, {{.per_pixel = 2, .positions = std::vector<uint32_t>(32)}})}}, {});
+  CHECK(held.bytes() == 640 + 272 + 128);
+  held.release(4);  // the index has it still
+  CHECK(held.bytes() == 640 + 272 + 128);
+  for (int i = 0; i < 8; i++) held.release(i);
+  CHECK(held.bytes() == 0);
+}
+
+TEST_CASE("images from the cache are read from there, and take no memory") {
+  HeldMemory held(2);
+  std::vector<uint16_t> halfs(20);
+  held.hold_computed(0, {{"out", floats({10, 10}, 1)}}, {});
+  held.hold_loaded(1, {{"out", Image::from_halfs({.size = {5, 4}, .depth = Depth::f16}, halfs)}});
+  CHECK(held.bytes() == 400);
+  held.hold_loaded(1, {{"out", UvMap::make({6, 5}, {9, 9}, std::vector<ExemplarPixel>(30))}});
+  CHECK(held.bytes() == 520);
+}
+
+TEST_CASE("what several values share counts once, and until the last of them goes") {
+  HeldMemory held(3);
+  const ImagePtr image = floats({10, 10}, 1);
+  held.hold_computed(0, {{"out", image}}, {});
+  held.hold_computed(
+      1, {{"a", Material::of(image)}, {"b", Image::redescribed(image, {.size = {10, 10}, .depth = Depth::u8})}}, {});
+  CHECK(held.bytes() == 400);
+  held.release(0);
+  held.release(0);
+  CHECK(held.bytes() == 400);
+  held.hold_computed(1, {{"a", floats({5, 5}, 1)}}, {});
+  CHECK(held.bytes() == 100);
+}
+
+TEST_CASE("a lazy image keeps what it reads from, along any number of stages") {
+  constexpr int stages = 20000;
+  HeldMemory held(stages + 2);
+  held.hold_computed(0, {{"out", floats({10, 10}, 1)}}, {});
+  held.hold_computed(1, {{"out", floats({10, 1}, 1)}}, {});
+  for (int i = 2; i < stages; i++) {
+    held.hold_computed(i, {{"out", recipe(uint64_t(i))}}, {i - 1, i == 2 ? 0 : i - 2});
+    if (i > 4) held.release(i - 3);
+  }
+  held.release(0);
+  held.release(1);
+  CHECK(held.bytes() == 440);
+  held.hold_computed(stages, {{"out", floats({2, 2}, 1)}}, {stages - 1});  // computed: it has its own pixels
+  for (int i = 2; i < stages; i++) held.release(i);
+  CHECK(held.bytes() == 16);
+}
+
+TEST_CASE("a stage that is made again does not disturb what is read from its earlier values") {
+  HeldMemory held(2);
+  held.hold_computed(0, {{"out", floats({10, 10}, 1)}}, {});
+  held.hold_computed(1, {{"out", recipe(1)}}, {0});
+  held.release(0);
+  held.hold_computed(0, {{"out", floats({5, 10}, 1)}}, {});
+  CHECK(held.bytes() == 600);
+  held.release(1);
+  CHECK(held.bytes() == 200);
+}
