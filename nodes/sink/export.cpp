@@ -12,6 +12,7 @@
 #include "core/file/file_io.h"
 #include "core/image/color.h"
 #include "core/image/image_file.h"
+#include "core/image/image_ops.h"
 #include "core/material/map_names.h"
 #include "core/node/node.h"
 #include "nodes/common/color_space.h"

@@ -67,7 +67,7 @@ TEST_CASE("maps smaller than the material are a warning that names them and both
   CHECK(run_node("load_material", params)
             .says("warning: the material has 48x32 pixels, the size of its largest map; height (24x16) is scaled up to "
                   "that. "
-                  "Bring the maps to one size if this is not meant\n"));
+                  "Bring the maps to one size if this is not meant"));
   write(folder.path() / "wall_roughness.png", 1, ramp, {30, 20});
   CHECK(run_node("load_material", params).says("height (24x16), roughness (30x20) are scaled up to that."));
 }

@@ -9,7 +9,11 @@ using namespace terrazzo;
 namespace {
 
 constexpr Size exemplar{32, 32};  // cells of 2x2 pixels, blocks of 4x4
-const ExemplarCells cells(exemplar);
+/// Made when it is asked for: tuning constants are not there before main.
+const ExemplarCells& cells() {
+  static const ExemplarCells all(exemplar);
+  return all;
+}
 
 /// A plane that shows exemplar pixel (0, 0) everywhere but for 8x8 pixels from (16, 16) on at each of the places.
 Field with_copies(Size size, std::initializer_list<std::array<int, 2>> places) {
@@ -22,9 +26,9 @@ Field with_copies(Size size, std::initializer_list<std::array<int, 2>> places) {
 
 /// What it costs to show the middle of what was copied at a position.
 uint32_t factor_at(int x, int y, const Field& field, bool tiles = false) {
-  ProximityPenalty use(exemplar, std::vector<double>(cells.count, 4.0), 0.7, {field.size, tiles, tiles});
-  use.count(field, cells);
-  return use.factors(x, y)[cells.of(20, 20)];
+  ProximityPenalty use(exemplar, std::vector<double>(cells().count, 4.0), 0.7, {field.size, tiles, tiles});
+  use.count(field, cells());
+  return use.factors(x, y)[cells().of(20, 20)];
 }
 
 }  // namespace

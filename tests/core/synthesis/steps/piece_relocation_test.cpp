@@ -58,7 +58,11 @@ CorrectionLevel level_of(const PaddedLevel& exemplar, const std::vector<Exemplar
       .exemplar = exemplar, .similar = similar, .per_pixel = 1, .window = {}, .phase = {}, .fixed = std::move(fixed)};
 }
 
-const UsagePenalty all_alike(side, 0, 1);
+/// Made when it is asked for: tuning constants are not there before main.
+const UsagePenalty& all_alike() {
+  static const UsagePenalty usage(side, 0, 1);
+  return usage;
+}
 
 /// Nothing but what is in the hole may change.
 void refill_hole(Field& field, const UsagePenalty& usage) {
@@ -75,7 +79,7 @@ void refill_hole(Field& field, const UsagePenalty& usage) {
 TEST_CASE("a piece that does not fit shows what the exemplar has that fits there, and keeps its shape") {
   Field field = field_with({50, 36});
   const Field before = field;
-  refill_hole(field, all_alike);
+  refill_hole(field, all_alike());
   // What goes on in the left half would fit better still, but would make one piece of the two.
   CHECK(field.at(hole, hole) == ExemplarPixel{4 + hole + again, 4 + hole});
   CHECK(Pieces(field).count() == 2);
@@ -90,14 +94,14 @@ TEST_CASE("a piece is not refilled with what shows near it already") {
   // The place that would fit shows to the right of the hole, so that something else, or nothing, is to be taken.
   for (int y = hole; y < hole + hole_side; y++)
     for (int x = 16; x < 24; x++) field.at(x, y) = {uint16_t(4 + again + x - hole), uint16_t(4 + y)};
-  refill_hole(field, all_alike);
+  refill_hole(field, all_alike());
   CHECK(field.at(hole, hole) != ExemplarPixel{4 + hole + again, 4 + hole});
 }
 
 TEST_CASE("a piece that fits is left as it is") {
   Field field = field_with({4 + hole + again, 4 + hole});
   const Field before = field;
-  refill_hole(field, all_alike);
+  refill_hole(field, all_alike());
   CHECK(field.pixels == before.pixels);
 }
 
@@ -134,7 +138,7 @@ TEST_CASE("what is refilled does not depend on the number of threads, and pieces
       const Field before = field;
       CorrectionLevel level = level_of(exemplar, similar);
       level.window.closed_x = level.window.closed_y = true;
-      relocate_pieces(field, 1, level, all_alike, 1, Task());
+      relocate_pieces(field, 1, level, all_alike(), 1, Task());
       std::vector<uint32_t> shown;
       for (size_t i = 0; i < field.pixels.size(); i++) {
         shown.push_back(uint32_t(field.pixels[i].y) << 16 | field.pixels[i].x);
