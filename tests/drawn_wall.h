@@ -27,7 +27,7 @@ class DrawnWall {
 
   Size size() const { return size_; }
   bool upright() const { return upright_; }
-  Lattice lattice() const { return {1, upright_ ? Vector2{course, 0} : Vector2{0, course}, {}, 0.9}; }
+  Lattice lattice() const { return {1, upright_ ? Vector2d{course, 0} : Vector2d{0, course}, {}, 0.9}; }
 
   /// Bricks are numbered by course and by their place in it.
   int brick(int x, int y) const {

@@ -74,6 +74,26 @@ TEST_CASE("core knows neither JSON nor the command line") {
   }
 }
 
+TEST_CASE("Eigen is included through core/numeric, which settles how it computes") {
+  const std::regex include(R"(#include <(Eigen/[^>]+)>)");
+  for (const char* folder : {"core", "nodes", "graphs", "runner", "tests"})
+    for (const fs::path& file : sources(folder)) {
+      if (file == "core/numeric/eigen.h" || file == "core/numeric/linear_algebra.cpp") continue;
+      CAPTURE(file.string());
+      CHECK(matches(text_of(source / file), include).empty());
+    }
+}
+
+TEST_CASE("no result depends on the last bit of the C library's elementary functions") {
+  const std::regex forbidden(
+      R"(\b(std::(?:exp2?|expm1|pow|log|log2|log10|log1p|a?sinh?|a?cosh?|a?tanh?|atan2|cbrt|hypot|polar|norm|[lt]gamma|erf)\())");
+  for (const char* folder : {"core", "nodes"})
+    for (const fs::path& file : sources(folder)) {
+      CAPTURE(file.string());
+      CHECK(matches(text_of(source / file), forbidden).empty());
+    }
+}
+
 TEST_CASE("every room of the list holds something") {
   for (const std::string& room : rooms()) {
     CAPTURE(room);

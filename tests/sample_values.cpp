@@ -2,6 +2,12 @@
 
 #include <bit>
 
+#include "core/exemplar/appearance.h"
+#include "core/exemplar/features.h"
+#include "core/exemplar/repeats.h"
+#include "core/exemplar/uv_map.h"
+#include "core/material/material.h"
+
 namespace terrazzo::test {
 
 namespace {

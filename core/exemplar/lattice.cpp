@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include "core/base/portable_math.h"
+
 namespace terrazzo {
 
 namespace {
@@ -27,6 +29,14 @@ constexpr double most_slanted = 0.02;  // of level courses: what they rise by, a
 // Of sizes that wrap: a side that is half as long again is as bad as cells bent by a fifth.
 constexpr double bending_weight = 2;
 
+/// Of the matrix that has these two columns.
+Matrix2d inverse(const Vector2d& a, const Vector2d& b) {
+  const double d = 1.0 / cross(a, b);
+  Matrix2d out;
+  out << b.y() * d, -b.x() * d, -a.y() * d, a.x() * d;
+  return out;
+}
+
 /// The length of a side, near `length`, that wraps best.
 int best_side(const Lattice& lattice, int length, bool along_x, int give) {
   int best = length;
@@ -35,7 +45,7 @@ int best_side(const Lattice& lattice, int length, bool along_x, int give) {
     const int room = give + std::max(0, n - length);
     const double bent = lattice.bent({n, n}, along_x, !along_x, {room, room});
     if (bent > Lattice::most_bent && n != length) continue;
-    const double badness = std::abs(std::log(double(n) / length)) + bending_weight * bent;
+    const double badness = std::abs(portable::log(double(n) / length)) + bending_weight * bent;
     if (badness >= least) continue;
     least = badness;
     best = n;
@@ -48,31 +58,31 @@ int best_side(const Lattice& lattice, int length, bool along_x, int give) {
 bool Lattice::is_whole() const {
   constexpr double rounding = 1e-6;
   const auto whole = [](double v) { return std::abs(v - std::floor(v + 0.5)) < rounding; };
-  return rank == 2 && whole(first.x) && whole(first.y) && whole(second.x) && whole(second.y);
+  return rank == 2 && whole(first.x()) && whole(first.y()) && whole(second.x()) && whole(second.y());
 }
 
-Vector2 Lattice::along_bands(bool courses) const {
-  if (rank == 1) return (first.x == 0) == courses ? courses ? Vector2{1, 0} : Vector2{0, 1} : Vector2{};
+Vector2d Lattice::along_bands(bool courses) const {
+  if (rank == 1) return (first.x() == 0) == courses ? courses ? Vector2d{1, 0} : Vector2d{0, 1} : Vector2d{};
   if (rank == 0) return {};
   constexpr int farthest = 3;
-  Vector2 shortest;
+  Vector2d shortest;
   for (int i = -farthest; i <= farthest; i++)
     for (int j = -farthest; j <= farthest; j++) {
-      const Vector2 v = at({double(i), double(j)});
-      const double along = courses ? v.x : v.y, across = std::abs(courses ? v.y : v.x);
-      const double least = courses ? shortest.x : shortest.y;
+      const Vector2d v = at({double(i), double(j)});
+      const double along = courses ? v.x() : v.y(), across = std::abs(courses ? v.y() : v.x());
+      const double least = courses ? shortest.x() : shortest.y();
       if (along > 0 && across <= most_slanted * along && (least == 0 || along < least)) shortest = v;
     }
   return shortest;
 }
 
 Lattice Lattice::level_bands(bool courses) const {
-  if (rank == 1) return (first.x == 0) == courses ? *this : Lattice{};
-  const Vector2 along = along_bands(courses);
-  const double length = courses ? along.x : along.y;
+  if (rank == 1) return (first.x() == 0) == courses ? *this : Lattice{};
+  const Vector2d along = along_bands(courses);
+  const double length = courses ? along.x() : along.y();
   if (length == 0) return {};
   const double period = cell_area() / length;
-  return {1, courses ? Vector2{0, period} : Vector2{period, 0}, {}, certainty};
+  return {1, courses ? Vector2d{0, period} : Vector2d{period, 0}, {}, certainty};
 }
 
 double Lattice::longest_step() const {
@@ -84,7 +94,7 @@ double Lattice::longest_step() const {
     b = std::abs(b);
     return std::min(a, b) >= least ? std::min(a, b) : std::max(a, b);
   };
-  return cell_area() / std::max(least, std::min(nearer(first.x, second.x), nearer(first.y, second.y)));
+  return cell_area() / std::max(least, std::min(nearer(first.x(), second.x()), nearer(first.y(), second.y())));
 }
 
 Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
@@ -92,16 +102,15 @@ Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
   const double w = size.width, h = size.height;
   Lattice out = *this;
   if (rank == 1) {
-    const bool columns = first.x != 0;
-    const double length = columns ? w : h;
-    const double cells = whole(length / (columns ? first.x : first.y), columns ? wraps_x : wraps_y);
-    if (std::abs(cells) >= 1) (columns ? out.first.x : out.first.y) = length / cells;
+    const int axis = first.x() != 0 ? 0 : 1;
+    const double length = axis == 0 ? w : h, cells = whole(length / first[axis], axis == 0 ? wraps_x : wraps_y);
+    if (std::abs(cells) >= 1) out.first[axis] = length / cells;
   }
   if (rank == 2) {
     // Column by column, the cells that the surface spans along x and along y; its inverse gives the vectors.
-    const double d = 1.0 / (first.x * second.y - first.y * second.x);
-    const double ix = whole(second.y * d * w, wraps_x), jx = whole(-first.y * d * w, wraps_x);
-    const double iy = whole(-second.x * d * h, wraps_y), jy = whole(first.x * d * h, wraps_y);
+    const Matrix2d to_cells = inverse(first, second);
+    const double ix = whole(to_cells(0, 0) * w, wraps_x), jx = whole(to_cells(1, 0) * w, wraps_x);
+    const double iy = whole(to_cells(0, 1) * h, wraps_y), jy = whole(to_cells(1, 1) * h, wraps_y);
     const double spanned = ix * jy - iy * jx;
     if (std::abs(spanned) >= 0.5) {
       out.first = {w * jy / spanned, -h * jx / spanned};
@@ -113,33 +122,32 @@ Lattice Lattice::fitted(Size size, bool wraps_x, bool wraps_y) const {
 
 bool Lattice::fits(Size size, bool wraps_x, bool wraps_y, double precision) const {
   const auto comes_back = [&](int length, bool along_x) {
-    const Vector2 e = misfit(length, along_x);
-    const double along = std::abs(along_x ? e.x : e.y), across = std::abs(along_x ? e.y : e.x);
+    const Vector2d e = misfit(length, along_x);
+    const double along = std::abs(e[along_x ? 0 : 1]), across = std::abs(e[along_x ? 1 : 0]);
     return along <= precision && across <= std::max(least_shear, most_shear * length);
   };
   return (!wraps_x || comes_back(size.width, true)) && (!wraps_y || comes_back(size.height, false));
 }
 
-Vector2 Lattice::cells(const Vector2& at) const {
-  if (rank == 1) return {first.x != 0 ? at.x / first.x : at.y / first.y, 0};
-  const double d = 1.0 / (first.x * second.y - first.y * second.x);
-  return {(second.y * at.x - second.x * at.y) * d, (first.x * at.y - first.y * at.x) * d};
+Vector2d Lattice::cells(const Vector2d& at) const {
+  if (rank == 1) return {first.x() != 0 ? at.x() / first.x() : at.y() / first.y(), 0};
+  return Vector2d{cross(at, second), cross(first, at)} * (1.0 / cross(first, second));
 }
 
-Vector2 Lattice::misfit(int length, bool along_x) const {
+Vector2d Lattice::misfit(int length, bool along_x) const {
   if (rank == 0) return {};
   const auto part = [](double cells) { return cells - std::floor(cells + 0.5); };
-  const Vector2 c = cells(along_x ? Vector2{double(length), 0} : Vector2{0, double(length)});
-  const double i = part(c.x), j = part(c.y);
+  const Vector2d c = cells(along_x ? Vector2d{double(length), 0} : Vector2d{0, double(length)});
+  const double i = part(c.x()), j = part(c.y());
   if (rank == 1) return at({i, 0});
   // In a skewed cell the nearest corner need not be the one that both parts round to.
-  Vector2 least{};
+  Vector2d least{};
   double shortest = std::numeric_limits<double>::max();
   for (const double p : {i, i - std::copysign(1, i)})
     for (const double q : {j, j - std::copysign(1, j)}) {
-      const Vector2 v = at({p, q});
-      if (v.length() >= shortest) continue;
-      shortest = v.length();
+      const Vector2d v = at({p, q});
+      if (v.norm() >= shortest) continue;
+      shortest = v.norm();
       least = v;
     }
   return least;
@@ -147,7 +155,7 @@ Vector2 Lattice::misfit(int length, bool along_x) const {
 
 double Lattice::bent(Size size, bool wraps_x, bool wraps_y, Size give) const {
   const auto along = [&](bool x) {
-    const double missing = misfit(x ? size.width : size.height, x).length();
+    const double missing = misfit(x ? size.width : size.height, x).norm();
     return missing > 0 ? missing / (x ? give.width : give.height) : 0;
   };
   return std::max(wraps_x ? along(true) : 0, wraps_y ? along(false) : 0);
@@ -159,22 +167,23 @@ Size Lattice::best_fitting(Size size, bool wraps_x, bool wraps_y, Size give) con
           wraps_y ? best_side(*this, size.height, false, give.height) : size.height};
 }
 
-LatticePhase::Matrix LatticePhase::to_cells(const Lattice& l, double scale) {
-  const double ax = l.first.x * scale, ay = l.first.y * scale, bx = l.second.x * scale, by = l.second.y * scale;
-  if (l.rank == 1) return ax != 0 ? Matrix{1 / ax, 0, 0, 0} : Matrix{0, 1 / ay, 0, 0};
-  const double d = 1.0 / (ax * by - ay * bx);
-  return {by * d, -bx * d, -ay * d, ax * d};
+Matrix2d LatticePhase::to_cells(const Lattice& l, double scale) {
+  const Vector2d a = l.first * scale, b = l.second * scale;
+  if (l.rank == 2) return inverse(a, b);
+  const int axis = a.x() != 0 ? 0 : 1;
+  Matrix2d out = Matrix2d::Zero();
+  out(0, axis) = 1 / a[axis];
+  return out;
 }
 
-LatticePhase::LatticePhase(const Lattice& lattice, const Lattice& shown, const Vector2& start, int level,
+LatticePhase::LatticePhase(const Lattice& lattice, const Lattice& shown, const Vector2d& start, int level,
                            const LatticeSurface& surface)
     : rank_(lattice.rank) {
   if (rank_ == 0) return;
   const double scale = 1.0 / double(int64_t{1} << level);
-  first_ = {lattice.first.x * scale, lattice.first.y * scale};
-  second_ = {lattice.second.x * scale, lattice.second.y * scale};
-  const double cell =
-      rank_ == 1 ? std::abs(first_.x + first_.y) : std::sqrt(std::abs(first_.x * second_.y - first_.y * second_.x));
+  first_ = lattice.first * scale;
+  second_ = lattice.second * scale;
+  const double cell = rank_ == 1 ? std::abs(first_.sum()) : std::sqrt(std::abs(cross(first_, second_)));
   resolves_cells_ = cell >= smallest_resolved;
   if (cell < smallest_cell) rank_ = 0;
   const double loose = cell * looseness * (1 - lattice.certainty * certainty_counts);
@@ -188,14 +197,10 @@ LatticePhase::LatticePhase(const Lattice& lattice, const Lattice& shown, const V
   const bool bends_x = surface.wraps_x && gaps.x.length > 0, bends_y = surface.wraps_y && gaps.y.length > 0;
   const Lattice fitted = shown.fitted(size, surface.wraps_x && !bends_x, surface.wraps_y && !bends_y);
   whole_ = lattice.is_whole() && fitted.is_whole() && !bends_x && !bends_y;
-  shown_first_ = {fitted.first.x * scale, fitted.first.y * scale};
-  shown_second_ = {fitted.second.x * scale, fitted.second.y * scale};
+  shown_first_ = fitted.first * scale;
+  shown_second_ = fitted.second * scale;
   to_output_ = to_cells(fitted, scale);
-  const auto cells_of = [&](const Matrix& m, const Vector2& at) {
-    return Vector2{(m.xx * at.x + m.xy * at.y) * scale, (m.yx * at.x + m.yy * at.y) * scale};
-  };
-  const Vector2 from = cells_of(to_exemplar_, start), to = cells_of(to_output_, surface.origin);
-  origin_ = {to.x - from.x, to.y - from.y};
+  origin_ = to_output_ * surface.origin * scale - to_exemplar_ * start * scale;
   if (bends_x || bends_y) {
     bent_x_ = bent(size.width, shown.misfit(size.width, true), level, bends_x ? gaps.x : LatticeGap{});
     bent_y_ = bent(size.height, shown.misfit(size.height, false), level, bends_y ? gaps.y : LatticeGap{});
@@ -203,19 +208,18 @@ LatticePhase::LatticePhase(const Lattice& lattice, const Lattice& shown, const V
   if (active() && !resolves_cells_) find_promising_steps();
 }
 
-std::vector<Vector2> LatticePhase::bent(int length, const Vector2& misfit, int level, const LatticeGap& gap) const {
+std::vector<Vector2d> LatticePhase::bent(int length, const Vector2d& misfit, int level, const LatticeGap& gap) const {
   const double scale = double(int64_t{1} << level);
-  std::vector<Vector2> out(size_t(length / scale) + 2);
+  std::vector<Vector2d> out(size_t(length / scale) + 2);
   if (gap.length <= 0) return out;
-  const Vector2 missing{to_output_.xx * misfit.x / scale + to_output_.xy * misfit.y / scale,
-                        to_output_.yx * misfit.x / scale + to_output_.yy * misfit.y / scale};
+  const Vector2d missing = to_output_ * misfit / scale;
   for (size_t at = 0; at < out.size(); at++) {
     const double x = double(at) * scale;
     const double before = gap.begin + gap.length - length;  // the part of the gap that lies on the far side
     const double part = x < before       ? 1 - (x + length - gap.begin) / gap.length
                         : x >= gap.begin ? -std::min(1.0, (x - gap.begin) / gap.length)
                                          : 0;
-    out[at] = {-missing.x * part, -missing.y * part};
+    out[at] = -missing * part;
   }
   return out;
 }
@@ -225,7 +229,7 @@ std::vector<Vector2> LatticePhase::bent(int length, const Vector2& misfit, int l
 void LatticePhase::find_promising_steps() {
   const int rows = rank_ == 1 ? 1 : bins;
   constexpr double half = 0.5 / bins + 1e-6;  // beyond what rounding does to a start
-  const double reach = half * (first_.length() + (rank_ == 1 ? 0 : second_.length()));
+  const double reach = half * (first_.norm() + (rank_ == 1 ? 0 : second_.norm()));
   promising_.resize(size_t(rows) * bins);
   for (int row = 0; row < rows; row++)
     for (int column = 0; column < bins; column++) {
@@ -233,12 +237,12 @@ void LatticePhase::find_promising_steps() {
       least.fill(std::numeric_limits<double>::infinity());
       double limit = std::numeric_limits<double>::max();
       // Along courses every place is as good as the next.
-      const int farthest_x = rank_ == 1 && first_.x == 0 ? 0 : farthest;
-      const int farthest_y = rank_ == 1 && first_.x != 0 ? 0 : farthest;
+      const int farthest_x = rank_ == 1 && first_.x() == 0 ? 0 : farthest;
+      const int farthest_y = rank_ == 1 && first_.x() != 0 ? 0 : farthest;
       for (int dy = -farthest_y; dy <= farthest_y; dy++)
         for (int dx = -farthest_x; dx <= farthest_x; dx++) {
-          const double i = (column + 0.5) / bins + to_exemplar_.xx * dx + to_exemplar_.xy * dy;
-          const double j = rank_ == 1 ? 0 : (row + 0.5) / bins + to_exemplar_.yx * dx + to_exemplar_.yy * dy;
+          const double i = (column + 0.5) / bins + to_exemplar_(0, 0) * dx + to_exemplar_(0, 1) * dy;
+          const double j = rank_ == 1 ? 0 : (row + 0.5) / bins + to_exemplar_(1, 0) * dx + to_exemplar_(1, 1) * dy;
           const double p = i - nearest(i), q = j - nearest(j);
           double& lowest = least[bit_of(dx, dy)];
           double highest = 0;
@@ -247,9 +251,9 @@ void LatticePhase::find_promising_steps() {
             for (const bool other_q : {false, true}) {
               if ((other_p && std::abs(p) + half < 0.5) || (other_q && std::abs(q) + half < 0.5)) continue;
               const double pp = other_p ? p - std::copysign(1, p) : p, qq = other_q ? q - std::copysign(1, q) : q;
-              const double off = Vector2{first_.x * pp + second_.x * qq, first_.y * pp + second_.y * qq}.length();
-              lowest = std::min(lowest, cost(penalty({std::max(0.0, off - reach), 0}), dx, dy));
-              highest = std::max(highest, cost(penalty({off + reach, 0}), dx, dy));
+              const double off = (first_ * pp + second_ * qq).norm();
+              lowest = std::min(lowest, cost(penalty(Vector2d{std::max(0.0, off - reach), 0}), dx, dy));
+              highest = std::max(highest, cost(penalty(Vector2d{off + reach, 0}), dx, dy));
             }
           limit = std::min(limit, highest);
         }

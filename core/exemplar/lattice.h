@@ -9,44 +9,36 @@
 
 #include "core/base/geometry.h"
 #include "core/base/hash.h"
+#include "core/numeric/eigen.h"
 
 namespace terrazzo {
-
-struct Vector2 {
-  double x = 0;
-  double y = 0;
-  double length() const { return std::sqrt(x * x + y * y); }
-  bool operator==(const Vector2&) const = default;
-};
 
 /// How an exemplar repeats. Rank 2: in two directions, by `first` and `second` (pixels of the finest level). Rank 1: in
 /// bands across one axis only: courses (first = (0, height)) or columns (first = (width, 0)); along the bands anything
 /// goes. Rank 0: it does not.
 struct Lattice {
   int rank = 0;
-  Vector2 first;
-  Vector2 second;
+  Vector2d first;
+  Vector2d second;
   double certainty = 0;  ///< how much repeats exceed chance, 0..1
 
   /// A position in steps of the lattice, and back; of rank 1 along its one step only.
-  Vector2 cells(const Vector2& at) const;
-  Vector2 at(const Vector2& cells) const {
-    return {first.x * cells.x + second.x * cells.y, first.y * cells.x + second.y * cells.y};
-  }
+  Vector2d cells(const Vector2d& at) const;
+  Vector2d at(const Vector2d& cells) const { return first * cells.x() + second * cells.y(); }
   /// Of a cell of rank 2, in square pixels.
-  double cell_area() const { return std::abs(first.x * second.y - first.y * second.x); }
+  double cell_area() const { return std::abs(cross(first, second)); }
   /// Of rank 2: whether cells are whole pixels long and high.
   bool is_whole() const;
   /// Whether the vectors can carry a lattice of this rank.
   bool is_valid() const {
-    if (rank == 1) return (first.x == 0) != (first.y == 0);
+    if (rank == 1) return (first.x() == 0) != (first.y() == 0);
     return rank == 0 || (rank == 2 && cell_area() >= 1);
   }
   /// Its level courses, or its columns, as a lattice of rank 1: of rank 0 if it has none.
   Lattice level_bands(bool courses) const;
   /// The way that those run, which need not be quite level: the shortest step of the lattice along x, or along y, of
   /// any length if the rank is 1; (0, 0) if it has none.
-  Vector2 along_bands(bool courses) const;
+  Vector2d along_bands(bool courses) const;
   /// Of rank 2: how far along x or y, the farther of the two, it comes back: the length of a brick in its course.
   double longest_step() const;
   /// The nearest lattice of which a surface of `size` holds a whole number of cells, along each axis in which it wraps.
@@ -57,7 +49,7 @@ struct Lattice {
 
   /// By how many pixels a surface that wraps after `length` pixels along x or y misses a whole number of cells. Rank 1
   /// misses nothing along its bands.
-  Vector2 misfit(int length, bool along_x) const;
+  Vector2d misfit(int length, bool along_x) const;
   /// By how much, as a part of their length, cells must be bent within `give` pixels along each side for a surface of
   /// `size` to wrap: the more of the axes along which it does.
   double bent(Size size, bool wraps_x, bool wraps_y, Size give) const;
@@ -71,7 +63,9 @@ struct Lattice {
   Size best_fitting(Size size, bool wraps_x, bool wraps_y, Size give) const;
 
   bool operator==(const Lattice&) const = default;
-  void add_to(Hasher& h) const { h.add(rank).add(first.x).add(first.y).add(second.x).add(second.y).add(certainty); }
+  void add_to(Hasher& h) const {
+    h.add(rank).add(first.x()).add(first.y()).add(second.x()).add(second.y()).add(certainty);
+  }
 };
 
 /// Where along an axis in which a surface wraps around a lattice bends until the surface holds a whole number of cells:
@@ -89,7 +83,7 @@ struct LatticeSurface {
   Size size;
   bool wraps_x = false;
   bool wraps_y = false;
-  Vector2 origin{};    ///< the position at which the exemplar's start is in phase
+  Vector2d origin{};   ///< the position at which the exemplar's start is in phase
   LatticeGaps gaps{};  ///< along which of the axes in which it wraps the lattice is bent, and where
 };
 
@@ -104,7 +98,7 @@ class LatticePhase {
       : LatticePhase(lattice, lattice, {}, level, surface) {}
   /// A cell of `lattice` is shown as one of `shown`, which has the same rank. `start`: the exemplar position, at the
   /// finest level, that is in phase with the surface's origin.
-  LatticePhase(const Lattice& lattice, const Lattice& shown, const Vector2& start, int level,
+  LatticePhase(const Lattice& lattice, const Lattice& shown, const Vector2d& start, int level,
                const LatticeSurface& surface);
 
   bool active() const { return rank_ > 0; }
@@ -117,10 +111,9 @@ class LatticePhase {
   bool is_whole() const { return whole_; }
 
   /// What the exemplar position (u, v) has too much to be in phase with the output position (x, y), in pixels.
-  Vector2 excess(int u, int v, double x, double y) const {
-    const Vector2 c = cells(u, v, x, y);
-    const double p = c.x - nearest(c.x), q = c.y - nearest(c.y);
-    return {first_.x * p + second_.x * q, first_.y * p + second_.y * q};
+  Vector2d excess(int u, int v, double x, double y) const {
+    const Vector2d c = cells(u, v, x, y);
+    return first_ * (c.x() - nearest(c.x())) + second_ * (c.y() - nearest(c.y()));
   }
 
   /// Moves (u, v) into phase with (x, y); where cells are not resolved, to the position in reach that is nearest to it.
@@ -130,43 +123,38 @@ class LatticePhase {
       search(x, y, u, v);
       return;
     }
-    const Vector2 e = excess(u, v, x, y);
-    u -= int(nearest(e.x));
-    v -= int(nearest(e.y));
+    const Vector2d e = excess(u, v, x, y);
+    u -= int(nearest(e.x()));
+    v -= int(nearest(e.y()));
   }
 
   /// Factor on the cost of a candidate that is further out of phase than the lattice's certainty leaves open.
   double penalty(int u, int v, double x, double y) const { return penalty(excess(u, v, x, y)); }
 
   /// One of the result's positions that are in phase with the exemplar position (u, v). Only where nothing bends.
-  Vector2 shown_at(int u, int v) const {
-    const Vector2 c = cells(u, v, 0, 0);
-    return {shown_first_.x * c.x + shown_second_.x * c.y, shown_first_.y * c.x + shown_second_.y * c.y};
+  Vector2d shown_at(int u, int v) const {
+    const Vector2d c = cells(u, v, 0, 0);
+    return shown_first_ * c.x() + shown_second_ * c.y();
   }
 
  private:
-  struct Matrix {
-    double xx = 0, xy = 0, yx = 0, yy = 0;
-  };
-  static Matrix to_cells(const Lattice& lattice, double scale);
+  static Matrix2d to_cells(const Lattice& lattice, double scale);
   static double nearest(double v) { return std::floor(v + 0.5); }
-  double penalty(const Vector2& excess) const {
-    const double misfit = (excess.x * excess.x + excess.y * excess.y) * stiffness_;
+  double penalty(const Vector2d& excess) const {
+    const double misfit = excess.squaredNorm() * stiffness_;
     return misfit <= 1 ? 1.0 : 1.0 + misfit;
   }
 
   /// By how many cells, in each direction, the exemplar position (u, v) is too far on for the output position (x, y).
-  Vector2 cells(int u, int v, double x, double y) const {
-    const Vector2 straight{
-        to_exemplar_.xx * u + to_exemplar_.xy * v - to_output_.xx * x - to_output_.xy * y + origin_.x,
-        to_exemplar_.yx * u + to_exemplar_.yy * v - to_output_.yx * x - to_output_.yy * y + origin_.y};
+  Vector2d cells(int u, int v, double x, double y) const {
+    const Vector2d straight = to_exemplar_.col(0) * double(u) + to_exemplar_.col(1) * double(v) -
+                              to_output_.col(0) * x - to_output_.col(1) * y + origin_;
     if (bent_x_.empty()) return straight;
-    const Vector2 &bx = bent_x_[size_t(x)], &by = bent_y_[size_t(y)];
-    return {straight.x + bx.x + by.x, straight.y + bx.y + by.y};
+    return straight + bent_x_[size_t(x)] + bent_y_[size_t(y)];
   }
   /// What bending adds to cells() at each of the level's pixels along x or y, an axis of `length` pixels of the finest
   /// level on which the lattice misses whole cells by `misfit`.
-  std::vector<Vector2> bent(int length, const Vector2& misfit, int level, const LatticeGap& gap) const;
+  std::vector<Vector2d> bent(int length, const Vector2d& misfit, int level, const LatticeGap& gap) const;
   /// What it costs to take a step: of several positions in phase the nearest is the best.
   static double cost(double penalty, int dx, int dy) { return penalty + 0.001 * (dx * dx + dy * dy); }
 
@@ -181,8 +169,8 @@ class LatticePhase {
 
   /// Takes the cheapest of the steps to pixels up to `farthest` away along each axis.
   void search(double x, double y, int& u, int& v) const {
-    const Vector2 place = cells(u, v, x, y);
-    uint64_t left = promising_[size_t(bin_of(place.x) + (rank_ == 1 ? 0 : bin_of(place.y) * bins))];
+    const Vector2d place = cells(u, v, x, y);
+    uint64_t left = promising_[size_t(bin_of(place.x()) + (rank_ == 1 ? 0 : bin_of(place.y()) * bins))];
     int best = std::countr_zero(left);
     if (!std::has_single_bit(left)) {
       double least = std::numeric_limits<double>::max();
@@ -202,12 +190,12 @@ class LatticePhase {
   bool whole_ = false;
   double stiffness_ = 1;  // 1 / the square of what a position may be out of phase, in pixels
   int rank_ = 0;
-  Vector2 first_, second_;              // in pixels of the level
-  Vector2 shown_first_, shown_second_;  // likewise, as they are shown
-  Matrix to_exemplar_;                  // pixels to cells; for rank 1 its second row is 0
-  Matrix to_output_;
-  Vector2 origin_;                        // of the output less the exemplar's start, in cells
-  std::vector<Vector2> bent_x_, bent_y_;  // both empty where nothing bends
+  Vector2d first_, second_;              // in pixels of the level
+  Vector2d shown_first_, shown_second_;  // likewise, as they are shown
+  Matrix2d to_exemplar_;                 // pixels to cells; for rank 1 its second row is 0
+  Matrix2d to_output_;
+  Vector2d origin_;                        // of the output less the exemplar's start, in cells
+  std::vector<Vector2d> bent_x_, bent_y_;  // both empty where nothing bends
   // Where cells are not resolved, which steps may be the cheapest, by where in a cell they start: `bins` to a row.
   std::vector<uint64_t> promising_;
 };

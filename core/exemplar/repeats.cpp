@@ -57,7 +57,7 @@ void Repeats::add_to(Hasher& h) const {
     h.add(p.place.x).add(p.place.y).add(p.place.width).add(p.place.height);
     p.lattice.add_to(h);
     p.shown.add_to(h);
-    h.add(p.start.x).add(p.start.y);
+    h.add(p.start.x()).add(p.start.y());
   }
 }
 

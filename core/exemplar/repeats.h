@@ -18,7 +18,7 @@ struct LatticePart {
   /// How a result repeats where it shows this part: like the part itself or like another that is alike, so that cells,
   /// or courses, of both meet. Of the same rank, step by step: a cell of `lattice` is shown as a cell of this.
   Lattice shown;
-  Vector2 start;  ///< the exemplar position that is in phase with the result's (0, 0)
+  Vector2d start;  ///< the exemplar position that is in phase with the result's (0, 0)
   bool operator==(const LatticePart&) const = default;
 };
 
@@ -55,9 +55,9 @@ class PartPhases {
   }
   /// One of the result's positions that are in phase with the exemplar position (u, v); that itself where nothing
   /// repeats or all of the exemplar does as one.
-  Vector2 shown_at(int u, int v) const {
+  Vector2d shown_at(int u, int v) const {
     const LatticePhase& phase = of(u, v);
-    return part_at_ && phase.active() ? phase.shown_at(u, v) : Vector2{double(u), double(v)};
+    return part_at_ && phase.active() ? phase.shown_at(u, v) : Vector2d{double(u), double(v)};
   }
 
  private:

@@ -75,11 +75,10 @@ ImagePtr blend_normals(const BlendInputs& inputs, bool detail, const Digest& rec
     std::copy_n(in[0], count * info.channels, out);
     for (int64_t i = 0; i < count; i++) {
       const float amount = in.size() > 2 ? opacity * in[2][i] : opacity;
-      const Vector3 base = normalized(decode_normal(in[0] + i * info.channels, info.normal_y));
-      const Vector3 top = normalized(decode_normal(in[1] + i * top_info.channels, top_info.normal_y));
-      const Vector3 from = detail ? Vector3{0, 0, 1} : base;
-      const Vector3 mixed = normalized({from[0] + amount * (top[0] - from[0]), from[1] + amount * (top[1] - from[1]),
-                                        from[2] + amount * (top[2] - from[2])});
+      const Vector3f base = normalized(decode_normal(in[0] + i * info.channels, info.normal_y));
+      const Vector3f top = normalized(decode_normal(in[1] + i * top_info.channels, top_info.normal_y));
+      const Vector3f from = detail ? Vector3f{0, 0, 1} : base;
+      const Vector3f mixed = normalized(from + amount * (top - from));
       encode_normal(detail ? reoriented(base, mixed) : mixed, info.normal_y, out + i * info.channels);
     }
   });

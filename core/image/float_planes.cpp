@@ -5,24 +5,12 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/base/portable_math.h"
+#include "core/numeric/box_filter.h"
+#include "core/numeric/gaussian.h"
 
 namespace terrazzo {
 
 namespace {
-
-std::vector<float> gaussian_weights(double sigma) {
-  const int radius = int(4 * sigma + 0.5);
-  std::vector<double> weights;
-  double sum = 0;
-  for (int i = -radius; i <= radius; i++) {
-    weights.push_back(portable::exp(-double(i) * i / (2 * sigma * sigma)));
-    sum += weights.back();
-  }
-  std::vector<float> out;
-  for (const double w : weights) out.push_back(float(w / sum));
-  return out;
-}
 
 int mirrored(int v, int n) {
   const int m = wrap(v, 2 * n);
@@ -66,16 +54,19 @@ Planes to_planes(const Image& image, const Rect& region, int channels) {
   return out;
 }
 
-Planes blurred(const Planes& image, double sigma) {
-  const std::vector<float> weights = gaussian_weights(sigma);
-  const int radius = int(weights.size()) / 2, c = image.channels;
+Planes blurred(const Planes& image, double sigma, Beyond beyond) {
+  if (!(sigma > 0)) return image;
+  const int radius = int(4 * sigma + 0.5), c = image.channels;
+  const std::vector<float> weights = gaussian_kernel(sigma, radius);
   const auto [width, height] = image.size;
   const size_t row_values = size_t(width) * c;
-  Planes columns = Planes::zeros(image.size, c), out = Planes::zeros(image.size, c);
+  const auto column = [&](int x) { return beyond == Beyond::mirrored ? mirrored(x, width) : image.column(x); };
+  const auto row = [&](int y) { return beyond == Beyond::mirrored ? mirrored(y, height) : image.row(y); };
+  Planes columns = Planes::zeros(image.size, c), out = Planes::zeros(image.size, c, image.wraps);
   tbb::parallel_for(0, height, [&](int y) {
-    float* to = columns.pixel(0, y);
+    float* to = columns.at(0, y);
     for (int t = -radius; t <= radius; t++) {
-      const float* from = image.pixel(0, mirrored(y + t, height));
+      const float* from = image.at(0, row(y + t));
       const float w = weights[t + radius];
       for (size_t i = 0; i < row_values; i++) to[i] += w * from[i];
     }
@@ -83,8 +74,8 @@ Planes blurred(const Planes& image, double sigma) {
   tbb::parallel_for(0, height, [&](int y) {
     std::vector<float> padded(row_values + 2 * size_t(radius) * c);
     for (int x = -radius; x < width + radius; x++)
-      std::copy_n(columns.pixel(mirrored(x, width), y), c, &padded[size_t(x + radius) * c]);
-    float* to = out.pixel(0, y);
+      std::copy_n(columns.at(column(x), y), c, &padded[size_t(x + radius) * c]);
+    float* to = out.at(0, y);
     for (size_t t = 0; t < weights.size(); t++) {
       const float* from = &padded[t * c];
       const float w = weights[t];
@@ -94,15 +85,22 @@ Planes blurred(const Planes& image, double sigma) {
   return out;
 }
 
+Planes box_blurred(Planes image, double sigma, const Task& task) {
+  constexpr int passes = 3;
+  if (sigma > 0)
+    box_filter(image.values, image.size, image.channels, Box::of_variance(sigma * sigma / passes), passes, image.wraps,
+               task);
+  return image;
+}
+
 std::vector<Planes> gaussian_pyramid(Planes finest, int levels) {
   std::vector<Planes> out;
   out.push_back(std::move(finest));
   while (int(out.size()) < levels) {
-    const Planes smooth = blurred(out.back(), 0.9);
+    const Planes smooth = blurred(out.back(), 0.9, Beyond::mirrored);
     Planes half = Planes::zeros({(smooth.size.width + 1) / 2, (smooth.size.height + 1) / 2}, smooth.channels);
     for (int y = 0; y < half.size.height; y++)
-      for (int x = 0; x < half.size.width; x++)
-        std::copy_n(smooth.pixel(2 * x, 2 * y), smooth.channels, half.pixel(x, y));
+      for (int x = 0; x < half.size.width; x++) std::copy_n(smooth.at(2 * x, 2 * y), smooth.channels, half.at(x, y));
     out.push_back(std::move(half));
   }
   return out;
@@ -117,30 +115,20 @@ Planes resampled(const Planes& image, Size size) {
   tbb::parallel_for(0, size.height, [&](int y) {
     std::vector<float> row(size_t(image.size.width) * c);
     for (const Tap& tap : down[y]) {
-      const float* from = image.pixel(0, tap.at);
+      const float* from = image.at(0, tap.at);
       for (size_t i = 0; i < row.size(); i++) row[i] += tap.weight * from[i];
     }
     for (int x = 0; x < size.width; x++)
       for (const Tap& tap : across[x])
-        for (int k = 0; k < c; k++) out.pixel(x, y)[k] += tap.weight * row[size_t(tap.at) * c + k];
+        for (int k = 0; k < c; k++) out.at(x, y)[k] += tap.weight * row[size_t(tap.at) * c + k];
   });
   return out;
 }
 
-ChannelStatistics channel_statistics(const Planes& image) {
-  const int c = image.channels;
-  const double n = double(image.size.area());
-  ChannelStatistics s{std::vector<double>(c), std::vector<double>(c)};
-  for (size_t i = 0; i < image.values.size(); i += c)
-    for (int k = 0; k < c; k++) s.mean[k] += image.values[i + k];
-  for (double& m : s.mean) m /= n;
-  for (size_t i = 0; i < image.values.size(); i += c)
-    for (int k = 0; k < c; k++) {
-      const double d = image.values[i + k] - s.mean[k];
-      s.deviation[k] += d * d;
-    }
-  for (double& d : s.deviation) d = std::sqrt(d / n);
-  return s;
+Moments<> channel_moments(const Planes& image) {
+  Moments<> out(image.channels);
+  for (size_t i = 0; i < image.values.size(); i += size_t(image.channels)) out.add(&image.values[i]);
+  return out;
 }
 
 }  // namespace terrazzo

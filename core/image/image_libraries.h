@@ -84,9 +84,7 @@ struct ImageLibraries {
   std::unique_ptr<ImageDecoder> (*open_image)(const std::string& path);
   /// For TIFF, EXR and JPEG. Writes to `sink`, or to the file `name` if that is null.
   std::unique_ptr<ImageEncoder> (*create_image)(const std::string& name, const EncodedImage& image, ByteSink* sink);
-  /// A filter of OpenImageIO's Filter1D, as a function of the distance from its centre.
-  std::function<float(float)> (*filter_kernel)(const std::string& name, float width);
-  /// An OpenColorIO configuration file; the spaces of core/image/color.h if the path is empty.
+  /// An OpenColorIO configuration file; the spaces of core/color.h if the path is empty.
   std::shared_ptr<const ColorConfiguration> (*load_colors)(const std::string& path);
 };
 

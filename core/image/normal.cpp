@@ -4,18 +4,21 @@
 
 namespace terrazzo {
 
-Vector3 normalized(const Vector3& v) {
-  const float length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  if (!(length > 1e-12f)) return {0, 0, 1};
-  return {v[0] / length, v[1] / length, v[2] / length};
+float length(const Vector3f& v) {
+  return std::sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z());
 }
 
-Vector3 decode_normal(const float* p, NormalY normal_y) {
+Vector3f normalized(const Vector3f& v) {
+  const float l = length(v);
+  return l > 1e-12f ? Vector3f(v / l) : Vector3f(0, 0, 1);
+}
+
+Vector3f decode_normal(const float* p, NormalY normal_y) {
   const float y = p[1] * 2 - 1;
   return {p[0] * 2 - 1, normal_y == NormalY::up ? y : -y, p[2] * 2 - 1};
 }
 
-void encode_normal(const Vector3& n, NormalY normal_y, float* p) {
+void encode_normal(const Vector3f& n, NormalY normal_y, float* p) {
   p[0] = n[0] * 0.5f + 0.5f;
   p[1] = (normal_y == NormalY::up ? n[1] : -n[1]) * 0.5f + 0.5f;
   p[2] = n[2] * 0.5f + 0.5f;
@@ -28,12 +31,12 @@ void renormalize(float* pixels, int channels, int64_t count) {
   }
 }
 
-Vector3 reoriented(const Vector3& base, const Vector3& detail) {
-  const Vector3 t = {base[0], base[1], base[2] + 1};
-  if (t[2] < 1e-6f) return detail;
-  const Vector3 u = {-detail[0], -detail[1], detail[2]};
-  const float along = (t[0] * u[0] + t[1] * u[1] + t[2] * u[2]) / t[2];
-  return normalized({t[0] * along - u[0], t[1] * along - u[1], t[2] * along - u[2]});
+Vector3f reoriented(const Vector3f& base, const Vector3f& detail) {
+  const Vector3f t = base + Vector3f{0, 0, 1};
+  if (t.z() < 1e-6f) return detail;
+  const Vector3f u{-detail.x(), -detail.y(), detail.z()};
+  const float along = (t.x() * u.x() + t.y() * u.y() + t.z() * u.z()) / t.z();
+  return normalized(t * along - u);
 }
 
 void normals_from_height(const PixelView& height, const Rect& region, double height_scale, SlopeFilter filter,

@@ -1,29 +1,30 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "core/image/image.h"
+#include "core/numeric/eigen.h"
 
 /// Tangent-space normals: x to the right, y up the image, z out of the surface. Stored encoded, n * 0.5 + 0.5, with y
 /// reversed where an image's normal_y is down. Thread-safe.
 namespace terrazzo {
 
-using Vector3 = std::array<float, 3>;
+/// Summed from x to z, which is not the order in which Eigen's norm() takes three.
+float length(const Vector3f& v);
 
 /// The unit vector of the same direction; (0, 0, 1) for a vector without one.
-Vector3 normalized(const Vector3& v);
+Vector3f normalized(const Vector3f& v);
 
 /// An encoded normal as a vector, y up, not normalised.
-Vector3 decode_normal(const float* pixel, NormalY normal_y);
-void encode_normal(const Vector3& normal, NormalY normal_y, float* pixel);
+Vector3f decode_normal(const float* pixel, NormalY normal_y);
+void encode_normal(const Vector3f& normal, NormalY normal_y, float* pixel);
 
 /// Makes encoded normals unit length in place: the first three of each pixel's `channels` values.
 void renormalize(float* pixels, int channels, int64_t count);
 
 /// `detail` laid over `base` by rotating it into the base's tangent frame: reoriented normal mapping (Barre-Brisebois
 /// and Hill, Blending in Detail, 2012). A flat detail leaves the base, a flat base gives the detail.
-Vector3 reoriented(const Vector3& base, const Vector3& detail);
+Vector3f reoriented(const Vector3f& base, const Vector3f& detail);
 
 /// How slopes are estimated from a 3x3 neighbourhood: smoothing across by 1 2 1 (Sobel), by 3 10 3 (Scharr 2000, the
 /// most even over directions), or not at all.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numeric/moments.h"
+
 namespace terrazzo {
 
 namespace {
@@ -37,25 +39,16 @@ Grid averaged(const Image& image, Size size) {
   return g;
 }
 
-/// Pearson's correlation, summed in the order of the calls to add.
-class Correlation {
- public:
-  void add(double a, double b) {
-    n_ += 1;
-    a_ += a;
-    b_ += b;
-    aa_ += a * a;
-    bb_ += b * b;
-    ab_ += a * b;
-  }
-  double value() const {
-    const double va = aa_ * n_ - a_ * a_, vb = bb_ * n_ - b_ * b_;
-    return va > 1e-12 * n_ * n_ && vb > 1e-12 * n_ * n_ ? (ab_ * n_ - a_ * b_) / std::sqrt(va * vb) : 0;
-  }
+/// Pearson's; 0 if one of the two hardly varies.
+double correlation(const Moments<2>& m) {
+  constexpr double least = 1e-12;
+  const double a = m.variance(0), b = m.variance(1);
+  return a > least && b > least ? m.covariance(0, 1) / std::sqrt(a * b) : 0;
+}
 
- private:
-  double n_ = 0, a_ = 0, b_ = 0, aa_ = 0, bb_ = 0, ab_ = 0;
-};
+void add(double a, double b, Moments<2>& to) {
+  to.add(Vector2d{a, b}.data());
+}
 
 constexpr int largest_grid = 512;
 
@@ -67,14 +60,14 @@ ConventionEvidence convention_from_height(const Image& normal, const Image& heig
                   std::min({normal.height(), height.height(), largest_grid})};
   if (size.width < 3 || size.height < 3 || normal.channels() < 2) return out;
   const Grid n = averaged(normal, size), h = averaged(height, size);
-  Correlation along_x, along_y;
+  Moments<2> along_x, along_y;
   for (int y = 1; y + 1 < size.height; y++)
     for (int x = 1; x + 1 < size.width; x++) {
-      along_x.add(n.at(0, x, y), h.at(0, x - 1, y) - h.at(0, x + 1, y));
-      along_y.add(n.at(1, x, y), h.at(0, x, y + 1) - h.at(0, x, y - 1));
+      add(n.at(0, x, y), h.at(0, x - 1, y) - h.at(0, x + 1, y), along_x);
+      add(n.at(1, x, y), h.at(0, x, y + 1) - h.at(0, x, y - 1), along_y);
     }
-  out.along_x = along_x.value();
-  out.along_y = along_y.value();
+  out.along_x = correlation(along_x);
+  out.along_y = correlation(along_y);
   // Grooves that run across (planks, say) leave red without evidence: then a strong green must do.
   constexpr double clear = 0.1, strong = 0.5;
   if (std::abs(out.along_y) < (std::abs(out.along_x) < clear ? strong : clear)) return out;
@@ -92,11 +85,11 @@ ConventionEvidence convention_from_curl(const Image& normal) {
   const Size size{std::min(normal.width(), largest_grid), std::min(normal.height(), largest_grid)};
   if (size.width < 3 || size.height < 3 || normal.channels() < 2) return out;
   const Grid n = averaged(normal, size);
-  Correlation curl;
+  Moments<2> curl;
   for (int y = 1; y + 1 < size.height; y++)
     for (int x = 1; x + 1 < size.width; x++)
-      curl.add(n.at(0, x, y - 1) - n.at(0, x, y + 1), n.at(1, x + 1, y) - n.at(1, x - 1, y));
-  out.along_y = curl.value();
+      add(n.at(0, x, y - 1) - n.at(0, x, y + 1), n.at(1, x + 1, y) - n.at(1, x - 1, y), curl);
+  out.along_y = correlation(curl);
   constexpr double clear = 0.2;
   if (std::abs(out.along_y) >= clear) out.normal_y = out.along_y > 0 ? NormalY::up : NormalY::down;
   return out;

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/image/image_libraries.h"
+#include "core/base/portable_math.h"
 #include "core/image/pixel_space.h"
+#include "core/numeric/gaussian.h"
 
 namespace terrazzo {
 
@@ -20,6 +21,35 @@ void make_sum_one(std::vector<double>& weights, Taps& taps) {
 
 AxisFilter copying(std::function<int(int)> position) {
   return {[position](int i) { return Taps{position(i), {1.0f}}; }, true, false};
+}
+
+/// sin(pi x) / (pi x).
+float sinc(float x) {
+  return std::abs(x) < 1e-4f ? 1 : float(portable::sin_turns(x / 2.0) / (3.14159265358979324 * x));
+}
+
+/// The cubic of Mitchell & Netravali (Reconstruction filters in computer graphics, 1988), B = C = 1/3.
+float mitchell(float x) {
+  const float x2 = x * x;
+  if (x < 1) return (7 * x * x2 - 12 * x2 + 16.0f / 3) / 6;
+  return x < 2 ? (-7.0f / 3 * x * x2 + 12 * x2 - 20 * x + 32.0f / 3) / 6 : 0;
+}
+
+/// A kernel that reaches so far to either side of its centre; `at`: of the distance from there, 0 or more.
+struct Kernel {
+  const char* name;
+  float reach;
+  float (*at)(float distance);
+};
+constexpr std::array kernels = {
+    Kernel{"box", 0.5f, [](float x) { return x <= 0.5f ? 1.0f : 0.0f; }},
+    Kernel{"triangle", 1, [](float x) { return std::max(0.0f, 1 - x); }},
+    Kernel{"mitchell", 2, mitchell},
+    Kernel{"lanczos3", 3, [](float x) { return x < 3 ? sinc(x) * sinc(x / 3) : 0.0f; }},
+};
+
+const Kernel& kernel_of(const std::string& name) {
+  return *std::ranges::find_if(kernels, [&](const Kernel& k) { return k.name == name; });
 }
 
 std::vector<Taps> taps_of(const AxisFilter& filter, int first, int count) {
@@ -123,14 +153,13 @@ AxisFilter scaling_filter(const std::string& name, int from, int to) {
   if (name == "nearest")
     return copying([from, to](int i) { return int((int64_t{2} * i + 1) * from / (int64_t{2} * to)); });
   const std::string kernel_name = name != "auto" ? name : to < from ? "lanczos3" : "mitchell";
-  const float width = kernel_name == "box" ? 1 : kernel_name == "triangle" ? 2 : kernel_name == "mitchell" ? 4 : 6;
-  const std::function<float(float)> kernel = image_libraries().filter_kernel(kernel_name, width);
-  const auto taps_at = [from, to, width, kernel](int i) {
+  const auto taps_at = [from, to, kernel = kernel_of(kernel_name)](int i) {
     const double ratio = double(from) / to, spread = std::max(1.0, ratio);
-    const double centre = (i + 0.5) * ratio - 0.5, reach = width * 0.5 * spread;
+    const double centre = (i + 0.5) * ratio - 0.5, reach = kernel.reach * spread;
     Taps taps{int(std::ceil(centre - reach)), {}};
     std::vector<double> weights;
-    for (int p = taps.first; p <= centre + reach; p++) weights.push_back(kernel(float((p - centre) / spread)));
+    for (int p = taps.first; p <= centre + reach; p++)
+      weights.push_back(kernel.at(std::abs(float((p - centre) / spread))));
     make_sum_one(weights, taps);
     return taps;
   };
@@ -140,10 +169,7 @@ AxisFilter scaling_filter(const std::string& name, int from, int to) {
 AxisFilter gaussian_filter(double sigma) {
   if (sigma <= 0) return scaling_filter("nearest", 1, 1);
   const int reach = int(std::ceil(3 * sigma));
-  Taps kernel{-reach, {}};
-  std::vector<double> weights;
-  for (int p = -reach; p <= reach; p++) weights.push_back(std::exp(-0.5 * p * p / (sigma * sigma)));
-  make_sum_one(weights, kernel);
+  const Taps kernel{-reach, gaussian_kernel(sigma, reach)};
   return {[kernel](int i) { return Taps{kernel.first + i, kernel.weights}; }, false, true};
 }
 

@@ -6,9 +6,9 @@
 
 #include "core/image/image.h"
 
-/// Separable filters on images: scaling and Gaussian blur, with the kernels of OpenImageIO's Filter1D. The sums are
-/// taken here, one axis after the other, because ImageBufAlgo::resize visits the whole square of taps for every pixel.
-/// Pixels are filtered in the space of core/image/pixel_space.h. Thread-safe.
+/// Separable filters on images: scaling and Gaussian blur. Not OpenImageIO's: ImageBufAlgo::resize visits the whole
+/// square of taps for every pixel, and its lanczos3 calls the C library's sine, which is not the same everywhere.
+/// Pixels are filtered in the space of core/pixel_space.h. Thread-safe.
 namespace terrazzo {
 
 /// Which source pixels, with which weights, make one row or column of the result. Weights sum to 1.

@@ -10,13 +10,18 @@ namespace terrazzo {
 
 namespace {
 
+/// Not std::norm, which some libraries make of a hypotenuse.
+double squared(const std::complex<double>& z) {
+  return z.real() * z.real() + z.imag() * z.imag();
+}
+
 int shorter_side(const Planes& a, const Planes& b) {
   return std::min({a.size.width, a.size.height, b.size.width, b.size.height});
 }
 
 Planes without_mean(Planes image) {
-  const ChannelStatistics s = channel_statistics(image);
-  for (size_t i = 0; i < image.values.size(); i++) image.values[i] -= float(s.mean[i % image.channels]);
+  const VectorXd mean = channel_moments(image).mean_vector();
+  for (size_t i = 0; i < image.values.size(); i++) image.values[i] -= float(mean[int(i % image.channels)]);
   return image;
 }
 
@@ -37,13 +42,13 @@ Correlogram normalized(const std::vector<std::complex<double>>& sums, bool imagi
 
 /// The channel that far_peak looks at: details up to the size `near`, of all channels together.
 Planes details(const Planes& image, int near) {
-  const Planes smooth = blurred(image, 1);
+  const Planes smooth = blurred(image, 1, Beyond::mirrored);
   Planes mean = Planes::zeros(image.size, 1);
   for (size_t i = 0; i < mean.values.size(); i++) {
     for (int k = 0; k < image.channels; k++) mean.values[i] += smooth.values[i * image.channels + k];
     mean.values[i] /= float(image.channels);
   }
-  const Planes coarse = blurred(mean, near);
+  const Planes coarse = blurred(mean, near, Beyond::mirrored);
   for (size_t i = 0; i < mean.values.size(); i++) mean.values[i] -= coarse.values[i];
   return mean;
 }
@@ -73,7 +78,7 @@ std::vector<Correlogram> correlograms(const Planes& image, Size lags, const Task
     std::vector<std::complex<double>> grid(size_t(padded.area()));
     for (int y = 0; y < image.size.height; y++)
       for (int x = 0; x < image.size.width; x++) {
-        const float* v = image.pixel(x, y) + c;
+        const float* v = image.at(x, y) + c;
         grid[size_t(y) * padded.width + x] = {v[0], two ? v[1] : 0.0};
       }
     transform_2d(grid, padded.width, padded.height, false);
@@ -83,7 +88,7 @@ std::vector<Correlogram> correlograms(const Planes& image, Size lags, const Task
         const size_t mirror =
             size_t((padded.height - y) % padded.height) * padded.width + size_t((padded.width - x) % padded.width);
         const std::complex<double> z = grid[size_t(y) * padded.width + x], m = std::conj(grid[mirror]);
-        power[size_t(y) * padded.width + x] = {std::norm(z + m) / 4, std::norm(z - m) / 4};
+        power[size_t(y) * padded.width + x] = {squared(z + m) / 4, squared(z - m) / 4};
       }
     transform_2d(power, padded.width, padded.height, true);
     out.push_back(normalized(power, false, image.size, padded, lags));

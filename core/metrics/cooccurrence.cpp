@@ -21,29 +21,24 @@ constexpr std::array<std::array<int, 2>, 4> directions = {{{1, 0}, {0, 1}, {1, 1
 /// The pixels' channels turned onto their principal axes in the exemplar.
 class Turned {
  public:
-  explicit Turned(const Planes& exemplar) : channels_(exemplar.channels), mean_(channel_statistics(exemplar).mean) {
-    std::vector<double> covariance(size_t(channels_) * channels_);
-    for (size_t i = 0; i < exemplar.values.size(); i += channels_)
-      for (int a = 0; a < channels_; a++)
-        for (int b = 0; b < channels_; b++)
-          covariance[size_t(a) * channels_ + b] +=
-              (exemplar.values[i + a] - mean_[a]) * (exemplar.values[i + b] - mean_[b]);
-    axes_ = eigen_symmetric(std::move(covariance), channels_).vectors;
+  explicit Turned(const Planes& exemplar) {
+    const Moments<> moments = channel_moments(exemplar);
+    mean_ = moments.mean_vector();
+    axes_ = eigen_symmetric(moments.covariance_matrix()).vectors.transpose();
   }
   Planes operator()(const Planes& image) const {
-    Planes out = Planes::zeros(image.size, channels_);
-    for (size_t i = 0; i < image.values.size(); i += channels_)
-      for (int a = 0; a < channels_; a++) {
-        double sum = 0;
-        for (int k = 0; k < channels_; k++) sum += axes_[size_t(a) * channels_ + k] * (image.values[i + k] - mean_[k]);
-        out.values[i + a] = float(sum);
-      }
+    Planes out = Planes::zeros(image.size, image.channels);
+    const int n = image.channels;
+    for (size_t i = 0; i < image.values.size(); i += size_t(n)) {
+      const VectorXd from_mean = Eigen::Map<const Eigen::VectorXf>(&image.values[i], n).cast<double>() - mean_;
+      Eigen::Map<Eigen::VectorXf>(&out.values[i], n) = (axes_ * from_mean).cast<float>();
+    }
     return out;
   }
 
  private:
-  int channels_;
-  std::vector<double> mean_, axes_;
+  VectorXd mean_;
+  MatrixXd axes_;  ///< a row for each
 };
 
 /// A median cut (Heckbert 1982): splits where the exemplar spreads most, into equally many pixels.
@@ -72,15 +67,10 @@ class MedianCut {
     double widest = -1;
     int axis = 0;
     for (int k = 0; k < c; k++) {
-      double sum = 0, squares = 0;
-      for (const uint32_t* i = begin; i < end; i++) {
-        const double v = pixels.values[size_t(*i) * c + k];
-        sum += v;
-        squares += v * v;
-      }
-      const double spread = squares - sum * sum / double(end - begin);
-      if (spread > widest) {
-        widest = spread;
+      Moments<1> spread;
+      for (const uint32_t* i = begin; i < end; i++) spread.add(double(pixels.values[size_t(*i) * c + k]));
+      if (spread.variance() > widest) {
+        widest = spread.variance();
         axis = k;
       }
     }

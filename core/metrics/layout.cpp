@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/base/portable_math.h"
 #include "core/metrics/copies.h"
 
 namespace terrazzo {
@@ -46,7 +47,7 @@ class SeamFinder {
     return {place(p.x + dx, exemplar_.size.width), place(p.y + dy, exemplar_.size.height)};
   }
   double difference(ExemplarPixel a, ExemplarPixel b) const {
-    const float *p = exemplar_.pixel(a.x, a.y), *q = exemplar_.pixel(b.x, b.y);
+    const float *p = exemplar_.at(a.x, a.y), *q = exemplar_.at(b.x, b.y);
     double sum = 0;
     for (int k = 0; k < exemplar_.channels; k++) sum += double(p[k] - q[k]) * (p[k] - q[k]);
     return std::sqrt(sum / exemplar_.channels);
@@ -66,8 +67,8 @@ double usage_entropy(const UvMap& layout) {
   const double total = double(layout.size().area()), most = std::min(double(use.size()), total);
   double entropy = 0;
   for (const int64_t n : use)
-    if (n > 0) entropy -= double(n) / total * std::log(double(n) / total);
-  return most > 1 ? entropy / std::log(most) : 1;
+    if (n > 0) entropy -= double(n) / total * portable::log(double(n) / total);
+  return most > 1 ? entropy / portable::log(most) : 1;
 }
 
 std::vector<Shift> shifts_of(const UvMap& layout, bool wraps) {

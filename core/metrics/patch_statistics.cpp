@@ -46,11 +46,9 @@ std::vector<float> sorted_column(const std::vector<float>& rows, int width, int 
 }
 
 double deviation(const std::vector<float>& values) {
-  double mean = 0, squares = 0;
-  for (const float v : values) mean += v;
-  mean /= double(values.size());
-  for (const float v : values) squares += (v - mean) * (v - mean);
-  return std::sqrt(squares / double(values.size()));
+  Moments<1> m;
+  for (const float v : values) m.add(double(v));
+  return std::sqrt(m.variance());
 }
 
 double mean_of(const std::vector<double>& values) {

@@ -21,7 +21,7 @@ void gather(const Planes& image, uint32_t patch, const std::vector<float>& mean,
   const int across = patch_positions(image.size).width, row = patch_side * image.channels;
   const int x = int(patch % uint32_t(across)), y = int(patch / uint32_t(across));
   for (int dy = 0; dy < patch_side; dy++) {
-    const float* from = image.pixel(x, y + dy);
+    const float* from = image.at(x, y + dy);
     for (int i = 0; i < row; i++) out[dy * row + i] = from[i] - mean[size_t(dy) * row + i];
   }
 }

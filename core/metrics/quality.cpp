@@ -1,6 +1,7 @@
 #include "core/metrics/quality.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -68,7 +69,7 @@ Planes stacked(const Material& material, const std::vector<MapChannels>& maps) {
   int first = 0;
   for (const Planes& part : parts) {
     for (int y = 0; y < size.height; y++)
-      for (int x = 0; x < size.width; x++) std::copy_n(part.pixel(x, y), part.channels, out.pixel(x, y) + first);
+      for (int x = 0; x < size.width; x++) std::copy_n(part.at(x, y), part.channels, out.at(x, y) + first);
     first += part.channels;
   }
   return out;
@@ -111,7 +112,9 @@ ComparedPlanes compared_planes(const Material& exemplar, const Material& output,
   ComparedPlanes out{stacked(exemplar, channels), stacked(output, channels)};
   std::vector<float> scale;
   // A map that is flat in the exemplar is measured in 8-bit steps.
-  for (const double d : channel_statistics(out.exemplar).deviation) scale.push_back(float(1 / std::max(d, 1.0 / 255)));
+  const Moments<> moments = channel_moments(out.exemplar);
+  for (int c = 0; c < out.exemplar.channels; c++)
+    scale.push_back(float(1 / std::max(std::sqrt(moments.variance(c)), 1.0 / 255)));
   for (Planes* planes : {&out.exemplar, &out.output})
     for (size_t i = 0; i < planes->values.size(); i++) planes->values[i] *= scale[i % scale.size()];
   return out;

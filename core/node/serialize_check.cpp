@@ -33,7 +33,7 @@ void check_level(const AppearanceLevel& level, int channels) {
 }
 
 void check_lattice(const Lattice& lattice) {
-  for (const double v : {lattice.first.x, lattice.first.y, lattice.second.x, lattice.second.y})
+  for (const double v : {lattice.first.x(), lattice.first.y(), lattice.second.x(), lattice.second.y()})
     require(std::abs(v) <= largest_side, "a lattice in it is larger than any exemplar");
 }
 
@@ -63,7 +63,7 @@ void check_repeats(const Repeats& repeats, Size exemplar) {
     check_lattice(p.shown);
     require(p.lattice.rank == p.shown.rank, "a part of it repeats in another way than it is shown");
     require(is_inside(p.place, exemplar), "a part of it lies outside the exemplar");
-    require(std::max(std::abs(p.start.x), std::abs(p.start.y)) <= largest_side, "a part of it starts too far away");
+    require(p.start.lpNorm<Eigen::Infinity>() <= largest_side, "a part of it starts too far away");
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/exemplar/features.h"
 #include "core/file/block_file.h"
 #include "core/node/serialize.h"
 #include "core/node/serialize_check.h"
@@ -114,7 +115,7 @@ class ValueReader {
   Lattice lattice() {
     Lattice l;
     l.rank = in_.get_below<uint8_t>(3);
-    for (double* v : {&l.first.x, &l.first.y, &l.second.x, &l.second.y, &l.certainty}) *v = component();
+    for (double* v : {&l.first.x(), &l.first.y(), &l.second.x(), &l.second.y(), &l.certainty}) *v = component();
     require(l.is_valid(), "a lattice has no extent");
     return l;
   }
@@ -127,7 +128,7 @@ class ValueReader {
       for (int* v : {&p.place.x, &p.place.y, &p.place.width, &p.place.height}) *v = in_.get<int32_t>();
       p.lattice = lattice();
       p.shown = lattice();
-      for (double* v : {&p.start.x, &p.start.y}) *v = component();
+      for (double* v : {&p.start.x(), &p.start.y()}) *v = component();
       r.parts.push_back(p);
     }
     return r;

@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/exemplar/appearance.h"
+#include "core/exemplar/features.h"
 #include "core/file/block_file.h"
 #include "core/node/serialize.h"
 
@@ -134,13 +136,14 @@ class ValueWriter {
  private:
   void put(const Lattice& lattice) {
     out_.put(uint8_t(lattice.rank));
-    for (const double v : {lattice.first.x, lattice.first.y, lattice.second.x, lattice.second.y, lattice.certainty})
+    for (const double v :
+         {lattice.first.x(), lattice.first.y(), lattice.second.x(), lattice.second.y(), lattice.certainty})
       out_.put(v);
   }
 
-  void put(Vector2 v) {
-    out_.put(v.x);
-    out_.put(v.y);
+  void put(Vector2d v) {
+    out_.put(v.x());
+    out_.put(v.y());
   }
 
   void put(const Repeats& repeats) {

@@ -3,14 +3,20 @@
 #include <string_view>
 #include <variant>
 
-#include "core/exemplar/appearance.h"
-#include "core/exemplar/features.h"
 #include "core/exemplar/uv_map.h"
 #include "core/image/image.h"
 #include "core/material/material.h"
 #include "core/node/report.h"
 
 namespace terrazzo {
+
+// Their headers bring Eigen, which most that pass values on do not need.
+class Features;
+class Appearance;
+class Index;
+using FeaturesPtr = std::shared_ptr<const Features>;
+using AppearancePtr = std::shared_ptr<const Appearance>;
+using IndexPtr = std::shared_ptr<const Index>;
 
 /// What travels on a wire; shared, never copied.
 using Value = std::variant<ImagePtr, MaterialPtr, FeaturesPtr, AppearancePtr, IndexPtr, UvMapPtr, ReportPtr>;
@@ -26,9 +32,7 @@ inline std::string_view name_of(ValueType type) {
 inline ValueType type_of(const Value& value) {
   return static_cast<ValueType>(value.index());
 }
-inline const Digest& digest_of(const Value& value) {
-  return std::visit([](const auto& v) -> const Digest& { return v->digest(); }, value);
-}
+const Digest& digest_of(const Value& value);
 
 /// Whether a wire may join the two: the same type, or the lossless image -> material of one map.
 inline bool converts(ValueType from, ValueType to) {

@@ -1,6 +1,7 @@
 #include "core/numeric/box_filter.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <tbb/parallel_for.h>
 
@@ -8,35 +9,63 @@ namespace terrazzo {
 
 namespace {
 
-/// One line of samples that lie `stride` floats apart, replaced by the means of 2 * radius + 1 of them.
-void box(float* line, int length, size_t stride, int radius, bool wraps, std::vector<float>& copy) {
-  copy.resize(size_t(length));
-  for (int i = 0; i < length; i++) copy[size_t(i)] = line[size_t(i) * stride];
-  const auto at = [&](int i) { return double(copy[size_t(wraps ? wrap(i, length) : std::clamp(i, 0, length - 1))]); };
+/// One pass over a line by a running sum; `at` brings any position into the line.
+template <typename At>
+void filter(const std::vector<double>& in, const Box& box, const At& at, std::vector<double>& out) {
+  const int n = int(in.size());
   double sum = 0;
-  for (int i = -radius; i <= radius; i++) sum += at(i);
-  for (int i = 0; i < length; i++) {
-    line[size_t(i) * stride] = float(sum / (2 * radius + 1));
-    sum += at(i + radius + 1) - at(i - radius);
+  for (int i = -box.reach; i <= box.reach; i++) sum += in[at(i)];
+  for (int x = 0; x < n; x++) {
+    const double after = in[at(x + box.reach + 1)];
+    out[x] = (sum + box.end * (in[at(x - box.reach - 1)] + after)) / box.sum();
+    sum += after - in[at(x - box.reach)];
   }
+}
+
+/// `count` values, `stride` apart, filtered in place.
+void filter_line(float* values, int count, size_t stride, const Box& box, int passes, bool wraps) {
+  std::vector<double> line(count), next(count);
+  for (int i = 0; i < count; i++) line[i] = values[i * stride];
+  for (int p = 0; p < passes; p++) {
+    if (wraps)
+      filter(
+          line, box, [count](int i) { return wrap(i, count); }, next);
+    else
+      filter(
+          line, box, [count](int i) { return std::clamp(i, 0, count - 1); }, next);
+    line.swap(next);
+  }
+  for (int i = 0; i < count; i++) values[i * stride] = float(line[i]);
 }
 
 }  // namespace
 
-std::vector<float> box_filter(std::vector<float> pixels, Size size, int channels, int radius, bool wraps) {
-  const int half = std::max(1, (radius + 1) / 2);
+Box Box::of_variance(double variance) {
+  Box out;
+  out.reach = int(std::floor(0.5 * std::sqrt(12 * variance + 1) - 0.5));
+  const double next = out.reach + 1.0;
+  out.end = (2 * out.reach + 1) * (out.reach * next - 3 * variance) / (6 * (variance - next * next));
+  return out;
+}
+
+void box_filter(std::vector<float>& pixels, Size size, int channels, const Box& box, int passes, bool wraps,
+                const Task& task) {
   const size_t row = size_t(size.width) * channels;
-  const auto filter = [&](int lines, auto line, int length, size_t stride) {
-    tbb::parallel_for(0, lines, [&](int i) {
-      std::vector<float> copy;
-      for (int c = 0; c < channels; c++)
-        for (int pass = 0; pass < 2; pass++) box(&pixels[line(i) + size_t(c)], length, stride, half, wraps, copy);
-    });
-  };
-  filter(
-      size.height, [row](int y) { return size_t(y) * row; }, size.width, size_t(channels));
-  filter(
-      size.width, [channels](int x) { return size_t(x) * size_t(channels); }, size.height, row);
+  tbb::parallel_for(0, size.height, [&](int y) {
+    task.check();
+    for (int c = 0; c < channels; c++)
+      filter_line(&pixels[y * row + size_t(c)], size.width, size_t(channels), box, passes, wraps);
+  });
+  tbb::parallel_for(0, size.width, [&](int x) {
+    task.check();
+    for (int c = 0; c < channels; c++)
+      filter_line(&pixels[size_t(x) * channels + size_t(c)], size.height, row, box, passes, wraps);
+  });
+}
+
+std::vector<float> local_mean(std::vector<float> pixels, Size size, int channels, int radius, bool wraps) {
+  const Box half{std::max(1, (radius + 1) / 2), 0};
+  box_filter(pixels, size, channels, half, 2, wraps, {});
   return pixels;
 }
 

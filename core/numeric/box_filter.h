@@ -3,12 +3,28 @@
 #include <vector>
 
 #include "core/base/geometry.h"
+#include "core/base/task.h"
 
 namespace terrazzo {
 
-/// The mean around every pixel, weighted by a pyramid of `radius` pixels (a box of half that radius applied twice along
-/// each axis). `pixels`: interleaved channels. Beyond a border lies the other side, or the border pixels go on. Summed
-/// in a fixed order: the same bits on every machine. Parallel.
-std::vector<float> box_filter(std::vector<float> pixels, Size size, int channels, int radius, bool wraps);
+/// A box filter along a line: weight 1 up to `reach` positions away and `end` one further, 0..1.
+struct Box {
+  int reach = 0;
+  double end = 0;
+
+  /// An extended box of that variance, of any size (Gwosdek, Grewenig, Bruhn & Weickert, Theoretical foundations of
+  /// Gaussian convolution by extended box filtering, 2011). A few passes of it come near a Gaussian.
+  static Box of_variance(double variance);
+  double sum() const { return 2 * reach + 1 + 2 * end; }
+};
+
+/// Applies the box so many times along each axis, in place, by running sums: the cost does not depend on its size.
+/// `pixels`: interleaved channels. Beyond a border lies the other side if the image wraps, else the border pixels go
+/// on. Summed in a fixed order: the same bits on every machine. Parallel. Throws Cancelled.
+void box_filter(std::vector<float>& pixels, Size size, int channels, const Box& box, int passes, bool wraps,
+                const Task& task);
+
+/// The mean around every pixel, weighted by a pyramid of `radius` pixels: a box of half that radius applied twice.
+std::vector<float> local_mean(std::vector<float> pixels, Size size, int channels, int radius, bool wraps);
 
 }  // namespace terrazzo

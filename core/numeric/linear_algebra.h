@@ -1,22 +1,22 @@
 #pragma once
 
-#include <vector>
+#include "core/numeric/eigen.h"
 
 namespace terrazzo {
 
 /// Eigenvalues, largest first, and their unit eigenvectors.
 struct SymmetricEigen {
-  int n = 0;
-  std::vector<double> values;   ///< n
-  std::vector<double> vectors;  ///< n rows of n; row i belongs to values[i], its largest component is positive
+  VectorXd values;
+  MatrixXd vectors;  ///< a column for each value; its component of largest size is positive
 };
 
-/// The eigendecomposition of a symmetric matrix of n rows, by cyclic Jacobi rotations (Golub & Van Loan, Matrix
-/// Computations, section 8.5): for small matrices, tens of rows. The same bits on every machine. Thread-safe.
-SymmetricEigen eigen_symmetric(std::vector<double> matrix, int n);
+/// The eigendecomposition of a symmetric matrix, at least one row: Eigen's, in an order and with signs that do not
+/// depend on the method. Throws Error if it holds something that is not a finite number. The same bits on every
+/// machine. Thread-safe.
+SymmetricEigen eigen_symmetric(const MatrixXd& matrix);
 
-/// The x of matrix x = right, by Cholesky's decomposition (Golub & Van Loan, section 4.2): the matrix must be symmetric
-/// and positive definite. The same bits on every machine. Thread-safe.
-std::vector<double> solve_positive_definite(std::vector<double> matrix, std::vector<double> right);
+/// The x of matrix x = right, by Cholesky's decomposition. Throws invalid_argument unless the matrix is symmetric and
+/// positive definite and has the vector's size. The same bits on every machine. Thread-safe.
+VectorXd solve_positive_definite(const MatrixXd& matrix, const VectorXd& right);
 
 }  // namespace terrazzo

@@ -6,7 +6,8 @@
 namespace terrazzo {
 
 /// A kd-tree over points (Bentley 1975) with the bounded-error search of Arya & Mount (1998). Immutable once built;
-/// searches are thread-safe.
+/// searches are thread-safe. Not nanoflann's: of 24-dimensional patches its searches took fifteen times as long, since
+/// it sums distances point by point to the end, where these leaves hold 16 points side by side and give up together.
 class NearestPoints {
  public:
   struct Match {

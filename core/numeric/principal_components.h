@@ -14,10 +14,9 @@ struct PrincipalComponents {
   double total_variance = 0;
 };
 
-/// Computes the `count` leading components of vectors of length n by subspace iteration on the covariance matrix
-/// (Golub & Van Loan, Matrix Computations, section 8.2). `samples` holds the vectors one after the other. Arithmetic is
-/// done in one fixed order, so the result has the same bits on every machine and thread count.
-/// Throws Cancelled.
+/// Computes the `count` leading components of vectors of length n from their covariance matrix. `samples` holds the
+/// vectors one after the other. Arithmetic is done in one fixed order, so the result has the same bits on every machine
+/// and thread count. Throws Error if a sample is not finite, Cancelled.
 PrincipalComponents principal_components(const std::vector<float>& samples, int n, int count, const Task& task = {});
 
 }  // namespace terrazzo

@@ -27,7 +27,7 @@ Planes reduced(const Image& image, int factor) {
       for (int x = 0; x < strip.width; x++, pixels += image.channels()) {
         const int to_x = std::min(x / factor, size.width - 1), to_y = std::min(y / factor, size.height - 1);
         for (int k = 0; k < channels; k++)
-          sums.pixel(to_x, to_y)[k] += std::clamp(pixels[image.channels() >= 3 ? k : 0], 0.f, 1.f);
+          sums.at(to_x, to_y)[k] += std::clamp(pixels[image.channels() >= 3 ? k : 0], 0.f, 1.f);
         count[size_t(to_y) * size.width + to_x]++;
       }
   });
@@ -92,7 +92,7 @@ ImagePtr contact_sheet(const std::vector<std::vector<ImagePtr>>& rows, int max_s
       const Size size{scaled(image->width(), scale), scaled(image->height(), scale)};
       const Planes picture = resampled(reduced(*image, std::max(1, int(1 / scale))), size);
       for (int v = 0; v < size.height && top[y] + v < sheet.size().height; v++)
-        sheet.put(left[x], top[y] + v, picture.pixel(0, v), std::min(size.width, sheet.size().width - left[x]));
+        sheet.put(left[x], top[y] + v, picture.at(0, v), std::min(size.width, sheet.size().width - left[x]));
     }
   for (size_t y = 0; y < captions.size(); y++)
     for (size_t x = 0; x < captions[y].size(); x++)

@@ -40,7 +40,7 @@ class ResolvedPixels : public PixelSource {
     detail_radius_ = layout_->radius() * layout_->exemplar().width / uv.exemplar().width;
     const int radius = std::max(1, int(detail_radius_ * map->width() / layout_->exemplar().width + 0.5));
     linear_ = linear_pixels(*map_);
-    smooth_ = box_filter(linear_, map_->size(), map_->channels(), radius, uv.wraps().exemplar);
+    smooth_ = local_mean(linear_, map_->size(), map_->channels(), radius, uv.wraps().exemplar);
   }
 
   void read(const Rect& region, float* out) const override {
@@ -166,13 +166,10 @@ class ResolvedPixels : public PixelSource {
   /// Gives a unit normal the length that the proposals have: 1, unless the map was filtered carelessly, where a normal
   /// of another length than its neighbours' would show.
   void set_length(const Proposal* proposals, int count, float* out) const {
-    const auto length = [](const Vector3& n) { return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]); };
     double sum = 0;
     for (int i = 0; i < count; i++)
       sum += proposals[i].weight * double(length(decode_normal(&linear_[proposals[i].position], NormalY::up)));
-    Vector3 normal = decode_normal(out, NormalY::up);
-    for (float& v : normal) v *= float(sum);
-    encode_normal(normal, NormalY::up, out);
+    encode_normal(decode_normal(out, NormalY::up) * float(sum), NormalY::up, out);
     keep_in_range(map_->info(), out, 1);
   }
 

@@ -102,7 +102,7 @@ void LevelWork::correct(Field& field, const PlaneWindow& window, const Rect& wan
     run_steps(Phase::before_pass, c);
     run_steps(Phase::pass, c);
     // Every finer level has four times as many pixels.
-    shared_.task.progress(std::pow(0.25, facts_.level - shared_.finest) * (c.pass + 1) / effort_.passes);
+    shared_.task.progress(std::ldexp(double(c.pass + 1) / effort_.passes, -2 * (facts_.level - shared_.finest)));
   }
   run_steps(Phase::after_passes, c);
 }

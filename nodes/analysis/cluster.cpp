@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "core/analysis/space/clusters.h"
-#include "core/analysis/space/smoothing.h"
 #include "core/analysis/space/weighting.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -14,8 +13,8 @@ namespace terrazzo {
 namespace {
 
 /// The channels of both, side by side.
-ExemplarPlanes joined(const ExemplarPlanes& a, const ExemplarPlanes& b) {
-  ExemplarPlanes out{a.size, a.channels + b.channels, a.wraps, {}};
+Planes joined(const Planes& a, const Planes& b) {
+  Planes out{a.size, a.channels + b.channels, a.wraps, {}};
   out.values.reserve(a.values.size() + b.values.size());
   for (int y = 0; y < a.size.height; y++)
     for (int x = 0; x < a.size.width; x++) {
@@ -30,7 +29,7 @@ void require_any(bool features, bool images) {
     throw Error("features", "expected something to sort pixels by: connect \"features\" or \"images\", or both");
 }
 
-ExemplarPlanes planes_of(const NodeContext& node) {
+Planes planes_of(const NodeContext& node) {
   const auto features = node.optional_input<Features>("features");
   std::vector<ImagePtr> images;
   for (const ImagePtr& image : node.list<Image>("images")) images.push_back(analysis_image(image));
@@ -44,7 +43,7 @@ ExemplarPlanes planes_of(const NodeContext& node) {
   std::vector<FeatureImage> channels;
   for (const ImagePtr& image : images) channels.push_back({image, std::vector<double>(size_t(image->channels()), 1.0)});
   const bool wraps = features && features->wraps();
-  const ExemplarPlanes of_images = weighted_planes(*Features::make(size, std::move(channels), wraps), node.task());
+  const Planes of_images = weighted_planes(*Features::make(size, std::move(channels), wraps), node.task());
   return features ? joined(weighted_planes(*features, node.task()), of_images) : of_images;
 }
 
@@ -57,7 +56,7 @@ std::string described(const Clusters& clusters) {
 }
 
 void compute(NodeContext& node) {
-  const ExemplarPlanes planes = box_smoothed(planes_of(node), node.number("smoothing"), node.task());
+  const Planes planes = box_blurred(planes_of(node), node.number("smoothing"), node.task());
   const ClusterOptions options{int(node.integer("k")), int(node.integer("iterations")), uint64_t(node.integer("seed"))};
   Clusters clusters = find_clusters(planes, options, node.task());
   node.note(described(clusters));

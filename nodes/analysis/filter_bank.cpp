@@ -28,7 +28,7 @@ void compute(NodeContext& node) {
   std::vector<double> first_only(size_t(grey->channels()), 0.0);
   first_only.front() = 1;
   const FeaturesPtr features = Features::make(grey->size(), {{grey, first_only}}, wraps);
-  const ExemplarPlanes planes = weighted_planes(*features, node.task());
+  const Planes planes = weighted_planes(*features, node.task());
   FilterResponses responses = mr8_responses(planes, node.number("scale"), node.task());
   ImageInfo info{.size = grey->size(), .channels = 3, .semantic = Semantic::guidance};
   node.output("edges", Image::from_floats(info, std::move(responses.edges)));
@@ -42,7 +42,7 @@ void compute(NodeContext& node) {
 NodeType filter_bank_node() {
   NodeType t;
   t.name = "filter_bank";
-  t.version = 4;
+  t.version = 5;
   t.category = "analysis";
   t.summary = "Responses to edges, lines and blobs of several sizes (MR8)";
   t.help =

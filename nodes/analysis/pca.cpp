@@ -28,6 +28,7 @@ void compute(NodeContext& node) {
 NodeType pca_node() {
   NodeType t;
   t.name = "pca";
+  t.version = 2;
   t.category = "analysis";
   t.summary = "Brings features into appearance space";
   t.help =

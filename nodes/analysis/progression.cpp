@@ -26,7 +26,7 @@ void compute(NodeContext& node) {
 NodeType progression_node() {
   NodeType t;
   t.name = "progression";
-  t.version = 4;
+  t.version = 5;
   t.category = "analysis";
   t.summary = "A smooth control map of how an exemplar changes: wear, moisture, density";
   t.help =

@@ -23,11 +23,11 @@ std::string described(const Lattice& l, double least) {
   if (l.rank == 0)
     return fmt::format("no lattice found (certainty {:.2f}, at least {:.2f} is asked for)", l.certainty, least);
   if (l.rank == 2)
-    return fmt::format("repeats by ({:.2f}, {:.2f}) and ({:.2f}, {:.2f}) pixels, certainty {:.2f}", l.first.x,
-                       l.first.y, l.second.x, l.second.y, l.certainty);
-  const bool columns = l.first.x != 0;
+    return fmt::format("repeats by ({:.2f}, {:.2f}) and ({:.2f}, {:.2f}) pixels, certainty {:.2f}", l.first.x(),
+                       l.first.y(), l.second.x(), l.second.y(), l.certainty);
+  const bool columns = l.first.x() != 0;
   return fmt::format("{} of {:.2f} pixels, certainty {:.2f}", columns ? "columns" : "courses",
-                     columns ? l.first.x : l.first.y, l.certainty);
+                     columns ? l.first.x() : l.first.y(), l.certainty);
 }
 
 Lattice manual_lattice(const Numbers& first, const Numbers& second) {
@@ -114,7 +114,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 11;
+  t.version = 12;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =

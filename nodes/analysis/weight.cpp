@@ -22,7 +22,7 @@ void compute(NodeContext& node) {
 NodeType weight_node() {
   NodeType t;
   t.name = "weight";
-  t.version = 5;
+  t.version = 6;
   t.category = "analysis";
   t.summary = "Weights the maps of a material for analysis";
   t.help =

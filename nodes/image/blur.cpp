@@ -16,6 +16,7 @@ void compute(NodeContext& node) {
 NodeType blur_node() {
   NodeType t;
   t.name = "blur";
+  t.version = 2;
   t.category = "image";
   t.summary = "Gaussian blur";
   t.help =

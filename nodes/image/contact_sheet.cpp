@@ -21,6 +21,7 @@ void compute(NodeContext& node) {
 NodeType contact_sheet_node() {
   NodeType t;
   t.name = "contact_sheet";
+  t.version = 2;
   t.category = "image";
   t.summary = "Lays pictures out in rows, with captions";
   t.help =

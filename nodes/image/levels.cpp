@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/portable_math.h"
 #include "core/image/distribution.h"
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
@@ -19,7 +20,7 @@ struct Level {
   float operator()(float v) const {
     double t = (v - in_black) / (in_white - in_black);
     if (clamps) t = std::clamp(t, 0.0, 1.0);
-    if (gamma != 1) t = std::copysign(std::pow(std::fabs(t), 1 / gamma), t);
+    if (gamma != 1) t = std::copysign(portable::pow(std::fabs(t), 1 / gamma), t);
     return float(out_black + t * (out_white - out_black));
   }
 };
@@ -100,6 +101,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType levels_node() {
   NodeType t;
   t.name = "levels";
+  t.version = 2;
   t.category = "image";
   t.summary = "Black point, white point and gamma";
   t.help =

@@ -104,7 +104,7 @@ std::vector<Param> params() {
 NodeType preview_node() {
   NodeType t;
   t.name = "preview";
-  t.version = 2;
+  t.version = 3;
   t.category = "image";
   t.summary = "Renders a material under a movable light";
   t.help =

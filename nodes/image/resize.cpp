@@ -45,6 +45,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType resize_node() {
   NodeType t;
   t.name = "resize";
+  t.version = 2;
   t.category = "image";
   t.summary = "Scales the maps of a material";
   t.help =

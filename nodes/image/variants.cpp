@@ -59,6 +59,7 @@ void compute(NodeContext& node) {
 NodeType variants_node() {
   NodeType t;
   t.name = "variants";
+  t.version = 2;
   t.category = "image";
   t.summary = "Adds turned, mirrored and scaled copies of an exemplar";
   t.help =

@@ -144,7 +144,7 @@ size_t memory_hint(const NodeContext& node) {
 NodeType compare_node() {
   NodeType t;
   t.name = "compare";
-  t.version = 4;
+  t.version = 5;
   t.category = "sink";
   t.summary = "Scores a result against its exemplar";
   t.help =

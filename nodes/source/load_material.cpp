@@ -196,7 +196,7 @@ Forecast preflight(const Params& params, const InputForecasts&) {
 NodeType load_material_node() {
   NodeType t;
   t.name = "load_material";
-  t.version = 4;
+  t.version = 5;
   t.category = "source";
   t.summary = "Reads a folder of maps as one material";
   t.help =

@@ -111,6 +111,7 @@ Forecast preflight(const Params& params, const InputForecasts& inputs) {
 NodeType resolve_uv_node() {
   NodeType t;
   t.name = "resolve_uv";
+  t.version = 2;
   t.category = "synthesis";
   t.summary = "Shows a material through a uv map";
   t.help =

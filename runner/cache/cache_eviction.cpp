@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/base/portable_math.h"
 #include "core/node/serialize.h"
 #include "runner/cache/cache_records.h"
 #include "runner/cache/cache_state.h"
@@ -34,7 +35,7 @@ double worth(const CacheEntry& entry, int64_t now) {
   } catch (const Error&) {
     return -1;
   }
-  const double discount = std::exp2(-days_unused(entry, now) / half_life_days);
+  const double discount = portable::pow(0.5, days_unused(entry, now) / half_life_days);
   return std::max(seconds, least_seconds) * discount / double(std::max<uint64_t>(1, entry.bytes));
 }
 

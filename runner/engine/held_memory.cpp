@@ -2,6 +2,13 @@
 
 #include <utility>
 
+#include "core/exemplar/appearance.h"
+#include "core/exemplar/features.h"
+#include "core/exemplar/uv_map.h"
+#include "core/image/image.h"
+#include "core/material/material.h"
+#include "core/node/report.h"
+
 namespace terrazzo {
 
 namespace {

@@ -7,7 +7,11 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "core/exemplar/appearance.h"
+#include "core/exemplar/features.h"
+#include "core/exemplar/uv_map.h"
 #include "core/image/image_file.h"
+#include "core/material/material.h"
 #include "core/node/serialize.h"
 #include "tests/odd_images.h"
 

@@ -199,13 +199,13 @@ ToldCourses whole_courses(const CourseSheet& sheet, Coursing& m, int kind, const
 
 Coursing find_coursing(const Appearance& appearance, const Task& task) {
   Coursing out;
-  Vector2 along = appearance.lattice().along_bands(true);
-  out.axes = {along.x == 0, along.x == 0 ? 0 : along.y / along.x};
+  Vector2d along = appearance.lattice().along_bands(true);
+  out.axes = {along.x() == 0, along.x() == 0 ? 0 : along.y() / along.x()};
   if (out.axes.upright) along = appearance.lattice().along_bands(false);
-  if (out.axes.upright && along.y != 0) out.axes.rise = along.x / along.y;
+  if (out.axes.upright && along.y() != 0) out.axes.rise = along.x() / along.y();
   const Lattice bands = appearance.lattice().level_bands(!out.axes.upright);
   if (bands.rank == 0) return {};
-  out.period = std::abs(out.axes.upright ? bands.first.x : bands.first.y);
+  out.period = std::abs(out.axes.upright ? bands.first.x() : bands.first.y());
   while (out.period > largest_period && out.level + 1 < int(appearance.levels().size())) {
     out.period /= 2;
     out.level++;
@@ -227,7 +227,7 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
   // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and whole, by
   // themselves.
   if (aligned_share(out.courses, out.half_joint) > most_aligned) return {};
-  const double step = std::abs(out.axes.upright ? along.y : along.x) / (1 << out.level);
+  const double step = std::abs(out.axes.upright ? along.y() : along.x()) / (1 << out.level);
   if (appearance.lattice().rank == 2 && lattice_keeps_whole(sheet, out, step)) return {};
   return out;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/numeric/linear_algebra.h"
+#include "core/numeric/moments.h"
 
 namespace terrazzo {
 
@@ -50,31 +51,6 @@ Traits traits_of(const CourseSheet& sheet, int along, int across, int radius) {
   out[2 * channels] = std::sqrt(std::max(0.0, squares / n - of_means));
   return out;
 }
-
-/// The mean and the covariance of traits, as they are added.
-class Moments {
- public:
-  explicit Moments(int traits) : n_(traits) {}
-
-  void add(const Traits& f) {
-    weight_++;
-    for (int i = 0; i < n_; i++) {
-      sum_[size_t(i)] += f[size_t(i)];
-      for (int j = 0; j <= i; j++) products_[size_t(i * n_ + j)] += f[size_t(i)] * f[size_t(j)];
-    }
-  }
-  bool empty() const { return weight_ == 0; }
-  double mean(int i) const { return sum_[size_t(i)] / weight_; }
-  double covariance(int i, int j) const {
-    return products_[size_t(std::max(i, j) * n_ + std::min(i, j))] / weight_ - mean(i) * mean(j);
-  }
-
- private:
-  int n_;
-  double weight_ = 0;
-  Traits sum_{};
-  std::array<double, size_t(most_traits) * most_traits> products_{};
-};
 
 double percentile(std::vector<double> values, double share) {
   const auto at = values.begin() + std::ptrdiff_t(share * double(values.size()));
@@ -126,7 +102,7 @@ class HeadJoints::Samples {
         step_(std::max(1, int(int64_t{sheet.length} * sheet.breadth / most_samples))) {}
 
   /// Those of these rows that a pattern has which shows every column.
-  void add_rows(int begin, int end, Moments& to) {
+  void add_rows(int begin, int end, Moments<>& to) {
     for (int v = begin; v < end; v++)
       for (int u = first_of(v); u < sheet_.length; u += step_) add(u, v, to);
   }
@@ -144,12 +120,12 @@ class HeadJoints::Samples {
     }
   }
 
-  Moments joints, bricks;
+  Moments<> joints, bricks;
 
  private:
   int first_of(int across) const { return across * stagger % step_; }
-  void add(int along, int across, Moments& to) {
-    if (sheet_.usable(along, across)) to.add(traits_of(sheet_, along, across, radius_));
+  void add(int along, int across, Moments<>& to) {
+    if (sheet_.usable(along, across)) to.add(traits_of(sheet_, along, across, radius_).data());
   }
 
   const CourseSheet& sheet_;
@@ -173,28 +149,20 @@ HeadJoints::HeadJoints(const CourseSheet& sheet, const std::vector<ExemplarCours
 }
 
 void HeadJoints::tell_apart(const Samples& samples) {
-  const Moments &joints = samples.joints, &bricks = samples.bricks;
-  if (joints.empty() || bricks.empty()) return;
-  const int n = trait_count(sheet_);
-  std::vector<double> spread(size_t(n * n)), apart(static_cast<size_t>(n));
-  double variance = 0;
-  for (int i = 0; i < n; i++) {
-    apart[size_t(i)] = joints.mean(i) - bricks.mean(i);
-    for (int j = 0; j < n; j++) spread[size_t(i * n + j)] = joints.covariance(i, j) + bricks.covariance(i, j);
-    variance += spread[size_t(i * n + i)] / n;
-  }
+  const Moments<>& joints = samples.joints;
+  const Moments<>& bricks = samples.bricks;
+  if (joints.count() == 0 || bricks.count() == 0) return;
+  const VectorXd apart = joints.mean_vector() - bricks.mean_vector();
+  MatrixXd spread = joints.covariance_matrix() + bricks.covariance_matrix();
+  const double variance = spread.trace() / double(apart.size());
   if (!(variance > 0)) return;
-  for (int i = 0; i < n; i++) spread[size_t(i * n + i)] += regularised * variance;
-  weights_ = solve_positive_definite(std::move(spread), apart);
-  double squared = 0, of_bricks = 0;
-  for (int i = 0; i < n; i++) {
-    squared += weights_[size_t(i)] * apart[size_t(i)];
-    of_bricks += weights_[size_t(i)] * bricks.mean(i);
-  }
+  spread.diagonal().array() += regularised * variance;
+  weights_ = solve_positive_definite(spread, apart);
+  const double squared = weights_.dot(apart);
   if (!(squared > 0)) return;
   // The mean joint is 1, the mean brick 0.
-  for (double& w : weights_) w /= squared;
-  offset_ = -of_bricks / squared;
+  weights_ /= squared;
+  offset_ = -weights_.dot(bricks.mean_vector());
   told_ = std::sqrt(squared);
 }
 
@@ -206,7 +174,7 @@ std::vector<double> HeadJoints::likeness(const ExemplarCourse& course) const {
   const auto of = [&](int u, int v) {
     const Traits f = traits_of(sheet_, u, v, radius_of(half_breadth_));
     double sum = offset_;
-    for (size_t i = 0; i < weights_.size(); i++) sum += weights_[i] * f[i];
+    for (int i = 0; i < weights_.size(); i++) sum += weights_[i] * f[size_t(i)];
     return sum;
   };
   for (int u = 0; u < sheet_.length; u++)

@@ -4,6 +4,7 @@
 
 #include "core/analysis/courses/course_sheet.h"
 #include "core/analysis/courses/coursing.h"
+#include "core/numeric/eigen.h"
 
 namespace terrazzo {
 
@@ -31,7 +32,7 @@ class HeadJoints {
 
   const CourseSheet& sheet_;
   int half_breadth_;
-  std::vector<double> weights_;
+  VectorXd weights_;  ///< of a pixel's traits; empty: nothing tells them apart
   double offset_ = 0;
   double told_ = 0;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/numeric/moments.h"
+
 namespace terrazzo {
 
 namespace {
@@ -78,30 +80,20 @@ class LineCorrelation {
 
   /// How far lines a period apart are more alike than lines half a period apart.
   LineRepeats repeats(double period) const {
-    double sum = 0, squares = 0, alike = 0;
-    int count = 0;
-    for (double d = period; d < size() - 1 && count < most_repeats; d += period, count++) {
-      const double v = at(d) - at(d - period / 2);
-      sum += v;
-      squares += v * v;
-      alike += at(d) / std::max(1e-12, at(0));
+    Moments<1> exceed, alike;
+    for (double d = period; d < size() - 1 && exceed.count() < most_repeats; d += period) {
+      exceed.add(at(d) - at(d - period / 2));
+      alike.add(at(d) / std::max(1e-12, at(0)));
     }
-    const int n = std::max(1, count);
-    const double mean = sum / n, variance = squares / n - mean * mean;
-    return {count, mean, std::max(0.0, variance), std::clamp(alike / n, 0.0, 1.0)};
+    return {int(exceed.count()), exceed.mean(), exceed.variance(), std::clamp(alike.mean(), 0.0, 1.0)};
   }
 
   /// Of what lines a period apart have in common; what nearly all exceed.
   double alike(double period) const {
-    double sum = 0, squares = 0;
-    int count = 0;
-    for (double d = period; d < size() - 1 && count < most_repeats; d += period, count++) {
-      const double v = std::max({at(d - 1), at(d), at(std::min(size() - 1.0, d + 1))}) / std::max(1e-12, at(0));
-      sum += v;
-      squares += v * v;
-    }
-    const double mean = sum / std::max(1, count);
-    return std::clamp(mean - std::sqrt(std::max(0.0, squares / std::max(1, count) - mean * mean)), 0.0, 1.0);
+    Moments<1> alike;
+    for (double d = period; d < size() - 1 && alike.count() < most_repeats; d += period)
+      alike.add(std::max({at(d - 1), at(d), at(std::min(size() - 1.0, d + 1))}) / std::max(1e-12, at(0)));
+    return std::clamp(alike.mean() - std::sqrt(alike.variance()), 0.0, 1.0);
   }
 
  private:
@@ -139,7 +131,7 @@ Bands bands_that_rise(const Correlation& r, bool courses, double rise) {
   // Thin joints are little of all there is, but what comes again so often is no chance.
   if (lines.size() >= (r.wraps() ? 2 : 1) * often * best)
     certainty = std::max(certainty, often_counts * distinct(certainty));
-  return {{1, courses ? Vector2{0, best} : Vector2{best, 0}, {}, std::min(1.0, certainty)},
+  return {{1, courses ? Vector2d{0, best} : Vector2d{best, 0}, {}, std::min(1.0, certainty)},
           distinct(found.evidence()),
           lines.alike(best)};
 }
@@ -179,10 +171,10 @@ Bands stripes_of(const Correlation& r) {
   if (slant.differ <= 0) return {};
   Bands out = bands_that_rise(r, slant.courses, slant.rise);
   if (out.lattice.rank == 0) return {};
-  const Vector2 across = out.lattice.first;
-  const double period = std::max(across.x, across.y);
+  const Vector2d across = out.lattice.first;
+  const double period = across.maxCoeff();
   const double step = period / (1 + slant.rise * slant.rise);  // along the stripes it is as far as across them
-  const Vector2 along = slant.courses ? Vector2{step, slant.rise * step} : Vector2{slant.rise * step, step};
+  const Vector2d along = slant.courses ? Vector2d{step, slant.rise * step} : Vector2d{slant.rise * step, step};
   out.lattice = {2, slant.courses ? along : across, slant.courses ? across : along, out.lattice.certainty};
   return out;
 }

@@ -21,10 +21,10 @@ constexpr double fewest_cells = 6, most_bands = 4;
 
 /// How much lines across the bands differ from the next, all channels together, as one channel. Grain differs at random
 /// and cancels out.
-ExemplarPlanes joints_across(const ExemplarPlanes& in, const Lattice& bands) {
-  const bool courses = bands.first.y != 0;
-  const int reach = int(averaged / 2 * (courses ? bands.first.y : bands.first.x));
-  ExemplarPlanes out{in.size, 1, in.wraps, std::vector<float>(size_t(in.size.area()))};
+Planes joints_across(const Planes& in, const Lattice& bands) {
+  const bool courses = bands.first.y() != 0;
+  const int reach = int(averaged / 2 * (courses ? bands.first.y() : bands.first.x()));
+  Planes out = Planes::zeros(in.size, 1, in.wraps);
   tbb::parallel_for(0, in.size.height, [&](int y) {
     std::vector<float> sum(size_t(in.channels));
     for (int x = 0; x < in.size.width; x++) {
@@ -45,13 +45,13 @@ ExemplarPlanes joints_across(const ExemplarPlanes& in, const Lattice& bands) {
 
 }  // namespace
 
-Lattice bond_of(const ExemplarPlanes& planes, const Lattice& bands, const Task& task) {
+Lattice bond_of(const Planes& planes, const Lattice& bands, const Task& task) {
   const Cell cell = best_cell(correlate(joints_across(planes, bands), {}, task), {});
   if (cell.lattice.rank != 2 || cell.distinct < least_distinct) return bands;
-  const double breadth = bands.first.x + bands.first.y;
+  const double breadth = bands.first.sum();
   Lattice out = cell.lattice;
-  for (Vector2* v : {&out.first, &out.second}) {
-    double& across = bands.first.y != 0 ? v->y : v->x;
+  for (Vector2d* v : {&out.first, &out.second}) {
+    double& across = bands.first.y() != 0 ? v->y() : v->x();
     const double steps = std::floor(across / breadth + 0.5);
     if (std::abs(across / breadth - steps) > most_off || std::abs(steps) > most_bands) return bands;
     across = steps * breadth;

@@ -21,8 +21,8 @@ struct Bins {
 
 /// About one to a pixel.
 Bins bins_of(const RepeatingView& r) {
-  const auto along = [&](const Vector2& step) {
-    return std::clamp(int(std::ceil(step.length() / r.view.scale)), fewest_bins, most_bins);
+  const auto along = [&](const Vector2d& step) {
+    return std::clamp(int(std::ceil(step.norm() / r.view.scale)), fewest_bins, most_bins);
   };
   return {along(r.lattice.first), r.lattice.rank == 2 ? along(r.lattice.second) : 1};
 }
@@ -40,7 +40,7 @@ struct MeanCell {
   bool is_seen(int column, int row) const { return seen[size_t(row * bins.columns + column)] != 0; }
 };
 
-MeanCell mean_cell(const ExemplarPlanes& planes, const RepeatingView& of, Bins bins) {
+MeanCell mean_cell(const Planes& planes, const RepeatingView& of, Bins bins) {
   MeanCell out{bins, planes.channels, {}, {}};
   const int n = planes.channels;
   out.values.assign(size_t(bins.columns * bins.rows * n), 0);
@@ -52,9 +52,9 @@ MeanCell mean_cell(const ExemplarPlanes& planes, const RepeatingView& of, Bins b
   for (int y = 0; y < planes.size.height; y++)
     for (int x = 0; x < planes.size.width; x++) {
       if (!view.counts.values.empty() && *view.counts.at(x, y) < 1) continue;
-      const Vector2 cells =
+      const Vector2d cells =
           of.lattice.cells({(x + 0.5) * view.scale - 0.5 + view.seen.x, (y + 0.5) * view.scale - 0.5 + view.seen.y});
-      const size_t at = size_t(bin(cells.y, bins.rows) * bins.columns + bin(cells.x, bins.columns));
+      const size_t at = size_t(bin(cells.y(), bins.rows) * bins.columns + bin(cells.x(), bins.columns));
       counts[at]++;
       for (int c = 0; c < n; c++) out.values[at * size_t(n) + size_t(c)] += double(planes.at(x, y)[c]);
     }
@@ -94,9 +94,9 @@ double likeness(const MeanCell& a, const MeanCell& b, int columns, int rows) {
 
 }  // namespace
 
-Vector2 phase_between(const RepeatingView& first, const RepeatingView& other) {
+Vector2d phase_between(const RepeatingView& first, const RepeatingView& other) {
   const Bins bins = bins_of(first);
-  const ExemplarPlanes edges = outlines(first.view.planes), other_edges = outlines(other.view.planes);
+  const Planes edges = outlines(first.view.planes), other_edges = outlines(other.view.planes);
   const MeanCell values = mean_cell(first.view.planes, first, bins), lines = mean_cell(edges, first, bins);
   const MeanCell other_values = mean_cell(other.view.planes, other, bins),
                  other_lines = mean_cell(other_edges, other, bins);

@@ -14,6 +14,6 @@ struct RepeatingView {
 /// By how many cells, along each step, the cells of `other` must be moved to be most like those of `first`: the
 /// position that is c cells on in `first` looks like that which is c plus this many cells on in `other`. Both are
 /// averaged over all their cells, and colours and outlines both count; corresponding steps have the same order.
-Vector2 phase_between(const RepeatingView& first, const RepeatingView& other);
+Vector2d phase_between(const RepeatingView& first, const RepeatingView& other);
 
 }  // namespace terrazzo

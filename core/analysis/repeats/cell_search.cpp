@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/numeric/moments.h"
+
 namespace terrazzo {
 
 namespace {
@@ -30,32 +32,22 @@ constexpr double least_errors_of_parts = 6;
 constexpr double least_alike_of_drawn = 0.93, no_difference = 0.01, near_whole = 0.15;
 constexpr int fewest_around = 4, most_around = 12;  // cells of an exemplar that tiles, of which all lattices are tried
 
-double cross(Vector2 a, Vector2 b) {
-  return a.x * b.y - a.y * b.x;
-}
-double dot(Vector2 a, Vector2 b) {
-  return a.x * b.x + a.y * b.y;
-}
-Vector2 sum(double i, Vector2 a, double j, Vector2 b) {
-  return {i * a.x + j * b.x, i * a.y + j * b.y};
-}
-
 /// The shortest vectors that span the same lattice (Lagrange and Gauss).
-void reduce(Vector2& a, Vector2& b) {
-  if (dot(a, a) > dot(b, b)) std::swap(a, b);
+void reduce(Vector2d& a, Vector2d& b) {
+  if (a.squaredNorm() > b.squaredNorm()) std::swap(a, b);
   for (int step = 0; step < 50; step++) {
-    const double n = std::floor(dot(a, b) / dot(a, a) + 0.5);
+    const double n = std::floor(a.dot(b) / a.squaredNorm() + 0.5);
     if (n == 0) return;
-    b = sum(1, b, -n, a);
-    if (dot(b, b) >= dot(a, a)) return;
+    b -= n * a;
+    if (b.squaredNorm() >= a.squaredNorm()) return;
     std::swap(a, b);
   }
 }
 
 /// The nearest of the strong peaks: a lattice's shortest vectors are among them, however many points it has.
-std::vector<Vector2> near_peaks(const Correlation& r) {
+std::vector<Vector2d> near_peaks(const Correlation& r) {
   struct Peak {
-    Vector2 at;
+    Vector2d at;
     double value;
   };
   std::vector<Peak> peaks;
@@ -75,56 +67,52 @@ std::vector<Vector2> near_peaks(const Correlation& r) {
   std::nth_element(peaks.begin(), peaks.begin() + ptrdiff_t(rank), peaks.end(),
                    [](const Peak& a, const Peak& b) { return a.value > b.value; });
   const double least = strong * peaks[rank].value;
-  std::vector<Vector2> out;
+  std::vector<Vector2d> out;
   for (const Peak& p : peaks)
     if (p.value >= least) out.push_back(p.at);
-  std::sort(out.begin(), out.end(),
-            [](Vector2 a, Vector2 b) { return std::tuple(dot(a, a), a.y, a.x) < std::tuple(dot(b, b), b.y, b.x); });
+  const auto nearness = [](const Vector2d& v) { return std::tuple(v.squaredNorm(), v.y(), v.x()); };
+  std::ranges::sort(out, {}, nearness);
   if (out.size() > most_peaks) out.resize(most_peaks);
   return out;
 }
 
 /// A lattice's points within the lags, the origin left out: of two opposite ones, and of those that are the same around
 /// an exemplar that tiles, one.
-std::vector<Vector2> points_of(const Correlation& r, Vector2 a, Vector2 b) {
-  std::vector<Vector2> points;
+std::vector<Vector2d> points_of(const Correlation& r, Vector2d a, Vector2d b) {
+  std::vector<Vector2d> points;
   const double w = r.exemplar().width, h = r.exemplar().height;
-  const auto same = [&](Vector2 p, Vector2 q) {
-    const double x = std::abs(p.x - q.x), y = std::abs(p.y - q.y);
+  const auto same = [&](Vector2d p, Vector2d q) {
+    const double x = std::abs(p.x() - q.x()), y = std::abs(p.y() - q.y());
     return std::min(x, std::abs(w - x)) <= same_point && std::min(y, std::abs(h - y)) <= same_point;
   };
   for (int j = 0; j <= farthest; j++)
     for (int i = j == 0 ? 1 : -farthest; i <= farthest; i++) {
-      Vector2 d = sum(i, a, j, b);
+      Vector2d d = i * a + j * b;
       if (r.wraps()) {
-        d = {d.x - w * std::floor(d.x / w + 0.5), d.y - h * std::floor(d.y / h + 0.5)};
+        d -= Vector2d{w * std::floor(d.x() / w + 0.5), h * std::floor(d.y() / h + 0.5)};
         if (same(d, {0, 0})) continue;
-        if (std::any_of(points.begin(), points.end(), [&](Vector2 p) { return same(p, d) || same({-p.x, -p.y}, d); }))
-          continue;
+        if (std::any_of(points.begin(), points.end(), [&](Vector2d p) { return same(p, d) || same(-p, d); })) continue;
       }
-      if (r.covers(d.x, d.y)) points.push_back(d);
+      if (r.covers(d.x(), d.y())) points.push_back(d);
     }
   return points;
 }
 
 struct Point {
-  Vector2 at;
+  Vector2d at;
   double value;
 };
 
 /// What the correlation is at some lags.
-struct Moments {
-  double mean = 0, deviation = 0;
-  int count = 0;
-};
-
-Moments moments(const std::vector<Point>& points) {
-  Moments m{0, 0, int(points.size())};
-  for (const Point& p : points) m.mean += p.value / m.count;
-  double squares = 0;
-  for (const Point& p : points) squares += (p.value - m.mean) * (p.value - m.mean);
-  if (m.count > 1) m.deviation = std::sqrt(squares / (m.count - 1));
+Moments<1> moments(const std::vector<Point>& points) {
+  Moments<1> m;
+  for (const Point& p : points) m.add(p.value);
   return m;
+}
+
+/// Of what these were drawn from.
+double deviation(const Moments<1>& m) {
+  return m.count() > 1 ? std::sqrt(m.variance() * double(m.count()) / double(m.count() - 1)) : 0;
 }
 
 /// The correlation around the points, in the direction in which it is highest: along courses it remains high.
@@ -138,8 +126,8 @@ double around_points(const Correlation& r, const std::vector<Point>& points, dou
     int count = 0;
     for (const Point& p : points)
       for (const double part : {-0.55, -0.35, 0.35, 0.55}) {
-        const Vector2 at{p.at.x + part * unit * x, p.at.y + part * unit * y};
-        if (!r.covers(at.x, at.y)) continue;
+        const Vector2d at = p.at + part * unit * Vector2d(x, y);
+        if (!r.covers(at.x(), at.y())) continue;
         total += r.at(at);
         count++;
       }
@@ -149,25 +137,25 @@ double around_points(const Correlation& r, const std::vector<Point>& points, dou
 }
 
 struct Candidate {
-  Vector2 a, b;
+  Vector2d a, b;
   std::vector<Point> points;
-  Moments on;
+  Moments<1> on;
   double around = 0;
   double score = -1;
 
   double area() const { return std::abs(cross(a, b)); }
   /// Whether a point is one of the lattice's, to a part of a cell.
-  bool has(Vector2 p, double within) const {
+  bool has(Vector2d p, double within) const {
     const double d = cross(a, b), i = cross(p, b) / d, j = cross(a, p) / d;
     return std::abs(i - std::floor(i + 0.5)) < within && std::abs(j - std::floor(j + 0.5)) < within;
   }
 };
 
 /// How far a lattice's points stand out; nearly all must, and few points may do so by chance.
-Candidate judged(const Correlation& r, Vector2 a, Vector2 b, double hopeless) {
+Candidate judged(const Correlation& r, Vector2d a, Vector2d b, double hopeless) {
   Candidate c{a, b, {}, {}, 0, -1};
   int off_a = 0, off_b = 0;
-  for (const Vector2 d : points_of(r, a, b)) {
+  for (const Vector2d& d : points_of(r, a, b)) {
     c.points.push_back({d, r.peak_near(d).second});
     off_a += std::abs(cross(a, d)) > 0.5 * c.area();
     off_b += std::abs(cross(b, d)) > 0.5 * c.area();
@@ -175,10 +163,11 @@ Candidate judged(const Correlation& r, Vector2 a, Vector2 b, double hopeless) {
   // A line and a chance point make no lattice, but a line around an exemplar that tiles comes again beside itself.
   if (r.wraps() ? c.points.size() < 2 : c.points.size() < 3 || off_a < 2 || off_b < 2) return c;
   c.on = moments(c.points);
-  const double few = 1 - 1.3 / c.on.count;
-  const double low = c.on.mean - c.on.deviation * (1 + 1 / std::sqrt(double(c.on.count)));
+  const auto count = double(c.on.count());
+  const double few = 1 - 1.3 / count;
+  const double low = c.on.mean() - deviation(c.on) * (1 + 1 / std::sqrt(count));
   if (low * few <= hopeless) return c;
-  c.around = around_points(r, c.points, std::sqrt(dot(a, a)));
+  c.around = around_points(r, c.points, a.norm());
   c.score = (low - c.around) * few;
   return c;
 }
@@ -186,47 +175,47 @@ Candidate judged(const Correlation& r, Vector2 a, Vector2 b, double hopeless) {
 /// Whether the correlation on one lattice's points, those left out that are the other's too, is lower than on the
 /// other's by more than chance (Student's test).
 bool is_worse(const Candidate& c, const Candidate& than, double errors) {
-  if (c.on.mean >= than.on.mean) return false;
+  if (c.on.mean() >= than.on.mean()) return false;
   std::vector<Point> own;
   for (const Point& p : c.points)
     if (!than.has(p.at, 0.15)) own.push_back(p);
   if (own.size() < 2) return false;
-  const Moments on = moments(own), other = than.on;
-  if (on.mean >= other.mean * (1 - least_gap)) return false;
-  const auto squares = [](const Moments& m) { return (m.count - 1) * m.deviation * m.deviation; };
-  const double least = 0.03 * other.mean;  // deviations of few points say little
-  const double variance = std::max(least * least, (squares(on) + squares(other)) / (on.count + other.count - 2));
-  return other.mean - on.mean > errors * std::sqrt(variance * (1.0 / on.count + 1.0 / other.count));
+  const Moments<1> on = moments(own), &other = than.on;
+  if (on.mean() >= other.mean() * (1 - least_gap)) return false;
+  const auto a = double(on.count()), b = double(other.count());
+  const double least = 0.03 * other.mean();  // deviations of few points say little
+  const double variance = std::max(least * least, (a * on.variance() + b * other.variance()) / (a + b - 2));
+  return other.mean() - on.mean() > errors * std::sqrt(variance * (1 / a + 1 / b));
 }
 
 /// Fits both vectors to all peaks near the lattice's points, out to so many steps.
-void refine(const Correlation& r, Vector2& a, Vector2& b, int steps) {
+void refine(const Correlation& r, Vector2d& a, Vector2d& b, int steps) {
   for (int reach = 2; reach <= steps; reach *= 2) {
     double ii = 0, ij = 0, jj = 0;
-    Vector2 pi, pj;
+    Vector2d pi, pj;
     for (int i = -reach; i <= reach; i++)
       for (int j = -reach; j <= reach; j++) {
-        const Vector2 d = sum(i, a, j, b);
-        if ((i == 0 && j == 0) || !r.covers(d.x, d.y)) continue;
+        const Vector2d d = i * a + j * b;
+        if ((i == 0 && j == 0) || !r.covers(d.x(), d.y())) continue;
         const auto [p, value] = r.peak_near(d);
         const double w = std::max(0.0, value);
         ii += w * i * i;
         ij += w * i * j;
         jj += w * j * j;
-        pi = sum(1, pi, w * i, p);
-        pj = sum(1, pj, w * j, p);
+        pi += w * i * p;
+        pj += w * j * p;
       }
     const double determinant = ii * jj - ij * ij;
     if (determinant <= 1e-9 * ii * jj) return;
-    a = sum(jj / determinant, pi, -ij / determinant, pj);
-    b = sum(ii / determinant, pj, -ij / determinant, pi);
+    a = jj / determinant * pi - ij / determinant * pj;
+    b = ii / determinant * pj - ij / determinant * pi;
   }
 }
 
 double on_points(const Correlation& r, const Lattice& l) {
   double sum = 0;
   int count = 0;
-  for (const Vector2 d : points_of(r, l.first, l.second)) {
+  for (const Vector2d& d : points_of(r, l.first, l.second)) {
     sum += r.at(d);
     count++;
   }
@@ -236,9 +225,9 @@ double on_points(const Correlation& r, const Lattice& l) {
 /// Drawn patterns repeat by whole pixels, to which no fit to their peaks comes quite.
 Lattice rounded_if_drawn(const Correlation& r, const Lattice& l) {
   Lattice whole = l;
-  for (Vector2* v : {&whole.first, &whole.second}) {
-    const Vector2 rounded{std::floor(v->x + 0.5), std::floor(v->y + 0.5)};
-    if (std::max(std::abs(rounded.x - v->x), std::abs(rounded.y - v->y)) > near_whole) return l;
+  for (Vector2d* v : {&whole.first, &whole.second}) {
+    const Vector2d rounded = (v->array() + 0.5).floor();
+    if ((rounded - *v).lpNorm<Eigen::Infinity>() > near_whole) return l;
     *v = rounded;
   }
   const double alike = whole.is_valid() ? on_points(r, whole) : 0;
@@ -249,8 +238,8 @@ class CellSearch {
  public:
   explicit CellSearch(const Correlation& r) : r_(r) {}
 
-  void add(Vector2 a, Vector2 b) {
-    if (std::abs(cross(a, b)) < least_slant * std::sqrt(dot(a, a) * dot(b, b))) return;
+  void add(Vector2d a, Vector2d b) {
+    if (std::abs(cross(a, b)) < least_slant * std::sqrt(a.squaredNorm() * b.squaredNorm())) return;
     reduce(a, b);
     if (!fit(a, b)) return;
     const double area = std::abs(cross(a, b));
@@ -275,7 +264,7 @@ class CellSearch {
     const Candidate* best = nullptr;
     for (const Candidate& c : candidates_) {
       if (best && c.area() > same_area * best->area()) break;
-      if ((!best || c.on.mean > best->on.mean) &&
+      if ((!best || c.on.mean() > best->on.mean()) &&
           std::none_of(candidates_.begin(), candidates_.end(),
                        [&](const Candidate& other) { return is_worse(c, other, errors_against(other)); }))
         best = &c;
@@ -286,18 +275,18 @@ class CellSearch {
  private:
   /// Of many lattices of few points some have high ones by chance; around an exemplar that tiles not many fit.
   double errors_against(const Candidate& c) const {
-    return r_.wraps() ? least_errors : least_errors * (1 + 1.0 / c.on.count);
+    return r_.wraps() ? least_errors : least_errors * (1 + 1.0 / double(c.on.count()));
   }
 
   /// Fits both vectors to peaks near them. An exemplar that tiles holds whole steps; false if it is far from that.
-  bool fit(Vector2& a, Vector2& b) const {
+  bool fit(Vector2d& a, Vector2d& b) const {
     if (!r_.wraps()) {
       refine(r_, a, b, 2);
       return true;
     }
-    if (dot(b, b) > longest * longest * dot(a, a)) return false;
+    if (b.squaredNorm() > longest * longest * a.squaredNorm()) return false;
     const Lattice whole = Lattice{2, a, b, 0}.fitted(r_.exemplar(), true, true);
-    const auto close = [](Vector2 p, Vector2 q) { return std::max(std::abs(p.x - q.x), std::abs(p.y - q.y)) < 1; };
+    const auto close = [](const Vector2d& p, const Vector2d& q) { return (p - q).lpNorm<Eigen::Infinity>() < 1; };
     if (!close(whole.first, a) || !close(whole.second, b)) return false;
     a = whole.first;
     b = whole.second;
@@ -314,7 +303,7 @@ class CellSearch {
 
 Cell best_cell(const Correlation& r, const std::vector<Lattice>& further) {
   CellSearch search(r);
-  const std::vector<Vector2> peaks = near_peaks(r);
+  const std::vector<Vector2d> peaks = near_peaks(r);
   for (size_t p = 0; p < peaks.size(); p++)
     for (size_t q = p + 1; q < peaks.size(); q++) search.add(peaks[p], peaks[q]);
   for (const Lattice& l : further) search.add(l.first, l.second);
@@ -330,18 +319,18 @@ Cell best_cell(const Correlation& r, const std::vector<Lattice>& further) {
     }
   const Candidate* best = search.best();
   if (!best) return {};
-  Lattice out{2, best->a, best->b, std::clamp(best->on.mean - best->on.deviation, 0.0, 1.0)};
+  Lattice out{2, best->a, best->b, std::clamp(best->on.mean() - deviation(best->on), 0.0, 1.0)};
   refine(r, out.first, out.second, 24);
   out = rounded_if_drawn(r, out);
-  if (std::abs(out.first.x) < std::abs(out.second.x)) std::swap(out.first, out.second);
-  if (out.first.x < 0) out.first = {-out.first.x, -out.first.y};
-  if (out.second.y < 0) out.second = {-out.second.x, -out.second.y};
+  if (std::abs(out.first.x()) < std::abs(out.second.x())) std::swap(out.first, out.second);
+  if (out.first.x() < 0) out.first = -out.first;
+  if (out.second.y() < 0) out.second = -out.second;
   return {out, best->score / std::max(0.01, 1 - best->around)};
 }
 
 Lattice without_false_repeats(const Correlation& r, const Lattice& lattice) {
   if (lattice.rank != 2) return lattice;
-  Vector2 a = lattice.first, b = lattice.second;
+  Vector2d a = lattice.first, b = lattice.second;
   reduce(a, b);
   const Candidate all = judged(r, a, b, -2);
   Lattice best = lattice;
@@ -351,10 +340,10 @@ Lattice without_false_repeats(const Correlation& r, const Lattice& lattice) {
       if (cells % p != 0) continue;
       // Every sublattice of that many cells has a basis p * a, q * a + rows * b (Hermite normal form).
       for (int q = 0; q < p; q++) {
-        const Candidate c = judged(r, sum(p, a, 0, b), sum(q, a, cells / p, b), -2);
-        if (c.on.count < 3 || c.on.mean <= 0 || !is_worse(all, c, least_errors_of_parts)) continue;
+        const Candidate c = judged(r, p * a, q * a + cells / p * b, -2);
+        if (c.on.count() < 3 || c.on.mean() <= 0 || !is_worse(all, c, least_errors_of_parts)) continue;
         // Of the correlation on the sublattice's points, what the others lack.
-        const double gap = (1 - all.on.mean / c.on.mean) * cells / (cells - 1);
+        const double gap = (1 - all.on.mean() / c.on.mean()) * cells / (cells - 1);
         if (gap <= largest + 0.05) continue;
         largest = gap;
         best.first = c.a;

@@ -31,7 +31,7 @@ bool ExemplarView::empty() const {
   return std::min(planes.size.width, planes.size.height) < smallest_side;
 }
 
-ExemplarView view_of(const ExemplarPlanes& exemplar, const std::vector<uint8_t>& allowed, const Rect& part) {
+ExemplarView view_of(const Planes& exemplar, const std::vector<uint8_t>& allowed, const Rect& part) {
   ExemplarView view{part, {}, {}};
   if (!allowed.empty()) {
     view.seen = allowed_within(allowed, exemplar.size, part);
@@ -43,7 +43,7 @@ ExemplarView view_of(const ExemplarPlanes& exemplar, const std::vector<uint8_t>&
   return view;
 }
 
-std::vector<ExemplarView> views_at_one_scale(const ExemplarPlanes& exemplar, const std::vector<uint8_t>& allowed,
+std::vector<ExemplarView> views_at_one_scale(const Planes& exemplar, const std::vector<uint8_t>& allowed,
                                              const std::vector<Rect>& parts) {
   std::vector<ExemplarView> views;
   double scale = 1;

@@ -10,11 +10,9 @@ namespace {
 constexpr double grain = 0.8;  // pixels; a light blur keeps noise from drowning what repeats
 
 /// Details only: what varies over more than a tenth of the exemplar would drown the repeats.
-Planes without_gradients(const ExemplarPlanes& in) {
-  Planes out = Planes::zeros(in.size, in.channels);
-  out.values = in.values;
-  out = blurred(out, grain);
-  const Planes coarse = blurred(out, std::max(2.0, std::min(in.size.width, in.size.height) / 10.0));
+Planes without_gradients(const Planes& in) {
+  Planes out = blurred(in, grain, Beyond::mirrored);
+  const Planes coarse = blurred(out, std::max(2.0, std::min(in.size.width, in.size.height) / 10.0), Beyond::mirrored);
   for (size_t i = 0; i < out.values.size(); i++) out.values[i] -= coarse.values[i];
   return out;
 }
@@ -40,7 +38,7 @@ std::vector<double> around_borders(const Correlogram& r, Size size) {
 
 }  // namespace
 
-Correlation correlate(const ExemplarPlanes& planes, const std::vector<float>& counts, const Task& task) {
+Correlation correlate(const Planes& planes, const std::vector<float>& counts, const Task& task) {
   Planes details = without_gradients(planes);
   if (!counts.empty())
     for (size_t i = 0; i < details.values.size(); i++) details.values[i] *= counts[i / planes.channels];
@@ -84,17 +82,13 @@ Correlation pooled(const std::vector<Correlation>& all) {
   return {std::move(values), lags, exemplar, false};
 }
 
-ExemplarPlanes outlines(const ExemplarPlanes& in) {
-  Planes values = Planes::zeros(in.size, in.channels);
-  values.values = in.values;
-  values = blurred(values, grain);
-  ExemplarPlanes out{in.size, 1, in.wraps, std::vector<float>(size_t(in.size.area()))};
-  const auto at = [&](int x, int y) { return &values.values[(size_t(y) * in.size.width + x) * in.channels]; };
-  const auto inside = [&](int i, int n) { return in.wraps ? wrap(i, n) : std::clamp(i, 0, n - 1); };
+Planes outlines(const Planes& in) {
+  const Planes values = blurred(in, grain, Beyond::mirrored);
+  Planes out = Planes::zeros(in.size, 1, in.wraps);
   for (int y = 0; y < in.size.height; y++)
     for (int x = 0; x < in.size.width; x++) {
-      const float *left = at(inside(x - 1, in.size.width), y), *right = at(inside(x + 1, in.size.width), y);
-      const float *up = at(x, inside(y - 1, in.size.height)), *down = at(x, inside(y + 1, in.size.height));
+      const float *left = values.at(in.column(x - 1), y), *right = values.at(in.column(x + 1), y);
+      const float *up = values.at(x, in.row(y - 1)), *down = values.at(x, in.row(y + 1));
       float sum = 0;
       for (int c = 0; c < in.channels; c++) {
         const float dx = right[c] - left[c], dy = down[c] - up[c];

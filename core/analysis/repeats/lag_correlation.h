@@ -45,11 +45,11 @@ class Correlation {
     }
     return values_[size_t(dy + lags_.height - 1) * lags_.width + dx];
   }
-  double at(Vector2 d) const { return at(int(std::floor(d.x + 0.5)), int(std::floor(d.y + 0.5))); }
+  double at(const Vector2d& d) const { return at(int(std::floor(d.x() + 0.5)), int(std::floor(d.y() + 0.5))); }
 
   /// The highest lag within one pixel and the correlation there, to a fraction of a pixel.
-  std::pair<Vector2, double> peak_near(Vector2 d) const {
-    const int cx = int(std::floor(d.x + 0.5)), cy = int(std::floor(d.y + 0.5));
+  std::pair<Vector2d, double> peak_near(const Vector2d& d) const {
+    const int cx = int(std::floor(d.x() + 0.5)), cy = int(std::floor(d.y() + 0.5));
     int bx = cx, by = cy;
     for (int y = cy - 1; y <= cy + 1; y++)
       for (int x = cx - 1; x <= cx + 1; x++)
@@ -79,13 +79,13 @@ class Correlation {
 /// The correlation of an exemplar's details with themselves, channels weighted by their variance: over lags up to five
 /// sixths of its sides or, around its borders, all of its sides if it tiles. `counts`: per pixel how much it counts,
 /// 0..1; empty: all do. Throws Cancelled.
-Correlation correlate(const ExemplarPlanes& planes, const std::vector<float>& counts, const Task& task);
+Correlation correlate(const Planes& planes, const std::vector<float>& counts, const Task& task);
 
 /// What several exemplars of one surface, at one scale, say together: the mean, by how much of them lies on itself at a
 /// lag. At least one; none of several may tile.
 Correlation pooled(const std::vector<Correlation>& all);
 
 /// Edge strength, all channels together, as one channel: joints show in it however much bricks differ in colour.
-ExemplarPlanes outlines(const ExemplarPlanes& planes);
+Planes outlines(const Planes& planes);
 
 }  // namespace terrazzo

@@ -21,8 +21,8 @@ namespace {
 constexpr double most_unlike = 0.04, most_unlike_bands = 0.06;
 constexpr int most_cells = 4;  // of one lattice in a cell of another
 
-bool are_alike(const Vector2& a, const Vector2& b, double unlike) {
-  return Vector2{a.x - b.x, a.y - b.y}.length() <= unlike * b.length();
+bool are_alike(const Vector2d& a, const Vector2d& b, double unlike) {
+  return (a - b).norm() <= unlike * b.norm();
 }
 
 /// The lattice that is part of `l` (of all its steps, or of some) and whose steps are like those of `model`.
@@ -31,16 +31,16 @@ std::optional<Lattice> stepping_like(const Lattice& model, const Lattice& l) {
   const auto whole = [](double v) { return std::floor(v + 0.5); };
   Lattice out = l;
   if (l.rank == 1) {
-    if ((l.first.x != 0) != (model.first.x != 0)) return {};
-    const double steps = whole(l.cells(model.first).x);
+    if ((l.first.x() != 0) != (model.first.x() != 0)) return {};
+    const double steps = whole(l.cells(model.first).x());
     out.first = l.at({steps, 0});
     return std::abs(steps) >= 1 && std::abs(steps) <= most_cells && are_alike(out.first, model.first, most_unlike_bands)
                ? std::optional(out)
                : std::nullopt;
   }
-  const auto nearest = [&](const Vector2& v) {
-    const Vector2 cells = l.cells(v);
-    return l.at({whole(cells.x), whole(cells.y)});
+  const auto nearest = [&](const Vector2d& v) {
+    const Vector2d cells = l.cells(v);
+    return l.at({whole(cells.x()), whole(cells.y())});
   };
   out.first = nearest(model.first);
   out.second = nearest(model.second);
@@ -68,7 +68,7 @@ struct Joined {
   const ExemplarView& view;
 };
 
-Vector2 phase(const ExemplarPart& model, const Joined& joined, const Common& steps) {
+Vector2d phase(const ExemplarPart& model, const Joined& joined, const Common& steps) {
   return steps.of_part.at(phase_between({model.view, steps.of_model}, {joined.view, steps.of_part}));
 }
 
@@ -90,9 +90,9 @@ bool join_bands(const ExemplarPart& model, const Joined& joined) {
     const auto steps = common(model.lattice.level_bands(courses), part.lattice.level_bands(courses));
     if (!steps) continue;
     part.start = phase(model, joined, *steps);
-    const Vector2 &to = steps->of_model.first, &from = steps->of_part.first;
-    for (Vector2* v : {&part.shown.first, &part.shown.second})
-      (courses ? v->y : v->x) *= courses ? to.y / from.y : to.x / from.x;
+    const Vector2d &to = steps->of_model.first, &from = steps->of_part.first;
+    for (Vector2d* v : {&part.shown.first, &part.shown.second})
+      (courses ? v->y() : v->x()) *= courses ? to.y() / from.y() : to.x() / from.x();
     return true;
   }
   return false;
@@ -156,7 +156,7 @@ std::vector<Rect> label_places(const ImagePtr& labels, Size exemplar, const Task
 
 BroughtTogether find_part_lattices(const Features& features, const std::vector<Rect>& places,
                                    const LatticeFinder& finder, bool alike, const Task& task) {
-  const ExemplarPlanes planes = weighted_planes(features, task);
+  const Planes planes = weighted_planes(features, task);
   const std::vector<uint8_t> allowed = allowed_pixels(features);
   const auto brought = [&](std::vector<ExemplarView> views, const auto& lattice) {
     std::vector<ExemplarPart> parts;

@@ -26,9 +26,9 @@ constexpr double least_sure_stripes = 0.6;
 
 Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
   Lattice out = l;
-  for (Vector2 Lattice::*v : {&Lattice::first, &Lattice::second}) {
+  for (Vector2d Lattice::*v : {&Lattice::first, &Lattice::second}) {
     Lattice twice = out;
-    twice.*v = {2 * (out.*v).x, 2 * (out.*v).y};
+    twice.*v *= 2;
     // Of an odd number of cells no two by two fit into an exemplar that tiles.
     if (twice.fits(exemplar, wraps, wraps)) out = twice;
   }
@@ -78,7 +78,7 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
   for (const ExemplarView& v : all)
     if (!v.empty()) views.push_back(&v);
   if (views.empty()) return {};
-  std::vector<ExemplarPlanes> edges;
+  std::vector<Planes> edges;
   std::vector<Correlation> values, joints;
   for (const ExemplarView* v : views) {
     edges.push_back(outlines(v->planes));
@@ -100,7 +100,7 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
     if (const Lattice bond = bond_of(largest.planes, best, task); bond.certainty >= least_certainty) best = bond;
   const bool too_few = best.rank < 2 && !wraps && std::ranges::any_of(edges, lines_cross);
   if (best.rank == 0) return {best, too_few};
-  for (Vector2* v : {&best.first, &best.second}) *v = {v->x * largest.scale, v->y * largest.scale};
+  for (Vector2d* v : {&best.first, &best.second}) *v *= largest.scale;
   const Size size{largest.seen.width, largest.seen.height};
   best = best.fitted(size, wraps, wraps);
   if (best.rank == 2 && best.cell_area() < smallest_cell * smallest_cell) best = two_by_two(best, size, wraps);

@@ -36,7 +36,7 @@ double correlation_around(const std::vector<double>& profile, double lag) {
 }
 
 /// Without the period.
-Lines shares_of(const ExemplarPlanes& plane, bool rows) {
+Lines shares_of(const Planes& plane, bool rows) {
   const int width = plane.size.width, height = plane.size.height;
   const double mean = std::accumulate(plane.values.begin(), plane.values.end(), 0.0) / double(plane.values.size());
   std::vector<double> profile(size_t(rows ? height : width), 0.0);
@@ -53,7 +53,7 @@ Lines shares_of(const ExemplarPlanes& plane, bool rows) {
   return {between / std::max(1e-12, variance), count, std::move(profile)};
 }
 
-Lines lines_of(const ExemplarPlanes& plane, bool rows) {
+Lines lines_of(const Planes& plane, bool rows) {
   Lines out = shares_of(plane, rows);
   const std::vector<double>& profile = out.profile;
   const double count = out.period;
@@ -67,21 +67,21 @@ Lines lines_of(const ExemplarPlanes& plane, bool rows) {
 
 }  // namespace
 
-Lattice lattice_of_lines(const ExemplarPlanes& outlines, const Lattice& found) {
+Lattice lattice_of_lines(const Planes& outlines, const Lattice& found) {
   const Lines rows = lines_of(outlines, true), columns = lines_of(outlines, false);
-  const Vector2 down{0, rows.period}, right{columns.period, 0};
+  const Vector2d down{0, rows.period}, right{columns.period, 0};
   const bool courses = rows.share >= least_parallel;
   const double both = std::min(rows.share, columns.share);
   if (found.rank < 2 && both >= std::max(least_crossing, found.certainty)) return {2, right, down, both};
   const Lines& lines = courses ? rows : columns;
   if (lines.share < least_parallel || found.rank > 1) return {};
   // Bands found otherwise stay, unless lines deny them.
-  const double period = courses ? found.first.y : found.first.x;
+  const double period = courses ? found.first.y() : found.first.x();
   if (found.rank == 1 && (period == 0 || correlation_around(lines.profile, period) > other_lines)) return {};
   return {1, courses ? down : right, {}, lines.share};
 }
 
-bool lines_cross(const ExemplarPlanes& outlines) {
+bool lines_cross(const Planes& outlines) {
   return std::min(shares_of(outlines, true).share, shares_of(outlines, false).share) >= least_crossing;
 }
 

@@ -43,7 +43,7 @@ float window_weight(int dx, int dy) {
 }
 
 /// The weighted neighbourhood of a pixel: for each of 25 places, all channels, each number `stride` after the last.
-void neighbourhood(const ExemplarPlanes& planes, int x, int y, float* out, int stride = 1) {
+void neighbourhood(const Planes& planes, int x, int y, float* out, int stride = 1) {
   for (int j = -radius; j <= radius; j++)
     for (int i = -radius; i <= radius; i++) {
       const float w = window_weight(i, j);
@@ -53,7 +53,7 @@ void neighbourhood(const ExemplarPlanes& planes, int x, int y, float* out, int s
 }
 
 /// `usable`: the pixels whose neighbourhoods may be looked at; empty: all.
-std::vector<float> samples_of(const ExemplarPlanes& planes, const std::vector<uint8_t>& usable, int n) {
+std::vector<float> samples_of(const Planes& planes, const std::vector<uint8_t>& usable, int n) {
   std::vector<size_t> places;
   for (size_t i = 0; i < usable.size(); i++)
     if (usable[i]) places.push_back(i);
@@ -80,7 +80,7 @@ double integer_scale(const std::vector<float>& projected, double deviation) {
 }
 
 /// What the level's basis makes of every pixel's neighbourhood of n numbers.
-std::vector<float> projection(const ExemplarPlanes& planes, const AppearanceLevel& level, int n) {
+std::vector<float> projection(const Planes& planes, const AppearanceLevel& level, int n) {
   std::array<float, appearance_dimensions> offset{};
   for (int d = 0; d < level.dimensions; d++)
     for (int i = 0; i < n; i++) offset[d] += level.basis[size_t(d) * n + i] * level.mean[i];
@@ -102,7 +102,7 @@ std::vector<float> projection(const ExemplarPlanes& planes, const AppearanceLeve
   return projected;
 }
 
-AppearanceLevel make_level(const ExemplarPlanes& planes, std::vector<uint8_t> usable, const AppearanceOptions& options,
+AppearanceLevel make_level(const Planes& planes, std::vector<uint8_t> usable, const AppearanceOptions& options,
                            const Task& task) {
   const int n = window * planes.channels;
   PrincipalComponents pca = principal_components(samples_of(planes, usable, n), n, appearance_dimensions);
@@ -133,9 +133,9 @@ AppearanceLevel make_level(const ExemplarPlanes& planes, std::vector<uint8_t> us
 }
 
 /// The features' channels with the guidance's behind them, scaled.
-ExemplarPlanes joined(const ExemplarPlanes& features, const ExemplarPlanes& guidance, double weight) {
+Planes joined(const Planes& features, const Planes& guidance, double weight) {
   if (guidance.channels == 0 || weight <= 0) return features;
-  ExemplarPlanes out{features.size, features.channels + guidance.channels, features.wraps, {}};
+  Planes out{features.size, features.channels + guidance.channels, features.wraps, {}};
   out.values.reserve(size_t(out.size.area()) * out.channels);
   for (int64_t i = 0; i < out.size.area(); i++) {
     for (int c = 0; c < features.channels; c++) out.values.push_back(features.values[i * features.channels + c]);
@@ -162,8 +162,8 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
     throw Error(fmt::format("the exemplar has {}x{} pixels; it needs at least {} and at most 65536 a side", size.width,
                             size.height, smallest_side));
   const int count = level_count(size);
-  ExemplarPlanes planes = weighted_planes(features, task);
-  ExemplarPlanes guides = guidance_planes(features, guidance, task);
+  Planes planes = weighted_planes(features, task);
+  Planes guides = guidance_planes(features, guidance, task);
   const std::vector<uint8_t> allowed = allowed_pixels(features);
   std::vector<AppearanceLevel> levels;
   for (int l = 0; l < count; l++) {

@@ -61,7 +61,7 @@ Nearest nearest_centre(const float* point, const std::vector<double>& centres, i
 }
 
 /// A part of the pixels, one out of each stretch of equal length.
-std::vector<float> samples_of(const ExemplarPlanes& planes, uint64_t seed) {
+std::vector<float> samples_of(const Planes& planes, uint64_t seed) {
   const int64_t pixels = planes.size.area();
   if (pixels <= most_samples) return planes.values;
   const int n = planes.channels;
@@ -193,7 +193,7 @@ void sort_rows(std::vector<double>& centres, int channels) {
 
 }  // namespace
 
-Clusters find_clusters(const ExemplarPlanes& planes, const ClusterOptions& options, const Task& task) {
+Clusters find_clusters(const Planes& planes, const ClusterOptions& options, const Task& task) {
   const Learner learner(samples_of(planes, options.seed), planes.channels);
   std::vector<double> centres = learner.seeds(options, task);
   std::vector<int> labels(size_t(learner.count()), -1);

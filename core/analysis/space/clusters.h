@@ -26,6 +26,6 @@ struct ClusterOptions {
 /// seeding, 2007: of several candidates the one that lowers the sum of squared distances most). Centres are learned
 /// from at most 262144 of the pixels. Sums are taken in one fixed order: the same bits on every machine and for any
 /// number of threads. Throws Cancelled.
-Clusters find_clusters(const ExemplarPlanes& planes, const ClusterOptions& options, const Task& task);
+Clusters find_clusters(const Planes& planes, const ClusterOptions& options, const Task& task);
 
 }  // namespace terrazzo

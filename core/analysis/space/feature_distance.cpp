@@ -14,51 +14,12 @@ namespace terrazzo {
 
 namespace {
 
-/// A Gaussian kernel made of repeated binomials: its weights need no exp and are the same everywhere.
-std::vector<float> binomial_kernel(double deviation) {
-  // n steps of (1 2 1) / 4 have variance n / 2.
-  const int steps = int(std::floor(2 * deviation * deviation + 0.5));
-  std::vector<double> k = {1};
-  for (int s = 0; s < steps; s++) {
-    std::vector<double> next(k.size() + 2, 0.0);
-    for (size_t i = 0; i < k.size(); i++) {
-      next[i] += k[i] / 4;
-      next[i + 1] += k[i] / 2;
-      next[i + 2] += k[i] / 4;
-    }
-    k = std::move(next);
-  }
-  return {k.begin(), k.end()};
-}
-
-ExemplarPlanes smoothed(const ExemplarPlanes& in, double deviation) {
-  const std::vector<float> kernel = binomial_kernel(deviation);
-  const int reach = int(kernel.size()) / 2, n = in.channels;
-  if (reach == 0) return in;
-  ExemplarPlanes across = in, out = in;
-  const auto pass = [&](const ExemplarPlanes& from, ExemplarPlanes& to, bool horizontal) {
-    tbb::parallel_for(0, in.size.height, [&](int y) {
-      for (int x = 0; x < in.size.width; x++) {
-        float* o = to.at(x, y);
-        std::fill(o, o + n, 0.0f);
-        for (int i = -reach; i <= reach; i++) {
-          const float* v = horizontal ? from.at(from.column(x + i), y) : from.at(x, from.row(y + i));
-          for (int c = 0; c < n; c++) o[c] += kernel[i + reach] * v[c];
-        }
-      }
-    });
-  };
-  pass(in, across, true);
-  pass(across, out, false);
-  return out;
-}
-
 struct Gradient {
   float x, y;
 };
 
 /// Scharr's operator on one channel.
-Gradient gradient_at(const ExemplarPlanes& p, int x, int y, int channel) {
+Gradient gradient_at(const Planes& p, int x, int y, int channel) {
   const int up = p.row(y - 1), down = p.row(y + 1), left = p.column(x - 1), right = p.column(x + 1);
   const auto v = [&](int u, int w) { return p.at(u, w)[channel]; };
   return {3 * (v(right, up) - v(left, up)) + 10 * (v(right, y) - v(left, y)) + 3 * (v(right, down) - v(left, down)),
@@ -66,7 +27,7 @@ Gradient gradient_at(const ExemplarPlanes& p, int x, int y, int channel) {
 }
 
 /// Gradient magnitude over all channels.
-std::vector<float> gradient_magnitude(const ExemplarPlanes& p) {
+std::vector<float> gradient_magnitude(const Planes& p) {
   std::vector<float> out(size_t(p.size.area()));
   tbb::parallel_for(0, p.size.height, [&](int y) {
     for (int x = 0; x < p.size.width; x++) {
@@ -82,8 +43,8 @@ std::vector<float> gradient_magnitude(const ExemplarPlanes& p) {
 }
 
 /// The gradient of what all channels together vary in most; x and y interleaved.
-std::vector<float> leading_gradients(const ExemplarPlanes& p, const Task& task) {
-  const ExemplarPlanes leading{p.size, 1, p.wraps, leading_component(p, task)};
+std::vector<float> leading_gradients(const Planes& p, const Task& task) {
+  const Planes leading{p.size, 1, p.wraps, leading_component(p, task)};
   std::vector<float> out(2 * size_t(p.size.area()));
   tbb::parallel_for(0, p.size.height, [&](int y) {
     for (int x = 0; x < p.size.width; x++) {
@@ -101,7 +62,7 @@ std::vector<float> leading_gradients(const ExemplarPlanes& p, const Task& task) 
 Edges find_edges(const Material& material, const EdgeOptions& options, const Task& task) {
   const FeaturesPtr features =
       weighted_features(material, weights_of_chosen(material, options.maps), options.wraps, options.mask);
-  const ExemplarPlanes planes = smoothed(weighted_planes(*features, task), options.smoothing);
+  const Planes planes = blurred(weighted_planes(*features, task), options.smoothing, Beyond::as_it_wraps);
   Edges edges;
   edges.strength = gradient_magnitude(planes);
   edges.gradients = leading_gradients(planes, task);

@@ -8,6 +8,7 @@
 
 #include "core/base/portable_math.h"
 #include "core/numeric/fft.h"
+#include "core/numeric/gaussian.h"
 
 namespace terrazzo {
 
@@ -15,10 +16,6 @@ namespace {
 
 constexpr int orientations = 6, scales = 3;
 constexpr double deviations[scales] = {1, 2, 4}, elongation = 3, blob_deviation = 10;
-
-double gaussian(double x, double deviation) {
-  return portable::exp(-0.5 * x * x / (deviation * deviation));
-}
 
 /// A square filter, `reach` pixels to either side of its centre.
 struct Filter {
@@ -90,7 +87,7 @@ class Spectra {
   std::vector<Grid> pairs_;
 };
 
-Grid block_spectrum(const ExemplarPlanes& image, const Spectra& spectra, int left, int top) {
+Grid block_spectrum(const Planes& image, const Spectra& spectra, int left, int top) {
   const int side = spectra.side();
   Grid grid(size_t(side) * side);
   for (int y = 0; y < side; y++) {
@@ -132,7 +129,7 @@ void respond(const Grid& spectrum, const Spectra& spectra, const Rect& block, in
 
 }  // namespace
 
-FilterResponses mr8_responses(const ExemplarPlanes& image, double scale, const Task& task) {
+FilterResponses mr8_responses(const Planes& image, double scale, const Task& task) {
   const Spectra spectra(scale, image.size);
   task.check();
   const size_t pixels = size_t(image.size.area());

@@ -23,6 +23,6 @@ struct FilterResponses {
 ///
 /// `image`: one channel; beyond its border it wraps or continues, as it says. By FFT, block by block. The same bits on
 /// every machine and for any number of threads. `scale` is in [0.25, 4]. Throws Cancelled.
-FilterResponses mr8_responses(const ExemplarPlanes& image, double scale, const Task& task);
+FilterResponses mr8_responses(const Planes& image, double scale, const Task& task);
 
 }  // namespace terrazzo

@@ -73,8 +73,8 @@ class LevelSearch {
 
   /// (u, v) where it is usable, of a regular exemplar the place in phase with (x, y) that is nearest to it.
   std::array<int, 2> settled(int x, int y, int u, int v) const {
-    const Vector2 shown = phase_.shown_at(x, y);
-    phase_.snap(shown.x, shown.y, u, v);
+    const Vector2d shown = phase_.shown_at(x, y);
+    phase_.snap(shown.x(), shown.y(), u, v);
     level_.unwind(u, v);
     level_.settle(u, v);
     return {u, v};
@@ -128,8 +128,8 @@ class LevelSearch {
 
  private:
   bool is_out_of_phase(int u, int v, int x, int y) const {
-    const Vector2 shown = phase_.shown_at(x, y);
-    return phase_.penalty(u, v, shown.x, shown.y) > 1;
+    const Vector2d shown = phase_.shown_at(x, y);
+    return phase_.penalty(u, v, shown.x(), shown.y()) > 1;
   }
   static int between(int a, int b, int period) {
     const int d = std::abs(a - b);

@@ -17,57 +17,39 @@ namespace {
 // Standard deviations below this are quantisation noise of an 8-bit map rather than structure.
 constexpr double least_deviation = 0.02;
 
-struct Moments {
-  std::vector<double> mean;
-  double deviation = 0;  ///< root of the weighted channels' summed variance
-};
-
-/// `allowed`: which pixels count; empty: all.
-Moments moments(const Image& image, const std::vector<double>& weights, const std::vector<uint8_t>& allowed) {
-  const int channels = image.channels();
-  int64_t count = 0;
-  std::vector<double> sum(channels, 0.0), squares(channels, 0.0);
+/// Of the pixels that count; `allowed` empty: of all.
+Moments<> moments(const Image& image, const std::vector<uint8_t>& allowed) {
+  Moments<> out(image.channels());
   for_each_strip(image, [&](const Rect& r, const float* v) {
     const int64_t first = int64_t{r.y} * r.width;
-    for (int64_t i = 0; i < r.area(); i++) {
-      if (!allowed.empty() && !allowed[first + i]) continue;
-      count++;
-      for (int c = 0; c < channels; c++) {
-        const double d = v[i * channels + c];
-        sum[c] += d;
-        squares[c] += d * d;
-      }
-    }
+    for (int64_t i = 0; i < r.area(); i++)
+      if (allowed.empty() || allowed[first + i]) out.add(&v[i * image.channels()]);
   });
-  const auto n = double(count);
-  Moments m;
-  double variance = 0;
-  for (int c = 0; c < channels; c++) {
-    m.mean.push_back(sum[c] / n);
-    if (weights[c] > 0) variance += std::max(0.0, squares[c] / n - m.mean[c] * m.mean[c]);
-  }
-  m.deviation = std::sqrt(variance);
-  return m;
+  return out;
 }
 
 /// Writes an image's weighted channels into the planes from channel `first` on.
 void add_image(const Image& image, const std::vector<double>& weights, const std::vector<uint8_t>& allowed,
-               ExemplarPlanes& planes, int first) {
-  const Moments m = moments(image, weights, allowed);
-  const double unit = 1.0 / std::max(m.deviation, least_deviation);
+               Planes& planes, int first) {
+  const Moments<> m = moments(image, allowed);
   const int channels = image.channels();
+  double variance = 0;
+  for (int c = 0; c < channels; c++)
+    if (weights[c] > 0) variance += m.variance(c);
+  const double unit = 1.0 / std::max(std::sqrt(variance), least_deviation);
+  const VectorXd mean = m.mean_vector();
   for_each_strip(image, [&](const Rect& r, const float* v) {
     for (int y = 0; y < r.height; y++)
       for (int x = 0; x < r.width; x++, v += channels) {
         float* out = planes.at(x, r.y + y) + first;
         for (int c = 0; c < channels; c++)
-          if (weights[c] > 0) *out++ = float((v[c] - m.mean[c]) * (weights[c] * unit));
+          if (weights[c] > 0) *out++ = float((v[c] - mean[c]) * (weights[c] * unit));
       }
   });
 }
 
 /// Pixels that are not allowed continue the nearest that is, so that they do not show through at coarse levels.
-void fill_forbidden(ExemplarPlanes& planes, const std::vector<uint8_t>& allowed) {
+void fill_forbidden(Planes& planes, const std::vector<uint8_t>& allowed) {
   if (allowed.empty() || planes.channels == 0) return;
   const std::vector<uint32_t> nearest = nearest_set(allowed, planes.size, planes.wraps);
   const int n = planes.channels;
@@ -75,15 +57,11 @@ void fill_forbidden(ExemplarPlanes& planes, const std::vector<uint8_t>& allowed)
     if (!allowed[i]) std::copy_n(&planes.values[size_t(nearest[i]) * n], n, &planes.values[i * n]);
 }
 
-ExemplarPlanes empty(Size size, int channels, bool wraps) {
-  return {size, channels, wraps, std::vector<float>(size_t(size.area()) * channels)};
-}
-
 }  // namespace
 
-ExemplarPlanes weighted_planes(const Features& features, const Task& task) {
+Planes weighted_planes(const Features& features, const Task& task) {
   const std::vector<uint8_t> allowed = allowed_pixels(features);
-  ExemplarPlanes planes = empty(features.size(), features.channel_count(), features.wraps());
+  Planes planes = Planes::zeros(features.size(), features.channel_count(), features.wraps());
   int first = 0;
   for (const FeatureImage& f : features.images()) {
     task.check();
@@ -94,7 +72,7 @@ ExemplarPlanes weighted_planes(const Features& features, const Task& task) {
   return planes;
 }
 
-ExemplarPlanes guidance_planes(const Features& features, const std::vector<ImagePtr>& guidance, const Task& task) {
+Planes guidance_planes(const Features& features, const std::vector<ImagePtr>& guidance, const Task& task) {
   const Size size = features.size();
   const std::vector<uint8_t> allowed = allowed_pixels(features);
   int channels = 0;
@@ -104,7 +82,7 @@ ExemplarPlanes guidance_planes(const Features& features, const std::vector<Image
                                           size.width, size.height, g->width(), g->height()));
     channels += g->channels();
   }
-  ExemplarPlanes planes = empty(size, channels, features.wraps());
+  Planes planes = Planes::zeros(size, channels, features.wraps());
   int first = 0;
   for (const ImagePtr& g : guidance) {
     task.check();
@@ -115,16 +93,16 @@ ExemplarPlanes guidance_planes(const Features& features, const std::vector<Image
   return planes;
 }
 
-ExemplarPlanes cropped(const ExemplarPlanes& planes, const Rect& part) {
-  ExemplarPlanes out = empty({part.width, part.height}, planes.channels, planes.wraps && part == whole(planes.size));
+Planes cropped(const Planes& planes, const Rect& part) {
+  Planes out = Planes::zeros({part.width, part.height}, planes.channels, planes.wraps && part == whole(planes.size));
   for (int y = 0; y < part.height; y++)
     std::copy_n(planes.at(part.x, part.y + y), size_t(part.width) * planes.channels, out.at(0, y));
   return out;
 }
 
-ExemplarPlanes halved(const ExemplarPlanes& in) {
+Planes halved(const Planes& in) {
   const Size size{(in.size.width + 1) / 2, (in.size.height + 1) / 2};
-  ExemplarPlanes out = empty(size, in.channels, in.wraps);
+  Planes out = Planes::zeros(size, in.channels, in.wraps);
   constexpr float kernel[4] = {0.125f, 0.375f, 0.375f, 0.125f};
   const int n = in.channels;
   tbb::parallel_for(0, size.height, [&](int y) {
@@ -145,7 +123,7 @@ ExemplarPlanes halved(const ExemplarPlanes& in) {
   return out;
 }
 
-std::vector<float> leading_component(const ExemplarPlanes& planes, const Task& task) {
+std::vector<float> leading_component(const Planes& planes, const Task& task) {
   const int n = planes.channels;
   const std::vector<float> axis = principal_components(planes.values, n, 1, task).components;
   const double sign = axis.front() < 0 ? -1 : 1;

@@ -2,7 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/analysis/space/smoothing.h"
+#include "core/analysis/space/planes.h"
 #include "core/image/distribution.h"
 
 namespace terrazzo {
@@ -24,7 +24,7 @@ Curve equalizing_curve(const Distribution& d, bool inverted) {
 }  // namespace
 
 ImagePtr progression_of(const Features& features, double deviation, bool inverted, const Task& task) {
-  const ExemplarPlanes planes = box_smoothed(weighted_planes(features, task), deviation, task);
+  const Planes planes = box_blurred(weighted_planes(features, task), deviation, task);
   const ImageInfo info{.size = features.size(), .channels = 1, .semantic = Semantic::guidance, .depth = Depth::u16};
   std::vector<float> values = leading_component(planes, task);
   const Curve curve = equalizing_curve(Distribution::of(*Image::from_floats(info, values), task).front(), inverted);

@@ -7,7 +7,6 @@ namespace terrazzo {
 
 std::unique_ptr<ImageDecoder> open_with_oiio(const std::string& path);
 std::unique_ptr<ImageEncoder> create_with_oiio(const std::string& name, const EncodedImage& image, ByteSink* sink);
-std::function<float(float)> oiio_filter_kernel(const std::string& name, float width);
 std::shared_ptr<const ColorConfiguration> load_with_ocio(const std::string& path);
 
 }  // namespace terrazzo

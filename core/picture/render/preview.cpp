@@ -22,8 +22,8 @@ using namespace render;
 /// Where a ray meets the shape: the place on the material and the frame of the surface there.
 struct Hit {
   double x = 0, y = 0;  ///< in widths of the material, y downwards
-  Vec tangent{1, 0, 0}, bitangent{0, 1, 0}, normal{0, 0, 1};
-  Vec view{0, 0, 1};
+  Vector3d tangent{1, 0, 0}, bitangent{0, 1, 0}, normal{0, 0, 1};
+  Vector3d view{0, 0, 1};
 };
 
 /// The part of the rays of one picture that depends on the shape. `x`, `y`: pixels, not necessarily at centres.
@@ -52,32 +52,24 @@ class Camera {
     const double d = spec_.distance, outline = 1 / std::sqrt(d * d - 1);
     const double half = 0.5 * std::min(spec_.size.width, spec_.size.height);
     const double scale = outline / (0.9 * half);
-    const Vec ray = unit({(x - 0.5 * spec_.size.width) * scale, (0.5 * spec_.size.height - y) * scale, -1});
-    const double b = -ray.z * d, disc = b * b - (d * d - 1);
+    const Vector3d ray =
+        Vector3d{(x - 0.5 * spec_.size.width) * scale, (0.5 * spec_.size.height - y) * scale, -1}.normalized();
+    const double b = -ray.z() * d, disc = b * b - (d * d - 1);
     if (disc < 0) return std::nullopt;
     Hit h;
-    h.normal = Vec{0, 0, d} + ray * (b - std::sqrt(disc));
-    h.view = ray * -1;
+    h.normal = Vector3d{0, 0, d} + ray * (b - std::sqrt(disc));
+    h.view = -ray;
     // Unrolled from the point that faces the viewer; the frame turns along with the surface.
-    const Vec& n = h.normal;
-    const double sine = std::sqrt(n.x * n.x + n.y * n.y);
-    const double arc = sine > 1e-6 ? angle(sine, n.z) / sine : 1;
+    const Vector3d& n = h.normal;
+    const double sine = n.head<2>().norm();
+    const double arc = sine > 1e-6 ? portable::atan2(sine, n.z()) / sine : 1;
     const double per_radius = spec_.tile / 3.14159265358979324;
-    h.x = 0.5 + n.x * arc * per_radius;
-    h.y = 0.5 * aspect_ - n.y * arc * per_radius;
-    const double k = 1 / (1 + n.z);
-    h.tangent = {1 - n.x * n.x * k, -n.x * n.y * k, -n.x};
-    h.bitangent = {-n.x * n.y * k, 1 - n.y * n.y * k, -n.y};
+    h.x = 0.5 + n.x() * arc * per_radius;
+    h.y = 0.5 * aspect_ - n.y() * arc * per_radius;
+    const double k = 1 / (1 + n.z());
+    h.tangent = {1 - n.x() * n.x() * k, -n.x() * n.y() * k, -n.x()};
+    h.bitangent = {-n.x() * n.y() * k, 1 - n.y() * n.y() * k, -n.y()};
     return h;
-  }
-
-  /// The angle whose sine and cosine these are, in [0, pi / 2] for what faces the viewer.
-  static double angle(double sine, double cosine) {
-    // Halving the angle twice brings the series (odd powers of the tangent) quickly to its end.
-    const double t = sine / (1 + cosine), q = t / (1 + std::sqrt(1 + t * t)), q2 = q * q;
-    double sum = 0;
-    for (int n = 21; n >= 1; n -= 2) sum = 1.0 / n - q2 * sum;
-    return 4 * q * sum;
   }
 
   const PreviewSpec& spec_;
@@ -98,29 +90,29 @@ class Renderer {
   }
 
   /// Display-linear colour of a pixel under one light.
-  Vec pixel(int x, int y, size_t light) const {
+  Vector3d pixel(int x, int y, size_t light) const {
     const bool flat = spec_.shape == PreviewShape::plane && spec_.tilt == 0;
     const int samples = flat ? 1 : 2;
-    Vec sum;
+    Vector3d sum;
     for (int j = 0; j < samples; j++)
       for (int i = 0; i < samples; i++) {
         const std::optional<Hit> hit = camera_.hit(x + (i + 0.5) / samples, y + (j + 0.5) / samples);
-        sum = sum + (hit ? tone_mapped(shade(*hit, lights_[light]) * stops_) : background_);
+        sum += hit ? tone_mapped(shade(*hit, lights_[light]) * stops_) : background_;
       }
     return sum * (1.0 / (samples * samples));
   }
 
  private:
-  Vec shade(const Hit& hit, const Vec& light) const {
-    const auto local = [&](const Vec& v) {
-      return Vec{dot(v, hit.tangent), dot(v, hit.bitangent), dot(v, hit.normal)};
+  Vector3d shade(const Hit& hit, const Vector3d& light) const {
+    const auto local = [&](const Vector3d& v) {
+      return Vector3d{v.dot(hit.tangent), v.dot(hit.bitangent), v.dot(hit.normal)};
     };
-    const Vec view = local(hit.view), to_light = local(light);
+    const Vector3d view = local(hit.view), to_light = local(light);
     const ReliefPoint at = visible_point(textures_, hit.x, hit.y, view);
     const ShadedPoint p = textures_.at(at.x, at.y / textures_.aspect);
-    Vec color = reflected_ambient(p, view, local({0, 1, 0})) * spec_.ambient + p.emission;
-    if (to_light.z > 0)
-      color = color + reflected(p, view, to_light) * (spec_.intensity * light_reaching(textures_, at, to_light));
+    Vector3d color = reflected_ambient(p, view, local({0, 1, 0})) * spec_.ambient + p.emission;
+    if (to_light.z() > 0)
+      color += reflected(p, view, to_light) * (spec_.intensity * light_reaching(textures_, at, to_light));
     return color;
   }
 
@@ -128,8 +120,8 @@ class Renderer {
   const Textures& textures_;
   Camera camera_;
   double stops_;
-  std::vector<Vec> lights_;
-  Vec background_;
+  std::vector<Vector3d> lights_;
+  Vector3d background_;
 };
 
 float stored(double linear) {
@@ -141,11 +133,11 @@ ImagePtr rendered(const Renderer& renderer, Size size, size_t light, const Task&
   tbb::parallel_for(0, size.height, [&](int y) {
     task.check();
     for (int x = 0; x < size.width; x++) {
-      const Vec c = renderer.pixel(x, y, light);
+      const Vector3d c = renderer.pixel(x, y, light);
       float* pixel = &out[(size_t(y) * size.width + x) * 3];
-      pixel[0] = stored(c.x);
-      pixel[1] = stored(c.y);
-      pixel[2] = stored(c.z);
+      pixel[0] = stored(c.x());
+      pixel[1] = stored(c.y());
+      pixel[2] = stored(c.z());
     }
   });
   ImageInfo info{.size = size, .channels = 3, .semantic = Semantic::base_color, .depth = Depth::u8};

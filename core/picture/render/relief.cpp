@@ -17,11 +17,11 @@ int step_count(const Textures& t, double length) {
 
 }  // namespace
 
-ReliefPoint visible_point(const Textures& t, double x, double y, const Vec& view) {
+ReliefPoint visible_point(const Textures& t, double x, double y, const Vector3d& view) {
   if (t.height.empty() || t.depth <= 0) return {x, y, 0};
-  const double up = std::max(view.z, 0.15);
+  const double up = std::max(view.z(), 0.15);
   // Going down by 1 moves the point away from the viewer; v runs downwards.
-  const double dx = -view.x / up, dy = view.y / up;
+  const double dx = -view.x() / up, dy = view.y() / up;
   const double travel = std::sqrt(dx * dx + dy * dy) * t.depth;
   if (travel * t.height.size().width < 0.1) return {x, y, surface_at(t, x, y)};
   const int steps = step_count(t, travel);
@@ -41,11 +41,11 @@ ReliefPoint visible_point(const Textures& t, double x, double y, const Vec& view
   return {x + dx * below, y + dy * below, t.depth - below};
 }
 
-double light_reaching(const Textures& t, const ReliefPoint& p, const Vec& light) {
+double light_reaching(const Textures& t, const ReliefPoint& p, const Vector3d& light) {
   if (t.height.empty() || t.depth <= 0) return 1;
-  if (light.z <= 0) return 0;
-  const double across = std::sqrt(light.x * light.x + light.y * light.y);
-  const double rise = light.z / std::max(across, 1e-6);
+  if (light.z() <= 0) return 0;
+  const double across = std::sqrt(light.x() * light.x() + light.y() * light.y());
+  const double rise = light.z() / std::max(across, 1e-6);
   const double reach = std::min((t.depth - p.z) / rise, 0.25);
   if (reach * t.height.size().width < 0.5) return 1;
   const int steps = step_count(t, reach);
@@ -54,7 +54,7 @@ double light_reaching(const Textures& t, const ReliefPoint& p, const Vec& light)
   double covered = 0;
   for (int k = 1; k <= steps; k++) {
     const double s = reach * k / steps;
-    const double blocker = surface_at(t, p.x + light.x / across * s, p.y - light.y / across * s) - p.z;
+    const double blocker = surface_at(t, p.x + light.x() / across * s, p.y - light.y() / across * s) - p.z;
     // How far the blocker stands above the ray, as an angle: a light of some width gives a penumbra.
     covered = std::max(covered, (blocker - bias) / s - rise);
   }

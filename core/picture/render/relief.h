@@ -13,9 +13,9 @@ struct ReliefPoint {
 
 /// Follows a view ray that enters the relief's top at (x, y) (relief ray marching: linear steps, then bisection;
 /// Policarpo, Oliveira & Comba 2005). `view`: unit, towards the viewer, in the tangent frame.
-ReliefPoint visible_point(const Textures& textures, double x, double y, const Vec& view);
+ReliefPoint visible_point(const Textures& textures, double x, double y, const Vector3d& view);
 
 /// The fraction of a directional light that reaches the point past the relief around it, 0..1, with soft edges.
-double light_reaching(const Textures& textures, const ReliefPoint& point, const Vec& light);
+double light_reaching(const Textures& textures, const ReliefPoint& point, const Vector3d& light);
 
 }  // namespace terrazzo::render

@@ -1,30 +1,31 @@
 #pragma once
 
-#include "core/picture/render/vector.h"
+#include "core/numeric/eigen.h"
 
-/// How a point of a material answers light.
+/// How a point of a material answers light. Directions are in a frame of x right, y up, z towards the viewer; colours
+/// are three-vectors too, linear.
 namespace terrazzo::render {
 
 struct ShadedPoint {
-  Vec albedo{0.5, 0.5, 0.5};  ///< linear
-  Vec normal{0, 0, 1};        ///< unit, in the same frame as the light and view directions
-  double roughness = 0.6;     ///< perceptual; its square is the width of the distribution
+  Vector3d albedo{0.5, 0.5, 0.5};  ///< linear
+  Vector3d normal{0, 0, 1};        ///< unit, in the same frame as the light and view directions
+  double roughness = 0.6;          ///< perceptual; its square is the width of the distribution
   double metallic = 0;
   double occlusion = 1;
-  Vec emission{};  ///< linear
+  Vector3d emission{};  ///< linear
 };
 
 /// Light reflected towards `view` from a directional light that gives a facing white diffuse surface the brightness 1.
 /// Trowbridge-Reitz distribution (Walter et al., Microfacet models for refraction through rough surfaces, 2007),
 /// Smith's height-correlated masking and shadowing (Heitz, Understanding the masking-shadowing function, 2014),
 /// Schlick's Fresnel term; Lambertian diffuse.
-Vec reflected(const ShadedPoint& point, const Vec& view, const Vec& light);
+Vector3d reflected(const ShadedPoint& point, const Vector3d& view, const Vector3d& light);
 
 /// Light reflected from surroundings of brightness 1 that are a little darker towards the ground (`up` is the direction
 /// of the sky), dimmed by the occlusion.
-Vec reflected_ambient(const ShadedPoint& point, const Vec& view, const Vec& up);
+Vector3d reflected_ambient(const ShadedPoint& point, const Vector3d& view, const Vector3d& up);
 
 /// Brightness to display: as it is up to 0.75, then a shoulder that reaches 1 at infinity.
-Vec tone_mapped(const Vec& color);
+Vector3d tone_mapped(const Vector3d& color);
 
 }  // namespace terrazzo::render

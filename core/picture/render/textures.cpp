@@ -17,7 +17,7 @@ using Decode = void (*)(float* texel, const ImageInfo& info);
 
 void decode_vector(float* texel, const ImageInfo& info) {
   if (info.channels < 3) return;
-  const Vector3 n = decode_normal(texel, info.normal_y);
+  const Vector3f n = decode_normal(texel, info.normal_y);
   std::copy(n.begin(), n.end(), texel);
 }
 
@@ -68,17 +68,17 @@ double depth_from_normals(const Texture& height, const Texture& normal, double a
     variance += difference * difference;
   };
   const auto slope = [&](double x, double y) {
-    const Vec n = normal.color(x / size.width, y / size.height);
-    return Vec{-n.x, n.y, 0} * (1 / std::max(0.1, n.z));
+    const Vector3d n = normal.color(x / size.width, y / size.height);
+    return Vector2d(Vector2d{-n.x(), n.y()} / std::max(0.1, n.z()));
   };
   for (int y = 0; y + span < size.height; y += 2)
     for (int x = 0; x + span < size.width; x += 2) {
-      Vec rise;
+      Vector2d rise;
       for (int k = 1; k <= span; k++)
-        rise = rise + Vec{slope(x + k, y + 0.5).x * across, slope(x + 0.5, y + k).y * down, 0};
+        rise += Vector2d{slope(x + k, y + 0.5).x() * across, slope(x + 0.5, y + k).y() * down};
       const float here = *height.texel(x, y);
-      add(rise.x, *height.texel(x + span, y) - here);
-      add(rise.y, *height.texel(x, y + span) - here);
+      add(rise.x(), *height.texel(x + span, y) - here);
+      add(rise.y(), *height.texel(x, y + span) - here);
     }
   return variance > 0 ? std::clamp(covariance / variance, 0.0, 0.2) : 0;
 }
@@ -122,11 +122,11 @@ Texture::Blend Texture::blend(double u, double v) const {
           {(1 - tx) * (1 - ty), tx * (1 - ty), (1 - tx) * ty, tx * ty}};
 }
 
-Vec Texture::color(double u, double v) const {
+Vector3d Texture::color(double u, double v) const {
   const Blend b = blend(u, v);
   const int green = channels_ >= 3 ? 1 : 0, blue = channels_ >= 3 ? 2 : 0;
-  Vec sum;
-  for (int k = 0; k < 4; k++) sum = sum + Vec{b.texels[k][0], b.texels[k][green], b.texels[k][blue]} * b.weights[k];
+  Vector3d sum;
+  for (int k = 0; k < 4; k++) sum += Vector3d{b.texels[k][0], b.texels[k][green], b.texels[k][blue]} * b.weights[k];
   return sum;
 }
 
@@ -141,9 +141,9 @@ ShadedPoint Textures::at(double u, double v) const {
   ShadedPoint p;
   if (!base_color.empty()) p.albedo = base_color.color(u, v);
   if (!normal.empty()) {
-    const Vec n = normal.color(u, v);
+    const Vector3d n = normal.color(u, v);
     // A normal that points into the surface, or nowhere, is no normal.
-    if (n.z > 0) p.normal = unit({n.x, n.y, std::max(n.z, 0.05)});
+    if (n.z() > 0) p.normal = Vector3d{n.x(), n.y(), std::max(n.z(), 0.05)}.normalized();
   }
   if (!roughness.empty()) p.roughness = roughness.value(u, v);
   if (!metallic.empty()) p.metallic = std::clamp(metallic.value(u, v), 0.0, 1.0);

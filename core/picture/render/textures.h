@@ -20,8 +20,8 @@ class Texture {
   int channels() const { return channels_; }
   const float* texel(int x, int y) const;  ///< wraps
   /// u and v in periods: the map covers [0, 1) x [0, 1), v downwards.
-  Vec color(double u, double v) const;     ///< three channels, or one repeated
-  double value(double u, double v) const;  ///< the first channel
+  Vector3d color(double u, double v) const;  ///< three channels, or one repeated
+  double value(double u, double v) const;    ///< the first channel
 
  private:
   struct Blend;

@@ -12,8 +12,9 @@ CourseAxes result_axes(const Coursing& coursing, const LatticePhase& phase) {
   if (coursing.axes.rise == 0) return out;
   constexpr int far = 1 << 14;
   const auto [x, y] = coursing.axes.at(far, 0);
-  const Vector2 from = phase.shown_at(0, 0), to = phase.shown_at(x, y);
-  out.rise = out.upright ? (to.x - from.x) / (to.y - from.y) : (to.y - from.y) / (to.x - from.x);
+  const Vector2d from = phase.shown_at(0, 0), to = phase.shown_at(x, y);
+  const Vector2d run = to - from;
+  out.rise = out.upright ? run.x() / run.y() : run.y() / run.x();
   return out;
 }
 
@@ -46,7 +47,7 @@ int ResultCourses::end_of(const ResultCourse& course, size_t run) const {
 
 std::vector<ResultCourse> ResultCourses::found(const Coursing& coursing, const LatticePhase& phase) const {
   constexpr int far = 1 << 12;
-  const auto across = [&](const Vector2& at) { return axes_.across(at.x, at.y) / source_.block; };
+  const auto across = [&](const Vector2d& at) { return axes_.across(at.x(), at.y()) / source_.block; };
   const double at0 = across(phase.shown_at(0, 0));
   const double at1 = across(axes_.upright ? phase.shown_at(far, 0) : phase.shown_at(0, far));
   const double rate = (at1 - at0) / far * scale_;

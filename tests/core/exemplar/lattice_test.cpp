@@ -53,11 +53,11 @@ TEST_CASE("levels that are too coarse to see a cell still know positions that ar
 }
 
 TEST_CASE("where cells are not resolved, snapping finds the best of all places in reach") {
-  const Vector2 origin{3.7, 1.2};
+  const Vector2d origin{3.7, 1.2};
   for (const Lattice& lattice : {Lattice{2, {17.3, 4.1}, {-6.2, 21.9}, 0.7}, Lattice{2, {40, 0}, {31, 5}, 0.2},
                                  Lattice{1, {11.7, 0}, {}, 0.4}, Lattice{1, {0, 9.2}, {}, 0.9}})
     for (int level = 2; level <= 5; level++) {
-      CAPTURE(lattice.first.x);
+      CAPTURE(lattice.first.x());
       CAPTURE(level);
       const LatticePhase phase(lattice, level, {output, true, false, origin});
       if (phase.resolves_cells() || !phase.active()) continue;
@@ -115,17 +115,17 @@ TEST_CASE("a lattice knows the length of its bricks, lying and standing") {
 
 TEST_CASE("a lattice knows its level courses and its columns, and how they run") {
   const Lattice bricks{2, {128, 1}, {64, 43}, 1};
-  CHECK(bricks.along_bands(true).x == doctest::Approx(128));
-  CHECK(bricks.along_bands(true).y == doctest::Approx(1));
+  CHECK(bricks.along_bands(true).x() == doctest::Approx(128));
+  CHECK(bricks.along_bands(true).y() == doctest::Approx(1));
   CHECK(bricks.level_bands(true).rank == 1);
-  CHECK(bricks.level_bands(true).first.y == doctest::Approx(bricks.cell_area() / 128));
+  CHECK(bricks.level_bands(true).first.y() == doctest::Approx(bricks.cell_area() / 128));
   // Straight up it comes back after two courses only, and not quite.
-  CHECK(bricks.level_bands(false).first.x == doctest::Approx(64).epsilon(0.01));
-  CHECK(courses(6).along_bands(true).x > 0);
-  CHECK(courses(6).along_bands(false).y == 0);
+  CHECK(bricks.level_bands(false).first.x() == doctest::Approx(64).epsilon(0.01));
+  CHECK(courses(6).along_bands(true).x() > 0);
+  CHECK(courses(6).along_bands(false).y() == 0);
   CHECK(courses(6).level_bands(false).rank == 0);
   const Lattice turned{2, {29, 13}, {-13, 29}, 1};
-  CHECK(turned.along_bands(true).x == 0);
+  CHECK(turned.along_bands(true).x() == 0);
   CHECK(turned.level_bands(true).rank == 0);
 }
 
@@ -137,14 +137,14 @@ TEST_CASE("the size that fits best, fits, and is near what was asked for") {
         Lattice{2, {19.8, 1.4}, {-1.4, 19.8}, 0.9}, Lattice{2, {19.8, 0.06}, {-0.06, 19.8}, 0.9}})
     for (const Size size : {Size{1024, 1024}, Size{512, 700}, Size{4096, 333}})
       for (const auto& [x, y] : {std::pair(true, true), std::pair(true, false), std::pair(false, true)}) {
-        CAPTURE(lattice.first.x);
+        CAPTURE(lattice.first.x());
         CAPTURE(size.width);
         const Size best = lattice.best_fitting(size, x, y, {100, 100});
         for (const bool along_x : {true, false}) {
           if (!(along_x ? x : y)) continue;
-          const Vector2 v = lattice.misfit(along_x ? best.width : best.height, along_x);
-          CHECK(std::abs(along_x ? v.x : v.y) < 1.5);
-          CHECK(std::hypot(v.x, v.y) < 10);
+          const Vector2d v = lattice.misfit(along_x ? best.width : best.height, along_x);
+          CHECK(std::abs(along_x ? v.x() : v.y()) < 1.5);
+          CHECK(std::hypot(v.x(), v.y()) < 10);
         }
         CHECK(2 * best.width > size.width);
         CHECK(2 * best.height > size.height);
@@ -154,7 +154,7 @@ TEST_CASE("the size that fits best, fits, and is near what was asked for") {
         if (!y) CHECK(best.height == size.height);
         // The lattice that such a result has is hardly another.
         const Lattice whole = lattice.fitted(best, x, y);
-        CHECK(std::abs(whole.first.x - lattice.first.x) + std::abs(whole.first.y - lattice.first.y) < 0.5);
+        CHECK(std::abs(whole.first.x() - lattice.first.x()) + std::abs(whole.first.y() - lattice.first.y()) < 0.5);
       }
   CHECK_FALSE(fabric.fits({1024, 1024}, true, true));
   CHECK(fabric.fits({1024, 1024}, false, false));
@@ -173,31 +173,31 @@ TEST_CASE("of two sizes near by the one is taken that bends cells less") {
 
 TEST_CASE("what a surface misses to a whole number of cells") {
   const Lattice bricks{2, {40, 0}, {18, 30}, 0.5};
-  CHECK(bricks.misfit(203, true).x == doctest::Approx(3));
-  CHECK(bricks.misfit(203, true).y == doctest::Approx(0));
-  CHECK(bricks.misfit(61, false).y == doctest::Approx(1));
-  CHECK(bricks.misfit(61, false).x == doctest::Approx(4));
-  CHECK(courses(12).misfit(34, false).y == doctest::Approx(-2));
-  CHECK(courses(12).misfit(34, true).x == 0);
+  CHECK(bricks.misfit(203, true).x() == doctest::Approx(3));
+  CHECK(bricks.misfit(203, true).y() == doctest::Approx(0));
+  CHECK(bricks.misfit(61, false).y() == doctest::Approx(1));
+  CHECK(bricks.misfit(61, false).x() == doctest::Approx(4));
+  CHECK(courses(12).misfit(34, false).y() == doctest::Approx(-2));
+  CHECK(courses(12).misfit(34, true).x() == 0);
 }
 
 TEST_CASE("between kept pixels a lattice bends until it wraps, and stays as it is among them") {
   // 100 pixels hold six and a quarter cells; 20 before the border and 20 behind it are free.
   const Lattice grid{2, {16, 0}, {0, 16}, 1};
   const LatticePhase phase(grid, 0, {{100, 64}, true, true, {}, {{80, 40}, {}}});
-  for (int x = 20; x < 80; x++) CHECK(std::abs(phase.excess(x, 5, x, 5).x) < 1e-9);
+  for (int x = 20; x < 80; x++) CHECK(std::abs(phase.excess(x, 5, x, 5).x()) < 1e-9);
   // What exceeds a whole number of cells is taken away bit by bit.
   double last = 0;
   for (int i = 1; i < 40; i++) {
     const int x = (80 + i) % 100;
-    const Vector2 e = phase.excess(80 + i, 9, x, 9);
+    const Vector2d e = phase.excess(80 + i, 9, x, 9);
     CAPTURE(x);
-    CHECK(e.x == doctest::Approx(i * 4.0 / 40).epsilon(1e-9));
-    CHECK(e.x > last);
-    last = e.x;
-    CHECK(std::abs(e.y) < 1e-9);
+    CHECK(e.x() == doctest::Approx(i * 4.0 / 40).epsilon(1e-9));
+    CHECK(e.x() > last);
+    last = e.x();
+    CHECK(std::abs(e.y()) < 1e-9);
   }
   // Coarser levels bend alike.
   const LatticePhase coarse(grid, 2, {{100, 64}, true, true, {}, {{80, 40}, {}}});
-  CHECK(coarse.excess(100 / 4, 2, 0, 2).x == doctest::Approx(2.0 / 4));
+  CHECK(coarse.excess(100 / 4, 2, 0, 2).x() == doctest::Approx(2.0 / 4));
 }

@@ -81,12 +81,12 @@ TEST_CASE("coarse levels tell parts apart by the pixels' middles") {
 TEST_CASE("where an exemplar position is shown can be asked, and what lies there is in phase with it") {
   const PartPhases p = phases(two_alike());
   for (const int u : {5, 60, 77}) {
-    const Vector2 at = p.shown_at(u, 13);
-    CHECK(p.penalty(u, 13, at.x, at.y) == 1);
+    const Vector2d at = p.shown_at(u, 13);
+    CHECK(p.penalty(u, 13, at.x(), at.y()) == 1);
   }
-  const Vector2 one = PartPhases(tiles, exemplar, 0, {output}).shown_at(33, 7);
-  CHECK(one.x == 33);
-  CHECK(one.y == 7);
+  const Vector2d one = PartPhases(tiles, exemplar, 0, {output}).shown_at(33, 7);
+  CHECK(one.x() == 33);
+  CHECK(one.y() == 7);
 }
 
 TEST_CASE("the largest part that repeats speaks for all") {
@@ -94,5 +94,5 @@ TEST_CASE("the largest part that repeats speaks for all") {
   const Repeats r(std::vector<LatticePart>{
       {{0, 0, 90, 40}, {}, {}, {}}, {{90, 0, 4, 40}, tiles, tiles, {}}, {{94, 0, 6, 40}, courses, courses, {}}});
   CHECK(r.lattice.rank == 1);
-  CHECK(r.lattice.first.y == 9);
+  CHECK(r.lattice.first.y() == 9);
 }

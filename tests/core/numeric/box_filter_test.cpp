@@ -9,7 +9,7 @@ using namespace terrazzo;
 TEST_CASE("the local mean of a single bright pixel is a pyramid of the radius asked for") {
   std::vector<float> pixels(size_t(11) * 11 * 2);
   pixels[(5 * 11 + 5) * 2 + 1] = 1;
-  const std::vector<float> mean = box_filter(pixels, {11, 11}, 2, 2, false);
+  const std::vector<float> mean = local_mean(pixels, {11, 11}, 2, 2, false);
   const double along[] = {1.0 / 9, 2.0 / 9, 3.0 / 9, 2.0 / 9, 1.0 / 9};
   for (int y = 0; y < 11; y++)
     for (int x = 0; x < 11; x++) {
@@ -21,9 +21,9 @@ TEST_CASE("the local mean of a single bright pixel is a pyramid of the radius as
 
 TEST_CASE("beyond a border lies the other side, or more of the border") {
   const std::vector<float> row = {9, 0, 0, 0, 0, 0, 0, 0};
-  CHECK(box_filter(row, {8, 1}, 1, 2, true)[7] == doctest::Approx(2));
-  CHECK(box_filter(row, {8, 1}, 1, 2, false)[7] == 0);
-  CHECK(box_filter(row, {8, 1}, 1, 2, false)[0] == doctest::Approx(5));
+  CHECK(local_mean(row, {8, 1}, 1, 2, true)[7] == doctest::Approx(2));
+  CHECK(local_mean(row, {8, 1}, 1, 2, false)[7] == 0);
+  CHECK(local_mean(row, {8, 1}, 1, 2, false)[0] == doctest::Approx(5));
   const std::vector<float> flat(25, 0.5f);
-  for (const float v : box_filter(flat, {5, 5}, 1, 9, false)) CHECK(v == doctest::Approx(0.5));
+  for (const float v : local_mean(flat, {5, 5}, 1, 9, false)) CHECK(v == doctest::Approx(0.5));
 }

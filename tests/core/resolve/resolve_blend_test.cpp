@@ -95,8 +95,8 @@ TEST_CASE("blended normals are the pieces' mean direction, of unit length, in th
       encode_normal(normalized({0, i % info.size.width < 32 ? 1.0f : -1.0f, 1}), normal_y, &pixels[size_t(i) * 3]);
     const ImagePtr map = Image::from_floats(info, std::move(pixels));
     const ImagePtr out = shown(map, two_pieces({32, 8}, 16, 30), {.blend = 2});
-    const Vector3 left = decode_normal(out->read({15, 4, 1, 1}).data(), normal_y);
-    const Vector3 expected = normalized({0, 0.5f, 1});
+    const Vector3f left = decode_normal(out->read({15, 4, 1, 1}).data(), normal_y);
+    const Vector3f expected = normalized({0, 0.5f, 1});
     for (int c = 0; c < 3; c++) CHECK(left[c] == doctest::Approx(expected[c]).epsilon(1e-5));
   }
 }
@@ -127,13 +127,13 @@ TEST_CASE("normals that are too short stay as short as their neighbours") {
   const ImageInfo info{.size = exemplar_size, .channels = 3, .semantic = Semantic::normal};
   std::vector<float> pixels(size_t(info.size.area()) * 3);
   for (int i = 0; i < info.size.area(); i++) {
-    const Vector3 n = normalized({noise(1, i, 0, 0) - 0.5f, noise(1, i, 0, 1) - 0.5f, 0.5f});
+    const Vector3f n = normalized({noise(1, i, 0, 0) - 0.5f, noise(1, i, 0, 1) - 0.5f, 0.5f});
     encode_normal({n[0] * 0.6f, n[1] * 0.6f, n[2] * 0.6f}, NormalY::up, &pixels[size_t(i) * 3]);
   }
   const ImagePtr out = shown(Image::from_floats(info, std::move(pixels)), two_pieces({32, 24}, 16, 20), {.blend = 3});
   for (int y = 0; y < 24; y++)
     for (int x = 12; x < 20; x++) {
-      const Vector3 n = decode_normal(out->read({x, y, 1, 1}).data(), NormalY::up);
+      const Vector3f n = decode_normal(out->read({x, y, 1, 1}).data(), NormalY::up);
       REQUIRE(std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) == doctest::Approx(0.6).epsilon(1e-4));
     }
 }

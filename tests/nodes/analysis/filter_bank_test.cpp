@@ -13,14 +13,14 @@ using namespace terrazzo::test;
 
 namespace {
 
-ExemplarPlanes planes_of(Size size, bool wraps, const std::function<float(int, int)>& value) {
-  ExemplarPlanes p{size, 1, wraps, std::vector<float>(size_t(size.area()))};
+Planes planes_of(Size size, bool wraps, const std::function<float(int, int)>& value) {
+  Planes p{size, 1, wraps, std::vector<float>(size_t(size.area()))};
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) *p.at(x, y) = value(x, y);
   return p;
 }
 
-ExemplarPlanes noise_planes(Size size, bool wraps) {
+Planes noise_planes(Size size, bool wraps) {
   return planes_of(size, wraps, [](int x, int y) { return float(unit_double(random_bits(1, x, y))); });
 }
 
@@ -43,7 +43,7 @@ std::vector<double> reference_filter(double deviation, int orientation, int orde
   return f;
 }
 
-double respond(const ExemplarPlanes& image, const std::vector<double>& filter, int x, int y) {
+double respond(const Planes& image, const std::vector<double>& filter, int x, int y) {
   double sum = 0;
   for (int j = -24; j <= 24; j++)
     for (int i = -24; i <= 24; i++)
@@ -55,7 +55,7 @@ double respond(const ExemplarPlanes& image, const std::vector<double>& filter, i
 
 TEST_CASE("responses are those of the filters, taken one by one, at borders and block borders too") {
   for (const bool wraps : {false, true}) {
-    const ExemplarPlanes image = noise_planes({230, 40}, wraps);
+    const Planes image = noise_planes({230, 40}, wraps);
     const FilterResponses r = mr8_responses(image, 1, {});
     for (const auto [x, y] : {std::array{0, 0}, std::array{207, 21}, std::array{208, 39}}) {
       const size_t pixel = size_t(y) * 230 + size_t(x);
@@ -100,8 +100,8 @@ TEST_CASE("light lines are positive and dark ones negative, whichever way they r
 }
 
 TEST_CASE("turning the image by a quarter turns the responses and leaves their values") {
-  const ExemplarPlanes image = noise_planes({48, 48}, true);
-  const ExemplarPlanes turned = planes_of({48, 48}, true, [&](int x, int y) { return *image.at(47 - y, x); });
+  const Planes image = noise_planes({48, 48}, true);
+  const Planes turned = planes_of({48, 48}, true, [&](int x, int y) { return *image.at(47 - y, x); });
   const FilterResponses a = mr8_responses(image, 1, {}), b = mr8_responses(turned, 1, {});
   for (int y = 0; y < 48; y++)
     for (int x = 0; x < 48; x++)

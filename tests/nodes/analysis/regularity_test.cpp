@@ -52,7 +52,7 @@ TEST_CASE("tiles are found by their joints where their shades differ") {
     return x % 16 == 0 || y % 12 == 0 ? 0.6f : float(unit_double(random_bits(6, x / 16, y / 12)));
   }));
   REQUIRE(l.rank == 2);
-  CHECK(std::abs(l.first.x * l.second.y - l.first.y * l.second.x) == doctest::Approx(192).epsilon(0.02));
+  CHECK(std::abs(l.first.x() * l.second.y() - l.first.y() * l.second.x()) == doctest::Approx(192).epsilon(0.02));
   CHECK(repeats_by(l, 16, 0));
   CHECK(repeats_by(l, 0, 12));
 }
@@ -60,10 +60,10 @@ TEST_CASE("tiles are found by their joints where their shades differ") {
 TEST_CASE("the grid on which a herringbone's joints lie is not taken for its lattice") {
   const Lattice l = lattice_of(features_of({128, 128}, herringbone));
   REQUIRE(l.rank == 2);
-  CAPTURE(l.first.x);
-  CAPTURE(l.first.y);
-  CAPTURE(l.second.x);
-  CAPTURE(l.second.y);
+  CAPTURE(l.first.x());
+  CAPTURE(l.first.y());
+  CAPTURE(l.second.x());
+  CAPTURE(l.second.y());
   CAPTURE(l.certainty);
   CHECK(repeats_by(l, 8, 8));
   CHECK(repeats_by(l, 32, 0));
@@ -75,8 +75,8 @@ TEST_CASE("a grid of tiles is found with its periods") {
   const Lattice l =
       lattice_of(features_of({128, 120}, [](int x, int y) { return x % 16 == 0 || y % 12 == 0 ? 1.f : 0.f; }));
   REQUIRE(l.rank == 2);
-  CHECK(l.first.x == doctest::Approx(16).epsilon(0.01));
-  CHECK(l.second.y == doctest::Approx(12).epsilon(0.01));
+  CHECK(l.first.x() == doctest::Approx(16).epsilon(0.01));
+  CHECK(l.second.y() == doctest::Approx(12).epsilon(0.01));
   CHECK(l.certainty > 0.3);
 }
 
@@ -86,8 +86,8 @@ TEST_CASE("courses of bricks of random length are found as courses") {
     return y % 9 == 0 || end ? 1.f : 0.f;
   }));
   REQUIRE(l.rank == 1);
-  CHECK(l.first.x == 0);
-  CHECK(l.first.y == doctest::Approx(9).epsilon(0.01));
+  CHECK(l.first.x() == 0);
+  CHECK(l.first.y() == doctest::Approx(9).epsilon(0.01));
 }
 
 TEST_CASE("a node that finds no lattice says what it found, and what was asked for") {
@@ -121,7 +121,7 @@ TEST_CASE("a manual lattice is taken as it is, off takes none") {
   const FeaturesPtr features = plain_features(wall({48, 48}));
   const Lattice manual = lattice_of(features, {{"mode", std::string("manual")}, {"first", Numbers{0, 8.5}}});
   CHECK(manual.rank == 1);
-  CHECK(manual.first.y == 8.5);
+  CHECK(manual.first.y() == 8.5);
   CHECK(lattice_of(features, {{"mode", std::string("off")}}).rank == 0);
 }
 
@@ -189,10 +189,10 @@ TEST_CASE("exemplars that repeat alike are brought into phase") {
     const Repeats repeats = run_with_labels(side_by_side(true), halves(), params).get<Features>("features")->repeats();
     const PartPhases phases(repeats, two_parts, 0, {two_parts});
     // Corners of tiles: (16, 12) on the left, (141, 7) on the right.
-    const Vector2 at = phases.shown_at(16, 12);
-    CHECK(phases.penalty(141, 7, at.x, at.y) == 1);
-    CHECK(phases.penalty(144, 7, at.x, at.y) > 2);
-    CHECK(phases.penalty(141, 12, at.x, at.y) > 2);
+    const Vector2d at = phases.shown_at(16, 12);
+    CHECK(phases.penalty(141, 7, at.x(), at.y()) == 1);
+    CHECK(phases.penalty(144, 7, at.x(), at.y()) > 2);
+    CHECK(phases.penalty(141, 12, at.x(), at.y()) > 2);
   }
 }
 
@@ -229,9 +229,9 @@ TEST_CASE("a result that wraps holds a whole number of cells, and positions one 
   const LatticePhase phase(grid, 0, {{100, 80}, true, true});
   REQUIRE(phase.active());
   for (const int x : {0, 13, 99}) {
-    const Vector2 here = phase.excess(5, 6, x, 20), around = phase.excess(5, 6, x - 100, 20 + 80);
-    CHECK(here.x == doctest::Approx(around.x));
-    CHECK(here.y == doctest::Approx(around.y));
+    const Vector2d here = phase.excess(5, 6, x, 20), around = phase.excess(5, 6, x - 100, 20 + 80);
+    CHECK(here.x() == doctest::Approx(around.x()));
+    CHECK(here.y() == doctest::Approx(around.y()));
   }
   int u = 50, v = 33;
   phase.snap(3, 4, u, v);
@@ -241,7 +241,7 @@ TEST_CASE("a result that wraps holds a whole number of cells, and positions one 
 TEST_CASE("a few tiles in an exemplar that tiles are a lattice") {
   const Lattice l = lattice_of(features_of({96, 96}, tiles(48, 48), true));
   REQUIRE(l.rank == 2);
-  CHECK(std::abs(l.first.x * l.second.y - l.first.y * l.second.x) == doctest::Approx(48 * 48));
+  CHECK(std::abs(l.first.x() * l.second.y() - l.first.y() * l.second.x()) == doctest::Approx(48 * 48));
   CHECK(repeats_by(l, 48, 0));
   CHECK(repeats_by(l, 0, 48));
 }
@@ -251,7 +251,7 @@ TEST_CASE("an exemplar that is one tile is a cell, a cut from a larger tile is n
   REQUIRE(one.rank == 2);
   CHECK(repeats_by(one, 96, 0));
   CHECK(repeats_by(one, 0, 80));
-  CHECK(std::abs(one.first.x * one.second.y - one.first.y * one.second.x) == doctest::Approx(96 * 80));
+  CHECK(std::abs(one.first.x() * one.second.y() - one.first.y() * one.second.x()) == doctest::Approx(96 * 80));
   CHECK(lattice_of(features_of({96, 80}, tiles(500, 500), false)).rank == 0);
 }
 
@@ -264,7 +264,7 @@ TEST_CASE("two boards of an exemplar that tiles are courses, though their grain 
       },
       true));
   REQUIRE(l.rank == 1);
-  CHECK(l.first.y == doctest::Approx(64));
+  CHECK(l.first.y() == doctest::Approx(64));
 }
 
 TEST_CASE("layers of rock are no courses") {

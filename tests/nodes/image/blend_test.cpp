@@ -19,7 +19,7 @@ float blended(const std::string& mode, float base, float top, const Params& more
       .front();
 }
 
-ImagePtr normal_image(Size size, const Vector3& direction, NormalY normal_y = NormalY::up) {
+ImagePtr normal_image(Size size, const Vector3f& direction, NormalY normal_y = NormalY::up) {
   std::vector<float> pixel(3);
   encode_normal(normalized(direction), normal_y, pixel.data());
   ImageInfo info{.size = size, .channels = 3, .semantic = Semantic::normal, .normal_y = normal_y};
@@ -78,7 +78,7 @@ TEST_CASE("a flat detail leaves a normal map, and on a flat base the detail is w
 }
 
 TEST_CASE("detail adds up: two slopes laid over each other lean by the sum of their angles") {
-  const auto lean = [](double angle) { return Vector3{float(std::sin(angle)), 0, float(std::cos(angle))}; };
+  const auto lean = [](double angle) { return Vector3f{float(std::sin(angle)), 0, float(std::cos(angle))}; };
   const ImagePtr both =
       run_image("blend", {{"mode", "detail"}},
                 {{"base", normal_image({1, 1}, lean(0.3))}, {"top", normal_image({1, 1}, lean(0.4))}});
@@ -86,7 +86,7 @@ TEST_CASE("detail adds up: two slopes laid over each other lean by the sum of th
 }
 
 TEST_CASE("normals of the other convention are read as what they are") {
-  const Vector3 up = {0, 0.6f, 0.8f};
+  const Vector3f up = {0, 0.6f, 0.8f};
   const ImagePtr result = run_image(
       "blend", {},
       {{"base", normal_image({1, 1}, {0, 0, 1}, NormalY::down)}, {"top", normal_image({1, 1}, up, NormalY::up)}});

@@ -57,7 +57,7 @@ TEST_CASE("blurred normals have unit length") {
   const std::vector<float> p =
       run_image("blur", {{"radius", 1.0}}, {{"image", noise_image({12, 12}, 3, Semantic::normal)}})->pixels();
   for (size_t i = 0; i < p.size(); i += 3) {
-    const Vector3 n = decode_normal(&p[i], NormalY::up);
+    const Vector3f n = decode_normal(&p[i], NormalY::up);
     CHECK(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] == doctest::Approx(1).epsilon(1e-4));
   }
 }

@@ -20,7 +20,7 @@ TEST_CASE("the normal of a tilted plane is the plane's, with every filter and bo
       const NormalY normal_y = convention == "up" ? NormalY::up : NormalY::down;
       CHECK(normals->info().normal_y == normal_y);
       const std::vector<float> p = normals->read({4, 4, 1, 1});
-      const Vector3 n = decode_normal(p.data(), normal_y);
+      const Vector3f n = decode_normal(p.data(), normal_y);
       // The plane rises to the right and down the image: its normal leans left and up.
       const double length = std::sqrt(0.5 * 0.5 + 0.2 * 0.2 + 1);
       CHECK(n[0] == doctest::Approx(-0.5 / length).epsilon(1e-4));

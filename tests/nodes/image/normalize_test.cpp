@@ -43,7 +43,7 @@ TEST_CASE("a constant takes the middle of the range, or the mean") {
 TEST_CASE("normalize makes normals unit length and keeps their direction") {
   const ImagePtr image = flat_image({2, 2}, {0.5f + 0.15f, 0.5f, 0.5f + 0.2f}, Semantic::normal);
   const std::vector<float> p = run_image("normalize", {}, {{"image", image}})->pixels();
-  const Vector3 n = decode_normal(p.data(), NormalY::up);
+  const Vector3f n = decode_normal(p.data(), NormalY::up);
   CHECK(n[0] == doctest::Approx(0.6));
   CHECK(n[1] == doctest::Approx(0));
   CHECK(n[2] == doctest::Approx(0.8));

@@ -53,7 +53,7 @@ TEST_CASE("resize filters normals as vectors of unit length") {
       run_image("resize", {{"scale", 0.37}}, {{"material", noise_image({30, 30}, 3, Semantic::normal)}});
   const std::vector<float> p = result->pixels();
   for (size_t i = 0; i < p.size(); i += 3) {
-    const Vector3 n = decode_normal(&p[i], NormalY::up);
+    const Vector3f n = decode_normal(&p[i], NormalY::up);
     CHECK(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] == doctest::Approx(1).epsilon(1e-4));
   }
 }

@@ -23,18 +23,18 @@ ImagePtr varied_map(const ImagePtr& image, const Variant& variant, Outside outsi
   return varied(of(image), variant, outside).material->maps().front().image;
 }
 
-ImagePtr tilted(Vector3 normal, NormalY normal_y, Size size = {12, 10}) {
+ImagePtr tilted(Vector3f normal, NormalY normal_y, Size size = {12, 10}) {
   ImageInfo info{.size = size, .channels = 3, .semantic = Semantic::normal, .normal_y = normal_y};
   std::vector<float> pixels(size_t(size.area()) * 3);
   for (size_t i = 0; i < pixels.size(); i += 3) encode_normal(normal, normal_y, &pixels[i]);
   return Image::from_floats(info, pixels);
 }
 
-Vector3 middle_normal(const ImagePtr& map) {
+Vector3f middle_normal(const ImagePtr& map) {
   return decode_normal(map->read({map->width() / 2, map->height() / 2, 1, 1}).data(), map->info().normal_y);
 }
 
-void check_vector(const Vector3& v, const Vector3& expected) {
+void check_vector(const Vector3f& v, const Vector3f& expected) {
   for (size_t i = 0; i < 3; i++) CHECK(double(v[i]) == doctest::Approx(double(expected[i])).epsilon(1e-4));
 }
 

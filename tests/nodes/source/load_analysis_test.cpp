@@ -4,6 +4,11 @@
 #include <doctest/doctest.h>
 
 #include "core/base/error.h"
+#include "core/exemplar/appearance.h"
+#include "core/exemplar/features.h"
+#include "core/exemplar/repeats.h"
+#include "core/exemplar/uv_map.h"
+#include "core/material/material.h"
 #include "core/node/serialize.h"
 #include "tests/run_node.h"
 #include "tests/sample_values.h"
@@ -170,7 +175,8 @@ TEST_CASE("an analysis whose checksums are right but whose content cannot be is 
   CHECK(has(about_part([](LatticePart& p) { p.place.width = 1 << 30; }), "lies outside the exemplar"));
   CHECK(has(about_part([](LatticePart& p) { p.place.x = -1; }), "lies outside the exemplar"));
   CHECK(has(about_part([](LatticePart& p) { p.shown = {}; }), "another way than it is shown"));
-  CHECK(has(about_part([](LatticePart& p) { p.shown.first.y = 1e6; }), "larger than any"));
-  CHECK(has(about_part([](LatticePart& p) { p.start.x = 1e12; }), "starts too far away"));
-  CHECK(has(about_part([](LatticePart& p) { p.start.y = std::numeric_limits<double>::quiet_NaN(); }), "not a number"));
+  CHECK(has(about_part([](LatticePart& p) { p.shown.first.y() = 1e6; }), "larger than any"));
+  CHECK(has(about_part([](LatticePart& p) { p.start.x() = 1e12; }), "starts too far away"));
+  CHECK(
+      has(about_part([](LatticePart& p) { p.start.y() = std::numeric_limits<double>::quiet_NaN(); }), "not a number"));
 }

@@ -2,6 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include "core/exemplar/appearance.h"
+#include "core/exemplar/features.h"
+#include "core/exemplar/repeats.h"
+#include "core/exemplar/uv_map.h"
 #include "core/material/material.h"
 #include "tests/runner/fakes.h"
 

@@ -6,8 +6,8 @@ using namespace terrazzo;
 
 namespace {
 
-ExemplarPlanes ramp(Size size, bool wraps) {
-  ExemplarPlanes planes{size, 1, wraps, {}};
+Planes ramp(Size size, bool wraps) {
+  Planes planes{size, 1, wraps, {}};
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) planes.values.push_back(float(x + 1000 * y));
   return planes;
@@ -28,7 +28,7 @@ TEST_CASE("a view of all of an exemplar is as it is, and large ones are halved")
 }
 
 TEST_CASE("a view of a part shows that, and no more of it than may be sampled") {
-  const ExemplarPlanes planes = ramp({60, 40}, true);
+  const Planes planes = ramp({60, 40}, true);
   const ExemplarView part = view_of(planes, {}, {20, 10, 30, 25});
   CHECK(*part.planes.at(0, 0) == 20 + 10000);
   CHECK_FALSE(part.planes.wraps);

@@ -9,7 +9,7 @@ using namespace terrazzo;
 namespace {
 
 Correlation correlation_of(Size size, uint64_t seed) {
-  ExemplarPlanes planes{size, 1, false, {}};
+  Planes planes{size, 1, false, {}};
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++)
       planes.values.push_back(float(y % 9 < 2) + float(unit_double(random_bits(seed, x, y))));

@@ -79,16 +79,16 @@ FeaturesPtr picture(Pattern pattern, double unit, double x, double y, double joi
 /// Whether all of the lattice's steps are whole ones of the lattice of (ax, ay) and (bx, by), and at most `cells` of
 /// its cells make one.
 void check_cell(const Lattice& l, double ax, double ay, double bx, double by, double cells = 1) {
-  CAPTURE(l.first.x);
-  CAPTURE(l.first.y);
-  CAPTURE(l.second.x);
-  CAPTURE(l.second.y);
+  CAPTURE(l.first.x());
+  CAPTURE(l.first.y());
+  CAPTURE(l.second.x());
+  CAPTURE(l.second.y());
   CAPTURE(l.certainty);
   REQUIRE(l.rank == 2);
   const Lattice truth{2, {ax, ay}, {bx, by}, 1};
-  CHECK(repeats_by(truth, l.first.x, l.first.y));
-  CHECK(repeats_by(truth, l.second.x, l.second.y));
-  const double area = std::abs(l.first.x * l.second.y - l.first.y * l.second.x) / std::abs(ax * by - ay * bx);
+  CHECK(repeats_by(truth, l.first.x(), l.first.y()));
+  CHECK(repeats_by(truth, l.second.x(), l.second.y()));
+  const double area = std::abs(l.first.x() * l.second.y() - l.first.y() * l.second.x()) / std::abs(ax * by - ay * bx);
   CHECK(area < cells + 0.1);
   CHECK(area > 0.9);
 }
@@ -154,7 +154,7 @@ TEST_CASE("blocks in a bond are told from blocks of all widths by joints fainter
     CHECK(find_lattice(*grainy_blocks(seed, false), bond.certainty + 0.01, Task()).lattice.rank < 2);
     const Lattice courses = lattice_of(grainy_blocks(seed, true));
     CHECK(courses.rank == 1);
-    CHECK(courses.first.y == doctest::Approx(48).epsilon(0.02));
+    CHECK(courses.first.y() == doctest::Approx(48).epsilon(0.02));
   }
 }
 
@@ -200,9 +200,9 @@ TEST_CASE("a drawn chequered floor repeats by whole pixels, to the bit") {
     const Lattice l = lattice_of(plain_features(
         make_image({256, 256}, 1, [&](int x, int y, int) { return (x / side + y / side) % 2 == 0 ? 0.2f : 0.8f; })));
     REQUIRE(l.rank == 2);
-    for (const Vector2& v : {l.first, l.second}) {
-      CHECK(std::abs(v.x) == side);
-      CHECK(std::abs(v.y) == side);
+    for (const Vector2d& v : {l.first, l.second}) {
+      CHECK(std::abs(v.x()) == side);
+      CHECK(std::abs(v.y()) == side);
     }
   }
 }
@@ -256,8 +256,8 @@ TEST_CASE(
       const Lattice l = lattice_of(stripes({256, 256}, across, down, clear));
       REQUIRE(l.rank == 2);
       CHECK(l.certainty > 0.6);
-      for (const Vector2& v : {l.first, l.second}) {
-        const double steps = v.x / across + v.y / down;
+      for (const Vector2d& v : {l.first, l.second}) {
+        const double steps = v.x() / across + v.y() / down;
         CHECK(steps == doctest::Approx(std::floor(steps + 0.5)).epsilon(0.02));
       }
     }
@@ -278,7 +278,7 @@ TEST_CASE("boards with thin joints are courses, few of them too") {
       return float(joint ? 0 : 0.6 + 0.3 * unit_double(random_bits(7, y / 2, (x + 17 * y) / 30)));
     })));
     REQUIRE(l.rank == 1);
-    CHECK(l.first.y == doctest::Approx(height).epsilon(0.02));
+    CHECK(l.first.y() == doctest::Approx(height).epsilon(0.02));
   }
 }
 
@@ -293,7 +293,7 @@ TEST_CASE("many courses say more than a few whose shades happen to agree") {
         return float((y + 5) % height < 2 ? joint : shade + grain);
       })));
       REQUIRE(l.rank == 1);
-      CHECK(l.first.y == doctest::Approx(height).epsilon(0.02));
+      CHECK(l.first.y() == doctest::Approx(height).epsilon(0.02));
     }
 }
 
@@ -328,9 +328,9 @@ TEST_CASE("an exemplar of half the size has a lattice half as large") {
     });
     const Lattice a = lattice_of(plain_features(large, true)), b = lattice_of(plain_features(small, true));
     REQUIRE(a.rank == b.rank);
-    for (Vector2 Lattice::*v : {&Lattice::first, &Lattice::second}) {
-      CHECK(std::abs((a.*v).x - 2 * (b.*v).x) < 0.5);
-      CHECK(std::abs((a.*v).y - 2 * (b.*v).y) < 0.5);
+    for (Vector2d Lattice::*v : {&Lattice::first, &Lattice::second}) {
+      CHECK(std::abs((a.*v).x() - 2 * (b.*v).x()) < 0.5);
+      CHECK(std::abs((a.*v).y() - 2 * (b.*v).y()) < 0.5);
     }
   }
 }

@@ -49,7 +49,7 @@ TEST_CASE("wrong weights are refused with what would do") {
 
 TEST_CASE("a weight of 1 gives every map the same variance, whatever its range") {
   const FeaturesPtr f = weighted_features(*wall_material(), {{"base_color", {1}}, {"height", {1}}}, false);
-  const ExemplarPlanes planes = weighted_planes(*f, Task());
+  const Planes planes = weighted_planes(*f, Task());
   double color = 0, height = 0;
   for (size_t i = 0; i < planes.values.size(); i++)
     (i % 4 == 3 ? height : color) += double(planes.values[i]) * planes.values[i];

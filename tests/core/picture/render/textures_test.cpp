@@ -59,9 +59,9 @@ TEST_CASE("textures wrap, meet texels at their centres and average down") {
 TEST_CASE("colours are decoded to linear light before they are averaged") {
   const ImagePtr checks = test::make_image(
       {2, 2}, 3, [](int x, int y, int) { return float((x + y) % 2); }, Semantic::base_color, "srgb_texture");
-  CHECK(load_textures(*Material::of(checks), 1, 1, Task()).at(0.5, 0.5).albedo.x == doctest::Approx(0.5));
+  CHECK(load_textures(*Material::of(checks), 1, 1, Task()).at(0.5, 0.5).albedo.x() == doctest::Approx(0.5));
   const ImagePtr grey = test::make_image(
       {2, 2}, 3, [](int, int, int) { return 0.5f; }, Semantic::base_color, "srgb_texture");
-  CHECK(load_textures(*Material::of(grey), 2, 1, Task()).at(0.2, 0.5).albedo.y ==
+  CHECK(load_textures(*Material::of(grey), 2, 1, Task()).at(0.2, 0.5).albedo.y() ==
         doctest::Approx(0.21404).epsilon(1e-4));
 }
