@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
-# Installs missing packages, builds, and runs every test. Arguments go to ctest: tests/run.sh -R cache
-#
-# Under the sanitizers, once this script has installed the packages:
-#   cmake --preset asan && cmake --build --preset asan && ctest --preset asan -j 2     addresses, leaks, undefined behaviour
-#   cmake --preset tsan && cmake --build --preset tsan && ctest --preset tsan -j 2     races; tests/tsan/ describes oneTBB's order
-# A single test is quicker without ctest; CMakePresets.json has the options:
-#   TSAN_OPTIONS=ignore_noninstrumented_modules=1 build-tsan/tests/terrazzo_tests -tc="*cache*"
+# Installs missing packages, builds, and runs every test: one run of the test program for each room. Arguments go to
+# ctest: tests/run.sh -R runner/cache. A single test is quicker without it, and -d tells how long each takes:
+#   build/tests/terrazzo_tests -d -tc="*cache*"
+# Under the sanitizers: tests/sanitize.sh.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 examples/packages.sh doctest-dev
-cmake --preset release
+cmake --preset release -DTERRAZZO_TESTS=ON
 cmake --build build
-ctest --preset release -j "$(nproc)" "$@"
+log=build/Testing/Temporary/LastTest.log
+rm -f "$log"
+status=0
+ctest --preset release -j "$(nproc)" "$@" || status=$?
+[ ! -f "$log" ] || awk -f tests/count.awk "$log"
+exit "$status"

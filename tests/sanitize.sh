@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Runs the tests under the sanitizers: addresses, leaks and undefined behaviour (asan), then races (tsan; tests/tsan/
+# describes oneTBB's order to it). All of them take hours; "short" builds and runs the rooms that each finds most in.
+# Usage: tests/sanitize.sh [short] [asan|tsan]
+# A single test, with the options of CMakePresets.json:
+#   TSAN_OPTIONS=ignore_noninstrumented_modules=1 build-tsan/tests/terrazzo_tests -tc="*cache*"
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+short=
+if [ "${1:-}" = short ]; then short=yes; shift; fi
+[[ $# -le 1 && ${1:-asan} =~ ^(asan|tsan)$ ]] || { sed -n '4s/^# //p' "$0" >&2; exit 2; }
+declare -A rooms
+if [ -n "$short" ]; then
+  rooms[asan]="core/base;core/file;core/image;core/material;core/node;graphs;core/synthesis"
+  rooms[tsan]="runner/engine;runner/cache;core/synthesis"
+fi
+
+examples/packages.sh doctest-dev
+failed=0
+for preset in ${1:-asan tsan}; do
+  cmake --preset "$preset" -DTERRAZZO_TESTS=ON -DTERRAZZO_TEST_ROOMS="${rooms[$preset]:-}"
+  cmake --build --preset "$preset"
+  ctest --preset "$preset" -j "$(nproc)" || failed=1
+done
+exit $failed
