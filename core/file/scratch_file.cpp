@@ -35,7 +35,7 @@ ScratchFile::~ScratchFile() {
 bool ScratchFile::open() {
   if (file_ >= 0) return true;
   std::error_code missing;
-  std::string path = (std::filesystem::temp_directory_path(missing) / "terrazzo-XXXXXX").string();
+  std::string path = (std::filesystem::temp_directory_path(missing) / ("terrazzo-" + std::string(6, 'X'))).string();
   if (missing) return false;
   file_ = ::mkostemp(path.data(), O_CLOEXEC);
   if (file_ >= 0) ::unlink(path.c_str());

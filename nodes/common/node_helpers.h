@@ -37,7 +37,7 @@ void preflight_one_shape(const std::string& port, const InputForecasts& inputs);
 
 /// The look ahead of nodes that analyse maps of their "material" together. `param` names those `wanted`.
 Forecast preflight_analysis(const std::string& param, const std::vector<std::string>& wanted,
-                          const InputForecasts& inputs);
+                            const InputForecasts& inputs);
 
 /// The recipe of one of several lazily computed maps: the node's type and parameters, and the map it is made from.
 Digest map_recipe(const NodeContext& node, const Image& map);

@@ -8,13 +8,12 @@
 
 #include "core/base/error.h"
 #include "core/base/tuning.h"
-#include "runner/cli/cli.h"
+#include "runner/cli/cli_commands.h"
 
 using namespace terrazzo;
 
 namespace {
 
-constexpr int exit_usage = 2;
 constexpr std::string_view usage =
     "usage: terrazzo_tuned [--tune NAME=VALUE]... COMMAND...    terrazzo with other constants; its results have cache "
     "keys "

@@ -149,7 +149,6 @@ double mean_times(const std::vector<Counted>& images) {
 struct Tangle {
   std::vector<Counted> images;
   Pixels expected;
-
   Tangle(Size size, int count, int reach, uint64_t seed) {
     std::vector<ImagePtr> all = {ramp(size)};
     std::vector<Pixels> plain = {all[0]->pixels()};
