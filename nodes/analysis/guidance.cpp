@@ -39,7 +39,7 @@ void compute(NodeContext& node) {
 NodeType guidance_node() {
   NodeType t;
   t.name = "guidance";
-  t.version = 6;
+  t.version = 7;
   t.category = "analysis";
   t.summary = "Extracts edges and the signed feature distance from a material's maps";
   t.help =

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# How long it takes to compute the last of many images that are made one from the other, and how much memory: chains of blurs and of
+# Time and memory of computing the last of many images that are made one from the other: chains of blurs and of
 # curves, blends of a node with itself, thousands of readers of one node, curves fitted to the image before them.
 # Needs a build (cmake --preset release) and GNU time. The table belongs into lazy.md.
 # Usage: tests/bench/lazy.sh [SIDE [NODES...]]   (16 pixels; 10 100 1000 10000 nodes)
