@@ -67,10 +67,12 @@ class Sweep {
         runs_(out_ / "runs.csv") {
     for (const Column& c : columns()) names_.push_back(c.name);
     names_.push_back("seconds");
+    const bool measured = !constant.measured.starts_with("not measured");
+    const std::string evidence = (measured ? "measured: experiments.md, " : "") + constant.measured;
     fmt::print(
-        "{} ({}), default {}, measured: {}\n    {}\n{} exemplars, seeds {}; means over exemplars and seeds, and "
-        "how far apart the seeds' means are\n\n",
-        constant.name, constant.unit, constant.number(), constant.measured, constant.trades, cases_.size(),
+        "{} ({}), default {}; {}\n    {}\n{} exemplars, seeds {}; means over exemplars and seeds, ± half "
+        "the range of the seeds' means\n\n",
+        constant.name, constant.unit, constant.number(), evidence, constant.trades, cases_.size(),
         fmt::join(seeds_, ", "));
     fmt::print("{:<14}", "value");
     for (const std::string& name : names_) fmt::print(" {:>16}", name);

@@ -1,6 +1,7 @@
 // The whole command line with tuning constants that can be changed without recompiling (core/base/tuning.h).
 
 #include <charconv>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -41,10 +42,14 @@ void tune(std::string_view text) {
   override_tuning(text.substr(0, at), value);
 }
 
+std::string evidence(const TuningConstant& c) {
+  return c.measured.starts_with("not measured") ? c.measured : "measured: experiments.md, " + c.measured;
+}
+
 void list() {
   for (const TuningConstant* c : tuning_constants())
-    fmt::print("{} = {}{}{}\n    {}\n    measured: {}\n", c->name, c->number(), c->unit.empty() ? "" : " ", c->unit,
-               c->trades, c->measured);
+    fmt::print("{} = {}{}{}\n    {}\n    {}\n", c->name, c->number(), c->unit.empty() ? "" : " ", c->unit, c->trades,
+               evidence(*c));
 }
 
 }  // namespace

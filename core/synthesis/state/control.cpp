@@ -36,7 +36,7 @@ const Tunable<Tuning> tuning(
          "higher: the largest difference of values costs more, and the picture shows more clearly; lower: features "
          "stay "
          "whole",
-         "control"},
+         "not measured: the parameter `strength` scales it"},
         {&Tuning::feature_side, "feature_side", "exemplar sides",
          "higher: values may differ as they do in larger features, which stay whole; lower: the picture shows more "
          "clearly",

@@ -31,10 +31,10 @@ const Tunable<Tuning> tuning(
                     "higher: a better patch is found now and then; costs time", "graphcut_repair"},
                    {&Tuning::rim_stride, "rim_stride", "pixels of the rim",
                     "higher: fewer of the rim's pixels propose candidates, which saves time; lower: more candidates",
-                    "not measured: neighbours propose the same candidates"},
+                    "not measured: neighbours in one piece propose the same candidates"},
                    {&Tuning::near_stride, "near_stride", "pixels in x and y",
                     "higher: fewer pixels are searched for repeats, which saves time; lower: smaller repeats are found",
-                    "not measured: repeats of fewer than 2x2 pixels do not matter"},
+                    "not measured: only repeats less than two pixels wide are missed"},
                });
 
 // Places pack the exemplar position that a window's middle would show.

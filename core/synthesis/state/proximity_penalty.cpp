@@ -30,7 +30,8 @@ const Tunable<Tuning> tuning(
         {&Tuning::most_counts, "most_counts", "counters of two bytes",
          "higher: larger planes are counted too; costs memory and time", "not measured: 32 MiB"},
         {&Tuning::blocks_per_side, "blocks_per_side", "blocks along the exemplar's shorter side",
-         "higher: a finer map of what is near, whose reaches are shorter; costs time and memory", "proximity_penalty"},
+         "higher: a finer map of what is near, whose reaches are shorter; costs time and memory",
+         "not measured: reaches were measured in eighths of the exemplar's side"},
         {&Tuning::far_reach, "far_reach", "blocks to each side",
          "higher: repeats must be farther apart, which drives them to one distance just beyond; lower: they come "
          "nearer",
@@ -40,10 +41,10 @@ const Tunable<Tuning> tuning(
          "proximity_penalty"},
         {&Tuning::cells_per_side, "cells_per_side", "cells along the exemplar's longer side",
          "higher: use is counted by smaller features; costs time. Lower: copies of parts of cells are not noticed",
-         "not measured: features of a sixteenth are the smallest that repeat visibly"},
+         "not measured: chosen to be about as large as small features"},
         {&Tuning::smallest_cell, "smallest_cell", "pixels",
          "the least side of a cell. Higher: less time at coarse levels; lower: smaller features count there",
-         "not measured: use of single pixels is noise"},
+         "not measured: counts of single pixels would be mostly noise"},
     });
 
 constexpr size_t cells_at_once = 16;  // compared together, which vectorizes

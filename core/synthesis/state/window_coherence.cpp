@@ -26,7 +26,7 @@ const Tunable<Tuning> tuning(
         {&Tuning::usual_share, "usual_share", "share of the exemplar's windows",
          "higher: only windows unlike nearly all of the exemplar are repaired; lower: more are, at the cost of rare "
          "features",
-         "coherence_repair"},
+         "not measured: the share by which the figure `broken` is defined"},
         {&Tuning::sampled_windows, "sampled_windows", "windows of the exemplar",
          "higher: the usual distance is known more exactly; costs time",
          "not measured: about fifty of them lie beyond usual_share"},

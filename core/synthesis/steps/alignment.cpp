@@ -23,13 +23,13 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::smallest_piece, "smallest_piece", "pixels of the level",
          "higher: less time; smaller pieces are left to correction. Lower: small pieces fit better when it begins",
-         "not measured: correction replaces smaller pieces anyway"},
+         "not measured: smaller pieces are left to correction"},
         {&Tuning::sweeps, "sweeps", "rounds over all pieces",
          "higher: pieces follow neighbours that moved after them; costs time",
-         "not measured: in a third few pieces move"},
+         "not measured: the second lets pieces follow neighbours that moved after them"},
         {&Tuning::worthwhile, "worthwhile", "64ths of the mismatch",
          "what a move must lower it to. Higher: pieces move for small gains; lower: they stay in place",
-         "not measured: above 64 pieces would move for losses"},
+         "not measured: a move must be worth the change; above 64 pieces would move for losses"},
     });
 
 constexpr int64_t worthwhile_unit = 64;

@@ -30,7 +30,7 @@ const Tunable<Tuning> tuning(
          "coherence_repair"},
         {&Tuning::worthwhile, "worthwhile", "incoherent windows",
          "how much a repair must lower the sum around it. Higher: rare features survive; lower: less is left broken",
-         "coherence_repair"},
+         "not measured: half a window, the least that counts as incoherent"},
         {&Tuning::sparse_level, "sparse_level", "level",
          "the coarsest level where only some windows are examined. Higher: less time; lower: no incoherent window is "
          "missed",

@@ -42,7 +42,7 @@ const Tunable<Tuning> tuning(
         {&Tuning::least_step_back, "least_step_back", "course heights",
          "how far a course must go back in the exemplar to show it again. Higher: fewer repeats side by side; lower: "
          "short exemplars offer more",
-         "not measured: more than two bricks of usual length"},
+         "not measured: chosen as about two bricks"},
         {&Tuning::gap, "gap", "mean differences times course heights",
          "the cost of a joint that is missing, or twice as wide. Higher: joints keep their width; lower: cuts are "
          "freer",
@@ -60,11 +60,11 @@ const Tunable<Tuning> tuning(
          "not measured: a step of less than a row is not seen"},
         {&Tuning::most_columns, "most_columns", "columns of the exemplar",
          "tried for one course. Higher: large exemplars are used fully; costs time and memory",
-         "not measured: keeps a course below a second"},
+         "not measured: bounds time and memory"},
         {&Tuning::most_off, "most_off", "pixels of the coursing's level",
          "how far out of place blocks may be to stay. Higher: more stays, and bed joints may jog; lower: courses are "
          "level",
-         "not measured: as far as bed joints are uncertain"},
+         "not measured: chosen as about the uncertainty of bed joints"},
     });
 
 /// Lays the courses of a result.

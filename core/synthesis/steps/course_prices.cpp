@@ -26,7 +26,7 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::near, "near", "course heights",
          "how far along adjacent courses repeats count. Higher: bricks repeat farther apart; lower: bricks fit better",
-         "not measured: about the length of a brick"},
+         "not measured: chosen as about the length of a brick"},
         {&Tuning::repeat_penalty, "repeat_penalty", "mean differences per column",
          "higher: the same brick seldom lies near itself; lower: bricks fit better",
          "not measured: as much as a column that is no better than any"},

@@ -36,7 +36,7 @@ const Tunable<Tuning> tuning(
          "not measured: between it and surely_brick prices change gradually"},
         {&Tuning::brick_cut_spacing, "brick_cut_spacing", "course heights",
          "higher: fewer columns of bricks can be cut, which saves time; lower: cuts find a better column",
-         "not measured: cuts of bricks are rare"},
+         "not measured: bounds the time"},
     });
 
 // Of all pairs of columns, cost_per_difference() compares every seventh with another one, far from it.

@@ -21,7 +21,7 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::worse, "worse", "average mismatches",
          "how visible seams must be. Higher: fewer windows are repaired, which saves time; lower: more seams close",
-         "graphcut_repair"},
+         "not measured: the average divides windows by whether repairing is worth the time"},
         {&Tuning::worse_where_fine, "worse_where_fine", "average mismatches",
          "the same at fine levels, which have many windows", "not measured: bounds the time of fine levels"},
         {&Tuning::fine_level, "fine_level", "level",
