@@ -10,7 +10,7 @@ struct Tuning {
 };
 const Tunable<Tuning> tuning("bricks", {{&Tuning::shortest_brick, "shortest_brick", "pixels",
                                          "lower: bricks that are laid well enough as they are cost time as well",
-                                         "course_layout"}});
+                                         "not measured: what is shorter looked well enough laid by seams"}});
 
 Size level_size(Size size, int level) {
   const int round_up = (1 << level) - 1;

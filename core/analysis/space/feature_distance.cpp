@@ -18,8 +18,8 @@ struct Gradient {
   float x, y;
 };
 
-/// A Gaussian kernel made of repeated binomials. Measured against blurred(), whose kernel is sampled, it makes guidance
-/// that leaves fewer broken windows of regular exemplars (experiments.md#guidance).
+/// A Gaussian kernel made of repeated binomials. It stays beside blurred(), whose kernel is sampled, as that gave no
+/// better results (experiments.md#guidance).
 std::vector<float> binomial_kernel(double deviation) {
   // n steps of (1 2 1) / 4 have variance n / 2.
   const int steps = int(std::floor(2 * deviation * deviation + 0.5));
