@@ -126,13 +126,13 @@ void lattice_snap(benchmark::State& state) {
 }
 BENCHMARK(lattice_snap)->DenseRange(1, 4);
 
-void occupancy_count(benchmark::State& state) {
+void usage_count(benchmark::State& state) {
   const CorrectionCase c(1);
   UsagePenalty usage(c.exemplar.size(), 0.7, 0.75);
   for (auto _ : state) usage.recount(c.field, {});
   count_items(state, c.field.size.area());
 }
-BENCHMARK(occupancy_count)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(usage_count)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 
 void piece_labels(benchmark::State& state) {
   const CorrectionCase c(2);
@@ -162,12 +162,12 @@ BENCHMARK(appearance)
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
 
-void similar_sets(benchmark::State& state) {
+void k_coherent_candidates(benchmark::State& state) {
   const AppearancePtr a = appearance_of(int(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(make_index(a, similar_per_pixel, Task()).get());
   count_items(state, a->size().area());
 }
-BENCHMARK(similar_sets)->RangeMultiplier(2)->Range(256, 2048)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(k_coherent_candidates)->RangeMultiplier(2)->Range(256, 2048)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 
 /// Arguments: the result's side, the number of threads.
 void synthesis(benchmark::State& state) {
