@@ -17,14 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> files = {"source", "image", "analysis", "synthesis", "sink", "graphs"};
-
-std::map<std::string, GoldenFile> read_all(const fs::path& folder) {
-  std::map<std::string, GoldenFile> out;
-  for (const std::string& file : files) out[file] = read_golden(folder / (file + ".txt"));
-  return out;
-}
-
 /// Puts the lines of the documents that have run into the files, in the order of the documents.
 void record(const fs::path& folder, const std::map<std::string, std::vector<GoldenLine>>& fresh,
             const std::vector<std::string>& documents) {
@@ -32,7 +24,7 @@ void record(const fs::path& folder, const std::map<std::string, std::vector<Gold
   for (const std::string& group : golden_groups())
     for (const GoldenDocument& d : documents_of(group)) order.try_emplace(d.name, order.size());
   const auto document_of = [](const GoldenLine& l) { return l.name.substr(0, l.name.find('/')); };
-  for (auto& [name, file] : read_all(folder)) {
+  for (auto& [name, file] : read_golden_files(folder)) {
     GoldenFile out{library_versions(), {}};
     for (const GoldenLine& l : file.lines)
       if (order.count(document_of(l)) && std::count(documents.begin(), documents.end(), document_of(l)) == 0)
@@ -50,7 +42,7 @@ void record(const fs::path& folder, const std::map<std::string, std::vector<Gold
 void check_group(const std::string& group) {
   const char* target = std::getenv("TERRAZZO_GOLDEN_RECORD");
   const fs::path folder = target ? fs::path(target) : fs::path(TERRAZZO_SOURCE_DIR) / "tests" / "golden";
-  Verdict verdict(read_all(folder), library_versions());
+  Verdict verdict(read_golden_files(folder), library_versions());
   const GoldenSession session;
   std::map<std::string, std::vector<GoldenLine>> fresh;
   std::vector<std::string> documents;

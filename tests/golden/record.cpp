@@ -73,6 +73,13 @@ GoldenFile read_golden(const std::filesystem::path& path) {
   return out;
 }
 
+std::map<std::string, GoldenFile> read_golden_files(const std::filesystem::path& folder) {
+  std::map<std::string, GoldenFile> out;
+  for (const char* file : {"source", "image", "analysis", "synthesis", "sink", "graphs"})
+    out[file] = read_golden(folder / (std::string(file) + ".txt"));
+  return out;
+}
+
 void write_golden(const std::filesystem::path& path, const GoldenFile& file) {
   std::ofstream out(path);
   out << header(path.stem().string(), file.libraries);

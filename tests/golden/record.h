@@ -30,6 +30,8 @@ struct GoldenFile {
 
 /// Throws Error naming file and line if it is damaged; a file that does not exist has no lines.
 GoldenFile read_golden(const std::filesystem::path& path);
+/// All golden files of a folder by name, without their endings.
+std::map<std::string, GoldenFile> read_golden_files(const std::filesystem::path& folder);
 void write_golden(const std::filesystem::path& path, const GoldenFile& file);
 
 /// Whether two contents are nearly the same, as far as their figures tell. `pixelwise`: also at each sample; not to be
