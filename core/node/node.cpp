@@ -8,6 +8,12 @@
 
 namespace terrazzo {
 
+ParamValue::ParamValue(const ParamValue& other) = default;
+ParamValue::ParamValue(ParamValue&& other) noexcept = default;
+ParamValue& ParamValue::operator=(const ParamValue& other) = default;
+ParamValue& ParamValue::operator=(ParamValue&& other) noexcept = default;
+ParamValue::~ParamValue() = default;
+
 std::string_view name_of(ParamType type) {
   constexpr std::array<std::string_view, 11> names = {"boolean", "integer",    "number",   "text",   "size", "numbers",
                                                       "texts",   "number_map", "text_map", "choice", "path"};
