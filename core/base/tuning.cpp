@@ -43,13 +43,17 @@ void override_tuning(std::string_view name, double value) {
     for (const auto& [known, constant] : all_constants()) names.push_back(known);
     throw Error(fmt::format("there is no tuning constant \"{}\"{}", name, did_you_mean(std::string(name), names)));
   }
-  if (int* const* whole = std::get_if<int*>(&at->second.value)) {
-    if (std::trunc(value) != value || std::abs(value) > 1e9)
-      throw Error(fmt::format("the tuning constant \"{}\" is a whole number, found {}", name, value));
+  const TuningConstant& constant = at->second;
+  int* const* whole = std::get_if<int*>(&constant.value);
+  if (whole && std::trunc(value) != value)
+    throw Error(fmt::format("the tuning constant \"{}\" is a whole number, found {}", name, value));
+  if (!(constant.least <= value && value <= constant.most))
+    throw Error(fmt::format("the tuning constant \"{}\" takes values from {} to {}, found {}", name, constant.least,
+                            constant.most, value));
+  if (whole)
     **whole = int(value);
-  } else {
-    *std::get<double*>(at->second.value) = value;
-  }
+  else
+    *std::get<double*>(constant.value) = value;
 }
 
 std::string overridden_tuning() {
@@ -66,6 +70,8 @@ void add_constants(std::string_view group, std::vector<TuningConstant> constants
   for (TuningConstant& c : constants) {
     const std::string name = c.name;
     defaults()[name] = c.number();
+    if (!(c.least <= c.number() && c.number() <= c.most))
+      throw std::logic_error(fmt::format("the tuning constant \"{}\" does not take its own value", name));
     if (!all_constants().try_emplace(name, std::move(c)).second)
       throw std::logic_error(fmt::format("two tuning constants are called \"{}\" (group {})", name, group));
   }

@@ -18,10 +18,12 @@
 ///     const Tunable<Tuning> tuning("seams", {
 ///         {&Tuning::stay, "stay", "appearance units per pixel", "higher: straighter seams; lower: seams that find
 ///         joints", "seams"},
-///         {&Tuning::reach, "reach", "pixels", "higher: joints farther away are found; costs time", "seams"},
+///         {&Tuning::reach, "reach", "pixels", "higher: joints farther away are found; costs time", "seams", 1, 96},
 ///     });
 ///     ... tuning->reach ...
 ///
+/// What a field takes is limited (1 to 96) only where the program would otherwise crash or run on and on: what divides
+/// by it is not written to expect 0.
 /// Reading is as cheap as reading a variable; inner loops copy what they need. Overriding is for a process that has
 /// not begun to work yet; reading is thread-safe.
 namespace terrazzo {
@@ -32,16 +34,20 @@ struct TuningConstant {
   std::string unit;      ///< "pixels"; empty: a plain number
   std::string trades;    ///< what more and less of it bring
   std::string measured;  ///< a heading of tests/bench/experiments.md, or "not measured: " and why it is what it is
+  double least = 0;      ///< what an override may give it; beyond, the program might crash
+  double most = 1e9;
   std::variant<int*, double*> value;
 
   double number() const;
+  /// Whether it takes fewer values than most constants do.
+  bool is_limited() const { return least != TuningConstant().least || most != TuningConstant().most; }
 };
 
 /// All constants of the program, by name.
 std::vector<const TuningConstant*> tuning_constants();
 
-/// Gives a constant another value. Throws Error, with the nearest name, if there is none of that name, and if an
-/// integer is to take a fraction.
+/// Gives a constant another value. Throws Error, with the nearest name, if there is none of that name, if an integer is
+/// to take a fraction, and if the constant does not take the value.
 void override_tuning(std::string_view name, double value);
 
 /// What differs from its default, "name=value" each in order of names; empty in a usual run. Part of every cache key,
@@ -64,13 +70,15 @@ class Tunable {
     const char* unit;
     const char* trades;
     const char* measured;
+    double least = TuningConstant().least;
+    double most = TuningConstant().most;
   };
 
   Tunable(std::string_view group, std::initializer_list<Field> fields) {
     std::vector<TuningConstant> constants;
     size_t described = 0;
     for (const Field& f : fields) {
-      TuningConstant c{std::string(group) + "." + f.name, f.unit, f.trades, f.measured, {}};
+      TuningConstant c{std::string(group) + "." + f.name, f.unit, f.trades, f.measured, f.least, f.most, {}};
       std::visit(
           [&](auto member) {
             c.value = &(values_.*member);

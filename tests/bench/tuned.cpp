@@ -46,10 +46,14 @@ std::string evidence(const TuningConstant& c) {
   return c.measured.starts_with("not measured") ? c.measured : "measured: experiments.md, " + c.measured;
 }
 
+std::string range(const TuningConstant& c) {
+  return c.is_limited() ? fmt::format(", from {} to {}", c.least, c.most) : "";
+}
+
 void list() {
   for (const TuningConstant* c : tuning_constants())
-    fmt::print("{} = {}{}{}\n    {}\n    {}\n", c->name, c->number(), c->unit.empty() ? "" : " ", c->unit, c->trades,
-               evidence(*c));
+    fmt::print("{} = {}{}{}{}\n    {}\n    {}\n", c->name, c->number(), c->unit.empty() ? "" : " ", c->unit, range(*c),
+               c->trades, evidence(*c));
 }
 
 }  // namespace
