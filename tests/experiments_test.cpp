@@ -1,4 +1,6 @@
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -18,7 +20,40 @@ std::set<std::string> sections() {
   return found;
 }
 
+/// The names of all files that have tuning constants, without their ending.
+std::set<std::string> files_with_constants() {
+  namespace fs = std::filesystem;
+  std::set<std::string> found;
+  for (const char* folder : {"core", "nodes", "runner"})
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(TERRAZZO_SOURCE_DIR) / folder)) {
+      if (entry.path().extension() != ".cpp") continue;
+      std::ifstream in(entry.path());
+      const std::string text(std::istreambuf_iterator<char>(in), {});
+      if (text.find("const Tunable<") != std::string::npos) found.insert(entry.path().stem().string());
+    }
+  return found;
+}
+
 }  // namespace
+
+TEST_CASE("tuning constants are listed under the names of their files") {
+  std::set<std::string> groups;
+  for (const terrazzo::TuningConstant* c : terrazzo::tuning_constants())
+    if (!c->name.starts_with("test_")) groups.insert(c->name.substr(0, c->name.find('.')));
+  const std::set<std::string> files = files_with_constants();
+  REQUIRE(files.count("seams"));
+  for (const std::string& file : files) CHECK_MESSAGE(groups.count(file), file);
+  for (const std::string& group : groups) CHECK_MESSAGE(files.count(group), group);
+}
+
+TEST_CASE("tuning constants say in which unit they are, and what they trade") {
+  for (const terrazzo::TuningConstant* c : terrazzo::tuning_constants()) {
+    if (c->name.starts_with("test_")) continue;  // of another test
+    CAPTURE(c->name);
+    CHECK(!c->unit.empty());
+    CHECK(c->trades.size() > 10);
+  }
+}
 
 TEST_CASE("every tuning constant cites a section of tests/bench/experiments.md, or says that it was not measured") {
   const std::string unmeasured = "not measured: ";  // and why it is what it is

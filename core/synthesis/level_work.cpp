@@ -18,20 +18,21 @@ struct Tuning {
   int finest_recounted = 2;
 };
 const Tunable<Tuning> tuning(
-    "evenness", {
-                    {&Tuning::least_landmark_factor, "least_landmark_factor", "factor",
-                     "lower: what is used too little is cheaper at the coarsest levels, and wins; finer levels break "
-                     "features for it",
-                     "not measured: that unused cells become cheaper was measured, not by how much"},
-                    {&Tuning::least_factor, "least_factor", "factor", "the same at the other levels",
-                     "not measured: that unused cells become cheaper was measured, not by how much"},
-                    {&Tuning::finest_even, "finest_even", "level",
-                     "lower: evenness counts at finer levels too, and breaks features",
-                     "not measured: taken over from the code before constants were listed"},
-                    {&Tuning::finest_recounted, "finest_recounted", "level",
-                     "lower: use is counted anew in every pass of finer levels; costs time, and parts need one another",
-                     "not measured: parts of a surface must not depend on one another"},
-                });
+    "level_work",
+    {
+        {&Tuning::least_landmark_factor, "least_landmark_factor", "factor",
+         "lower: what is used too little is cheaper at the coarsest levels, and wins; finer levels break "
+         "features for it",
+         "not measured: that unused cells become cheaper was measured, not by how much", 0, 1},
+        {&Tuning::least_factor, "least_factor", "factor", "the same at the other levels",
+         "not measured: that unused cells become cheaper was measured, not by how much", 0, 1},
+        {&Tuning::finest_even, "finest_even", "level",
+         "lower: evenness counts at finer levels too, and breaks features",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::finest_recounted, "finest_recounted", "level",
+         "lower: use is counted anew in every pass of finer levels; costs time, and parts need one another",
+         "not measured: parts of a surface must not depend on one another"},
+    });
 
 /// What a mask lets synthesis use and controls want.
 std::vector<double> demand_of(const AppearanceLevel& level, const LevelControl* control) {

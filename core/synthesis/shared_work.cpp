@@ -8,9 +8,9 @@ namespace {
 struct Tuning {
   double shortest_brick = 64;
 };
-const Tunable<Tuning> tuning("bricks", {{&Tuning::shortest_brick, "shortest_brick", "pixels",
-                                         "lower: bricks that are laid well enough as they are cost time as well",
-                                         "not measured: what is shorter looked well enough laid by seams"}});
+const Tunable<Tuning> tuning("shared_work", {{&Tuning::shortest_brick, "shortest_brick", "pixels",
+                                              "lower: bricks that are laid well enough as they are cost time as well",
+                                              "not measured: what is shorter looked well enough laid by seams"}});
 
 Size level_size(Size size, int level) {
   const int round_up = (1 << level) - 1;

@@ -50,21 +50,21 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::coherence_between_kept, "coherence_between_kept", "factor",
          "lower: pixels between kept ones hold together more, as their pieces are not limited; higher: more variety",
-         "piece_limits"},
+         "piece_limits", 0, 100},
         {&Tuning::coherence_where_steered, "coherence_where_steered", "factor",
-         "lower: larger pieces under controls; higher: the target is followed more closely", "piece_limits"},
+         "lower: larger pieces under controls; higher: the target is followed more closely", "piece_limits", 0, 100},
         {&Tuning::landmark_coherence, "landmark_coherence", "factor",
          "lower: rare features stay whole at the coarsest levels; higher: more variety",
-         "not measured: chosen while features at the coarsest levels were looked at"},
+         "not measured: chosen while features at the coarsest levels were looked at", 0, 100},
         {&Tuning::stay_along_courses, "stay_along_courses", "appearance units per pixel",
-         "higher: seams stay nearer; lower: they go half a brick for a joint", "seams"},
+         "higher: seams stay nearer; lower: they go half a brick for a joint", "seams", 0, 10000},
         {&Tuning::stay_to_the_pixel, "stay_to_the_pixel", "appearance units per pixel",
-         "higher: seams stay; lower: they wander at the finest level", "seams"},
+         "higher: seams stay; lower: they wander at the finest level", "seams", 0, 10000},
         {&Tuning::stay_by_joint, "stay_by_joint", "appearance units per pixel",
-         "as stay_along_courses, where cells tell how near the next joint is", "seams"},
+         "as stay_along_courses, where cells tell how near the next joint is", "seams", 0, 10000},
         {&Tuning::stay_around_bricks, "stay_around_bricks", "appearance units per pixel",
          "lower: seams find the joints that bricks were cut beside; higher: they keep to the cut",
-         "not measured: only a price of 2 was compared"},
+         "not measured: only a price of 2 was compared", 0, 10000},
         {&Tuning::landmark_levels, "landmark_levels", "levels",
          "more: rare features are placed evenly; fewer: fewer of them are broken for it", "usage_penalty"},
         {&Tuning::finest_limited, "finest_limited", "level",
@@ -84,19 +84,19 @@ const Tunable<Tuning> tuning(
          "not measured: only more repairs were compared"},
         {&Tuning::alignment_reach, "alignment_reach", "pixels",
          "higher: pieces find places farther off; upsampling is uncertain by about one pixel",
-         "not measured: upsampling is uncertain by about one pixel"},
+         "not measured: upsampling is uncertain by about one pixel", 0, 64},
         {&Tuning::seam_reach_along_courses, "seam_reach_along_courses", "pixels",
-         "higher: joints of longer bricks are found; costs time", "seams"},
+         "higher: joints of longer bricks are found; costs time", "seams", 0, 1000},
         {&Tuning::seam_reach_to_the_pixel, "seam_reach_to_the_pixel", "pixels",
-         "higher: the finest level looks for other joints, not for where two meet; costs time", "seams"},
+         "higher: the finest level looks for other joints, not for where two meet; costs time", "seams", 0, 1000},
         {&Tuning::nearest_joint, "nearest_joint", "pixels", "the least reach where cells are small",
-         "not measured: chosen with the prices, not varied alone"},
+         "not measured: chosen with the prices, not varied alone", 1, 1000},
         {&Tuning::farthest_joint, "farthest_joint", "pixels", "the greatest reach where cells are large; costs time",
-         "not measured: chosen with the prices, not varied alone"},
+         "not measured: chosen with the prices, not varied alone", 1, 1000},
         {&Tuning::seam_reach_around_bricks, "seam_reach_around_bricks", "pixels",
-         "higher: joints that were missed are found; lower: boards keep no stubs of joints", "course_layout"},
+         "higher: joints that were missed are found; lower: boards keep no stubs of joints", "course_layout", 0, 1000},
         {&Tuning::seam_reach_around_clear_bricks, "seam_reach_around_clear_bricks", "pixels",
-         "the same where joints are clear, beside half a joint's breadth", "course_layout"},
+         "the same where joints are clear, beside half a joint's breadth", "course_layout", 0, 1000},
     });
 
 bool is_draft(const LevelFacts& f) {
@@ -231,7 +231,7 @@ SeamMoves seams_to_joints(const StepContext& c) {
     moves.stay = t.stay_to_the_pixel;
   } else if (c.shared.lattice.rank > 1) {
     const double half = c.shared.lattice.longest_step() / 2 / double(int64_t{2} << c.facts.level);
-    moves.reach = std::clamp(int(half), t.nearest_joint, t.farthest_joint);
+    moves.reach = std::max(t.nearest_joint, std::min(int(half), t.farthest_joint));
     moves.stay = t.stay_by_joint * t.nearest_joint / moves.reach;
   }
   moves.fair_piece = PieceLimits::of(true).large * double(c.level.exemplar.size().area()) / 4;

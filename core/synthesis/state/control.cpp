@@ -40,19 +40,19 @@ const Tunable<Tuning> tuning(
         {&Tuning::feature_side, "feature_side", "exemplar sides",
          "higher: values may differ as they do in larger features, which stay whole; lower: the picture shows more "
          "clearly",
-         "control"},
+         "control", 0, 1},
         {&Tuning::extreme_ranks, "extreme_ranks", "share of the exemplar's pixels",
          "higher: more of the darkest and of the lightest values count as one, so that enough pixels show them; lower: "
          "the picture keeps its contrast",
-         "control"},
+         "control", 0, 0.5},
         {&Tuning::least_demand, "least_demand", "share of an even use",
          "higher: pixels whose values the target does not want stay cheap, for transitions; lower: they are avoided",
          "not measured: above 0, as transitions need such pixels"},
         {&Tuning::gray_bin_bits, "gray_bin_bits", "bits, 1..8",
          "higher: demand is counted by finer grey values; lower: bins hold enough pixels to serve it",
-         "not measured: 16 bins of a 256-pixel exemplar hold some thousand pixels each"},
+         "not measured: 16 bins of a 256-pixel exemplar hold some thousand pixels each", 1, 8},
         {&Tuning::color_bin_bits, "color_bin_bits", "bits per channel, 1..8", "the same for each channel of colours",
-         "not measured: 64 bins of a 256-pixel exemplar hold some thousand pixels each"},
+         "not measured: 64 bins of a 256-pixel exemplar hold some thousand pixels each", 1, 8},
     });
 
 // Smaller ranges of values are taken for this one, so that noise does not become a picture.

@@ -22,11 +22,11 @@ const Tunable<Tuning> tuning(
         {&Tuning::edge, "edge", "appearance units",
          "how much a joint differs from what lies beside it: about a deviation of the first component. Lower: weaker "
          "edges hide seams too, within bricks; higher: only strong joints attract seams",
-         "seams"},
+         "seams", 0.001},
         {&Tuning::seen_on_edges, "seen_on_edges", "share of a mismatch",
          "higher: seams along joints must fit as well; lower: seams keep to joints, but in grids of alike tiles they "
          "run anywhere along them",
-         "seams"},
+         "seams", 0, 1},
     });
 
 double distance(const AppearanceVector* a, const AppearanceVector* b) {

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
 #include "core/synthesis/state/rounds.h"
@@ -26,15 +24,15 @@ const Tunable<Tuning> tuning(
     "patches", {
                    {&Tuning::near, "near", "pixels from a window's middle",
                     "higher: what is repaired repeats less; lower: more places may fit, and fewer windows stay broken",
-                    "graphcut_repair"},
+                    "graphcut_repair", Patches::half + 1, 1000},
                    {&Tuning::random_places, "random_places", "candidates for a window",
                     "higher: a better patch is found now and then; costs time", "graphcut_repair"},
                    {&Tuning::rim_stride, "rim_stride", "pixels of the rim",
                     "higher: fewer of the rim's pixels propose candidates, which saves time; lower: more candidates",
-                    "not measured: neighbours in one piece propose the same candidates"},
+                    "not measured: neighbours in one piece propose the same candidates", 1, 1000},
                    {&Tuning::near_stride, "near_stride", "pixels in x and y",
                     "higher: fewer pixels are searched for repeats, which saves time; lower: smaller repeats are found",
-                    "not measured: only repeats less than two pixels wide are missed"},
+                    "not measured: only repeats less than two pixels wide are missed", 1, 1000},
                });
 
 // Places pack the exemplar position that a window's middle would show.
@@ -51,10 +49,7 @@ int row(uint32_t place) {
 }  // namespace
 
 Patches::Patches(ExpansionGround& ground, const UsagePenalty& usage, uint64_t seed)
-    : ground_(ground), usage_(usage), seed_(seed), rim_(scattered_rim()), expansion_(ground) {
-  if (near() <= half || tuning->rim_stride < 1 || tuning->near_stride < 1)
-    throw Error(fmt::format("tuning: patches.near must be above {}, strides above 0", half));
-}
+    : ground_(ground), usage_(usage), seed_(seed), rim_(scattered_rim()), expansion_(ground) {}
 
 int Patches::near() {
   return tuning->near;

@@ -20,7 +20,7 @@ class Patches {
   /// What shows up to so many pixels from the middle already is not offered; greater than `half`.
   static int near();
 
-  /// `usage`: over-used patches fit less well. Throws Error if the tuning constants do not suit one another.
+  /// `usage`: over-used patches fit less well.
   Patches(ExpansionGround& ground, const UsagePenalty& usage, uint64_t seed);
 
   /// The places whose patches fit a window's rim best, at most so many, the best first. Candidates come from the rim's

@@ -30,7 +30,8 @@ const Tunable<Tuning> tuning(
         {&Tuning::fragment_on_lattice, "fragment_on_lattice", "share of large_on_lattice", "the same with a lattice",
          "piece_limits"},
         {&Tuning::most_coherence, "most_coherence", "factor",
-         "higher: the largest pieces stop growing for certain; lower: on lattices they go on growing", "piece_limits"},
+         "higher: the largest pieces stop growing for certain; lower: on lattices they go on growing", "piece_limits",
+         0, 1000},
     });
 
 }  // namespace

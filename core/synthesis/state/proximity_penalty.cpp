@@ -31,20 +31,20 @@ const Tunable<Tuning> tuning(
          "higher: larger planes are counted too; costs memory and time", "not measured: 32 MiB"},
         {&Tuning::blocks_per_side, "blocks_per_side", "blocks along the exemplar's shorter side",
          "higher: a finer map of what is near, whose reaches are shorter; costs time and memory",
-         "not measured: reaches were measured in eighths of the exemplar's side"},
+         "not measured: reaches were measured in eighths of the exemplar's side", 1},
         {&Tuning::far_reach, "far_reach", "blocks to each side",
          "higher: repeats must be farther apart, which drives them to one distance just beyond; lower: they come "
          "nearer",
-         "proximity_penalty"},
+         "proximity_penalty", 0, 100},
         {&Tuning::near_reach, "near_reach", "blocks to each side",
          "within it repeats count twice. Higher: more of them do; lower: repeats come side by side",
-         "proximity_penalty"},
+         "proximity_penalty", 0, 100},
         {&Tuning::cells_per_side, "cells_per_side", "cells along the exemplar's longer side",
          "higher: use is counted by smaller features; costs time. Lower: copies of parts of cells are not noticed",
-         "not measured: chosen to be about as large as small features"},
+         "not measured: chosen to be about as large as small features", 1},
         {&Tuning::smallest_cell, "smallest_cell", "pixels",
          "the least side of a cell. Higher: less time at coarse levels; lower: smaller features count there",
-         "not measured: counts of single pixels would be mostly noise"},
+         "not measured: counts of single pixels would be mostly noise", 1},
     });
 
 constexpr size_t cells_at_once = 16;  // compared together, which vectorizes

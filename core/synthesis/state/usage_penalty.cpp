@@ -20,7 +20,7 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::most_excess, "most_excess", "uses too many",
          "higher: cells used many times too often cost still more; lower: they are no worse than a few times",
-         "not measured: keeps factors in the range of other terms"},
+         "not measured: keeps factors in the range of other terms", 0, 1000},
         {&Tuning::gain, "gain", "price per excess",
          "the integral gain. Higher: rare features come back sooner, but use oscillates; lower: they stay rare",
          "usage_penalty"},
@@ -28,9 +28,9 @@ const Tunable<Tuning> tuning(
          "higher: one count raises the price of over-used cells more, and use oscillates; lower: they stay over-used",
          "not measured: as large as the fall of a cell that is not used at all"},
         {&Tuning::least_price, "least_price", "factor",
-         "lower: cells that fit badly are forced in; higher: rare features are lost", "usage_penalty"},
+         "lower: cells that fit badly are forced in; higher: rare features are lost", "usage_penalty", 0, 1},
         {&Tuning::most_price, "most_price", "factor",
-         "higher: popular cells are avoided at any cost; lower: they stay over-used", "usage_penalty"},
+         "higher: popular cells are avoided at any cost; lower: they stay over-used", "usage_penalty", 1, 1000},
     });
 
 // Pixels expected of a cell that should not be used: keeps the excess finite.

@@ -26,18 +26,18 @@ const Tunable<Tuning> tuning(
         {&Tuning::usual_share, "usual_share", "share of the exemplar's windows",
          "higher: only windows unlike nearly all of the exemplar are repaired; lower: more are, at the cost of rare "
          "features",
-         "not measured: the share by which the figure `broken` is defined"},
+         "not measured: the share by which the figure `broken` is defined", 0, 1},
         {&Tuning::sampled_windows, "sampled_windows", "windows of the exemplar",
          "higher: the usual distance is known more exactly; costs time",
-         "not measured: about fifty of them lie beyond usual_share"},
+         "not measured: about fifty of them lie beyond usual_share", 1},
         {&Tuning::alike, "alike", "usual distances",
          "up to it a window is coherent. Higher: less is repaired; lower: more windows count as slightly incoherent",
-         "not measured: symmetric to unlike"},
+         "not measured: symmetric to unlike", 0, 1},
         {&Tuning::unlike, "unlike", "usual distances",
          "from it on a window is fully incoherent. Higher: repairs also weigh how unlike windows are; lower: they "
          "count "
          "windows",
-         "not measured: symmetric to alike"},
+         "not measured: symmetric to alike", 1, 100},
     });
 
 constexpr int64_t no_distance = std::numeric_limits<int64_t>::max();

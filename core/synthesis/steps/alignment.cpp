@@ -28,7 +28,7 @@ const Tunable<Tuning> tuning(
          "higher: pieces follow neighbours that moved after them; costs time", "alignment"},
         {&Tuning::worthwhile, "worthwhile", "64ths of the mismatch",
          "what a move must lower it to. Higher: pieces move for small gains; lower: they stay in place",
-         "not measured: a move must be worth the change; above 64 pieces would move for losses"},
+         "not measured: a move must be worth the change; above 64 pieces would move for losses", 0, 64},
     });
 
 constexpr int64_t worthwhile_unit = 64;

@@ -27,16 +27,16 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::incoherent, "incoherent", "incoherence, 0..1",
          "higher: only windows unlike anything are repaired; lower: more are, which costs time and rare features",
-         "coherence_repair"},
+         "coherence_repair", 0, 1},
         {&Tuning::worthwhile, "worthwhile", "incoherent windows",
          "how much a repair must lower the sum around it. Higher: rare features survive; lower: less is left broken",
-         "not measured: half a window, the least that counts as incoherent"},
+         "not measured: half a window, the least that counts as incoherent", 0, 1000},
         {&Tuning::sparse_level, "sparse_level", "level",
          "the coarsest level where only some windows are examined. Higher: less time; lower: no incoherent window is "
          "missed",
          "coherence_repair"},
         {&Tuning::sparse_stride, "sparse_stride", "windows in x and y",
-         "higher: fewer windows are examined there, which saves time", "coherence_repair"},
+         "higher: fewer windows are examined there, which saves time", "coherence_repair", 1, 1000},
     });
 
 /// Incoherence in WindowCoherence's fixed-point unit.
@@ -206,7 +206,7 @@ void repair_incoherent(Field& field, const CorrectionLevel& level, UsagePenalty&
       [&] { return Repairer(ground, usage, window_coherence, tries, seed); });
   const Size size = field.size;
   std::vector<int32_t> values(field.pixels.size());
-  const int step = level.level <= tuning->sparse_level ? std::max(1, tuning->sparse_stride) : 1;
+  const int step = level.level <= tuning->sparse_level ? tuning->sparse_stride : 1;
   const int64_t incoherent = fixed_point(tuning->incoherent);
   tbb::parallel_for(0, (size.height + step - 1) / step, [&](int row) {
     task.check();

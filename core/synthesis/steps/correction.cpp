@@ -20,7 +20,7 @@ const Tunable<Tuning> tuning(
     "correction", {{&Tuning::repeat_penalty, "repeat_penalty", "factor per repeat",
                     "higher: stones and leaves are not filled by one small patch over and over; lower: exemplars with "
                     "fine, regular texture keep it",
-                    "correction"}});
+                    "correction", 0, 1000}});
 
 // What one task corrects of a sub-pass: few enough pixels that the coarsest levels still make several tasks. It changes
 // the time only, not the result.

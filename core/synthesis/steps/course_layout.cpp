@@ -4,10 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "core/base/error.h"
 #include "core/base/tuning.h"
 #include "core/synthesis/steps/course_path.h"
 #include "core/synthesis/steps/course_prices.h"
@@ -35,22 +33,22 @@ const Tunable<Tuning> tuning(
         {&Tuning::most_difference, "most_difference", "mean differences",
          "the limit of what a column may cost by its look. Higher: single features count fully; lower: they do not "
          "outweigh the rest of a brick",
-         "not measured: beyond it columns have nothing in common"},
+         "not measured: beyond it columns have nothing in common", 0, 1000},
         {&Tuning::shortest_run, "shortest_run", "course heights",
          "higher: only long bricks are taken from the exemplar; lower: slivers are, too",
-         "not measured: what is shorter is no brick"},
+         "not measured: what is shorter is no brick", 0, 1000},
         {&Tuning::least_step_back, "least_step_back", "course heights",
          "how far a course must go back in the exemplar to show it again. Higher: fewer repeats side by side; lower: "
          "short exemplars offer more",
-         "not measured: chosen as about two bricks"},
+         "not measured: chosen as about two bricks", 0, 1000},
         {&Tuning::gap, "gap", "mean differences times course heights",
          "the cost of a joint that is missing, or twice as wide. Higher: joints keep their width; lower: cuts are "
          "freer",
-         "course_layout"},
+         "course_layout", 0, 1000},
         {&Tuning::most_staying, "most_staying", "share of a run's blocks",
          "so many must agree on an offset for the run to keep it. Higher: runs are centred in their course more often; "
          "lower: more stays as it was",
-         "not measured: below it the blocks agree by chance"},
+         "not measured: below it the blocks agree by chance", 0, 1},
         {&Tuning::most_out_of_phase, "most_out_of_phase", "phase penalty",
          "how far from the lattice runs may begin. Higher: more places fit; lower: bricks keep to the lattice",
          "not measured: 2 is as far as the lattice is uncertain"},
@@ -60,7 +58,7 @@ const Tunable<Tuning> tuning(
          "not measured: a step of less than a row is not seen"},
         {&Tuning::most_columns, "most_columns", "columns of the exemplar",
          "tried for one course. Higher: large exemplars are used fully; costs time and memory",
-         "not measured: bounds time and memory"},
+         "not measured: bounds time and memory", 1, no_cut / 2 - 1},
         {&Tuning::most_off, "most_off", "pixels of the coursing's level",
          "how far out of place blocks may be to stay. Higher: more stays, and bed joints may jog; lower: courses are "
          "level",
@@ -83,8 +81,6 @@ class CourseLayout {
         columns_(exemplar_courses(looks_, coursing, source_, result_.step())),
         height_(mean_height(coursing)),
         prices_(result_, source_, coursing, columns_, height_) {
-    if (2 * tuning->most_columns >= no_cut)  // a course of n columns has at most n + 1 cuts
-      throw Error(fmt::format("tuning: course_layout.most_columns must be below {}", no_cut / 2));
     const int step = result_.step();
     fit_.step = step;
     fit_.shortest = std::max(1, int(tuning->shortest_run * height_ / step));

@@ -24,19 +24,19 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::cut_joint, "cut_joint", "mean differences times course heights",
          "the cost of cutting a course in a joint. Higher: longer runs of the exemplar; lower: bricks mix more freely",
-         "course_layout"},
+         "course_layout", 0, 1000},
         {&Tuning::cut_brick, "cut_brick", "mean differences times course heights",
          "the same in a brick. Higher: bricks stay whole; lower: figures improve, but bricks in two colours come back",
-         "course_layout"},
+         "course_layout", 0, 1000},
         {&Tuning::surely_brick, "surely_brick", "likelihood of a joint, 0..1",
          "higher: faint joints are cut like bricks; lower: cuts go through bricks that look like joints",
-         "not measured: even odds"},
+         "not measured: even odds", 0, 0.7},
         {&Tuning::surely_joint, "surely_joint", "likelihood of a joint, 0..1",
          "higher: only clear joints are cut at the price of a joint; lower: doubtful ones are too",
-         "not measured: between it and surely_brick prices change gradually"},
+         "not measured: between it and surely_brick prices change gradually", 0.75, 1},
         {&Tuning::brick_cut_spacing, "brick_cut_spacing", "course heights",
          "higher: fewer columns of bricks can be cut, which saves time; lower: cuts find a better column",
-         "not measured: bounds the time"},
+         "not measured: bounds the time", 0, 1000},
     });
 
 // Of all pairs of columns, cost_per_difference() compares every seventh with another one, far from it.

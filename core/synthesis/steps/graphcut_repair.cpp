@@ -21,9 +21,9 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::worse, "worse", "average mismatches",
          "how visible seams must be. Higher: fewer windows are repaired, which saves time; lower: more seams close",
-         "not measured: the average divides windows by whether repairing is worth the time"},
+         "not measured: the average divides windows by whether repairing is worth the time", 0, 1000},
         {&Tuning::worse_where_fine, "worse_where_fine", "average mismatches",
-         "the same at fine levels, which have many windows", "not measured: bounds the time of fine levels"},
+         "the same at fine levels, which have many windows", "not measured: bounds the time of fine levels", 0, 1000},
         {&Tuning::fine_level, "fine_level", "level",
          "the coarsest level that counts as fine. Higher: less time; lower: more seams close at fine levels",
          "not measured: bounds the time of fine levels"},

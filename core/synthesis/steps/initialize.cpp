@@ -25,10 +25,10 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::blocks_per_side, "blocks_per_side", "blocks along the exemplar's shorter side",
          "higher: smaller blocks mix more, and large features are cut; lower: large features stay whole and repeat",
-         "not measured: chosen so that a block holds large features as wholes"},
+         "not measured: chosen so that a block holds large features as wholes", 1},
         {&Tuning::smallest_block, "smallest_block", "pixels of the coarsest level",
          "the least side of a block. Higher: tiny exemplars keep their features; lower: they mix more",
-         "not measured: only exemplars below 16 pixels at the coarsest level reach it"},
+         "not measured: only exemplars below 16 pixels at the coarsest level reach it", 1},
         {&Tuning::steered_draws, "steered_draws", "random blocks",
          "under a mask or controls. Higher: the layout follows them more closely; lower: it varies more",
          "not measured: the passes that follow choose again"},
@@ -38,7 +38,7 @@ const Tunable<Tuning> tuning(
          "proximity_penalty"},
         {&Tuning::near_blocks, "near_blocks", "blocks",
          "how far repeats count. Higher: they are pushed farther away; lower: they come nearer",
-         "not measured: three quarters of the exemplar's side"},
+         "not measured: three quarters of the exemplar's side", 0, 100},
     });
 
 /// The exemplar position of a random block's first pixel.

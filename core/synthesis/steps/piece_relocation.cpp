@@ -32,7 +32,7 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::repeated, "repeated", "share of a piece",
          "so much of a piece may show near by already. Higher: more places may fit; lower: less repeats",
-         "piece_relocation"},
+         "piece_relocation", 0, 1},
         {&Tuning::worthwhile, "worthwhile", "share of the misfit",
          "what a move must lower it to. Higher: pieces move for small gains; lower: they stay in place",
          "not measured: a move must be worth the change"},
@@ -40,14 +40,14 @@ const Tunable<Tuning> tuning(
          "higher: less time; smaller pieces are left to correction. Lower: small pieces find better places",
          "not measured: smaller pieces are left to correction"},
         {&Tuning::near, "near", "blocks", "higher: repeats must be farther apart; lower: more places may fit",
-         "piece_relocation"},
+         "piece_relocation", 0, 1000},
         {&Tuning::voting_seams, "voting_seams", "seam pixels", "higher: more of a seam proposes candidates; costs time",
          "not measured: bounds the time of large pieces"},
         {&Tuning::random_places, "random_places", "candidates for a piece",
          "higher: better places are found, which are used more often; costs time. Lower: use stays even",
          "piece_relocation"},
         {&Tuning::usage_samples, "usage_samples", "pixels of a piece",
-         "higher: usage is known more exactly; costs time", "not measured: bounds the time of each candidate"},
+         "higher: usage is known more exactly; costs time", "not measured: bounds the time of each candidate", 1},
     });
 
 constexpr int64_t no_limit = std::numeric_limits<int64_t>::max();
@@ -191,7 +191,7 @@ class Relocator {
   double usage_factor(int piece, const Move& m) const {
     if (!usage_.active()) return 1;
     const std::span<const int> members = pieces_.members(piece);
-    const size_t step = std::max<size_t>(1, members.size() / size_t(std::max(1, tuning->usage_samples)));
+    const size_t step = std::max<size_t>(1, members.size() / size_t(tuning->usage_samples));
     const Size e = level_.exemplar.size();
     uint64_t sum = 0, count = 0;
     for (size_t i = step / 2; i < members.size(); i += step, count++) {

@@ -26,9 +26,9 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::fair_pressure, "fair_pressure", "appearance units per pixel",
          "the cost of a pixel in a piece of a fair size. Higher: large pieces give way; lower: they swallow small ones",
-         "seams"},
+         "seams", 0, 10000},
         {&Tuning::most_pressure, "most_pressure", "fair pressures",
-         "higher: the largest pieces give way still more; lower: from some size on they grow", "seams"},
+         "higher: the largest pieces give way still more; lower: from some size on they grow", "seams", 0, 1000},
         {&Tuning::smallest_piece, "smallest_piece", "pixels of the field",
          "higher: less time, as smaller pieces only give way; lower: single pixels may spread",
          "not measured: single pixels are errors rather than pieces"},

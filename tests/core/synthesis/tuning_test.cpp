@@ -6,39 +6,17 @@
 
 #include <doctest/doctest.h>
 
-#include "core/synthesis/state/patches.h"
 #include "core/synthesis/synthesize.h"
 #include "nodes/common/registry.h"
 #include "runner/engine/key.h"
 #include "tests/core/synthesis/fields.h"
 #include "tests/exemplars.h"
+#include "tests/overrides.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
 
 namespace {
-
-const TuningConstant& constant(const std::string& name) {
-  const auto all = tuning_constants();
-  const auto at = std::ranges::find_if(all, [&](const TuningConstant* c) { return c->name == name; });
-  REQUIRE(at != all.end());
-  return **at;
-}
-
-/// Another value for a while: the other tests of this process must not notice.
-class Override {
- public:
-  Override(const std::string& name, double value) : name_(name), usual_(constant(name).number()) {
-    override_tuning(name, value);
-  }
-  ~Override() { override_tuning(name_, usual_); }
-  Override(const Override&) = delete;
-  Override& operator=(const Override&) = delete;
-
- private:
-  std::string name_;
-  double usual_;
-};
 
 Digest key_of_synthesis() {
   GraphNode node;
@@ -64,27 +42,6 @@ struct Nudge {
 
 }  // namespace
 
-TEST_CASE("constants of the synthesis are listed under the names of their files") {
-  std::vector<std::string> groups;
-  for (const TuningConstant* c : tuning_constants()) groups.push_back(c->name.substr(0, c->name.find('.')));
-  for (const char* file :
-       {"alignment", "coherence_repair", "control", "correction", "course_layout", "course_prices", "exemplar_courses",
-        "expansion", "graphcut_repair", "initialize", "labels", "patches", "piece_limits", "piece_relocation",
-        "proximity_penalty", "seams", "usage_penalty", "window_coherence"}) {
-    CAPTURE(file);
-    CHECK(std::ranges::count(groups, file) > 0);
-  }
-}
-
-TEST_CASE("constants of the synthesis say what both directions bring, and in which unit") {
-  for (const TuningConstant* c : tuning_constants()) {
-    if (c->name.starts_with("test_")) continue;  // of another test
-    CAPTURE(c->name);
-    CHECK(!c->unit.empty());
-    CHECK(c->trades.size() > 10);
-  }
-}
-
 TEST_CASE("another value of a constant changes the result and its cache key, and only as long as it is set") {
   const Digest usual[] = {result(false), result(true)};
   const Digest key = key_of_synthesis();
@@ -102,17 +59,12 @@ TEST_CASE("another value of a constant changes the result and its cache key, and
   CHECK(key_of_synthesis() == key);
 }
 
-TEST_CASE("constants that do not suit one another are errors") {
+TEST_CASE("a pass that asks for more than there is room for is an error") {
   const IndexPtr index = wall_index();
   const PaddedLevel exemplar(index->appearance()->levels()[0], false);
   Field field = one_piece({16, 16});
   const CorrectionLevel level = level_of(exemplar, field.size);
   UsagePenalty usage({48, 40}, 0, 1);
-  ExpansionGround ground(field, level);
-  {
-    const Override other("patches.near", Patches::half);
-    CHECK_THROWS_WITH_AS(Patches(ground, usage, 1), "tuning: patches.near must be above 6, strides above 0", Error);
-  }
   const CorrectionPass pass{.window = &full_window(), .random_candidates = 41, .wanted = whole(field.size)};
   CHECK_THROWS_WITH_AS(correct(field, level, pass, usage, Task()),
                        "a correction pass takes windows of at most 24 pixels and 40 random candidates, found 24 and 41",
