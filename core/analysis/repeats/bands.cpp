@@ -4,23 +4,99 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/tuning.h"
 #include "core/numeric/moments.h"
 
 namespace terrazzo {
 
 namespace {
 
-constexpr int most_repeats = 24;
-constexpr double least_of_one = 0.25;  // by how much lines that come again only once must be more alike
-// How much repeats are expected to vary, of their mean, and for how many repeats that counts.
-constexpr double expected_deviation = 0.5, expected_counts = 2;
-constexpr double often = 5, often_counts = 0.55;
-constexpr double multiple = 1.5;  // of a period found before, which a longer one must beat clearly
-constexpr double clearly_better = 1.15;
-constexpr double better = 0.005;
-constexpr int slants = 192;          // that are tried from level to diagonal
-constexpr double least_rise = 0.04;  // of lines that are not level
-constexpr double near_best = 0.03;   // of a period, within which the most certain one is looked for
+struct Tuning {
+  double least_of_one = 0.25;
+  double expected_deviation = 0.5;
+  double expected_counts = 2;
+  double deviations = 0.3;
+  double deviations_of_few = 1.4;
+  double often = 5;
+  double often_counts = 0.55;
+  double multiple = 1.5;
+  double clearly_better = 1.15;
+  double better = 0.005;
+  double least_rise = 0.04;
+  double near_best = 0.03;
+  double seen = 1.3;
+  double step = 0.1;
+  double fine_step = 0.005;
+  int most_repeats = 24;
+  int slants = 192;
+};
+const Tunable<Tuning> tuning(
+    "bands",
+    {
+        {&Tuning::least_of_one, "least_of_one", "correlation",
+         "by how much lines that come again only once must be more alike. Higher: longer periods need more proof; "
+         "lower: an exemplar may show two periods only, and chance ones are taken",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::expected_deviation, "expected_deviation", "share of the mean",
+         "how much repeats are expected to vary. Higher: few repeats count for less; lower: longer periods of few "
+         "repeats win",
+         "not measured: only with and without were compared"},
+        {&Tuning::expected_counts, "expected_counts", "repeats",
+         "for how many repeats expected_deviation counts. Higher: few repeats count for less; lower: those that happen "
+         "to agree win, with wrong, longer periods",
+         "regularity"},
+        {&Tuning::deviations, "deviations", "deviations",
+         "what nearly all of many repeats exceed. Higher: uneven courses are less certain; lower: chance is taken for "
+         "courses",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::deviations_of_few, "deviations_of_few", "deviations times repeats",
+         "the same, in addition, divided by their number. Higher: few repeats are less certain; lower: chance is taken "
+         "for courses",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::often, "often", "periods",
+         "how many there must be for certainty to rise by what lines have in common. Higher: fewer exemplars profit; "
+         "lower: chance does",
+         "not measured: what comes again so often is no chance"},
+        {&Tuning::often_counts, "often_counts", "factor",
+         "what such certainty is of that of all lines. Higher: thin joints are surer; lower: they are too little of "
+         "all there is",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::multiple, "multiple", "periods found before",
+         "from which on a longer one must be clearly better. Higher: multiples win more easily; lower: small "
+         "corrections must be clear, too",
+         "not measured: half-way to the next multiple"},
+        {&Tuning::clearly_better, "clearly_better", "factor",
+         "by which a multiple must be better. Higher: courses of several kinds are taken for one; lower: multiples of "
+         "the true period win",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::better, "better", "correlation",
+         "by which any period must be better. Higher: the shortest of alike periods wins; lower: their noise decides",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::least_rise, "least_rise", "pixels per pixel",
+         "of lines that are not level. Higher: slightly slanted stripes are not looked for; lower: level ones are "
+         "found aslant",
+         "not measured: what rises less is looked for among level bands"},
+        {&Tuning::near_best, "near_best", "share of a period",
+         "within which the most certain one is looked for. Higher: coarse steps do no harm; costs time. Lower: less "
+         "time",
+         "not measured: taken over from the code before constants were listed", 0, 0.5},
+        {&Tuning::seen, "seen", "periods",
+         "how many of the longest one the exemplar must show. Higher: long periods are surer; lower: longer ones are "
+         "looked for",
+         "not measured: taken over from the code before constants were listed", 1},
+        {&Tuning::step, "step", "pixels",
+         "between the periods that are tried. Higher: less time; lower: narrow peaks are not missed",
+         "not measured: periods are looked for more finely near the best", 0.001},
+        {&Tuning::fine_step, "fine_step", "pixels",
+         "the same near the best one. Higher: less time; lower: a period is known more exactly",
+         "not measured: taken over from the code before constants were listed", 0.0001},
+        {&Tuning::most_repeats, "most_repeats", "repeats",
+         "higher: more repeats are averaged; costs time. Lower: those far off, where a period that is not quite right "
+         "has drifted, have no say",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::slants, "slants", "slants from level to diagonal", "higher: thin stripes are not missed; costs time",
+         "not measured: the best is looked for more finely in any case", 1},
+    });
 
 /// How far lines that repeat stand out.
 struct LineRepeats {
@@ -33,14 +109,15 @@ struct LineRepeats {
   /// The same for choosing among periods: few repeats that happen to agree say less than many that nearly do. The more
   /// alike they are, the less it is chance.
   double evidence() const {
-    const double expected = expected_deviation * mean, chance = 1 - alike * alike;
-    return exceeded((count * variance + expected_counts * chance * expected * expected) / (count + expected_counts));
+    const double expected = tuning->expected_deviation * mean, chance = 1 - alike * alike;
+    const double counts = tuning->expected_counts;
+    return exceeded((count * variance + counts * chance * expected * expected) / (count + counts));
   }
 
  private:
   double exceeded(double of_variance) const {
-    if (count == 0 || (count == 1 && mean < least_of_one)) return -1;
-    return mean - (0.3 + 1.4 / count) * std::sqrt(of_variance);
+    if (count == 0 || (count == 1 && mean < tuning->least_of_one)) return -1;
+    return mean - (tuning->deviations + tuning->deviations_of_few / count) * std::sqrt(of_variance);
   }
 };
 
@@ -81,7 +158,7 @@ class LineCorrelation {
   /// How far lines a period apart are more alike than lines half a period apart.
   LineRepeats repeats(double period) const {
     Moments<1> exceed, alike;
-    for (double d = period; d < size() - 1 && exceed.count() < most_repeats; d += period) {
+    for (double d = period; d < size() - 1 && exceed.count() < tuning->most_repeats; d += period) {
       exceed.add(at(d) - at(d - period / 2));
       alike.add(at(d) / std::max(1e-12, at(0)));
     }
@@ -91,7 +168,7 @@ class LineCorrelation {
   /// Of what lines a period apart have in common; what nearly all exceed.
   double alike(double period) const {
     Moments<1> alike;
-    for (double d = period; d < size() - 1 && alike.count() < most_repeats; d += period)
+    for (double d = period; d < size() - 1 && alike.count() < tuning->most_repeats; d += period)
       alike.add(std::max({at(d - 1), at(d), at(std::min(size() - 1.0, d + 1))}) / std::max(1e-12, at(0)));
     return std::clamp(alike.mean() - std::sqrt(alike.variance()), 0.0, 1.0);
   }
@@ -105,20 +182,21 @@ Bands bands_that_rise(const Correlation& r, bool courses, double rise) {
   const LineCorrelation lines(r, courses, rise);
   double best = 0, evidence = 0;
   const auto consider = [&](double period) {
-    const double needed = best > 0 && period > multiple * best ? clearly_better * evidence : evidence;
-    if (const double e = lines.repeats(period).evidence(); e > needed + better) {
+    const double needed = best > 0 && period > tuning->multiple * best ? tuning->clearly_better * evidence : evidence;
+    if (const double e = lines.repeats(period).evidence(); e > needed + tuning->better) {
       best = period;
       evidence = e;
     }
   };
   if (r.wraps()) {
     const int length = courses ? r.exemplar().height : r.exemplar().width;
-    for (int n = int(length / shortest_repeat); n >= 2; n--) consider(double(length) / n);
+    for (int n = int(length / shortest_repeat()); n >= 2; n--) consider(double(length) / n);
   } else {
-    for (double period = shortest_repeat; period <= lines.size() / 1.3; period += 0.1) consider(period);
+    for (double period = shortest_repeat(); period <= lines.size() / tuning->seen; period += tuning->step)
+      consider(period);
     LineRepeats most = best > 0 ? lines.repeats(best) : LineRepeats{};
-    const double last = best * (1 + near_best);
-    for (double period = best * (1 - near_best); period < last; period += 0.005)
+    const double last = best * (1 + tuning->near_best);
+    for (double period = best * (1 - tuning->near_best); period < last; period += tuning->fine_step)
       if (const LineRepeats n = lines.repeats(period); n.count == most.count && n.certainty() > most.certainty()) {
         most = n;
         best = period;
@@ -129,8 +207,8 @@ Bands bands_that_rise(const Correlation& r, bool courses, double rise) {
   const LineRepeats found = lines.repeats(best);
   double certainty = found.certainty();
   // Thin joints are little of all there is, but what comes again so often is no chance.
-  if (lines.size() >= (r.wraps() ? 2 : 1) * often * best)
-    certainty = std::max(certainty, often_counts * distinct(certainty));
+  if (lines.size() >= (r.wraps() ? 2 : 1) * tuning->often * best)
+    certainty = std::max(certainty, tuning->often_counts * distinct(certainty));
   return {{1, courses ? Vector2d{0, best} : Vector2d{best, 0}, {}, std::min(1.0, certainty)},
           distinct(found.evidence()),
           lines.alike(best)};
@@ -146,10 +224,11 @@ struct Slant {
 /// That of lines which differ most: along stripes.
 Slant slant_of_stripes(const Correlation& r) {
   Slant best;
+  const int slants = tuning->slants;
   for (const bool courses : {true, false})
     for (int step = -slants; step <= slants; step++) {
       const double rise = double(step) / slants;
-      if (std::abs(rise) < least_rise) continue;
+      if (std::abs(rise) < tuning->least_rise) continue;
       if (const double differ = line_correlation(r, courses, rise, 0); differ > best.differ)
         best = {courses, rise, differ};
     }

@@ -8,12 +8,25 @@
 
 #include "core/analysis/repeats/lag_correlation.h"
 #include "core/base/geometry.h"
+#include "core/base/tuning.h"
 
 namespace terrazzo {
 
 namespace {
 
-constexpr int fewest_bins = 8, most_bins = 48;  // along a step
+struct Tuning {
+  int fewest_bins = 8;
+  int most_bins = 48;
+};
+const Tunable<Tuning> tuning("cell_phase",
+                             {
+                                 {&Tuning::fewest_bins, "fewest_bins", "bins along a step",
+                                  "higher: small cells are compared more finely; lower: bins hold enough pixels",
+                                  "not measured: taken over from the code before constants were listed", 1, 1024},
+                                 {&Tuning::most_bins, "most_bins", "bins along a step",
+                                  "higher: large cells are compared more finely; costs time, with the fourth power",
+                                  "not measured: phases are found to a fraction of a bin", 1, 1024},
+                             });
 
 struct Bins {
   int columns = 1, rows = 1;
@@ -22,7 +35,7 @@ struct Bins {
 /// About one to a pixel.
 Bins bins_of(const RepeatingView& r) {
   const auto along = [&](const Vector2d& step) {
-    return std::clamp(int(std::ceil(step.norm() / r.view.scale)), fewest_bins, most_bins);
+    return std::max(tuning->fewest_bins, std::min(int(std::ceil(step.norm() / r.view.scale)), tuning->most_bins));
   };
   return {along(r.lattice.first), r.lattice.rank == 2 ? along(r.lattice.second) : 1};
 }

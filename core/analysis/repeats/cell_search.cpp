@@ -3,34 +3,101 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
+#include "core/analysis/repeats/near_peaks.h"
+#include "core/base/tuning.h"
 #include "core/numeric/moments.h"
 
 namespace terrazzo {
 
 namespace {
 
-constexpr double least_peak = 0.02;
-constexpr size_t most_peaks = 44;
-constexpr size_t strongest = 5;      // peaks that may be chance
-constexpr double strong = 0.5;       // of the next
-constexpr double least_slant = 0.4;  // sine of the angle between two vectors
-constexpr double longest = 6;        // of a cell's sides against the other, around an exemplar that tiles
-constexpr int farthest = 5;          // steps from the origin at which a lattice is judged
-constexpr double same_point = 2;     // pixels
-constexpr double good_enough = 0.4;  // of the best score
-constexpr double same_area = 1.02;
-// By what part of it correlation on points must be lower before they count as others, and by how many standard errors:
-// hundreds of lattices are compared with one another.
-constexpr double least_gap = 0.1, least_errors = 4;
-// The same where one lattice has been found and its multiples are compared with it.
-constexpr int most_cells = 4;
-constexpr double least_errors_of_parts = 6;
-// Cells of photographs are hardly ever as alike, and then seldom lie so near whole pixels.
-constexpr double least_alike_of_drawn = 0.93, no_difference = 0.01, near_whole = 0.15;
-constexpr int fewest_around = 4, most_around = 12;  // cells of an exemplar that tiles, of which all lattices are tried
+struct Tuning {
+  double least_slant = 0.4;
+  double longest = 6;
+  double same_point = 2;
+  double good_enough = 0.4;
+  double same_area = 1.02;
+  double least_gap = 0.1;
+  double least_errors = 4;
+  double least_errors_of_parts = 6;
+  double least_deviation = 0.03;
+  double least_gain = 0.05;
+  double few_points = 1.3;
+  double least_alike_of_drawn = 0.93;
+  double no_difference = 0.01;
+  double near_whole = 0.15;
+  int farthest = 5;
+  int most_cells = 4;
+  int fewest_around = 4;
+  int most_around = 12;
+};
+const Tunable<Tuning> tuning(
+    "cell_search",
+    {
+        {&Tuning::least_slant, "least_slant", "sine",
+         "of the angle between two peaks that may span a cell. Higher: fewer pairs are tried; lower: flat ones that "
+         "noise spans are",
+         "not measured: the shortest vectors of a lattice are never flatter than 0.86", 0.01, 1},
+        {&Tuning::longest, "longest", "shorter sides",
+         "what the longer side of a cell may have, around an exemplar that tiles. Higher: bands are taken for cells; "
+         "lower: long boards are not found",
+         "not measured: taken over from the code before constants were listed", 1},
+        {&Tuning::same_point, "same_point", "pixels",
+         "within which points are the same around an exemplar that tiles. Higher: imprecise lattices count none twice; "
+         "lower: fine cells have more points",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::good_enough, "good_enough", "share of the best score",
+         "what a lattice must reach. Higher: the most distinct one wins; lower: denser ones that are less distinct win",
+         "not measured: taken over from the code before constants were listed", 0, 1},
+        {&Tuning::same_area, "same_area", "factor",
+         "up to which cells are of one size. Higher: larger ones that are more alike win; lower: the smallest wins",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::least_gap, "least_gap", "share of the correlation",
+         "by which it must be lower on points that are others. Higher: denser lattices win; lower: cells that differ a "
+         "little are kept apart",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::least_errors, "least_errors", "standard errors",
+         "the same. Higher: denser lattices win; lower: chance decides",
+         "not measured: hundreds of lattices are compared with one another"},
+        {&Tuning::least_errors_of_parts, "least_errors_of_parts", "standard errors",
+         "the same where multiples of one lattice are compared with it. Higher: chequered tiles become one; lower: "
+         "alike ones are kept apart",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::least_deviation, "least_deviation", "share of the correlation",
+         "of points, for that comparison. Higher: few points say less; lower: those that happen to agree decide",
+         "not measured: deviations of few points say little", 0.000001},
+        {&Tuning::least_gain, "least_gain", "share of the correlation",
+         "by which a larger multiple must lift it. Higher: the smallest multiple wins; lower: patterns of several "
+         "tiles come out whole",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::few_points, "few_points", "points",
+         "whose share a lattice loses of its score. Higher: few points say less; lower: large cells are found",
+         "not measured: few points may stand out by chance"},
+        {&Tuning::least_alike_of_drawn, "least_alike_of_drawn", "correlation",
+         "higher: fewer drawn patterns are rounded to whole pixels; lower: photographs are, too", "regularity", 0, 1},
+        {&Tuning::no_difference, "no_difference", "correlation",
+         "what rounding may take of it. Higher: more is rounded; lower: steps that are no whole pixels stay",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::near_whole, "near_whole", "pixels",
+         "what a step may be off whole ones to be rounded. Higher: drawn patterns come out exact; lower: photographs "
+         "keep their steps",
+         "regularity", 0, 0.5},
+        {&Tuning::farthest, "farthest", "steps from the origin",
+         "at which a lattice is judged. Higher: chance lattices fail; lower: those that are a little off do not",
+         "not measured: taken over from the code before constants were listed", 1, 1000},
+        {&Tuning::most_cells, "most_cells", "cells",
+         "of multiples that are compared with a lattice. Higher: larger patterns of tiles are found; costs time",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::fewest_around, "fewest_around", "cells of an exemplar that tiles",
+         "of which all lattices are tried. Higher: fewer are; lower: exemplars made to tile that hold parts of "
+         "themselves twice are taken for regular",
+         "not measured: exemplars that were made to tile often hold two or three parts"},
+        {&Tuning::most_around, "most_around", "cells of an exemplar that tiles",
+         "the same. Higher: large cells are not missed; costs time", "not measured: of more cells more peaks are seen",
+         0, 1000},
+    });
 
 /// The shortest vectors that span the same lattice (Lagrange and Gauss).
 void reduce(Vector2d& a, Vector2d& b) {
@@ -44,42 +111,12 @@ void reduce(Vector2d& a, Vector2d& b) {
   }
 }
 
-/// The nearest of the strong peaks: a lattice's shortest vectors are among them, however many points it has.
-std::vector<Vector2d> near_peaks(const Correlation& r) {
-  struct Peak {
-    Vector2d at;
-    double value;
-  };
-  std::vector<Peak> peaks;
-  for (int y = 0; y < r.lags().height - 3; y++)
-    for (int x = y == 0 ? 1 : 4 - r.lags().width; x < r.lags().width - 3; x++) {
-      if (x * x + y * y < shortest_repeat * shortest_repeat || !r.covers(x, y)) continue;
-      const double v = r.at(x, y);
-      bool highest = v > least_peak;
-      for (int j = -2; j <= 2 && highest; j++)
-        for (int i = -2; i <= 2 && highest; i++) highest = r.at(x + i, y + j) <= v;
-      if (!highest) continue;
-      const auto [at, value] = r.peak_near({double(x), double(y)});
-      peaks.push_back({at, value});
-    }
-  if (peaks.empty()) return {};
-  const size_t rank = std::min(strongest, peaks.size() - 1);
-  std::nth_element(peaks.begin(), peaks.begin() + ptrdiff_t(rank), peaks.end(),
-                   [](const Peak& a, const Peak& b) { return a.value > b.value; });
-  const double least = strong * peaks[rank].value;
-  std::vector<Vector2d> out;
-  for (const Peak& p : peaks)
-    if (p.value >= least) out.push_back(p.at);
-  const auto nearness = [](const Vector2d& v) { return std::tuple(v.squaredNorm(), v.y(), v.x()); };
-  std::ranges::sort(out, {}, nearness);
-  if (out.size() > most_peaks) out.resize(most_peaks);
-  return out;
-}
-
 /// A lattice's points within the lags, the origin left out: of two opposite ones, and of those that are the same around
 /// an exemplar that tiles, one.
 std::vector<Vector2d> points_of(const Correlation& r, Vector2d a, Vector2d b) {
   std::vector<Vector2d> points;
+  const double same_point = tuning->same_point;
+  const int farthest = tuning->farthest;
   const double w = r.exemplar().width, h = r.exemplar().height;
   const auto same = [&](Vector2d p, Vector2d q) {
     const double x = std::abs(p.x() - q.x()), y = std::abs(p.y() - q.y());
@@ -164,7 +201,7 @@ Candidate judged(const Correlation& r, Vector2d a, Vector2d b, double hopeless) 
   if (r.wraps() ? c.points.size() < 2 : c.points.size() < 3 || off_a < 2 || off_b < 2) return c;
   c.on = moments(c.points);
   const auto count = double(c.on.count());
-  const double few = 1 - 1.3 / count;
+  const double few = 1 - tuning->few_points / count;
   const double low = c.on.mean() - deviation(c.on) * (1 + 1 / std::sqrt(count));
   if (low * few <= hopeless) return c;
   c.around = around_points(r, c.points, a.norm());
@@ -181,9 +218,9 @@ bool is_worse(const Candidate& c, const Candidate& than, double errors) {
     if (!than.has(p.at, 0.15)) own.push_back(p);
   if (own.size() < 2) return false;
   const Moments<1> on = moments(own), &other = than.on;
-  if (on.mean() >= other.mean() * (1 - least_gap)) return false;
+  if (on.mean() >= other.mean() * (1 - tuning->least_gap)) return false;
   const auto a = double(on.count()), b = double(other.count());
-  const double least = 0.03 * other.mean();  // deviations of few points say little
+  const double least = tuning->least_deviation * other.mean();
   const double variance = std::max(least * least, (a * on.variance() + b * other.variance()) / (a + b - 2));
   return other.mean() - on.mean() > errors * std::sqrt(variance * (1 / a + 1 / b));
 }
@@ -227,11 +264,11 @@ Lattice rounded_if_drawn(const Correlation& r, const Lattice& l) {
   Lattice whole = l;
   for (Vector2d* v : {&whole.first, &whole.second}) {
     const Vector2d rounded = (v->array() + 0.5).floor();
-    if ((rounded - *v).lpNorm<Eigen::Infinity>() > near_whole) return l;
+    if ((rounded - *v).lpNorm<Eigen::Infinity>() > tuning->near_whole) return l;
     *v = rounded;
   }
   const double alike = whole.is_valid() ? on_points(r, whole) : 0;
-  return alike >= least_alike_of_drawn && alike >= on_points(r, l) - no_difference ? whole : l;
+  return alike >= tuning->least_alike_of_drawn && alike >= on_points(r, l) - tuning->no_difference ? whole : l;
 }
 
 class CellSearch {
@@ -239,7 +276,7 @@ class CellSearch {
   explicit CellSearch(const Correlation& r) : r_(r) {}
 
   void add(Vector2d a, Vector2d b) {
-    if (std::abs(cross(a, b)) < least_slant * std::sqrt(a.squaredNorm() * b.squaredNorm())) return;
+    if (std::abs(cross(a, b)) < tuning->least_slant * std::sqrt(a.squaredNorm() * b.squaredNorm())) return;
     reduce(a, b);
     if (!fit(a, b)) return;
     const double area = std::abs(cross(a, b));
@@ -247,7 +284,7 @@ class CellSearch {
           return std::abs(c.area() - area) < 0.1 * area && c.has(a, 0.02) && c.has(b, 0.02);
         }))
       return;
-    Candidate c = judged(r_, a, b, good_enough * highest_);
+    Candidate c = judged(r_, a, b, tuning->good_enough * highest_);
     if (c.score <= 0) return;
     highest_ = std::max(highest_, c.score);
     candidates_.push_back(std::move(c));
@@ -255,7 +292,7 @@ class CellSearch {
 
   /// The densest that does not do worse than any other; null if there is none.
   const Candidate* best() {
-    const double least = good_enough * highest_;
+    const double least = tuning->good_enough * highest_;
     candidates_.erase(
         std::remove_if(candidates_.begin(), candidates_.end(), [&](const Candidate& c) { return c.score < least; }),
         candidates_.end());
@@ -263,7 +300,7 @@ class CellSearch {
                      [](const Candidate& a, const Candidate& b) { return a.area() < b.area(); });
     const Candidate* best = nullptr;
     for (const Candidate& c : candidates_) {
-      if (best && c.area() > same_area * best->area()) break;
+      if (best && c.area() > tuning->same_area * best->area()) break;
       if ((!best || c.on.mean() > best->on.mean()) &&
           std::none_of(candidates_.begin(), candidates_.end(),
                        [&](const Candidate& other) { return is_worse(c, other, errors_against(other)); }))
@@ -275,7 +312,7 @@ class CellSearch {
  private:
   /// Of many lattices of few points some have high ones by chance; around an exemplar that tiles not many fit.
   double errors_against(const Candidate& c) const {
-    return r_.wraps() ? least_errors : least_errors * (1 + 1.0 / double(c.on.count()));
+    return r_.wraps() ? tuning->least_errors : tuning->least_errors * (1 + 1.0 / double(c.on.count()));
   }
 
   /// Fits both vectors to peaks near them. An exemplar that tiles holds whole steps; false if it is far from that.
@@ -284,7 +321,7 @@ class CellSearch {
       refine(r_, a, b, 2);
       return true;
     }
-    if (b.squaredNorm() > longest * longest * a.squaredNorm()) return false;
+    if (b.squaredNorm() > tuning->longest * tuning->longest * a.squaredNorm()) return false;
     const Lattice whole = Lattice{2, a, b, 0}.fitted(r_.exemplar(), true, true);
     const auto close = [](const Vector2d& p, const Vector2d& q) { return (p - q).lpNorm<Eigen::Infinity>() < 1; };
     if (!close(whole.first, a) || !close(whole.second, b)) return false;
@@ -309,7 +346,7 @@ Cell best_cell(const Correlation& r, const std::vector<Lattice>& further) {
   for (const Lattice& l : further) search.add(l.first, l.second);
   // Of few cells few peaks are seen; all the lattices can be tried. (Not those of two or three cells: exemplars that
   // were made to tile often hold parts of themselves twice.)
-  for (int cells = fewest_around; r.wraps() && cells <= most_around; cells++)
+  for (int cells = tuning->fewest_around; r.wraps() && cells <= tuning->most_around; cells++)
     for (int across = 1; across <= cells; across++) {
       if (cells % across != 0) continue;
       const int down = cells / across;
@@ -335,16 +372,16 @@ Lattice without_false_repeats(const Correlation& r, const Lattice& lattice) {
   const Candidate all = judged(r, a, b, -2);
   Lattice best = lattice;
   double largest = 0;
-  for (int cells = 2; cells <= most_cells; cells++)
+  for (int cells = 2; cells <= tuning->most_cells; cells++)
     for (int p = 1; p <= cells; p++) {
       if (cells % p != 0) continue;
       // Every sublattice of that many cells has a basis p * a, q * a + rows * b (Hermite normal form).
       for (int q = 0; q < p; q++) {
         const Candidate c = judged(r, p * a, q * a + cells / p * b, -2);
-        if (c.on.count() < 3 || c.on.mean() <= 0 || !is_worse(all, c, least_errors_of_parts)) continue;
+        if (c.on.count() < 3 || c.on.mean() <= 0 || !is_worse(all, c, tuning->least_errors_of_parts)) continue;
         // Of the correlation on the sublattice's points, what the others lack.
         const double gap = (1 - all.on.mean() / c.on.mean()) * cells / (cells - 1);
-        if (gap <= largest + 0.05) continue;
+        if (gap <= largest + tuning->least_gain) continue;
         largest = gap;
         best.first = c.a;
         best.second = c.b;

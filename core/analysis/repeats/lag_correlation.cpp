@@ -1,5 +1,6 @@
 #include "core/analysis/repeats/lag_correlation.h"
 
+#include "core/base/tuning.h"
 #include "core/image/float_planes.h"
 #include "core/metrics/autocorrelation.h"
 
@@ -7,12 +8,39 @@ namespace terrazzo {
 
 namespace {
 
-constexpr double grain = 0.8;  // pixels; a light blur keeps noise from drowning what repeats
+struct Tuning {
+  double shortest_repeat = 4;
+  double least_overlap = 0.16;
+  double grain = 0.8;
+  double coarse = 10;
+  double least_coarse = 2;
+};
+const Tunable<Tuning> tuning(
+    "lag_correlation",
+    {
+        {&Tuning::shortest_repeat, "shortest_repeat", "pixels",
+         "higher: fine weaves are taken for grain; lower: grain is taken for a weave",
+         "not measured: what repeats after fewer is grain", 2},
+        {&Tuning::least_overlap, "least_overlap", "share of the exemplar",
+         "what of it must lie on itself at a lag. Higher: lags are surer; lower: long repeats are found",
+         "not measured: taken over from the code before constants were listed", 0, 1},
+        {&Tuning::grain, "grain", "pixels",
+         "deviation of a light blur. Higher: noise drowns less of what repeats; lower: thin joints stay",
+         "not measured: taken over from the code before constants were listed", 0, 64},
+        {&Tuning::coarse, "coarse", "parts of the shorter side",
+         "the deviation of what does not count as a detail. Higher: large cells are taken away, too; lower: gradients "
+         "drown the repeats",
+         "not measured: taken over from the code before constants were listed", 1},
+        {&Tuning::least_coarse, "least_coarse", "pixels",
+         "the same of tiny exemplars. Higher: more of them counts as details; lower: less",
+         "not measured: taken over from the code before constants were listed", 0, 1000},
+    });
 
-/// Details only: what varies over more than a tenth of the exemplar would drown the repeats.
+/// Details only: what varies slowly would drown the repeats.
 Planes without_gradients(const Planes& in) {
-  Planes out = blurred(in, grain, Beyond::mirrored);
-  const Planes coarse = blurred(out, std::max(2.0, std::min(in.size.width, in.size.height) / 10.0), Beyond::mirrored);
+  Planes out = blurred(in, tuning->grain, Beyond::mirrored);
+  const Planes coarse = blurred(
+      out, std::max(tuning->least_coarse, std::min(in.size.width, in.size.height) / tuning->coarse), Beyond::mirrored);
   for (size_t i = 0; i < out.values.size(); i++) out.values[i] -= coarse.values[i];
   return out;
 }
@@ -37,6 +65,17 @@ std::vector<double> around_borders(const Correlogram& r, Size size) {
 }
 
 }  // namespace
+
+double shortest_repeat() {
+  return tuning->shortest_repeat;
+}
+
+Correlation::Correlation(std::vector<double> values, Size lags, Size exemplar, bool wraps)
+    : values_(std::move(values)),
+      lags_(lags),
+      exemplar_(exemplar),
+      wraps_(wraps),
+      least_overlap_(tuning->least_overlap * double(exemplar.area())) {}
 
 Correlation correlate(const Planes& planes, const std::vector<float>& counts, const Task& task) {
   Planes details = without_gradients(planes);
@@ -83,7 +122,7 @@ Correlation pooled(const std::vector<Correlation>& all) {
 }
 
 Planes outlines(const Planes& in) {
-  const Planes values = blurred(in, grain, Beyond::mirrored);
+  const Planes values = blurred(in, tuning->grain, Beyond::mirrored);
   Planes out = Planes::zeros(in.size, 1, in.wraps);
   for (int y = 0; y < in.size.height; y++)
     for (int x = 0; x < in.size.width; x++) {

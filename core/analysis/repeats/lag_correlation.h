@@ -12,7 +12,7 @@
 namespace terrazzo {
 
 /// Pixels; what repeats after fewer is grain.
-inline constexpr double shortest_repeat = 4;
+double shortest_repeat();
 
 /// Of a maximum between its neighbours, in steps: the vertex of a parabola.
 inline double vertex_near(double before, double at, double after) {
@@ -24,8 +24,7 @@ inline double vertex_near(double before, double at, double after) {
 class Correlation {
  public:
   /// `lags`: 0..width-1 in x, -(height-1)..height-1 in y, row by row. `wraps`: of an exemplar that tiles.
-  Correlation(std::vector<double> values, Size lags, Size exemplar, bool wraps)
-      : values_(std::move(values)), lags_(lags), exemplar_(exemplar), wraps_(wraps) {}
+  Correlation(std::vector<double> values, Size lags, Size exemplar, bool wraps);
 
   Size lags() const { return lags_; }
   Size exemplar() const { return exemplar_; }
@@ -36,7 +35,7 @@ class Correlation {
     const double x = std::abs(dx), y = std::abs(dy);
     if (wraps_) return x <= exemplar_.width * 0.5 && y <= exemplar_.height * 0.5;
     return x <= lags_.width - 3 && y <= lags_.height - 3 &&
-           (exemplar_.width - x) * (exemplar_.height - y) >= least_overlap * double(exemplar_.area());
+           (exemplar_.width - x) * (exemplar_.height - y) >= least_overlap_;
   }
   double at(int dx, int dy) const {
     if (dx < 0) {
@@ -70,10 +69,10 @@ class Correlation {
   }
 
  private:
-  static constexpr double least_overlap = 0.16;
   std::vector<double> values_;
   Size lags_, exemplar_;
   bool wraps_;
+  double least_overlap_;  ///< in pixels
 };
 
 /// The correlation of an exemplar's details with themselves, channels weighted by their variance: over lags up to five

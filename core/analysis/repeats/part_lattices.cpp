@@ -10,6 +10,7 @@
 #include "core/analysis/repeats/cell_phase.h"
 #include "core/analysis/space/mask_pyramid.h"
 #include "core/base/error.h"
+#include "core/base/tuning.h"
 #include "core/image/image_ops.h"
 #include "core/material/map_names.h"
 
@@ -17,9 +18,25 @@ namespace terrazzo {
 
 namespace {
 
-// By how much steps may differ, as a part of their length. Courses of one wall do not all have the same height.
-constexpr double most_unlike = 0.04, most_unlike_bands = 0.06;
-constexpr int most_cells = 4;  // of one lattice in a cell of another
+struct Tuning {
+  double most_unlike = 0.04;
+  double most_unlike_bands = 0.06;
+  int most_cells = 4;
+};
+const Tunable<Tuning> tuning("part_lattices",
+                             {
+                                 {&Tuning::most_unlike, "most_unlike", "share of a step",
+                                  "by how much steps of two parts may differ. Higher: more parts are shown as one; "
+                                  "lower: they keep what they have",
+                                  "not measured: only with and without were compared"},
+                                 {&Tuning::most_unlike_bands, "most_unlike_bands", "share of a period",
+                                  "the same of courses and columns",
+                                  "not measured: courses of one wall do not all have the same height"},
+                                 {&Tuning::most_cells, "most_cells", "cells",
+                                  "of one lattice in a cell of another. Higher: parts that show multiples of one cell "
+                                  "are brought together; lower: less chance",
+                                  "not measured: taken over from the code before constants were listed", 1},
+                             });
 
 bool are_alike(const Vector2d& a, const Vector2d& b, double unlike) {
   return (a - b).norm() <= unlike * b.norm();
@@ -34,7 +51,8 @@ std::optional<Lattice> stepping_like(const Lattice& model, const Lattice& l) {
     if ((l.first.x() != 0) != (model.first.x() != 0)) return {};
     const double steps = whole(l.cells(model.first).x());
     out.first = l.at({steps, 0});
-    return std::abs(steps) >= 1 && std::abs(steps) <= most_cells && are_alike(out.first, model.first, most_unlike_bands)
+    return std::abs(steps) >= 1 && std::abs(steps) <= tuning->most_cells &&
+                   are_alike(out.first, model.first, tuning->most_unlike_bands)
                ? std::optional(out)
                : std::nullopt;
   }
@@ -45,10 +63,10 @@ std::optional<Lattice> stepping_like(const Lattice& model, const Lattice& l) {
   out.first = nearest(model.first);
   out.second = nearest(model.second);
   const double cells = out.cell_area() / l.cell_area();
-  if (cells < 0.5 || cells > most_cells + 0.5) return {};
-  return are_alike(out.first, model.first, most_unlike) && are_alike(out.second, model.second, most_unlike)
-             ? std::optional(out)
-             : std::nullopt;
+  if (cells < 0.5 || cells > tuning->most_cells + 0.5) return {};
+  const double unlike = tuning->most_unlike;
+  return are_alike(out.first, model.first, unlike) && are_alike(out.second, model.second, unlike) ? std::optional(out)
+                                                                                                  : std::nullopt;
 }
 
 /// What two parts have in common, in the steps of each.

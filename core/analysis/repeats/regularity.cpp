@@ -9,20 +9,42 @@
 #include "core/analysis/repeats/lag_correlation.h"
 #include "core/analysis/repeats/straight_lines.h"
 #include "core/analysis/space/mask_pyramid.h"
+#include "core/base/tuning.h"
 
 namespace terrazzo {
 
 namespace {
 
-// Pixels. Coarse levels see nothing of finer cells and would mix what they show; they keep pieces of two by two apart.
-constexpr double smallest_cell = 7.5;
-constexpr double least_distinct = 0.15;  // from here on cells say more than the bands they lie in
-// Grass that was made to tile often holds a part of itself twice or four times: few cells must be alike by more. (Of
-// 260 textures of games, plates, tiles and bricks of so few cells are by 0.62 and more, grass and ground by 0.58 and
-// less.)
-constexpr double few_cells = 6.5, least_alike_of_few = 0.6;
-// Stripes may be a part only of what is shown, such as of a door; those that are all of it are surer by far.
-constexpr double least_sure_stripes = 0.6;
+struct Tuning {
+  double smallest_cell = 7.5;
+  double least_distinct = 0.15;
+  double few_cells = 6.5;
+  double least_alike_of_few = 0.6;
+  double least_sure_stripes = 0.6;
+};
+const Tunable<Tuning> tuning("regularity",
+                             {
+                                 {&Tuning::smallest_cell, "smallest_cell", "pixels",
+                                  "finer cells are put together two by two. Higher: coarse levels keep more pieces "
+                                  "apart; lower: they see nothing of such cells and mix them",
+                                  "not measured: taken over from the code before constants were listed"},
+                                 {&Tuning::least_distinct, "least_distinct", "distinctness",
+                                  "from which on cells say more than the bands they lie in. Higher: courses without a "
+                                  "bond; lower: bonds by chance",
+                                  "not measured: taken over from the code before constants were listed"},
+                                 {&Tuning::few_cells, "few_cells", "cells of the exemplar",
+                                  "up to which they must be alike by more. Higher: fewer parts that were repeated to "
+                                  "make it tile count as cells; lower: large cells are found",
+                                  "regularity"},
+                                 {&Tuning::least_alike_of_few, "least_alike_of_few", "correlation",
+                                  "of so few cells. Higher: plates, tiles and bricks of few cells have no lattice; "
+                                  "lower: grass and ground, of which 260 textures reach 0.58, are laid out in squares",
+                                  "regularity"},
+                                 {&Tuning::least_sure_stripes, "least_sure_stripes", "certainty",
+                                  "of stripes aslant. Higher: fewer are found; lower: those that are only a part of "
+                                  "what is shown, as of a door, are taken for all",
+                                  "not measured: taken over from the code before constants were listed"},
+                             });
 
 Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
   Lattice out = l;
@@ -36,9 +58,9 @@ Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
 }
 
 bool is_sure(const Cell& cell, Size exemplar, double least_certainty) {
-  const bool few = cell.lattice.cell_area() * few_cells > double(exemplar.area());
-  return cell.distinct >= least_distinct &&
-         cell.lattice.certainty >= (few ? std::max(least_certainty, least_alike_of_few) : least_certainty);
+  const bool few = cell.lattice.cell_area() * tuning->few_cells > double(exemplar.area());
+  return cell.distinct >= tuning->least_distinct &&
+         cell.lattice.certainty >= (few ? std::max(least_certainty, tuning->least_alike_of_few) : least_certainty);
 }
 
 struct Found {
@@ -65,7 +87,8 @@ Found searched(const Correlation& values, const Correlation& joints, double leas
   if (is_sure(cell, values.exemplar(), least_certainty)) return {cell.lattice, cell.lattice.certainty};
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
   for (const Correlation* r : {&values, &joints})
-    if (const Bands b = stripes_of(*r); b.lattice.certainty >= least_sure_stripes && b.distinct > bands.distinct)
+    if (const Bands b = stripes_of(*r);
+        b.lattice.certainty >= tuning->least_sure_stripes && b.distinct > bands.distinct)
       bands = b;
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
@@ -103,7 +126,8 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
   for (Vector2d* v : {&best.first, &best.second}) *v *= largest.scale;
   const Size size{largest.seen.width, largest.seen.height};
   best = best.fitted(size, wraps, wraps);
-  if (best.rank == 2 && best.cell_area() < smallest_cell * smallest_cell) best = two_by_two(best, size, wraps);
+  if (best.rank == 2 && best.cell_area() < tuning->smallest_cell * tuning->smallest_cell)
+    best = two_by_two(best, size, wraps);
   return {best, too_few};
 }
 

@@ -10,17 +10,64 @@
 
 #include "core/analysis/repeats/regularity.h"
 #include "core/analysis/space/weighting.h"
+#include "core/base/tuning.h"
 #include "core/image/image_ops.h"
 
 namespace terrazzo {
 
 namespace {
 
+struct Tuning {
+  double beside_seam = 1.5;
+  double inside = 1.35;
+  double slack = 1.25;
+  double least_certainty = 0.75;
+  double most_excess = 1.0 / 120;
+  int window = 6;
+  int samples = 64;
+  int lines = 96;
+  int enough_lines = 3;
+  int steps = 512;
+};
+const Tunable<Tuning> tuning(
+    "wrap_detection",
+    {
+        {&Tuning::beside_seam, "beside_seam", "steps beside it",
+         "what the step across the seam may be. Higher: rough joints along borders go on; lower: parts cut out are "
+         "seen",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::inside, "inside", "mean steps inside",
+         "what the step across the seam may be. Higher: parts cut out are taken to wrap; lower: exemplars that wrap "
+         "are not",
+         "wrap_detection"},
+        {&Tuning::slack, "slack", "misfits inside",
+         "what windows across the seam may have. Higher: parts cut out are taken to wrap; lower: exemplars that wrap "
+         "are not",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::least_certainty, "least_certainty", "certainty",
+         "of a lattice that may deny it. Higher: only drawn patterns are denied; lower: cells that are none deny it",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::most_excess, "most_excess", "share of a side",
+         "by which cells may come out uneven. Higher: less is denied; lower: imprecise lattices deny what wraps",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::window, "window", "pixels a side",
+         "of the windows that are compared. Higher: larger features must fit; lower: less is unusual",
+         "not measured: taken over from the code before constants were listed", 1},
+        {&Tuning::samples, "samples", "windows", "along a seam or a line. Higher: their mean is surer; costs time",
+         "not measured: bounds the time", 1},
+        {&Tuning::lines, "lines", "lines inside",
+         "across which windows may be as unusual. Higher: joints inside are not missed; costs time", "wrap_detection",
+         1},
+        {&Tuning::enough_lines, "enough_lines", "lines",
+         "of those, so many must be. Higher: parts cut out are seen; lower: what wraps along a joint is",
+         "wrap_detection"},
+        {&Tuning::steps, "steps", "steps inside", "whose mean is taken. Higher: surer; costs time",
+         "not measured: bounds the time", 1},
+    });
+
 /// How far a window is from the nearest of many windows elsewhere; a map at a border is judged by what it does inside.
 class WindowSearch {
  public:
-  static constexpr int side = 6;
-
   explicit WindowSearch(const Image& map) : map_(map) {
     for (int i = 0; i < places; i++) {
       const uint64_t r = random_bits(11, i);
@@ -45,6 +92,7 @@ class WindowSearch {
 
  private:
   static constexpr int places = 3000;
+  const int side = tuning->window;
   std::vector<float> window(int x, int y) const { return read_padded(map_, {x, y, side, side}, Outside::wrap); }
   const Image& map_;
   std::array<std::array<int, 2>, places> places_;
@@ -90,17 +138,15 @@ bool has_joint_along_border(const Image& map) {
 
 /// Whether values go on from one border to the other about as they do from pixel to pixel beside them.
 bool goes_on(const Image& map, bool rows) {
-  constexpr double most = 1.5;
   const auto line = [&](int i) { return border_line(map, rows, i); };
-  return distance(line(-1), line(0)) <= most * std::max(distance(line(-2), line(-1)), distance(line(0), line(1)));
+  return distance(line(-1), line(0)) <=
+         tuning->beside_seam * std::max(distance(line(-2), line(-1)), distance(line(0), line(1)));
 }
 
 /// Whether values change across the seam about as much as they do from line to line inside. Of gravel that was cut out
 /// anywhere, windows fit as well as any others, but no pixel fits its neighbour.
 bool steps_alike(const Image& map, bool rows) {
-  constexpr double most = 1.35;
-  constexpr int enough = 512;  // of the steps inside
-  const int lines = rows ? map.height() : map.width(), apart = std::max(1, lines / enough);
+  const int lines = rows ? map.height() : map.width(), apart = std::max(1, lines / tuning->steps);
   double sum = 0, most_inside = 0;
   int steps = 0;
   for (int i = 0; i + 1 < lines; i += apart, steps++) {
@@ -108,7 +154,8 @@ bool steps_alike(const Image& map, bool rows) {
     sum += step;
     most_inside = std::max(most_inside, step);
   }
-  return distance(border_line(map, rows, -1), border_line(map, rows, 0)) <= std::max(most_inside, most * sum / steps);
+  return distance(border_line(map, rows, -1), border_line(map, rows, 0)) <=
+         std::max(most_inside, tuning->inside * sum / steps);
 }
 
 /// How much less than windows inside those across a line look like the rest of their map, as a mean of all maps: 1 is
@@ -129,9 +176,7 @@ class Fit {
   double across_line(bool rows, double place) const { return across(rows, place); }
 
  private:
-  static constexpr int samples = 64;
-
-  static int at(double place, int extent) { return int(place * (extent - WindowSearch::side)); }
+  static int at(double place, int extent) { return int(place * (extent - tuning->window)); }
   static int inside(int extent, std::array<int, 3> sample) {
     return at(unit_double(random_bits(sample[0], sample[1], sample[2])), extent);
   }
@@ -140,7 +185,7 @@ class Fit {
     double out = 0;
     for (size_t m = 0; m < maps_.size(); m++) {
       const int width = maps_[m]->width(), height = maps_[m]->height(), breadth = rows ? height : width;
-      const int first = line ? at(*line, breadth) : breadth - WindowSearch::side / 2;
+      const int first = line ? at(*line, breadth) : breadth - tuning->window / 2;
       for (int i = 0; i < samples; i++) {
         const int along = inside(rows ? width : height, {13, rows ? 1 : 0, i});
         out += (rows ? searches_[m]->nearest(along, first) : searches_[m]->nearest(first, along)) / inside_[m];
@@ -152,12 +197,13 @@ class Fit {
   const std::vector<ImagePtr>& maps_;
   std::vector<std::unique_ptr<WindowSearch>> searches_;
   std::vector<double> inside_;
+  const int samples = tuning->samples;
 };
 
 /// Whether there are lines inside across which windows look as little like the rest as across the seam: joints are such
 /// lines.
 bool lines_fit_as_little(const Fit& fit, bool rows, double seam) {
-  constexpr int lines = 96, enough = 3;
+  const int lines = tuning->lines, enough = tuning->enough_lines;
   int found = 0;
   for (int i = 0; i < lines && found < enough; i++) found += fit.across_line(rows, double(i) / lines) >= seam ? 1 : 0;
   return found >= enough;
@@ -166,10 +212,9 @@ bool lines_fit_as_little(const Fit& fit, bool rows, double seam) {
 /// Whether windows across the borders resemble the rest of the maps about as much as windows inside do, and values go
 /// on there.
 bool borders_fit(const Material& material) {
-  constexpr double slack = 1.25;
   std::vector<ImagePtr> maps;
   for (const Map& map : material.maps()) {
-    if (std::min(map.image->width(), map.image->height()) < 2 * WindowSearch::side) return false;
+    if (std::min(map.image->width(), map.image->height()) < 2 * tuning->window) return false;
     maps.push_back(materialized(map.image));
   }
   const auto all = [&](auto&& holds) {
@@ -189,8 +234,8 @@ bool borders_fit(const Material& material) {
   const Fit fit(maps);
   const auto windows_fit = [&](bool rows) {
     const double seam = fit.across_seam(rows);
-    return seam <= slack || (all([&](const Image& map) { return goes_on(map, rows); }) &&
-                             (has_joint() || lines_fit_as_little(fit, rows, seam)));
+    return seam <= tuning->slack || (all([&](const Image& map) { return goes_on(map, rows); }) &&
+                                     (has_joint() || lines_fit_as_little(fit, rows, seam)));
   };
   return windows_fit(true) && windows_fit(false);
 }
@@ -198,13 +243,11 @@ bool borders_fit(const Material& material) {
 /// Whether the exemplar's cells, found without regard to its borders, come out uneven around it: an odd number of
 /// chequered tiles has borders that go on smoothly, and yet like meets like there.
 bool cells_deny(const Material& material, const Task& task) {
-  constexpr double least_certainty = 0.75;
-  constexpr double most_excess = 1.0 / 120;  // of a side
   const FeaturesPtr features = weighted_features(material, weights_of_chosen(material, {}), false);
-  const Lattice lattice = find_lattice(*features, least_certainty, task).lattice;
+  const Lattice lattice = find_lattice(*features, tuning->least_certainty, task).lattice;
   const Size size = material.size();
-  return lattice.rank == 2 && !(lattice.fits(size, true, false, most_excess * size.width) &&
-                                lattice.fits(size, false, true, most_excess * size.height));
+  return lattice.rank == 2 && !(lattice.fits(size, true, false, tuning->most_excess * size.width) &&
+                                lattice.fits(size, false, true, tuning->most_excess * size.height));
 }
 
 }  // namespace
