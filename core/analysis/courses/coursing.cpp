@@ -8,29 +8,114 @@
 
 #include "core/analysis/courses/bed_joints.h"
 #include "core/analysis/courses/head_joints.h"
+#include "core/base/tuning.h"
 
 namespace terrazzo {
 
 namespace {
 
-constexpr double smallest_period = 14;  // pixels; finer joints are lost
-constexpr double largest_period = 96;   // more is looked at where pixels are larger
+struct Tuning {
+  double smallest_period = 14;
+  double largest_period = 96;
+  double separability_of_bricks = 1.1;
+  double separability_of_boards = 0.7;
+  double most_aligned = 0.3;
+  double separability_by_themselves = 1.4;
+  double most_aligned_by_themselves = 0.1;
+  double separability_to_learn = 0.8;
+  double least_joints = 0.8;
+  double least_jointed = 0.4;
+  double shortest_board = 5;
+  double least_shown = 0.8;
+  double least_astray = 0.6;
+  double least_between = 0.15;
+  double clear = 2;
+  int least_of_kind = 2;
+  int least_courses = 3;
+  int least_inside = 3;
+};
+const Tunable<Tuning> tuning(
+    "coursing",
+    {
+        {&Tuning::smallest_period, "smallest_period", "pixels",
+         "higher: fine walls are left to seams; lower: courses whose joints are lost are laid",
+         "not measured: finer joints are lost", 4},
+        {&Tuning::largest_period, "largest_period", "pixels",
+         "more is looked at where pixels are larger. Higher: joints are placed more exactly; costs time",
+         "not measured: bounds the time"},
+        {&Tuning::separability_of_bricks, "separability_of_bricks", "deviations",
+         "of joints like bed joints, between them and bricks. Higher: fewer walls are laid; lower: plaster is cut into "
+         "stripes",
+         "coursing"},
+        {&Tuning::separability_of_boards, "separability_of_boards", "deviations",
+         "the same of boards, which are cut so seldom that a wrong joint costs less. Higher: fewer floors are laid; "
+         "lower: boards are cut at knots",
+         "not measured: the demands were measured together, not one by one"},
+        {&Tuning::most_aligned, "most_aligned", "share of the joints",
+         "that may go on in the course below. Higher: tiles are laid as bricks, and cut up; lower: walls with some "
+         "joints in line are not laid",
+         "not measured: the demands were measured together, not one by one"},
+        {&Tuning::separability_by_themselves, "separability_by_themselves", "deviations",
+         "of joints that were learnt, which were chosen for how they stand out. Higher: fewer walls are laid; lower: "
+         "stains are taken for joints",
+         "not measured: the demands were measured together, not one by one"},
+        {&Tuning::most_aligned_by_themselves, "most_aligned_by_themselves", "share of the joints",
+         "as most_aligned, of joints that were learnt",
+         "not measured: the demands were measured together, not one by one"},
+        {&Tuning::separability_to_learn, "separability_to_learn", "deviations",
+         "of joints like bed joints, for others to be learnt. Higher: fewer walls are laid; lower: joints are learnt "
+         "where there are none",
+         "not measured: the demands were measured together, not one by one"},
+        {&Tuning::least_joints, "least_joints", "joints to a course",
+         "higher: floors of long boards are left as they are; lower: courses are laid that can hardly be cut",
+         "not measured: the demands were measured together, not one by one"},
+        {&Tuning::least_jointed, "least_jointed", "share of the courses",
+         "that have a joint. Higher: floors of long boards are left as they are; lower: few courses have all the "
+         "joints",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::shortest_board, "shortest_board", "course heights",
+         "from which on bricks count as boards. Higher: less is laid; lower: bricks with faint joints are laid",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::least_shown, "least_shown", "share of the exemplar",
+         "that whole courses must take: no result shows those that its border cuts off. Higher: less is laid; lower: "
+         "results lose what was cut off",
+         "course_layout"},
+        {&Tuning::least_astray, "least_astray", "joints to each brick of a lattice",
+         "that do not come again with it. Higher: lattices keep bricks whole by themselves; lower: bricks are laid "
+         "that are whole already",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::least_between, "least_between", "share of the variance",
+         "that lies between bricks. Higher: bricks that differ are left to the lattice; lower: those are laid of which "
+         "no one can tell two halves",
+         "course_layout", 0, 1},
+        {&Tuning::clear, "clear", "deviations",
+         "from which on joints are clear, and seams look for others less far. Higher: missed joints are found; lower: "
+         "boards keep no stubs of joints",
+         "not measured: only near and far reaches were compared"},
+        {&Tuning::least_of_kind, "least_of_kind", "courses",
+         "of each kind. Higher: less is laid; lower: one course comes all over",
+         "not measured: the demands were measured together, not one by one", 1},
+        {&Tuning::least_courses, "least_courses", "courses",
+         "in all. Higher: less is laid; lower: there is hardly anything to choose from",
+         "not measured: the demands were measured together, not one by one", 1},
+        {&Tuning::least_inside, "least_inside", "rows",
+         "of a course that belong to no joint. Higher: thin courses are not laid; lower: their joints are guessed from "
+         "a row or two",
+         "not measured: taken over from the code before constants were listed", 1},
+    });
+
 /// How far joints across and what is between them lie apart at least, in deviations, and how many go on in the course
 /// below at most.
 struct Demands {
-  double told_of_bricks, told_of_boards, most_aligned;
+  double bricks, boards, most_aligned;
 };
-// Courses of boards are cut so seldom that they may be told less. Joints that are known by themselves only were chosen
-// for how they stand out.
-constexpr Demands of_joints_like_beds{1.1, 0.7, 0.3}, of_joints_by_themselves{1.4, 1.4, 0.1};
-constexpr double least_joints = 0.8, least_jointed = 0.4;  // in a course, and courses that have one
-constexpr double least_told_to_learn = 0.8;                // of bed joints
-constexpr double shortest_board = 5;                       // course heights
-constexpr int least_of_kind = 2, least_courses = 3;        // or there is nothing to choose from
-constexpr double least_shown = 0.8;     // of the exemplar: no result shows courses that its border cuts off
-constexpr double least_astray = 0.6;    // joints to each brick of a lattice which do not come again with it
-constexpr double least_between = 0.15;  // share_between_bricks()
-constexpr int least_inside = 3;         // rows of a course that belong to no joint
+Demands of_joints_like_beds() {
+  return {tuning->separability_of_bricks, tuning->separability_of_boards, tuning->most_aligned};
+}
+Demands of_joints_by_themselves() {
+  const double separability = tuning->separability_by_themselves;
+  return {separability, separability, tuning->most_aligned_by_themselves};
+}
 
 /// All courses of one kind of which the exemplar shows something, whole or not.
 std::vector<ExemplarCourse> courses_of_kind(const Coursing& m, int kind, int breadth) {
@@ -121,8 +206,8 @@ double share_between_bricks(const CourseSheet& sheet, const std::vector<Exemplar
 /// Whether bricks are whole where the lattice puts them together: if its steps are theirs, and no one can tell two
 /// halves of theirs that do not belong together. Nor are they better cut at joints of which no one is sure.
 bool lattice_keeps_whole(const CourseSheet& sheet, const Coursing& m, double step) {
-  if (joints_astray(m.courses, step, m.half_joint) >= least_astray) return false;
-  return !m.is_clear() || share_between_bricks(sheet, m.courses, m.half_joint) < least_between;
+  if (joints_astray(m.courses, step, m.half_joint) >= tuning->least_astray) return false;
+  return !m.is_clear() || share_between_bricks(sheet, m.courses, m.half_joint) < tuning->least_between;
 }
 
 /// From joint to joint, as most are: where the exemplar shows few bricks from end to end, the mean of all.
@@ -141,8 +226,8 @@ double usual_brick(const std::vector<ExemplarCourse>& courses) {
   return *middle;
 }
 
-/// Whether joints can be told from bricks, and bricks do end.
-bool are_told(const std::vector<ExemplarCourse>& courses, double told, const Demands& demands) {
+/// Whether joints can be separated from bricks, and bricks do end.
+bool are_separable(const std::vector<ExemplarCourse>& courses, double separability, const Demands& demands) {
   double joints = 0, jointed = 0;
   for (const ExemplarCourse& c : courses) {
     const size_t of_course = sure_joints(c).size();
@@ -150,9 +235,9 @@ bool are_told(const std::vector<ExemplarCourse>& courses, double told, const Dem
     jointed += of_course > 0 ? 1 : 0;
   }
   const auto count = double(courses.size());
-  if (joints < least_joints * count || jointed < least_jointed * count) return false;
-  const bool boards = usual_brick(courses) >= shortest_board * (courses[0].end - courses[0].begin);
-  return told >= (boards ? demands.told_of_boards : demands.told_of_bricks);
+  if (joints < tuning->least_joints * count || jointed < tuning->least_jointed * count) return false;
+  const bool boards = usual_brick(courses) >= tuning->shortest_board * (courses[0].end - courses[0].begin);
+  return separability >= (boards ? demands.boards : demands.bricks);
 }
 
 /// Returns of each course the likeness that it has them by.
@@ -169,33 +254,37 @@ std::vector<std::vector<double>> find_head_joints(std::vector<ExemplarCourse>& c
 }
 
 /// The courses of a kind, and what was demanded of them.
-struct ToldCourses {
+struct SeparableCourses {
   std::vector<ExemplarCourse> courses;
-  Demands met = of_joints_like_beds;
+  Demands met;
 };
 
-/// Nothing if joints cannot be told from bricks, or bricks hardly end.
-ToldCourses whole_courses(const CourseSheet& sheet, Coursing& m, int kind, const Task& task) {
+/// Nothing if joints cannot be separated from bricks, or bricks hardly end.
+SeparableCourses whole_courses(const CourseSheet& sheet, Coursing& m, int kind, const Task& task) {
   std::vector<ExemplarCourse> courses = courses_of_kind(m, kind, sheet.breadth);
   HeadJoints head_joints(sheet, courses, m.half_joint);
   std::erase_if(courses, [&](const ExemplarCourse& c) {
     const CourseInside inside(c, m.half_joint);
-    return inside.begin < 0 || inside.end > sheet.breadth || inside.end - inside.begin < least_inside;
+    return inside.begin < 0 || inside.end > sheet.breadth || inside.end - inside.begin < tuning->least_inside;
   });
-  if (int(courses.size()) < least_of_kind) return {};
-  const double told = head_joints.told();
-  m.told = kind == 0 ? told : std::min(m.told, told);
-  if (told < of_joints_like_beds.told_of_boards) return {};
+  if (int(courses.size()) < tuning->least_of_kind) return {};
+  const double separability = head_joints.separability();
+  m.separability = kind == 0 ? separability : std::min(m.separability, separability);
+  if (separability < of_joints_like_beds().boards) return {};
   std::vector<std::vector<double>> likeness = find_head_joints(courses, head_joints, task);
-  if (are_told(courses, told, of_joints_like_beds)) return {courses};
-  if (told < least_told_to_learn || !head_joints.learn_from(courses, std::move(likeness))) return {};
-  m.told = std::min(m.told, head_joints.told());
+  if (are_separable(courses, separability, of_joints_like_beds())) return {courses, of_joints_like_beds()};
+  if (separability < tuning->separability_to_learn || !head_joints.learn_from(courses, std::move(likeness))) return {};
+  m.separability = std::min(m.separability, head_joints.separability());
   find_head_joints(courses, head_joints, task);
-  if (!are_told(courses, head_joints.told(), of_joints_by_themselves)) return {};
-  return {courses, of_joints_by_themselves};
+  if (!are_separable(courses, head_joints.separability(), of_joints_by_themselves())) return {};
+  return {courses, of_joints_by_themselves()};
 }
 
 }  // namespace
+
+bool Coursing::is_clear() const {
+  return separability >= tuning->clear;
+}
 
 Coursing find_coursing(const Appearance& appearance, const Task& task) {
   Coursing out;
@@ -206,11 +295,11 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
   const Lattice bands = appearance.lattice().level_bands(!out.axes.upright);
   if (bands.rank == 0) return {};
   out.period = std::abs(out.axes.upright ? bands.first.x() : bands.first.y());
-  while (out.period > largest_period && out.level + 1 < int(appearance.levels().size())) {
+  while (out.period > tuning->largest_period && out.level + 1 < int(appearance.levels().size())) {
     out.period /= 2;
     out.level++;
   }
-  if (out.period < smallest_period) return {};
+  if (out.period < tuning->smallest_period) return {};
   const CourseSheet sheet(appearance.levels()[size_t(out.level)], out.axes);
   const BedJoints beds = find_bed_joints(sheet, out.period);
   out.beds = beds.places;
@@ -218,12 +307,13 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
   double most_aligned = 1;
   for (int kind = 0; kind < int(out.beds.size()); kind++) {
     task.check();
-    const ToldCourses told = whole_courses(sheet, out, kind, task);
-    if (told.courses.empty()) return {};
-    out.courses.insert(out.courses.end(), told.courses.begin(), told.courses.end());
-    most_aligned = std::min(most_aligned, told.met.most_aligned);
+    const SeparableCourses found = whole_courses(sheet, out, kind, task);
+    if (found.courses.empty()) return {};
+    out.courses.insert(out.courses.end(), found.courses.begin(), found.courses.end());
+    most_aligned = std::min(most_aligned, found.met.most_aligned);
   }
-  if (int(out.courses.size()) < least_courses || shown_share(out.courses, sheet.breadth) < least_shown) return {};
+  if (int(out.courses.size()) < tuning->least_courses) return {};
+  if (shown_share(out.courses, sheet.breadth) < tuning->least_shown) return {};
   // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and whole, by
   // themselves.
   if (aligned_share(out.courses, out.half_joint) > most_aligned) return {};

@@ -24,15 +24,16 @@ struct Coursing {
   int half_joint = 0;                   ///< of a joint's breadth, without its middle
   std::vector<double> beds;             ///< where the first course of each kind may begin, in 0..period, ascending
   std::vector<ExemplarCourse> courses;  ///< those that lie in the exemplar as wholes
-  double told = 0;  ///< how far joints and bricks lie apart, in deviations: of the kind that is told least
+  double separability = 0;  ///< Fisher's, of joints and bricks: how far they lie apart, in deviations; of the kind of
+                            ///< which it is least
   bool empty() const { return courses.empty(); }
-  bool is_clear() const { return told >= 2; }
+  bool is_clear() const;
 };
 
 /// Bed joints are what differs from both its sides in the same way along all of the exemplar, once a period of the
-/// lattice's level courses or columns. What tells their pixels from those between (Fisher's linear discriminant, 1936)
-/// finds the joints across. Empty if the lattice has no courses, or they have no joints that can be told. Throws
-/// Cancelled.
+/// lattice's level courses or columns. What separates their pixels from those between (Fisher's linear discriminant,
+/// 1936) finds the joints across. Empty if the lattice has no courses, or their joints cannot be separated from bricks.
+/// Throws Cancelled.
 Coursing find_coursing(const Appearance& appearance, const Task& task);
 
 }  // namespace terrazzo

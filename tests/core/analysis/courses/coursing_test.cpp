@@ -37,7 +37,7 @@ TEST_CASE("every course of a wall is found, and where its bricks end, lying and 
     REQUIRE(!m.empty());
     CHECK(m.axes.upright == upright);
     CHECK(m.axes.rise == 0);
-    CHECK(m.told > 2);
+    CHECK(m.separability > 2);
     CHECK(m.level == 0);
     CHECK(m.period == DrawnWall::course);
     REQUIRE(m.beds.size() == 1);
