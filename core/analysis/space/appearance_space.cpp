@@ -9,6 +9,7 @@
 #include "core/analysis/space/mask_pyramid.h"
 #include "core/analysis/space/planes.h"
 #include "core/base/error.h"
+#include "core/base/tuning.h"
 #include "core/numeric/principal_components.h"
 #include "core/numeric/weighted_row_sum.h"
 
@@ -19,9 +20,27 @@ namespace {
 constexpr int radius = 2;
 constexpr int side = 2 * radius + 1;
 constexpr int window = side * side;
-constexpr size_t most_samples = 12000;
-// Coarser than this a level has too little texture left to tell one place from another.
-constexpr int smallest_side = 16;
+
+struct Tuning {
+  double clipped = 5;
+  int most_samples = 12000;
+  int smallest_side = 16;
+};
+const Tunable<Tuning> tuning(
+    "appearance_space",
+    {
+        {&Tuning::clipped, "clipped", "deviations",
+         "of the first component, beyond which vectors are clipped. Higher: outliers differ from one another; lower: "
+         "the usual is stored more finely",
+         "not measured: taken over from the code before constants were listed", 1},
+        {&Tuning::most_samples, "most_samples", "pixels",
+         "of which components are learnt. Higher: rare features have a say; costs time",
+         "not measured: bounds the time", 100},
+        {&Tuning::smallest_side, "smallest_side", "pixels",
+         "of the coarsest level, and of exemplars. Higher: coarse levels hold enough to choose from; lower: large "
+         "features stay whole, where levels have too little texture left to tell one place from another",
+         "initialize", 8},
+    });
 
 // exp(-r^2 / 3.18), a Gaussian of standard deviation 1.26 pixels, at squared distances 0, 1, 2, 4, 5, 8. Written out:
 // no two libraries need agree on exp's last bit.
@@ -58,7 +77,7 @@ std::vector<float> samples_of(const Planes& planes, const std::vector<uint8_t>& 
   for (size_t i = 0; i < usable.size(); i++)
     if (usable[i]) places.push_back(i);
   const size_t area = usable.empty() ? size_t(planes.size.area()) : places.size();
-  const size_t count = std::min(area, most_samples);
+  const size_t count = std::min(area, size_t(tuning->most_samples));
   std::vector<float> samples(count * n);
   tbb::parallel_for(size_t{0}, count, [&](size_t s) {
     // One sample from each of `count` equal stretches of pixels, at a random place within it.
@@ -71,12 +90,12 @@ std::vector<float> samples_of(const Planes& planes, const std::vector<uint8_t>& 
 }
 
 /// The factor that turns projections into integers: the first component's spread fills a fair part of the range, and
-/// only outliers beyond five deviations are clipped.
+/// only outliers are clipped.
 double integer_scale(const std::vector<float>& projected, double deviation) {
   float largest = 1e-12f;
   for (const float v : projected) largest = std::max(largest, std::abs(v));
   const double fitting = appearance_limit / double(largest);
-  return deviation > 0 ? std::max(fitting, appearance_limit / (5.0 * deviation)) : fitting;
+  return deviation > 0 ? std::max(fitting, appearance_limit / (tuning->clipped * deviation)) : fitting;
 }
 
 /// What the level's basis makes of every pixel's neighbourhood of n numbers.
@@ -147,7 +166,7 @@ Planes joined(const Planes& features, const Planes& guidance, double weight) {
 
 int level_count(Size size) {
   int count = 1;
-  for (int side_length = std::min(size.width, size.height); side_length >= 2 * smallest_side;
+  for (int side_length = std::min(size.width, size.height); side_length >= 2 * tuning->smallest_side;
        side_length = (side_length + 1) / 2)
     count++;
   return count;
@@ -158,6 +177,7 @@ int level_count(Size size) {
 AppearancePtr make_appearance(const Features& features, const std::vector<ImagePtr>& guidance,
                               const AppearanceOptions& options, const Task& task) {
   const Size size = features.size();
+  const int smallest_side = tuning->smallest_side;
   if (std::min(size.width, size.height) < smallest_side || std::max(size.width, size.height) > 65536)
     throw Error(fmt::format("the exemplar has {}x{} pixels; it needs at least {} and at most 65536 a side", size.width,
                             size.height, smallest_side));

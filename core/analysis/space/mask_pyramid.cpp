@@ -4,13 +4,22 @@
 
 #include "core/analysis/space/padded_level.h"
 #include "core/base/error.h"
+#include "core/base/tuning.h"
 
 namespace terrazzo {
 
 namespace {
 
-// A way of choosing leaves too little if it keeps less than this part of what the mask allows at all.
-constexpr double least_part = 0.25;
+struct Tuning {
+  double least_part = 0.25;
+};
+const Tunable<Tuning> tuning("mask_pyramid",
+                             {
+                                 {&Tuning::least_part, "least_part", "share of what the mask allows",
+                                  "that must be left at coarse levels for what lies near its border to be left out. "
+                                  "Higher: all of it is used; lower: what is masked shows less",
+                                  "not measured: taken over from the code before constants were listed", 0, 1},
+                             });
 
 using Pixels = std::vector<uint8_t>;
 
@@ -68,7 +77,7 @@ std::vector<uint8_t> usable_pixels(const std::vector<uint8_t>& allowed, Size fin
       any[at] = counts[at] > 0;
       whole[at] = counts[at] == std::min(block, finest.width - x * block) * std::min(block, finest.height - y * block);
     }
-  const auto enough = [least = least_part * double(std::count(any.begin(), any.end(), 1))](const Pixels& p) {
+  const auto enough = [least = tuning->least_part * double(std::count(any.begin(), any.end(), 1))](const Pixels& p) {
     return double(std::count(p.begin(), p.end(), 1)) >= least;
   };
   Pixels inner = eroded(whole, size, wraps);
