@@ -5,29 +5,76 @@
 #include <limits>
 
 #include "core/base/portable_math.h"
+#include "core/base/tuning.h"
 
 namespace terrazzo {
 
 namespace {
 
-constexpr double smallest_resolved = 3;  // pixels of the level
-// Pixels larger than two cells show nothing of them, and of so few in phase the same rows would come back all over a
-// large surface. There anything goes: finer levels bring pieces into place.
-constexpr double smallest_cell = 0.5;
-// By how much a surface may be sheared to wrap around, as a part of its side, and in pixels where it is small: rows of
-// a woven or scanned exemplar are rarely exactly level. Of pieces of 64 pixels this moves one end by a quarter of a
-// pixel against the other, however large the surface.
-constexpr double most_shear = 1.0 / 256;
-constexpr double least_shear = 1;
-// How far out of phase a position may be, in cells, and how much of that a certain lattice takes away: the surer the
-// lattice, the less its cells differ from one another.
-constexpr double looseness = 1.0 / 12;
-constexpr double certainty_counts = 2.0 / 3;
-
-constexpr double most_slanted = 0.02;  // of level courses: what they rise by, as a part of their length
-
-// Of sizes that wrap: a side that is half as long again is as bad as cells bent by a fifth.
-constexpr double bending_weight = 2;
+struct Tuning {
+  double smallest_resolved = 3;
+  double smallest_cell = 0.5;
+  double most_shear = 1.0 / 256;
+  double least_shear = 1;
+  double looseness = 1.0 / 12;
+  double certainty_counts = 2.0 / 3;
+  double most_slanted = 0.02;
+  double least_offset = 2;
+  double most_bent = 0.15;
+  double unseen_bend = 0.01;
+  double unseen_bend_by_doubt = 0.025;
+  double bending_weight = 2;
+  int farthest = 3;
+};
+const Tunable<Tuning> tuning(
+    "lattice",
+    {
+        {&Tuning::smallest_resolved, "smallest_resolved", "pixels of the level",
+         "from which on a cell is large enough to tell places within it apart. Higher: more levels only keep to whole "
+         "cells; lower: cells of few pixels decide what fits",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::smallest_cell, "smallest_cell", "pixels of the level",
+         "finer cells have no say: finer levels bring pieces into place. Higher: cells are broken up at coarse levels; "
+         "lower: so few places are in phase that the same rows come back all over a large surface",
+         "regularity"},
+        {&Tuning::most_shear, "most_shear", "share of a side",
+         "by which a surface may be sheared to wrap around. Higher: more sizes wrap; lower: pieces lie more level",
+         "not measured: it moves one end of a piece of 64 pixels by a quarter of a pixel"},
+        {&Tuning::least_shear, "least_shear", "pixels",
+         "the same of small surfaces: rows of a woven or scanned exemplar are rarely exactly level",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::looseness, "looseness", "cells",
+         "how far out of phase a position may be. Higher: less is copied verbatim; lower: less is broken",
+         "regularity"},
+        {&Tuning::certainty_counts, "certainty_counts", "share",
+         "of the looseness that a certain lattice takes away: the surer it is, the less its cells differ. Higher: sure "
+         "lattices are kept to; lower: pieces fit better",
+         "not measured: taken over from the code before constants were listed", 0, 1},
+        {&Tuning::most_slanted, "most_slanted", "share of their length",
+         "by which level courses rise. Higher: walls that were not scanned level have courses; lower: patterns aslant "
+         "have none",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::least_offset, "least_offset", "pixels",
+         "by which one brick lies off another, if it does: less is what measuring leaves of nothing. Higher: fine "
+         "patterns are taken for level ones; lower: bricks seem longer than they are",
+         "not measured: taken over from the code before constants were listed", 0.5},
+        {&Tuning::most_bent, "most_bent", "share of a cell", "higher: more sizes wrap; lower: cells hold together",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::unseen_bend, "unseen_bend", "share of a cell",
+         "that a certain lattice can be bent by without its being seen. Higher: sizes that do not quite fit are taken "
+         "without a word; lower: they are changed, or warned of",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::unseen_bend_by_doubt, "unseen_bend_by_doubt", "share of a cell",
+         "the same, in addition, of one that is not certain at all, whose cells vary anyway",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::bending_weight, "bending_weight", "logarithms of a factor on the side",
+         "to a cell that is bent by its length. Higher: sizes that wrap are farther from those asked for; lower: their "
+         "cells are bent",
+         "not measured: a side half as long again is as bad as cells bent by a fifth"},
+        {&Tuning::farthest, "farthest", "steps along both vectors",
+         "in which a course may run. Higher: bonds of many bricks have courses, too; lower: less chance",
+         "not measured: taken over from the code before constants were listed", 1, 1000},
+    });
 
 /// Of the matrix that has these two columns.
 Matrix2d inverse(const Vector2d& a, const Vector2d& b) {
@@ -44,8 +91,8 @@ int best_side(const Lattice& lattice, int length, bool along_x, int give) {
   for (int n = length / 2 + 1; n <= length + length / 8; n++) {
     const int room = give + std::max(0, n - length);
     const double bent = lattice.bent({n, n}, along_x, !along_x, {room, room});
-    if (bent > Lattice::most_bent && n != length) continue;
-    const double badness = std::abs(portable::log(double(n) / length)) + bending_weight * bent;
+    if (bent > Lattice::most_bent() && n != length) continue;
+    const double badness = std::abs(portable::log(double(n) / length)) + tuning->bending_weight * bent;
     if (badness >= least) continue;
     least = badness;
     best = n;
@@ -54,6 +101,14 @@ int best_side(const Lattice& lattice, int length, bool along_x, int give) {
 }
 
 }  // namespace
+
+double Lattice::most_bent() {
+  return tuning->most_bent;
+}
+
+double Lattice::unseen_bend() const {
+  return tuning->unseen_bend + tuning->unseen_bend_by_doubt * (1 - certainty);
+}
 
 bool Lattice::is_whole() const {
   constexpr double rounding = 1e-6;
@@ -64,7 +119,8 @@ bool Lattice::is_whole() const {
 Vector2d Lattice::along_bands(bool courses) const {
   if (rank == 1) return (first.x() == 0) == courses ? courses ? Vector2d{1, 0} : Vector2d{0, 1} : Vector2d{};
   if (rank == 0) return {};
-  constexpr int farthest = 3;
+  const int farthest = tuning->farthest;
+  const double most_slanted = tuning->most_slanted;
   Vector2d shortest;
   for (int i = -farthest; i <= farthest; i++)
     for (int j = -farthest; j <= farthest; j++) {
@@ -87,9 +143,8 @@ Lattice Lattice::level_bands(bool courses) const {
 
 double Lattice::longest_step() const {
   if (rank != 2) return 0;
-  // Next to nothing is what measuring leaves of nothing.
-  constexpr double least = 2;
-  const auto nearer = [](double a, double b) {
+  const double least = tuning->least_offset;
+  const auto nearer = [least](double a, double b) {
     a = std::abs(a);
     b = std::abs(b);
     return std::min(a, b) >= least ? std::min(a, b) : std::max(a, b);
@@ -124,7 +179,7 @@ bool Lattice::fits(Size size, bool wraps_x, bool wraps_y, double precision) cons
   const auto comes_back = [&](int length, bool along_x) {
     const Vector2d e = misfit(length, along_x);
     const double along = std::abs(e[along_x ? 0 : 1]), across = std::abs(e[along_x ? 1 : 0]);
-    return along <= precision && across <= std::max(least_shear, most_shear * length);
+    return along <= precision && across <= std::max(tuning->least_shear, tuning->most_shear * length);
   };
   return (!wraps_x || comes_back(size.width, true)) && (!wraps_y || comes_back(size.height, false));
 }
@@ -184,9 +239,9 @@ LatticePhase::LatticePhase(const Lattice& lattice, const Lattice& shown, const V
   first_ = lattice.first * scale;
   second_ = lattice.second * scale;
   const double cell = rank_ == 1 ? std::abs(first_.sum()) : std::sqrt(std::abs(cross(first_, second_)));
-  resolves_cells_ = cell >= smallest_resolved;
-  if (cell < smallest_cell) rank_ = 0;
-  const double loose = cell * looseness * (1 - lattice.certainty * certainty_counts);
+  resolves_cells_ = cell >= tuning->smallest_resolved;
+  if (cell < tuning->smallest_cell) rank_ = 0;
+  const double loose = cell * tuning->looseness * (1 - lattice.certainty * tuning->certainty_counts);
   // Whole pixels of the finest level are out of phase by up to half a pixel along each axis that the lattice speaks of.
   const double rounding = (rank_ == 1 ? 0.501 : 0.708) * scale;
   const double tolerance = std::clamp(loose, rounding, 1.0);

@@ -54,9 +54,9 @@ struct Lattice {
   /// `size` to wrap: the more of the axes along which it does.
   double bent(Size size, bool wraps_x, bool wraps_y, Size give) const;
   /// Cells that are bent more do not hold together.
-  static constexpr double most_bent = 0.15;
+  static double most_bent();
   /// How much they can be bent without its being seen: the less sure the lattice, the more its cells vary anyway.
-  double unseen_bend() const { return 0.01 + 0.025 * (1 - certainty); }
+  double unseen_bend() const;
   /// The size near `size`, over half of it and at most an eighth larger, which wraps best along those axes: a size far
   /// off is weighed against cells that must be bent. They are bent within `give`, pixels along each side, and what a
   /// side grows by.

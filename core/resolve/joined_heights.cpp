@@ -9,19 +9,37 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/base/tuning.h"
 #include "core/numeric/screened_poisson.h"
 
 namespace terrazzo {
 
 namespace {
 
-constexpr int sweeps = 3;             ///< of smoothing the finest level, before and after the coarse part is added
-constexpr int apron = 2 * sweeps;     ///< how far a pixel sees at that level
-constexpr int rounds = 3;             ///< in which the coarse part is found; each leaves about a third of the error
+struct Tuning {
+  double firm = 1000;
+  int sweeps = 3;
+  int rounds = 3;
+};
+const Tunable<Tuning> tuning(
+    "joined_heights",
+    {
+        {&Tuning::firm, "firm", "links to a neighbour",
+         "what a pixel that is kept is held by. Higher: it moves less; lower: heights around it are found in fewer "
+         "rounds",
+         "not measured: all its neighbours together move it by a few thousandths of what they differ", 0, 1000000},
+        {&Tuning::sweeps, "sweeps", "rounds",
+         "of smoothing the finest level, before and after the coarse part is added. Higher: less is left of steps; "
+         "costs time, as a pixel sees twice as far",
+         "not measured: taken over from the code before constants were listed", 1, 64},
+        {&Tuning::rounds, "rounds", "rounds",
+         "in which the coarse part is found; each leaves about a third of the error. Higher: holes meet their rim "
+         "better; costs time",
+         "joined_heights"},
+    });
+
 constexpr double least_reach = 0.01;  ///< in pixels; nearer is not at all
 constexpr Size block{256, 64};
-/// What a pixel is held by: so much that all its neighbours together move it by a few thousandths of what they differ.
-constexpr float firm = 1000;
 
 /// The parts of a region that are worked on one by one.
 template <typename Body>
@@ -67,7 +85,9 @@ class JoinedPixels : public PixelSource {
         layout_(std::move(layout)),
         same_(map_->size() == layout_->exemplar()),
         heights_(map_->in_memory()),
-        steps_(smoothing_steps(sweeps)),
+        sweeps_(tuning->sweeps),
+        firm_(float(tuning->firm)),
+        steps_(smoothing_steps(sweeps_)),
         size_(layout_->size()),
         kept_(kept, size_),
         x_(CellAxis::of_pixels(size_.width, layout_->uv().wraps().x)),
@@ -104,7 +124,7 @@ class JoinedPixels : public PixelSource {
   class Window {
    public:
     Window(const JoinedPixels& of, const Rect& region)
-        : of_(of), area_(grown(region, apron)), widths_(size_t(area_.width), 1.0f) {
+        : of_(of), apron_(2 * of.sweeps_), area_(grown(region, apron_)), widths_(size_t(area_.width), 1.0f) {
       const size_t pixels = size_t(area_.area());
       sources_.assign(pixels, outside);
       forces_.assign(pixels, 0.0f);
@@ -117,12 +137,14 @@ class JoinedPixels : public PixelSource {
       if (of.kept_.any()) hold_kept();
       smooth(0);
       add_coarse();
-      smooth(sweeps);
+      smooth(of.sweeps_);
     }
-    const Offset& source(int x, int y) const { return sources_[at(x + apron, y + apron)]; }
-    float value(int x, int y) const { return values_[at(x + apron, y + apron)]; }
+    const Offset& source(int x, int y) const { return sources_[at(x + apron_, y + apron_)]; }
+    float value(int x, int y) const { return values_[at(x + apron_, y + apron_)]; }
     /// The region but its outermost pixels.
-    void residuals(int y, int count, float* out) const { terrazzo::residuals(cells(apron + 1, apron + y, count), out); }
+    void residuals(int y, int count, float* out) const {
+      terrazzo::residuals(cells(apron_ + 1, apron_ + y, count), out);
+    }
 
    private:
     size_t at(int x, int y) const { return size_t(y) * size_t(area_.width) + size_t(x); }
@@ -179,8 +201,8 @@ class JoinedPixels : public PixelSource {
           if (sources_[i].x < 0 ||
               !of_.holds(placed(of_.x_, area_.x + x), placed(of_.y_, area_.y + y), sources_[i], by))
             continue;
-          holds_[i] = firm;
-          forces_[i] += firm * by;
+          holds_[i] = of_.firm_;
+          forces_[i] += of_.firm_ * by;
           values_[i] = by;
         }
     }
@@ -216,6 +238,7 @@ class JoinedPixels : public PixelSource {
 
     static constexpr Offset outside{-1, -1};
     const JoinedPixels& of_;
+    int apron_;  ///< how far a pixel sees at this level
     Rect area_;
     std::vector<float> widths_, links_;
     std::vector<Offset> sources_;
@@ -278,13 +301,15 @@ class JoinedPixels : public PixelSource {
       for (int y = 2 * row; y < std::min(2 * row + 2, size_.height); y++) {
         layout_->shown(0, y, size_.width, sources.data());
         for (int x = 0; x < size_.width; x++)
-          if (float by; holds(x, y, sources[size_t(x)], by)) out[size_t(row) * size_t(columns) + size_t(x / 2)] += firm;
+          if (float by; holds(x, y, sources[size_t(x)], by))
+            out[size_t(row) * size_t(columns) + size_t(x / 2)] += firm_;
       }
     });
     return out;
   }
 
   void find_coarse(const Task& task) {
+    const int rounds = tuning->rounds;
     const int64_t blocks = (size_.area() / block.area() + 1) * rounds;
     std::atomic<int64_t> done{0};
     for (int i = 0; i < rounds; i++) {
@@ -306,6 +331,8 @@ class JoinedPixels : public PixelSource {
   std::shared_ptr<const FineLayout> layout_;
   bool same_;             ///< the map has the exemplar's size
   const float* heights_;  ///< of the map
+  int sweeps_;
+  float firm_;
   std::vector<float> steps_;
   Size size_;
   KeptLookup kept_;

@@ -87,7 +87,7 @@ void compute(NodeContext& node) {
       options.size == fitting
           ? ""
           : fmt::format(", and so does \"fit\": \"repeats\", which makes the result {}", describe(fitting)));
-  if (bent > Lattice::most_bent)
+  if (bent > Lattice::most_bent())
     node.warn(how);
   else if (bent > lattice.unseen_bend())
     node.note(how);
