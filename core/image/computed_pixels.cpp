@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/base/tuning.h"
 #include "core/image/kept_pixels.h"
 #include "core/image/pull_plan.h"
 
@@ -17,22 +18,61 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int64_t values_at_once = int64_t{1} << 20;          ///< that a pull computes of the image,
-constexpr int64_t most_values_at_once = 16 * values_at_once;  ///< and of a larger one that it is made from
-constexpr int64_t least_values_of_a_strip = int64_t{1} << 16;
+struct Tuning {
+  double most_work_repeated = 1.3;
+  int longest_pull = 32;
+  int strip_rows = 64;
+  int most_images_repeated = 16;
+  int values_at_once = 1 << 20;
+  int most_values_at_once = 1 << 24;
+  int least_values_of_a_strip = 1 << 16;
+};
+const Tunable<Tuning> tuning(
+    "computed_pixels",
+    {
+        {&Tuning::most_work_repeated, "most_work_repeated", "factor",
+         "by which a pull by strips may be more work than one of the whole image. Higher: less memory; lower: less "
+         "time",
+         "not measured: blurs of a radius over 6 pixels are more"},
+        {&Tuning::longest_pull, "longest_pull", "images",
+         "higher: fewer images keep their pixels; costs stack and time",
+         "not measured: bounds what a pull holds at once", 1},
+        {&Tuning::strip_rows, "strip_rows", "rows",
+         "in which images are pulled, and which decide whether surroundings cost too much. Higher: surroundings are "
+         "computed less often; lower: less memory",
+         "not measured: as many as cost little memory at 8192 pixels a row", 1},
+        {&Tuning::most_images_repeated, "most_images_repeated", "images",
+         "that may be computed again in all for the readers of one. Higher: less memory; lower: less time",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::values_at_once, "values_at_once", "values",
+         "that a pull computes of the image. Higher: surroundings are computed less often; lower: less memory",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::most_values_at_once, "most_values_at_once", "values",
+         "that a pull computes of a larger image that it is made from. Higher: less time; lower: less memory",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::least_values_of_a_strip, "least_values_of_a_strip", "values",
+         "that one thread computes at once. Higher: surroundings are computed less often; lower: more threads have "
+         "work",
+         "not measured: taken over from the code before constants were listed"},
+    });
+
 constexpr auto patience = std::chrono::milliseconds(50);  ///< until a waiting thread looks whether it is cancelled
 
 int rows_of(Size size, int channels, int64_t values) {
-  return int(std::max<int64_t>(usual_strip_rows, values / (int64_t{size.width} * channels)));
+  return int(std::max<int64_t>(tuning->strip_rows, values / (int64_t{size.width} * channels)));
 }
 
 }  // namespace
+
+int longest_pull() {
+  return tuning->longest_pull;
+}
 
 /// All pixels, as far as they have been computed. Threads take strips until there are none left.
 struct ComputedPixels::Filling {
   Filling(Size size, int channels)
       : pixels(size, channels),
-        rows(rows_of(size, channels, least_values_of_a_strip)),
+        rows(rows_of(size, channels, tuning->least_values_of_a_strip)),
         strips((size.height + rows - 1) / rows) {}
 
   /// A strip for the calling thread; -1 if all have been taken.
@@ -77,14 +117,15 @@ void ComputedPixels::choose_kept() {
   for (const ImagePtr& image : operation_->sources)
     if (auto source = of(*image)) sources.insert(std::move(source));
   const auto length = [&] { return PullPlan(*this, PullPlan::Until::to_be_kept).length(); };
-  if (length() > longest_pull)
+  if (length() > size_t(tuning->longest_pull))
     for (const auto& source : sources)
       if (source->pull_length_ > 1) source->to_be_kept_ = true;
-  if (PullPlan(*this, PullPlan::Until::to_be_kept).work_by_strips(usual_strip_rows) > most_work_repeated)
+  if (PullPlan(*this, PullPlan::Until::to_be_kept).work_by_strips(tuning->strip_rows) > tuning->most_work_repeated)
     for (const auto& source : sources) source->to_be_kept_ = true;
   for (const auto& source : sources) {
     const int readers = ++source->readers_;
-    if (readers > 1 && int64_t{readers} * source->pull_length_ > most_images_repeated) source->to_be_kept_ = true;
+    if (readers > 1 && int64_t{readers} * source->pull_length_ > tuning->most_images_repeated)
+      source->to_be_kept_ = true;
   }
   pull_length_ = int(length());
 }
@@ -115,8 +156,8 @@ void ComputedPixels::read(const Rect& region, float* out) const {
 
 int ComputedPixels::rows_at_once(PullPlan& plan, const Rect& region) const {
   if (plan.length() == 1) return region.height;
-  int rows = std::min(region.height, rows_of({region.width, 1}, channels_, values_at_once));
-  while (rows > 1 && plan.most_values({region.x, region.y, region.width, rows}) > most_values_at_once)
+  int rows = std::min(region.height, rows_of({region.width, 1}, channels_, tuning->values_at_once));
+  while (rows > 1 && plan.most_values({region.x, region.y, region.width, rows}) > tuning->most_values_at_once)
     rows = (rows + 1) / 2;
   return rows;
 }

@@ -17,19 +17,12 @@
 /// Regions grow from image to image where operations look around them, images have many readers, and rows of images can
 /// be of any length. So some images on the way keep their pixels: they are computed as a whole when somebody needs them
 /// first, into memory or a scratch file, and from then on need no sources. Which ones is decided while the graph is
-/// built, so that no pull goes back over more than `longest_pull` images, none spends much on the surroundings of its
+/// built, so that no pull goes back over more than `longest_pull()` images, none spends much on the surroundings of its
 /// strips, and none is computed for many readers. A chain of n images costs time linear in n, and holds few of them.
 namespace terrazzo {
 
 /// How many computed images a pull goes over at most, but for images with more sources than that.
-inline constexpr int longest_pull = 32;
-/// Rows of the strips in which images are pulled, and which decide whether surroundings cost too much: as many as cost
-/// little memory at 8192 pixels a row.
-inline constexpr int usual_strip_rows = 64;
-/// How much more work a pull by strips may be than one of the whole image. Blurs of a radius over 6 pixels are more.
-inline constexpr double most_work_repeated = 1.3;
-/// How many images may be computed again in all for the readers of one image.
-inline constexpr int most_images_repeated = 16;
+int longest_pull();
 
 class PullPlan;
 

@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/suggest.h"
 #include "core/base/text.h"
+#include "core/base/tuning.h"
 #include "core/file/file_integrity.h"
 #include "core/file/file_io.h"
 #include "core/image/image_file.h"
@@ -21,6 +22,17 @@ namespace terrazzo {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct Tuning {
+  double clearly_negative = -0.01;
+};
+const Tunable<Tuning> tuning("image_read",
+                             {
+                                 {&Tuning::clearly_negative, "clearly_negative", "of the range of values",
+                                  "below which normals are taken for signed numbers. Higher: encoded ones that were "
+                                  "filtered are taken for them; lower: nearly flat ones are not",
+                                  "not measured: what filters undershoot zero by is no sign", -1, 0},
+                             });
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) {
   throw Error(fmt::format("cannot read {}: {}", path.string(), reason));
@@ -174,8 +186,8 @@ size_t zero_unfinite(std::vector<uint16_t>& halfs) {
 }
 
 void encode_signed_normals(const fs::path& path, std::vector<float>& values, const Warn& warn) {
-  constexpr float clearly_negative = -0.01f;
-  if (std::none_of(values.begin(), values.end(), [](float v) { return v < clearly_negative; })) return;
+  const auto clearly_negative = float(tuning->clearly_negative);
+  if (std::none_of(values.begin(), values.end(), [clearly_negative](float v) { return v < clearly_negative; })) return;
   for (float& v : values) v = v * 0.5f + 0.5f;
   warn(fmt::format("{}: its normals are stored as signed numbers; they were encoded as n * 0.5 + 0.5",
                    path.filename().string()));

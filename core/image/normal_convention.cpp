@@ -3,11 +3,35 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/tuning.h"
 #include "core/numeric/moments.h"
 
 namespace terrazzo {
 
 namespace {
+
+struct Tuning {
+  double clear = 0.1;
+  double strong = 0.5;
+  double clear_curl = 0.2;
+  int largest_grid = 512;
+};
+const Tunable<Tuning> tuning(
+    "normal_convention",
+    {
+        {&Tuning::clear, "clear", "correlation",
+         "of slopes and heights. Higher: more maps stay undecided; lower: noise decides",
+         "not measured: taken over from the code before constants were listed", 0, 1},
+        {&Tuning::strong, "strong", "correlation",
+         "the same along the one axis that has slopes, as of planks. Higher: grooves of one way stay undecided; lower: "
+         "an inverted height map is not noticed",
+         "not measured: taken over from the code before constants were listed", 0, 1},
+        {&Tuning::clear_curl, "clear_curl", "correlation",
+         "of the two slopes of a normal map by itself. Higher: more maps stay undecided; lower: noise decides",
+         "not measured: taken over from the code before constants were listed", 0, 1},
+        {&Tuning::largest_grid, "largest_grid", "cells a side",
+         "over which maps are averaged. Higher: fine relief has a say; costs time", "not measured: bounds the time"},
+    });
 
 /// Channels of an image averaged over the cells of a regular grid, one plane per channel.
 struct Grid {
@@ -50,12 +74,11 @@ void add(double a, double b, Moments<2>& to) {
   to.add(Vector2d{a, b}.data());
 }
 
-constexpr int largest_grid = 512;
-
 }  // namespace
 
 ConventionEvidence convention_from_height(const Image& normal, const Image& height) {
   ConventionEvidence out;
+  const int largest_grid = tuning->largest_grid;
   const Size size{std::min({normal.width(), height.width(), largest_grid}),
                   std::min({normal.height(), height.height(), largest_grid})};
   if (size.width < 3 || size.height < 3 || normal.channels() < 2) return out;
@@ -69,7 +92,7 @@ ConventionEvidence convention_from_height(const Image& normal, const Image& heig
   out.along_x = correlation(along_x);
   out.along_y = correlation(along_y);
   // Grooves that run across (planks, say) leave red without evidence: then a strong green must do.
-  constexpr double clear = 0.1, strong = 0.5;
+  const double clear = tuning->clear, strong = tuning->strong;
   if (std::abs(out.along_y) < (std::abs(out.along_x) < clear ? strong : clear)) return out;
   if (std::abs(out.along_x) < clear) {
     out.normal_y = out.along_y > 0 ? NormalY::up : NormalY::down;
@@ -82,6 +105,7 @@ ConventionEvidence convention_from_height(const Image& normal, const Image& heig
 
 ConventionEvidence convention_from_curl(const Image& normal) {
   ConventionEvidence out;
+  const int largest_grid = tuning->largest_grid;
   const Size size{std::min(normal.width(), largest_grid), std::min(normal.height(), largest_grid)};
   if (size.width < 3 || size.height < 3 || normal.channels() < 2) return out;
   const Grid n = averaged(normal, size);
@@ -90,8 +114,7 @@ ConventionEvidence convention_from_curl(const Image& normal) {
     for (int x = 1; x + 1 < size.width; x++)
       add(n.at(0, x, y - 1) - n.at(0, x, y + 1), n.at(1, x + 1, y) - n.at(1, x - 1, y), curl);
   out.along_y = correlation(curl);
-  constexpr double clear = 0.2;
-  if (std::abs(out.along_y) >= clear) out.normal_y = out.along_y > 0 ? NormalY::up : NormalY::down;
+  if (std::abs(out.along_y) >= tuning->clear_curl) out.normal_y = out.along_y > 0 ? NormalY::up : NormalY::down;
   return out;
 }
 

@@ -7,11 +7,23 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/tuning.h"
 #include "core/image/color.h"
 
 namespace terrazzo {
 
 namespace {
+
+struct Tuning {
+  double compression_noise = 8.0 / 255;
+};
+const Tunable<Tuning> tuning("material_maps",
+                             {
+                                 {&Tuning::compression_noise, "compression_noise", "of the range of values",
+                                  "by which the channels of a grey map may differ. Higher: maps of several channels "
+                                  "are taken for grey ones; lower: lossy files are warned of",
+                                  "not measured: taken over from the code before constants were listed", 0, 1},
+                             });
 
 bool is_one_value(Semantic s) {
   return !is_color(s) && s != Semantic::normal && s != Semantic::data && s != Semantic::guidance;
@@ -52,7 +64,7 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
   if (!channels.empty()) return channels;
   const int colors = file.channels() - (file.channels() % 2 == 0 ? 1 : 0);  // without alpha
   if (is_one_value(m.semantic)) {
-    constexpr float compression_noise = 8.0f / 255.0f;
+    const auto compression_noise = float(tuning->compression_noise);
     for (int c = 1; c < colors; c++)
       if (!channel_is(file, c, compression_noise, [](const float* p) { return p[0]; })) {
         notes.push_back(fmt::format("{} has different channels in {}; the first is taken", m.map, m.file));

@@ -241,7 +241,7 @@ TEST_CASE("images made from any earlier ones are computed a few times, and right
   const Tangle tangle({16, 16}, many, 40, 1);
   CHECK(tangle.images.back().image->pixels() == tangle.expected);
   CHECK(mean_times(tangle.images) < 6);
-  CHECK(most_times(tangle.images) <= 3 * longest_pull);
+  CHECK(most_times(tangle.images) <= 3 * longest_pull());
 }
 
 TEST_CASE("computed images can be pulled by strips, from several threads") {
@@ -328,7 +328,7 @@ TEST_CASE("cancelling stops a pull at once, and another goes on from there") {
   })
       .join();
   CHECK(computed >= 777);
-  CHECK(computed < 777 + 2 * longest_pull * std::thread::hardware_concurrency());
+  CHECK(computed < 777 + 2 * longest_pull() * std::thread::hardware_concurrency());
   CHECK(image->pixels() == expected);
 }
 
