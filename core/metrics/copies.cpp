@@ -7,10 +7,30 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/tuning.h"
 #include "core/metrics/patches.h"
 #include "core/numeric/nearest.h"
 
 namespace terrazzo {
+
+namespace {
+
+struct Tuning {
+  double slack = 0.2;
+  int dimensions = 16;
+};
+const Tunable<Tuning> tuning(
+    "copies", {
+                  {&Tuning::slack, "slack", "share of a distance",
+                   "by which the nearest patch may be missed. Higher: less time; lower: copies among many alike "
+                   "patches are found whole",
+                   "not measured: taken over from the code before constants were listed"},
+                  {&Tuning::dimensions, "dimensions", "components",
+                   "of a patch in which the nearest is looked for. Higher: alike patches are kept apart; costs time",
+                   "not measured: taken over from the code before constants were listed", 1, 100},
+              });
+
+}  // namespace
 
 CopiedRegions copied_regions(Size size, const std::vector<Shift>& shifts) {
   DisjointSets sets(shifts.size());
@@ -35,8 +55,8 @@ CopiedRegions copied_regions(Size size, const std::vector<Shift>& shifts) {
 }
 
 double verbatim_copies(const Planes& exemplar, const Planes& output, const Task& task) {
-  constexpr int dimensions = 16;
-  constexpr double slack = 0.2;
+  const int dimensions = tuning->dimensions;
+  const double slack = tuning->slack;
   const PatchList from_exemplar = all_patches(exemplar.size), from_output = all_patches(output.size);
   const Projection space = principal_projection(exemplar, from_exemplar, dimensions, task);
   const NearestPoints tree(project(exemplar, from_exemplar, space, task), dimensions);

@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
+#include "core/base/tuning.h"
 #include "core/metrics/patches.h"
 #include "core/numeric/nearest.h"
 
@@ -22,13 +23,37 @@ uint64_t output_seed(const Planes& exemplar, const Planes& output) {
   return output.size == exemplar.size ? exemplar_seed : 8;
 }
 
-constexpr int directions = 160;
-constexpr int quantiles = 512;
-constexpr size_t sliced_patches = 20000;
-constexpr size_t pool = 120000;
-constexpr size_t queries = 4000;
-constexpr int dimensions = 24;
-constexpr double slack = 0.1;
+struct Tuning {
+  double slack = 0.1;
+  int directions = 160;
+  int quantiles = 512;
+  int sliced_patches = 20000;
+  int pool = 120000;
+  int queries = 4000;
+  int dimensions = 24;
+};
+const Tunable<Tuning> tuning(
+    "patch_statistics",
+    {
+        {&Tuning::slack, "slack", "share of a distance",
+         "by which the nearest patch may be missed. Higher: less time; lower: coherence and completeness are exact",
+         "not measured: bounds the time"},
+        {&Tuning::directions, "directions", "directions",
+         "in which patches are compared for swd. Higher: it varies less; costs time",
+         "not measured: taken over from the code before constants were listed", 1, 10000},
+        {&Tuning::quantiles, "quantiles", "values in each direction", "the same. Higher: tails have a say; costs time",
+         "not measured: taken over from the code before constants were listed", 2},
+        {&Tuning::sliced_patches, "sliced_patches", "patches", "the same. Higher: it varies less; costs time",
+         "not measured: taken over from the code before constants were listed", 1},
+        {&Tuning::pool, "pool", "patches",
+         "among which the nearest is looked for. Higher: rare features are found; costs time",
+         "not measured: taken over from the code before constants were listed", 2},
+        {&Tuning::queries, "queries", "patches", "for which it is. Higher: figures vary less; costs time",
+         "not measured: taken over from the code before constants were listed", 1},
+        {&Tuning::dimensions, "dimensions", "components",
+         "of a patch in which it is. Higher: fine detail has a say; costs time",
+         "not measured: taken over from the code before constants were listed", 1, 100},
+    });
 
 /// Of sorted numbers, with linear interpolation; `t` in [0, 1].
 template <typename T>
@@ -60,7 +85,9 @@ double mean_of(const std::vector<double>& values) {
 /// The distances of the first rows of `points` to what `tree` holds.
 std::vector<double> distances(const NearestPoints& tree, const std::vector<float>& points, bool among_themselves,
                               const Task& task) {
-  std::vector<double> out(std::min(queries, points.size() / dimensions));
+  const int dimensions = tuning->dimensions;
+  const double slack = tuning->slack;
+  std::vector<double> out(std::min(size_t(tuning->queries), points.size() / size_t(dimensions)));
   tbb::parallel_for(tbb::blocked_range<size_t>(0, out.size(), 64), [&](const auto& range) {
     task.check();
     for (size_t i = range.begin(); i < range.end(); i++) {
@@ -74,6 +101,8 @@ std::vector<double> distances(const NearestPoints& tree, const std::vector<float
 }  // namespace
 
 double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Task& task) {
+  const int directions = tuning->directions, quantiles = tuning->quantiles;
+  const auto sliced_patches = size_t(tuning->sliced_patches);
   const Projection slices = random_directions(patch_values(exemplar), directions, direction_seed);
   const auto a = project(exemplar, random_patches(exemplar.size, sliced_patches, exemplar_seed), slices, task);
   const auto b =
@@ -93,6 +122,8 @@ double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Ta
 }
 
 PatchSimilarity patch_similarity(const Planes& exemplar, const Planes& output, const Task& task) {
+  const auto pool = size_t(tuning->pool);
+  const int dimensions = tuning->dimensions;
   const PatchList from_exemplar = random_patches(exemplar.size, pool, exemplar_seed);
   const PatchList from_output = random_patches(output.size, pool, output_seed(exemplar, output));
   const Projection space = principal_projection(exemplar, from_exemplar, dimensions, task);

@@ -14,8 +14,9 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int lane = 8;     ///< outputs computed at once
-constexpr int at_once = 4;  ///< patches computed at once
+constexpr size_t learnt_patches = 20000;  ///< of which components are learnt
+constexpr int lane = 8;                   ///< outputs computed at once
+constexpr int at_once = 4;                ///< patches computed at once
 
 void gather(const Planes& image, uint32_t patch, const std::vector<float>& mean, float* out) {
   const int across = patch_positions(image.size).width, row = patch_side * image.channels;
@@ -65,7 +66,7 @@ PatchList random_patches(Size image, size_t count, uint64_t seed) {
 
 Projection principal_projection(const Planes& image, const PatchList& patches, int outputs, const Task& task) {
   const int inputs = patch_values(image);
-  const size_t count = std::min<size_t>(patches.size(), 20000);
+  const size_t count = std::min(patches.size(), learnt_patches);
   std::vector<float> rows(count * inputs);
   const std::vector<float> nothing(inputs);
   for (size_t i = 0; i < count; i++) gather(image, patches[i * patches.size() / count], nothing, &rows[i * inputs]);
