@@ -10,7 +10,7 @@
 #include "nodes/common/registry.h"
 #include "runner/engine/key.h"
 #include "tests/core/synthesis/fields.h"
-#include "tests/exemplars.h"
+#include "tests/drawn_wall.h"
 #include "tests/overrides.h"
 
 using namespace terrazzo;
@@ -25,37 +25,83 @@ Digest key_of_synthesis() {
   return key_of(ingredients_of(node, {}, [](const auto&) { return Digest{}; }));
 }
 
-/// A wall as an irregular exemplar, or with its lattice.
-Digest result(bool regular) {
-  constexpr Size size{72, 64};
-  const Lattice lattice = regular ? Lattice{2, {16, 0}, {8, 8}, 0.9} : Lattice{};
-  const FeaturesPtr features = Features::make(size, {{wall(size), {1.0, 1.0, 1.0}}}, false, lattice);
+/// Spots of several sizes and colours.
+ImagePtr spots(Size size) {
+  return make_image(
+      size, 3,
+      [](int x, int y, int c) {
+        double sum = 0;
+        for (int octave = 0; octave < 4; octave++)
+          sum += (octave + 1) * unit_double(random_bits(21 + octave, x >> octave, y >> octave, octave < 2 ? c : 0));
+        return float(sum / 10);
+      },
+      Semantic::base_color, "srgb_texture");
+}
+
+enum class Shown : uint8_t { irregular_wall, wall_with_lattice, drawn_wall, spots };
+
+FeaturesPtr features_of(Shown shown) {
+  const DrawnWall drawn({160, 150});
+  switch (shown) {
+    case Shown::irregular_wall:
+      return plain_features(wall({72, 64}));
+    case Shown::wall_with_lattice:
+      return plain_features(wall({72, 64}))->with(Lattice{2, {16, 0}, {8, 8}, 0.9});
+    case Shown::drawn_wall:
+      return plain_features(drawn.image())->with(drawn.lattice());
+    case Shown::spots:
+      break;
+  }
+  return plain_features(spots({96, 96}));
+}
+
+Digest result(Shown shown) {
+  const FeaturesPtr features = features_of(shown);
+  const Size size = features->size();
   const IndexPtr index = make_index(make_appearance(*features, {}, {}, Task()), 3, Task());
-  return synthesize(*index, {.size = {96, 80}}, Task())->digest();
+  return synthesize(*index, {.size = {size.width * 5 / 4, size.height * 5 / 4}}, Task())->digest();
 }
 
 struct Nudge {
   const char* name;
   double value;
-  bool regular;
 };
 
 }  // namespace
 
 TEST_CASE("another value of a constant changes the result and its cache key, and only as long as it is set") {
-  const Digest usual[] = {result(false), result(true)};
+  struct Result {
+    Shown shown;
+    std::vector<Nudge> changed_by;
+  };
   const Digest key = key_of_synthesis();
-  for (const Nudge& n : {Nudge{"correction.repeat_penalty", 2, false}, Nudge{"initialize.free_draws", 1, false},
-                         Nudge{"initialize.blocks_per_side", 3, false}, Nudge{"piece_limits.large", 0.02, false},
-                         Nudge{"usage_penalty.gain", 0.9, false}, Nudge{"proximity_penalty.far_reach", 1, false},
-                         Nudge{"expansion.edge", 3000, true}, Nudge{"seams.fair_pressure", 300, true}}) {
-    CAPTURE(std::string(n.name));
-    const Override other(n.name, n.value);
-    CHECK(result(n.regular) != usual[n.regular]);
-    CHECK(key_of_synthesis() != key);
+  for (const Result& r :
+       {Result{Shown::irregular_wall,
+               {{"correction.repeat_penalty", 2},
+                {"initialize.free_draws", 1},
+                {"initialize.blocks_per_side", 3},
+                {"piece_limits.large", 0.02},
+                {"usage_penalty.gain", 0.9},
+                {"proximity_penalty.far_reach", 1}}},
+        Result{Shown::wall_with_lattice,
+               {{"expansion.edge", 3000}, {"seams.fair_pressure", 300}, {"lattice.smallest_resolved", 1.5}}},
+        Result{Shown::drawn_wall,
+               {{"alignment.worthwhile", 30},
+                {"graphcut_repair.worse", 3},
+                {"course_prices.own", 0},
+                {"coursing.smallest_period", 30}}},
+        Result{Shown::spots,
+               {{"coherence_repair.incoherent", 1}, {"k_coherence.rounds", 2}, {"patches.random_places", 0}}}}) {
+    const Digest usual = result(r.shown);
+    for (const Nudge& n : r.changed_by) {
+      CAPTURE(int(r.shown));
+      CAPTURE(std::string(n.name));
+      const Override other(n.name, n.value);
+      CHECK(result(r.shown) != usual);
+      CHECK(key_of_synthesis() != key);
+    }
+    CHECK(result(r.shown) == usual);
   }
-  CHECK(result(false) == usual[0]);
-  CHECK(result(true) == usual[1]);
   CHECK(key_of_synthesis() == key);
 }
 
