@@ -22,10 +22,10 @@ const Tunable<Tuning> tuning("cell_phase",
                              {
                                  {&Tuning::fewest_bins, "fewest_bins", "bins along a step",
                                   "higher: small cells are compared more finely; lower: bins hold enough pixels",
-                                  "not measured: taken over from the code before constants were listed", 1, 1024},
+                                  "not measured: taken over from the code before constants were listed", 1, 256},
                                  {&Tuning::most_bins, "most_bins", "bins along a step",
                                   "higher: large cells are compared more finely; costs time, with the fourth power",
-                                  "not measured: phases are found to a fraction of a bin", 1, 1024},
+                                  "not measured: phases are found to a fraction of a bin", 1, 256},
                              });
 
 struct Bins {

@@ -86,7 +86,7 @@ const Tunable<Tuning> tuning(
          "regularity", 0, 0.5},
         {&Tuning::farthest, "farthest", "steps from the origin",
          "at which a lattice is judged. Higher: chance lattices fail; lower: those that are a little off do not",
-         "not measured: taken over from the code before constants were listed", 1, 1000},
+         "not measured: taken over from the code before constants were listed", 1, 100},
         {&Tuning::most_cells, "most_cells", "cells",
          "of multiples that are compared with a lattice. Higher: larger patterns of tiles are found; costs time",
          "not measured: taken over from the code before constants were listed"},

@@ -40,7 +40,7 @@ const Tunable<Tuning> tuning(
                         "between members of a set. Higher: more different candidates; lower: more similar ones",
                         "not measured: taken over from the code before constants were listed"},
                        {&Tuning::finest_searched, "finest_searched", "level",
-                        "lower: the finest level has similar pixels, too, which changes nothing, as only seams still "
+                        "lower: the finest level has similar pixels, too, which brings nothing, as only seams still "
                         "move there; costs time and memory. Higher: seams of regular exemplars break",
                         "k_coherence"},
                        {&Tuning::tile_side, "tile_side", "pixels",
