@@ -17,7 +17,7 @@ namespace {
 
 struct Tuning {
   double slack = 0.2;
-  int dimensions = 16;
+  int eights_of_dimensions = 2;
 };
 const Tunable<Tuning> tuning(
     "copies", {
@@ -25,9 +25,9 @@ const Tunable<Tuning> tuning(
                    "by which the nearest patch may be missed. Higher: less time; lower: copies among many alike "
                    "patches are found whole",
                    "not measured: taken over from the code before constants were listed"},
-                  {&Tuning::dimensions, "dimensions", "components",
+                  {&Tuning::eights_of_dimensions, "eights_of_dimensions", "eight components",
                    "of a patch in which the nearest is looked for. Higher: alike patches are kept apart; costs time",
-                   "not measured: taken over from the code before constants were listed", 1, 100},
+                   "not measured: taken over from the code before constants were listed", 1, 6},
               });
 
 }  // namespace
@@ -55,7 +55,7 @@ CopiedRegions copied_regions(Size size, const std::vector<Shift>& shifts) {
 }
 
 double verbatim_copies(const Planes& exemplar, const Planes& output, const Task& task) {
-  const int dimensions = tuning->dimensions;
+  const int dimensions = 8 * tuning->eights_of_dimensions;
   const double slack = tuning->slack;
   const PatchList from_exemplar = all_patches(exemplar.size), from_output = all_patches(output.size);
   const Projection space = principal_projection(exemplar, from_exemplar, dimensions, task);

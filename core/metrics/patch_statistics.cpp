@@ -25,12 +25,12 @@ uint64_t output_seed(const Planes& exemplar, const Planes& output) {
 
 struct Tuning {
   double slack = 0.1;
-  int directions = 160;
+  int eights_of_directions = 20;
   int quantiles = 512;
   int sliced_patches = 20000;
   int pool = 120000;
   int queries = 4000;
-  int dimensions = 24;
+  int eights_of_dimensions = 3;
 };
 const Tunable<Tuning> tuning(
     "patch_statistics",
@@ -38,9 +38,9 @@ const Tunable<Tuning> tuning(
         {&Tuning::slack, "slack", "share of a distance",
          "by which the nearest patch may be missed. Higher: less time; lower: coherence and completeness are exact",
          "not measured: bounds the time"},
-        {&Tuning::directions, "directions", "directions",
+        {&Tuning::eights_of_directions, "eights_of_directions", "eight directions",
          "in which patches are compared for swd. Higher: it varies less; costs time",
-         "not measured: taken over from the code before constants were listed", 1, 10000},
+         "not measured: taken over from the code before constants were listed", 1, 125},
         {&Tuning::quantiles, "quantiles", "values in each direction", "the same. Higher: tails have a say; costs time",
          "not measured: taken over from the code before constants were listed", 2},
         {&Tuning::sliced_patches, "sliced_patches", "patches", "the same. Higher: it varies less; costs time",
@@ -50,9 +50,9 @@ const Tunable<Tuning> tuning(
          "not measured: taken over from the code before constants were listed", 2},
         {&Tuning::queries, "queries", "patches", "for which it is. Higher: figures vary less; costs time",
          "not measured: taken over from the code before constants were listed", 1},
-        {&Tuning::dimensions, "dimensions", "components",
+        {&Tuning::eights_of_dimensions, "eights_of_dimensions", "eight components",
          "of a patch in which it is. Higher: fine detail has a say; costs time",
-         "not measured: taken over from the code before constants were listed", 1, 100},
+         "not measured: taken over from the code before constants were listed", 1, 6},
     });
 
 /// Of sorted numbers, with linear interpolation; `t` in [0, 1].
@@ -85,7 +85,7 @@ double mean_of(const std::vector<double>& values) {
 /// The distances of the first rows of `points` to what `tree` holds.
 std::vector<double> distances(const NearestPoints& tree, const std::vector<float>& points, bool among_themselves,
                               const Task& task) {
-  const int dimensions = tuning->dimensions;
+  const int dimensions = 8 * tuning->eights_of_dimensions;
   const double slack = tuning->slack;
   std::vector<double> out(std::min(size_t(tuning->queries), points.size() / size_t(dimensions)));
   tbb::parallel_for(tbb::blocked_range<size_t>(0, out.size(), 64), [&](const auto& range) {
@@ -101,7 +101,7 @@ std::vector<double> distances(const NearestPoints& tree, const std::vector<float
 }  // namespace
 
 double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Task& task) {
-  const int directions = tuning->directions, quantiles = tuning->quantiles;
+  const int directions = 8 * tuning->eights_of_directions, quantiles = tuning->quantiles;
   const auto sliced_patches = size_t(tuning->sliced_patches);
   const Projection slices = random_directions(patch_values(exemplar), directions, direction_seed);
   const auto a = project(exemplar, random_patches(exemplar.size, sliced_patches, exemplar_seed), slices, task);
@@ -123,7 +123,7 @@ double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Ta
 
 PatchSimilarity patch_similarity(const Planes& exemplar, const Planes& output, const Task& task) {
   const auto pool = size_t(tuning->pool);
-  const int dimensions = tuning->dimensions;
+  const int dimensions = 8 * tuning->eights_of_dimensions;
   const PatchList from_exemplar = random_patches(exemplar.size, pool, exemplar_seed);
   const PatchList from_output = random_patches(output.size, pool, output_seed(exemplar, output));
   const Projection space = principal_projection(exemplar, from_exemplar, dimensions, task);
