@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/tuning.h"
 #include "core/image/color.h"
 #include "core/image/image_ops.h"
 #include "core/material/map_names.h"
@@ -16,6 +17,16 @@ namespace terrazzo {
 namespace {
 
 constexpr int64_t longest_side = 65536;
+
+struct Tuning {
+  double unlike_sides = 0.05;
+};
+const Tunable<Tuning> tuning("atlas", {
+                                          {&Tuning::unlike_sides, "unlike_sides", "factor",
+                                           "on the square of what sides differ by, beside the area. Higher: atlases "
+                                           "are nearer to squares; lower: they waste less",
+                                           "not measured: taken over from the code before constants were listed"},
+                                      });
 
 // --- Where exemplars lie
 
@@ -51,7 +62,7 @@ struct Extent {
   }
   /// What a layout costs: its area, and less so how far it is from a square.
   double cost() const {
-    return double(width) * double(height) + 0.05 * double(width - height) * double(width - height);
+    return double(width) * double(height) + tuning->unlike_sides * double(width - height) * double(width - height);
   }
 };
 

@@ -27,7 +27,7 @@ const Tunable<Tuning> tuning(
         {&Tuning::averaged, "averaged", "share of a band",
          "over whose breadth differences are averaged. Higher: grain cancels; lower: joints of the next band have no "
          "say",
-         "not measured: most of a band, but little of the next"},
+         "not measured: most of a band, but little of the next", 0, 10},
         {&Tuning::least_distinct, "least_distinct", "distinctness",
          "higher: fewer bonds are found; lower: bricks of all widths get a bond that they do not have", "bonds"},
         {&Tuning::most_off, "most_off", "share of a band",

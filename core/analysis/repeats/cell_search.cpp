@@ -28,6 +28,7 @@ struct Tuning {
   double least_alike_of_drawn = 0.93;
   double no_difference = 0.01;
   double near_whole = 0.15;
+  double on_point = 0.15;
   int farthest = 5;
   int most_cells = 4;
   int fewest_around = 4;
@@ -84,6 +85,10 @@ const Tunable<Tuning> tuning(
          "what a step may be off whole ones to be rounded. Higher: drawn patterns come out exact; lower: photographs "
          "keep their steps",
          "regularity", 0, 0.5},
+        {&Tuning::on_point, "on_point", "steps",
+         "within which a point is another lattice's, too. Higher: imprecise lattices share points; lower: those near "
+         "by tell them apart",
+         "not measured: taken over from the code before constants were listed"},
         {&Tuning::farthest, "farthest", "steps from the origin",
          "at which a lattice is judged. Higher: chance lattices fail; lower: those that are a little off do not",
          "not measured: taken over from the code before constants were listed", 1, 100},
@@ -215,7 +220,7 @@ bool is_worse(const Candidate& c, const Candidate& than, double errors) {
   if (c.on.mean() >= than.on.mean()) return false;
   std::vector<Point> own;
   for (const Point& p : c.points)
-    if (!than.has(p.at, 0.15)) own.push_back(p);
+    if (!than.has(p.at, tuning->on_point)) own.push_back(p);
   if (own.size() < 2) return false;
   const Moments<1> on = moments(own), &other = than.on;
   if (on.mean() >= other.mean() * (1 - tuning->least_gap)) return false;

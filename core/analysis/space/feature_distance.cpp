@@ -7,12 +7,24 @@
 #include "core/analysis/space/mask_pyramid.h"
 #include "core/analysis/space/planes.h"
 #include "core/analysis/space/weighting.h"
+#include "core/base/tuning.h"
 #include "core/image/distribution.h"
 #include "core/numeric/distance_transform.h"
 
 namespace terrazzo {
 
 namespace {
+
+struct Tuning {
+  int specks = 200;
+};
+const Tunable<Tuning> tuning("feature_distance",
+                             {
+                                 {&Tuning::specks, "specks", "parts of the pixels",
+                                  "of which one may have stronger edges than what counts as the strongest. Higher: "
+                                  "single specks set the scale; lower: faint edges count as strong ones",
+                                  "not measured: single specks must not set the scale", 2},
+                             });
 
 struct Gradient {
   float x, y;
@@ -109,9 +121,9 @@ Edges find_edges(const Material& material, const EdgeOptions& options, const Tas
   const std::vector<uint8_t> allowed = allowed_pixels(*features);
   for (size_t i = 0; i < allowed.size(); i++)
     if (!allowed[i]) edges.strength[i] = 0;
-  // Relative to nearly the strongest: a single speck must not set the scale.
+  // Relative to nearly the strongest.
   std::vector<float> sorted = edges.strength;
-  const size_t strong = sorted.size() - 1 - sorted.size() / 200;
+  const size_t strong = sorted.size() - 1 - sorted.size() / size_t(tuning->specks);
   std::nth_element(sorted.begin(), sorted.begin() + ptrdiff_t(strong), sorted.end());
   const float unit = std::max(sorted[strong], 1e-6f);
   for (float& v : edges.strength) v = std::min(1.0f, v / unit);
