@@ -22,8 +22,9 @@
 ///     });
 ///     ... tuning->reach ...
 ///
-/// What a field takes is limited (1 to 96) only where the program would otherwise crash or run on and on: what divides
-/// by it is not written to expect 0.
+/// The least and the most that a field takes (1 and 96) keep a run from crashing or going on and on: code that divides
+/// by a constant need not expect 0.
+///
 /// Reading is as cheap as reading a variable; inner loops copy what they need. Overriding is for a process that has
 /// not begun to work yet; reading is thread-safe.
 namespace terrazzo {

@@ -47,7 +47,9 @@ std::string evidence(const TuningConstant& c) {
 }
 
 std::string range(const TuningConstant& c) {
-  return c.is_limited() ? fmt::format(", from {} to {}", c.least, c.most) : "";
+  if (!c.is_limited()) return "";
+  return c.most == TuningConstant().most ? fmt::format(", at least {}", c.least)
+                                         : fmt::format(", from {} to {}", c.least, c.most);
 }
 
 void list() {
