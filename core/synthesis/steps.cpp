@@ -274,19 +274,19 @@ void repair_unlike(StepContext& c) {
 constexpr bool with_candidates = true;
 
 const Step all_steps[] = {
-    {"usage_penalty", Phase::costs, "over-used parts of the exemplar cost more, cumulatively", insists_on_evenness,
+    {"usage_penalty", Phase::costs, "over-used parts of the exemplar cost more and more", insists_on_evenness,
      insist_on_evenness},
-    {"proximity_penalty", Phase::costs, "what shows near by already costs more", avoids_repeats, avoid_repeats},
+    {"proximity_penalty", Phase::costs, "parts that already appear nearby cost more", avoids_repeats, avoid_repeats},
     {"initialize", Phase::coarsest, "random blocks of the exemplar", always, place_blocks},
     {"jitter", Phase::coarsest, "pixels move at random", always, jitter_coarsest},
-    {"fixed_pixels", Phase::coarsest, "kept pixels show what they showed", keeps_pixels, begin_with_kept},
+    {"fixed_pixels", Phase::coarsest, "kept pixels get their old content back", keeps_pixels, begin_with_kept},
     {"initialize", Phase::upsampling, "each pixel becomes four, with jitter and in phase with the lattice", always,
      upsample},
-    {"fixed_pixels", Phase::upsampling, "kept pixels show what they showed", keeps_pixels, start_where_kept},
-    {"piece_relocation", Phase::upsampling, "whole pieces show other parts of the exemplar that fit better", relocates,
-     relocate, with_candidates},
+    {"fixed_pixels", Phase::upsampling, "kept pixels get their old content back", keeps_pixels, start_where_kept},
+    {"piece_relocation", Phase::upsampling, "whole pieces are replaced by parts of the exemplar that fit better",
+     relocates, relocate, with_candidates},
     {"alignment", Phase::upsampling, "whole pieces move to where they fit their neighbours", aligns, align},
-    {"course_layout", Phase::upsampling, "courses are laid anew with whole bricks and boards", lays_courses,
+    {"course_layout", Phase::upsampling, "courses are rebuilt from whole bricks and boards", lays_courses,
      lay_whole_bricks},
     {"seams", Phase::upsampling, "seams between pieces move to joints", moves_seams, move_to_joints},
     {"graphcut_repair", Phase::before_pass, "the worst seams are covered with patches along minimum cuts",
@@ -295,8 +295,9 @@ const Step all_steps[] = {
      limit_pieces},
     {"correction", Phase::pass, "every pixel takes the best of its coherent and k-coherent candidates", always,
      correct_pixels, with_candidates},
-    {"coherence_repair", Phase::after_passes, "places unlike anything in the exemplar are covered", repairs_incoherent,
-     repair_unlike, with_candidates},
+    {"coherence_repair", Phase::after_passes,
+     "places unlike anything in the exemplar are covered with coherent patches", repairs_incoherent, repair_unlike,
+     with_candidates},
 };
 
 }  // namespace

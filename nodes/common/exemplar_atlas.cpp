@@ -9,21 +9,20 @@
 namespace terrazzo {
 
 std::vector<Port> atlas_outputs() {
-  return {
-      material_port("material", "the exemplars side by side"),
-      image_port("mask", "1 where an exemplar may be sampled, 0 in gaps: for \"weight\""),
-      image_port("labels", "which exemplar, from 0 for the first to 1 for the last in equal steps: i / (count - 1)")};
+  return {material_port("material", "the exemplars side by side"),
+          image_port("mask", "1 where an exemplar may be sampled, 0 in gaps: for \"weight\""),
+          image_port("labels", "exemplar number, 0 for the first to 1 for the last: i / (count - 1)")};
 }
 
 std::vector<Param> atlas_params() {
   Param edges = edges_param();
   edges.help =
-      "What fills gaps, and the corners of rotated copies: the border pixels go on (clamp), or the exemplar repeats "
-      "(wrap; for exemplars that tile, whose corners can then be sampled too).";
+      "What fills gaps and the corners of rotated copies: clamp extends the border pixels, wrap repeats the exemplar "
+      "(if it tiles; those corners can then be sampled too).";
   return {{.name = "gap",
            .type = ParamType::integer,
            .fallback = int64_t{8},
-           .help = "Least distance between exemplars.",
+           .help = "Minimum distance between exemplars.",
            .min = 0,
            .max = 1024,
            .unit = "pixels"},

@@ -8,21 +8,21 @@
 namespace terrazzo {
 
 Param tiles_param() {
-  return {.name = "tiles",
-          .type = ParamType::choice,
-          .fallback = "auto",
-          .help =
-              "Whether the exemplar tiles, so that what lies beyond a border is the other side. \"auto\" compares "
-              "opposite borders.",
-          .choices = {"auto", "yes", "no"}};
+  return {
+      .name = "tiles",
+      .type = ParamType::choice,
+      .fallback = "auto",
+      .help =
+          "Whether the exemplar tiles: opposite borders then count as neighbours. \"auto\" compares opposite borders.",
+      .choices = {"auto", "yes", "no"}};
 }
 
 Port mask_port() {
   return {.name = "mask",
           .type = ValueType::image,
           .help =
-              "where the exemplar may be sampled: above 0.5 (white) it may, elsewhere it does not count and is never "
-              "shown. Of the exemplar's shape, at any size; if it has several channels, the first counts",
+              "where the exemplar may be sampled: white (above 0.5) may, black is ignored and never shown. The "
+              "exemplar's aspect ratio at any size; only the first channel counts",
           .optional = true};
 }
 

@@ -11,13 +11,13 @@
 namespace terrazzo {
 
 Param edges_param() {
-  return {.name = "edges",
-          .type = ParamType::choice,
-          .fallback = "clamp",
-          .help =
-              "What lies beyond the border: the border pixels go on (clamp), or the image repeats (wrap; for maps "
-              "that tile).",
-          .choices = {"clamp", "wrap"}};
+  return {
+      .name = "edges",
+      .type = ParamType::choice,
+      .fallback = "clamp",
+      .help =
+          "What lies beyond the border: clamp extends the border pixels, wrap repeats the image (for maps that tile).",
+      .choices = {"clamp", "wrap"}};
 }
 
 Outside edges_of(const NodeContext& node) {
@@ -40,7 +40,7 @@ Param height_scale_param() {
   return {.name = "height_scale",
           .type = ParamType::number,
           .fallback = 16.0,
-          .help = "How many pixels tall a height of 1 is; negative turns hills into pits.",
+          .help = "How many pixels tall a height of 1 is. More is steeper; negative turns bumps into dents.",
           .min = -10000,
           .max = 10000,
           .unit = "pixels"};

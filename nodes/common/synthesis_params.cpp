@@ -26,55 +26,55 @@ const std::vector<Param>& shared_params() {
       {.name = "seed",
        .type = ParamType::integer,
        .fallback = 1,
-       .help = "Another seed gives another arrangement.",
+       .help = "Another number gives another arrangement of the same material.",
        .min = 0},
       {.name = "quality",
        .type = ParamType::choice,
        .fallback = "normal",
-       .help = "How many passes and candidates every level gets. Of the time that normal takes, draft takes about "
-               "half and best nearly twice as much, for more passes at the finest levels.",
+       .help = "Passes and candidates per level. draft takes about half the time of normal; best takes nearly twice as "
+               "long, with more passes at the finest levels.",
        .choices = {quality_names.begin(), quality_names.end()}},
       {.name = "coherence",
        .type = ParamType::number,
        .fallback = 0.7,
-       .help = "Factor on the cost of continuing a neighbouring piece of the exemplar. Smaller values copy larger "
-               "pieces: more faithful, less varied.",
+       .help = "Cost of continuing a neighbouring piece of the exemplar. Lower values copy larger pieces: more "
+               "faithful, less varied.",
        .min = 0.05,
        .max = 1},
       {.name = "evenness",
        .type = ParamType::number,
        .fallback = 0.7,
-       .help = "How strongly parts of the exemplar are avoided that are used too often, or near by already. 0 lets the "
-               "best-fitting parts repeat.",
+       .help = "Penalty on parts of the exemplar that are used too often or already appear nearby. Higher values "
+               "repeat less; 0 lets the best-fitting parts repeat.",
        .min = 0,
        .max = 10},
       {.name = "jitter",
        .type = ParamType::numbers,
        .fallback = Numbers{},
-       .help = "Random displacement per level, coarsest level first; levels not listed have none, and a single number "
-               "counts for every level. More jitter, more variety, less structure.",
+       .help = "Random displacement per level, coarsest level first. More gives more variety and less structure. One "
+               "number applies to every level; levels not listed get none.",
        .min = 0,
        .max = 1024,
-       .unit = "exemplar pixels of the level"},
+       .unit = "pixels of the level"},
       {.name = "jitter_shape",
        .type = ParamType::choice,
        .fallback = "automatic",
-       .help =
-           "automatic takes \"jitter\" as it is and, if it is empty, what suits the exemplar; list takes it as it is. "
-           "The others spread one number over the levels: constant alike, peak as a Gaussian around "
-           "\"jitter_peak\", rising only up to the peak, falling only from it on.",
+       .help = "How \"jitter\" is spread over the levels. automatic and list use it as given; if it is empty, "
+               "automatic chooses. The others take one number: constant at every level, peak as a Gaussian around "
+               "\"jitter_peak\", rising only up to the peak, falling only from it on.",
        .choices = shape_names},
       {.name = "jitter_peak",
        .type = ParamType::number,
        .fallback = 0.0,
-       .help = "For peak, rising and falling: the level with the full jitter, counted from the coarsest, 0.",
+       .help = "For peak, rising and falling: the level with the full jitter; 0 is the coarsest.",
        .min = 0,
        .max = 16,
        .unit = "levels"},
       {.name = "jitter_spread",
        .type = ParamType::number,
        .fallback = 1.0,
-       .help = "For peak, rising and falling: the Gaussian's standard deviation.",
+       .help = "For peak, rising and falling: the Gaussian's standard deviation. Higher values spread jitter over more "
+               "levels.",
        .min = 0.1,
        .max = 16,
        .unit = "levels"},
@@ -121,14 +121,12 @@ Param tileable_param() {
 }
 
 Param whole_bricks_param() {
-  return {
-      .name = "whole_bricks",
-      .type = ParamType::boolean,
-      .fallback = true,
-      .help =
-          "Of an exemplar built of courses, as walls and floors of boards are: every course is put together from "
-          "whole bricks, or boards, cut at joints only. Not in drafts. false leaves it to the seams to find joints, "
-          "which makes fewer new combinations but cuts some bricks."};
+  return {.name = "whole_bricks",
+          .type = ParamType::boolean,
+          .fallback = true,
+          .help =
+              "For walls and board floors: builds every course from whole bricks or boards, cut at joints only. Not in "
+              "drafts. false gives fewer new combinations and cuts some bricks."};
 }
 
 std::vector<Param> with_synthesis_params(std::vector<Param> own) {

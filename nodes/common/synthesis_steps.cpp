@@ -23,8 +23,8 @@ const std::vector<Situation>& situations() {
   static const std::vector<Situation> all = {{"without a lattice", {}},
                                              {"with a lattice", {.regular = true}},
                                              {"with a lattice of bricks", {.regular = true, .may_have_bricks = true}},
-                                             {"beside kept pixels", {.kept = true}},
-                                             {"under controls", {.steered = true}}};
+                                             {"with kept pixels", {.kept = true}},
+                                             {"with a target", {.steered = true}}};
   return all;
 }
 

@@ -68,19 +68,19 @@ NodeType blend_node() {
   NodeType t;
   t.name = "blend";
   t.category = "image";
-  t.summary = "Lays one image over another";
+  t.summary = "Blends one image over another";
   t.help =
       "The usual modes of paint programs. Normal maps are laid over each other by reoriented normal mapping "
       "(Barre-Brisebois and Hill 2012), which keeps the strength of both, in the base's green convention; with mode "
       "normal the top replaces the base. The result has the base's semantic, colour space and bit depth; a fourth "
       "channel is blended like the others.";
-  t.inputs = {image_port("base", "what lies below"),
-              image_port("top", "what is laid over it: same size, 1 channel or as many as the base"),
+  t.inputs = {image_port("base", "the bottom layer"),
+              image_port("top", "the top layer: same size, 1 channel or as many as the base"),
               {.name = "mask",
                .type = ValueType::image,
-               .help = "where the top shows: 1 channel, 1 for all of it",
+               .help = "where the top shows: 1 channel, 1 = fully",
                .optional = true}};
-  t.outputs = {image_port("image", "the two as one")};
+  t.outputs = {image_port("image", "the blended image")};
   std::vector<std::string> modes = {"auto", "detail"};
   modes.insert(modes.end(), mode_names.begin(), mode_names.end());
   t.params = {
@@ -92,7 +92,7 @@ NodeType blend_node() {
       {.name = "opacity",
        .type = ParamType::number,
        .fallback = 1.0,
-       .help = "How much of the top shows.",
+       .help = "How much of the top shows; 0 leaves the base.",
        .min = 0,
        .max = 1},
       {.name = "linear",

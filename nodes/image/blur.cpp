@@ -20,15 +20,15 @@ NodeType blur_node() {
   t.category = "image";
   t.summary = "Gaussian blur";
   t.help =
-      "Colours stored as srgb_texture are blurred in linear light, normals as vectors that are made unit length again, "
-      "everything else as it is. Computed when its pixels are read.";
+      "Colours stored as srgb_texture are blurred in linear light, normals as vectors that are renormalised, "
+      "everything else as stored. Pixels are computed on demand.";
   t.inputs = {image_port("image", "the image to blur")};
   t.outputs = {image_port("image", "the blurred image")};
   t.params = {
       {.name = "radius",
        .type = ParamType::number,
        .fallback = 2.0,
-       .help = "How far it blurs: the standard deviation (sigma) of the Gaussian, which reaches three times as far.",
+       .help = "Standard deviation (sigma) of the Gaussian, which reaches three times as far; more is smoother.",
        .min = 0,
        .max = 1000,
        .unit = "pixels"},

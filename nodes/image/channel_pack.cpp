@@ -109,38 +109,35 @@ NodeType channel_pack_node() {
   t.category = "image";
   t.summary = "Puts channels of several images into one";
   t.help =
-      "The result ends with the last channel that is connected or filled: occlusion, roughness and metallic on r, g "
-      "and "
-      "b make the packing that glTF and Unreal read. All images have the same size. Values are taken as they are "
-      "stored, "
-      "in the greatest bit depth of the images.";
+      "Occlusion, roughness and metallic on r, g and b make the ORM map that glTF and Unreal read. The result ends "
+      "with the last channel that is connected or filled. All images need the same size. Values are taken as stored, "
+      "at the greatest bit depth of the images.";
   for (const std::string& name : channel_names)
     t.inputs.push_back({.name = name,
                         .type = ValueType::image,
                         .help = "where channel " + name + " comes from; without it, fill",
                         .optional = true});
   t.outputs = {image_port("image", "1 to 4 channels")};
-  t.params = {{.name = "from",
-               .type = ParamType::text_map,
-               .fallback = TextMap{},
-               .help = "Which channel of the image connected to r, g, b or a is taken, such as {\"g\": \"b\"}; r, the "
-                       "first, if not given.",
-               .choices = channel_names},
-              {.name = "fill",
-               .type = ParamType::number_map,
-               .fallback = NumberMap{},
-               .help = "Values of channels that are not connected, such as {\"a\": 1}; 0 if not given.",
-               .choices = channel_names},
-              {.name = "semantic",
-               .type = ParamType::choice,
-               .fallback = "data",
-               .help = "What the result means.",
-               .choices = {semantic_names.begin(), semantic_names.end()}},
-              {.name = "color_space",
-               .type = ParamType::text,
-               .fallback = "raw",
-               .help = "The colour space the result's values are in, such as srgb_texture for the colour of an 8-bit "
-                       "map; nothing is converted."}};
+  t.params = {
+      {.name = "from",
+       .type = ParamType::text_map,
+       .fallback = TextMap{},
+       .help = "Which channel of each connected image to take, such as {\"g\": \"b\"}; the first (r) if not given.",
+       .choices = channel_names},
+      {.name = "fill",
+       .type = ParamType::number_map,
+       .fallback = NumberMap{},
+       .help = "Values of channels that are not connected, such as {\"a\": 1}; 0 if not given.",
+       .choices = channel_names},
+      {.name = "semantic",
+       .type = ParamType::choice,
+       .fallback = "data",
+       .help = "What the result is.",
+       .choices = {semantic_names.begin(), semantic_names.end()}},
+      {.name = "color_space",
+       .type = ParamType::text,
+       .fallback = "raw",
+       .help = "The result's colour space, such as srgb_texture for 8-bit colours; nothing is converted."}};
   t.persist = Persist::derived;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.check = [](const Params& p) { return color_space_problems(p, "color_space"); };

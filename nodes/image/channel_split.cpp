@@ -32,11 +32,10 @@ NodeType channel_split_node() {
   NodeType t;
   t.name = "channel_split";
   t.category = "image";
-  t.summary = "The channels of an image, one by one";
+  t.summary = "Splits an image into its channels";
   t.help =
-      "Values stay as they are stored; what they mean is not known any more, so each output is raw data (say what it "
-      "is "
-      "with \"make_material\"). A channel that the image does not have is 0, and a missing a is 1: opaque.";
+      "Values stay as stored. Each output is raw data (say what it is with \"make_material\"). A missing channel is 0, "
+      "a missing alpha 1 (opaque).";
   t.inputs = {image_port("image", "1 to 4 channels")};
   t.outputs = {image_port("r", "first channel"), image_port("g", "second channel, or 0"),
                image_port("b", "third channel, or 0"), image_port("a", "fourth channel, or 1")};

@@ -44,20 +44,16 @@ NodeType combine_node() {
   t.category = "image";
   t.summary = "Lays several exemplars side by side as one";
   t.help =
-      "One result can draw on several exemplars of a surface: photographs of neighbouring spots, say, or a clean and a "
-      "worn one. This lays them out in one material, which everything that takes an exemplar takes: weight, guidance, "
-      "resolve_uv. Give its mask to \"weight\", so that nothing is taken from across the gaps, and set \"tiles\" to no "
-      "there and in other analysis; give its labels to \"regularity\", so that it finds each exemplar's own lattice "
-      "and "
-      "the joints of bricks and tiles meet. Exemplars must have the same maps; sizes may differ. All pixels stay as "
-      "they "
-      "are, but that colours and normals are brought to the first exemplar's colour space and convention. \"labels\" "
-      "tells "
-      "exemplars apart when a target steers which is used where.";
+      "For making one result from several exemplars of a surface, such as photographs of neighbouring spots, or a "
+      "clean and a worn one. The material goes wherever an exemplar goes: weight, guidance, resolve_uv. Connect the "
+      "mask to \"weight\", so that the gaps are never shown, and set \"tiles\" to no in all analysis nodes. Connect "
+      "the labels to \"regularity\", so that each exemplar gets its own lattice and joints of bricks and tiles meet, "
+      "or to \"transfer\", to steer which exemplar is used where. Exemplars must have the same maps; sizes may differ. "
+      "Pixels do not change, except that colours and normals take the first exemplar's colour space and convention.";
   t.inputs = {{.name = "materials", .type = ValueType::material, .help = "the exemplars", .list = true},
               {.name = "masks",
                .type = ValueType::image,
-               .help = "for each exemplar where it may be sampled (above 0.5), 1 channel",
+               .help = "for each exemplar where it may be sampled: white (above 0.5), 1 channel",
                .optional = true,
                .list = true}};
   t.outputs = atlas_outputs();

@@ -25,10 +25,9 @@ NodeType contact_sheet_node() {
   t.category = "image";
   t.summary = "Lays pictures out in rows, with captions";
   t.help =
-      "For comparing variants of one graph at a glance. Pictures may differ in size and kind: each is scaled down to "
-      "fit its cell and centred; colours are shown as sRGB, one or two channels as grey by the first, and a fourth "
-      "channel is left out. Values beyond 0 and 1 are cut off: put \"normalize\" before images of other ranges. "
-      "Materials go through \"preview\" first, which lights them.";
+      "For comparing variants of one graph at a glance. Each picture is scaled down to fit its cell and centred. "
+      "Colours are shown as sRGB, images of one or two channels as grey, without alpha. Values are clipped to 0..1: "
+      "put \"normalize\" before images of other ranges. Materials go through \"preview\" first, which lights them.";
   t.inputs = {{.name = "images", .type = ValueType::image, .help = "the pictures, in reading order", .list = true}};
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "8-bit colour picture"}};
   t.params = {{.name = "columns",
@@ -40,7 +39,7 @@ NodeType contact_sheet_node() {
               {.name = "cell",
                .type = ParamType::size,
                .fallback = Size{256, 256},
-               .help = "Room for each picture.",
+               .help = "Size of each cell.",
                .min = 8,
                .max = 8192,
                .unit = "pixels"},
@@ -54,12 +53,12 @@ NodeType contact_sheet_node() {
               {.name = "enlarge",
                .type = ParamType::boolean,
                .fallback = false,
-               .help = "Scale pictures up that are smaller than their cell. Else they keep their size, so that "
-                       "exemplar and result stand side by side at one scale."},
+               .help = "Scales up pictures smaller than their cell. false keeps their size, so that exemplar and "
+                       "result appear at one scale."},
               {.name = "captions",
                .type = ParamType::texts,
                .fallback = Texts{},
-               .help = "What stands below the pictures, in their order, in capitals; \"\" for none."}};
+               .help = "Texts below the pictures, in their order, set in capitals; \"\" for none."}};
   t.persist = Persist::payload;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.memory_hint = [](const NodeContext& node) {

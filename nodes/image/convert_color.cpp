@@ -31,21 +31,21 @@ NodeType convert_color_node() {
   t.category = "image";
   t.summary = "Converts an image to another colour space";
   t.help =
-      "Through OpenColorIO. The built-in configuration knows srgb_texture, lin_rec709, acescg and raw; the "
-      "environment's "
-      "OCIO, or a configuration given here, replaces it. Raw images are data and are never converted. A fourth channel "
-      "stays. Computed when its pixels are read.";
-  t.inputs = {image_port("image", "the image; its description says which space it is in")};
-  t.outputs = {image_port("image", "the image in the space asked for")};
-  t.params = {{.name = "to", .type = ParamType::text, .fallback = "lin_rec709", .help = "The colour space wanted."},
-              {.name = "from",
-               .type = ParamType::text,
-               .fallback = "auto",
-               .help = "The colour space the image is in, if its description is wrong; auto goes by the description."},
-              {.name = "config",
-               .type = ParamType::path,
-               .fallback = "",
-               .help = "An OpenColorIO configuration file; empty for the environment's OCIO or the built-in one."}};
+      "Uses OpenColorIO. The built-in configuration has srgb_texture, lin_rec709, acescg and raw; $OCIO, or a "
+      "configuration given here, replaces it. Raw images are data and are never converted. Alpha stays as it is. "
+      "Pixels are computed on demand.";
+  t.inputs = {image_port("image", "the image")};
+  t.outputs = {image_port("image", "the image in the new colour space")};
+  t.params = {
+      {.name = "to", .type = ParamType::text, .fallback = "lin_rec709", .help = "The colour space to convert to."},
+      {.name = "from",
+       .type = ParamType::text,
+       .fallback = "auto",
+       .help = "The image's colour space; auto takes the one the image declares. Set it if that is wrong."},
+      {.name = "config",
+       .type = ParamType::path,
+       .fallback = "",
+       .help = "An OpenColorIO configuration file; empty for $OCIO or the built-in one."}};
   t.persist = Persist::digest;
   t.files_read = [](const Params& params) { return color_config_files(std::get<std::string>(params.at("config"))); };
   t.check = check;

@@ -69,18 +69,16 @@ NodeType crop_node() {
   t.category = "image";
   t.summary = "Cuts a rectangle out of a material";
   t.help =
-      "Cuts the same part out of every map, pixels unchanged. The rectangle is given in pixels of the largest map; it "
-      "must fall on whole pixels of smaller ones, so that the maps stay aligned. With edges wrap, a material that "
-      "tiles "
-      "can be shifted or repeated.";
+      "Cuts the same part out of every map without changing pixels. The rectangle is in pixels of the largest map; it "
+      "must fall on whole pixels of smaller ones, so that maps stay aligned. With edges set to wrap, a tileable "
+      "material can be shifted or repeated.";
   t.inputs = {material_port("material", "the maps to cut; an image is taken as a material of one map")};
   t.outputs = {material_port("material", "the same part of every map")};
   Param edges = edges_param();
   edges.choices.insert(edges.choices.begin(), "none");
   edges.fallback = "none";
   edges.help =
-      "Beyond the border: nothing may be asked for (none), the border pixels go on (clamp), or the maps repeat "
-      "(wrap).";
+      "What lies beyond the border: none makes that an error, clamp extends the border pixels, wrap repeats the maps.";
   t.params = {
       {.name = "x",
        .type = ParamType::integer,
@@ -99,7 +97,7 @@ NodeType crop_node() {
       {.name = "size",
        .type = ParamType::size,
        .fallback = Size{0, 0},
-       .help = "Size of the rectangle; a side of 0 reaches to the material's right or bottom edge.",
+       .help = "Size of the rectangle; 0 reaches to the material's right or bottom edge.",
        .min = 0,
        .max = 65536,
        .unit = "pixels"},

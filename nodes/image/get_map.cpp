@@ -18,7 +18,7 @@ NodeType get_map_node() {
   t.help =
       "Gives one map of a material as an image, for nodes that work on images. \"make_material\" puts it back, changed "
       "or not.";
-  t.inputs = {material_port("material", "where the map is taken from")};
+  t.inputs = {material_port("material", "the material")};
   t.outputs = {image_port("image", "the map")};
   t.params = {{.name = "map",
                .type = ParamType::text,

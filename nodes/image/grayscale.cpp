@@ -50,21 +50,21 @@ NodeType grayscale_node() {
   t.summary = "One channel out of several";
   t.help =
       "The weighted sum of the channels; colours stored as srgb_texture are summed in linear light and encoded again. "
-      "The coverage of colours is dropped. Semantic and colour space stay. To take one channel as it is, use "
-      "\"channel_split\".";
+      "Alpha is dropped. Semantic and colour space stay. To take one channel as it is, use \"channel_split\".";
   t.inputs = {image_port("image", "the image; not a normal map")};
   t.outputs = {image_port("image", "1 channel")};
-  t.params = {{.name = "method",
-               .type = ParamType::choice,
-               .fallback = "luminance",
-               .help = "luminance: Rec.709 weights for 3 channels, the average for fewer or more. average. weights: as "
-                       "given.",
-               .choices = {"luminance", "average", "weights"}},
-              {.name = "weights",
-               .type = ParamType::numbers,
-               .fallback = Numbers{1.0},
-               .help = "With method weights: the factor of each channel.",
-               .max_count = 4}};
+  t.params = {
+      {.name = "method",
+       .type = ParamType::choice,
+       .fallback = "luminance",
+       .help =
+           "luminance: Rec.709 weights for 3 channels, else the average. average: equal weights. weights: as given.",
+       .choices = {"luminance", "average", "weights"}},
+      {.name = "weights",
+       .type = ParamType::numbers,
+       .fallback = Numbers{1.0},
+       .help = "With method weights: the factor of each channel.",
+       .max_count = 4}};
   t.persist = Persist::derived;
   t.compute = compute;
   return t;

@@ -105,35 +105,35 @@ NodeType levels_node() {
   t.category = "image";
   t.summary = "Black point, white point and gamma";
   t.help =
-      "Maps [in_black, in_white] through a gamma to [out_black, out_white]; with in or out exchanged the image is "
-      "inverted. Works on the values as they are stored, and leaves the coverage of colours alone. The auto modes find "
-      "in_black and in_white from the image.";
+      "Maps [in_black, in_white] through a gamma to [out_black, out_white]; swap black and white to invert. Works on "
+      "stored values and leaves alpha as it is. The auto modes find in_black and in_white from the image.";
   t.inputs = {image_port("image", "the image; not a normal map")};
   t.outputs = {image_port("image", "the image with its levels changed")};
-  Param gamma = level_param("gamma", 1, "Above 1 lightens the middle, below 1 darkens it.");
+  Param gamma = level_param("gamma", 1, "Above 1 lightens the midtones, below 1 darkens them.");
   gamma.min = 0.01;
   gamma.max = 100;
-  t.params = {level_param("in_black", 0, "The value that becomes out_black."),
-              level_param("in_white", 1, "The value that becomes out_white."),
-              gamma,
-              level_param("out_black", 0, "What in_black becomes."),
-              level_param("out_white", 1, "What in_white becomes."),
-              {.name = "auto",
-               .type = ParamType::choice,
-               .fallback = "off",
-               .help = "Finds in_black and in_white: the same for all channels of the image, or for each channel.",
-               .choices = {"off", "image", "channel"}},
-              {.name = "clip",
-               .type = ParamType::number,
-               .fallback = 0.1,
-               .help = "In the auto modes: how many pixels lie beyond black, and beyond white.",
-               .min = 0,
-               .max = 49,
-               .unit = "percent"},
-              {.name = "clamp",
-               .type = ParamType::boolean,
-               .fallback = true,
-               .help = "Keeps values within [out_black, out_white]. 8- and 16-bit maps stay within [0, 1] anyway."}};
+  t.params = {
+      level_param("in_black", 0, "The value that becomes out_black."),
+      level_param("in_white", 1, "The value that becomes out_white."),
+      gamma,
+      level_param("out_black", 0, "What in_black becomes."),
+      level_param("out_white", 1, "What in_white becomes."),
+      {.name = "auto",
+       .type = ParamType::choice,
+       .fallback = "off",
+       .help = "Finds in_black and in_white: the same for all channels (image), or each channel's own (channel).",
+       .choices = {"off", "image", "channel"}},
+      {.name = "clip",
+       .type = ParamType::number,
+       .fallback = 0.1,
+       .help = "In the auto modes: share of pixels clipped at black, and at white. More gives more contrast.",
+       .min = 0,
+       .max = 49,
+       .unit = "percent"},
+      {.name = "clamp",
+       .type = ParamType::boolean,
+       .fallback = true,
+       .help = "Keeps values within [out_black, out_white]. 8- and 16-bit maps stay within [0, 1] anyway."}};
   t.persist = Persist::digest;
   t.check = check;
   t.compute = compute;

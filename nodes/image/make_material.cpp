@@ -95,10 +95,10 @@ NodeType make_material_node() {
   NodeType t;
   t.name = "make_material";
   t.category = "image";
-  t.summary = "Puts images together into a material";
+  t.summary = "Combines images into a material";
   t.help =
-      "Makes a material of a list of images. With a material connected, its maps come first, and an image of the same "
-      "name takes the place of that map: so one map can be taken out with \"get_map\", changed, and put back.";
+      "With a material connected, its maps come first, and an image of the same name replaces that map: so one map can "
+      "be taken out with \"get_map\", changed, and put back.";
   t.inputs = {{.name = "images", .type = ValueType::image, .help = "the maps", .list = true},
               {.name = "material", .type = ValueType::material, .help = "maps to start from", .optional = true}};
   t.outputs = {material_port("material", "the images as one material")};
@@ -114,7 +114,7 @@ NodeType make_material_node() {
       {.name = "semantics",
        .type = ParamType::texts,
        .fallback = Texts{},
-       .help = "What each image means from now on (height, roughness, mask, ...), or keep. Empty keeps all."},
+       .help = "A semantic for each image (height, roughness, mask, ...), or keep. Empty keeps all."},
   };
   t.persist = Persist::digest;
   t.compute = compute;

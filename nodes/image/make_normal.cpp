@@ -39,17 +39,16 @@ NodeType make_normal_node() {
   t.category = "image";
   t.summary = "Makes a normal map from a height map";
   t.help =
-      "The normal is that of the plane through a pixel's neighbours: n = (-dh/dx, -dh/dy, 1), made unit length. "
-      "Computed "
-      "when its pixels are read.";
+      "Normals come from the slopes between a pixel's neighbours: n = (-dh/dx, -dh/dy, 1), made unit length. Pixels "
+      "are computed on demand.";
   t.inputs = {image_port("height", "the height map, 1 channel")};
   t.outputs = {image_port("normal", "tangent-space normals, in the height map's bit depth")};
   t.params = {height_scale_param(),
               {.name = "filter",
                .type = ParamType::choice,
                .fallback = "scharr",
-               .help = "How slopes are measured: over 3x3 pixels (sobel; scharr is the most even over directions), or "
-                       "between the two neighbours (central; the sharpest).",
+               .help = "How slopes are measured: over 3x3 pixels (sobel, or scharr, which treats directions most "
+                       "alike), or between the two neighbours (central, the sharpest).",
                .choices = {"scharr", "sobel", "central"}},
               edges_param(),
               normal_y_param()};

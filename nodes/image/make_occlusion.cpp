@@ -35,26 +35,28 @@ NodeType make_occlusion_node() {
   t.category = "image";
   t.summary = "Makes an ambient occlusion map from a height map";
   t.help =
-      "How much of the sky each point sees: along 16 directions the horizon is looked for up to the radius, and the "
-      "part of a cosine-weighted sky above it counts (horizon-based ambient occlusion; Bavoil and Sainz 2008). Use the "
-      "height_scale of \"make_normal\" for the same surface.";
+      "How much of the sky each point sees: the horizon is searched in 16 directions up to the radius, and the "
+      "cosine-weighted sky above it counts (horizon-based ambient occlusion; Bavoil and Sainz 2008). For the same "
+      "surface use the height_scale of \"make_normal\" for the same surface.";
   t.inputs = {image_port("height", "the height map, 1 channel")};
-  t.outputs = {image_port("occlusion", "1 where all of the sky is seen, 0 where none is")};
-  t.params = {height_scale_param(),
-              {.name = "radius",
-               .type = ParamType::integer,
-               .fallback = int64_t{32},
-               .help = "How far occluders are looked for; their effect fades toward it. The time taken grows with it.",
-               .min = 1,
-               .max = 512,
-               .unit = "pixels"},
-              {.name = "strength",
-               .type = ParamType::number,
-               .fallback = 1.0,
-               .help = "Factor on the darkening; 1 is as computed.",
-               .min = 0,
-               .max = 4},
-              edges_param()};
+  t.outputs = {image_port("occlusion", "1 where the whole sky is visible, 0 where none is")};
+  t.params = {
+      height_scale_param(),
+      {.name = "radius",
+       .type = ParamType::integer,
+       .fallback = int64_t{32},
+       .help =
+           "How far away occluders count; their effect fades with distance. More darkens wider areas and takes longer.",
+       .min = 1,
+       .max = 512,
+       .unit = "pixels"},
+      {.name = "strength",
+       .type = ParamType::number,
+       .fallback = 1.0,
+       .help = "Factor on the darkening; 1 is physical, more is darker.",
+       .min = 0,
+       .max = 4},
+      edges_param()};
   t.persist = Persist::payload;
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Image>("height")->size().area()) * sizeof(float);

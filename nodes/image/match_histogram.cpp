@@ -41,17 +41,15 @@ NodeType match_histogram_node() {
   t.category = "image";
   t.summary = "Gives an image the distribution of another's values";
   t.help =
-      "Each channel's values go to the reference's values of equal rank (quantile mapping), so that both have the same "
-      "histogram; order is kept, equal values stay equal. Sizes may differ. Works on the values as they are stored, "
-      "and "
-      "leaves the coverage of colours alone.";
+      "Each channel's values are mapped to the reference's values of equal rank (quantile mapping), so that both have "
+      "the same histogram. Sizes may differ. Works on stored values and leaves alpha as it is.";
   t.inputs = {image_port("image", "the image to change; not a normal map"),
-              image_port("reference", "whose distribution it gets; as many channels")};
+              image_port("reference", "the image with the wanted distribution; as many channels")};
   t.outputs = {image_port("image", "the changed image")};
   t.params = {{.name = "strength",
                .type = ParamType::number,
                .fallback = 1.0,
-               .help = "0 leaves the image, 1 gives it the reference's distribution.",
+               .help = "0 leaves the image as it is, 1 gives it the reference's distribution.",
                .min = 0,
                .max = 1}};
   t.persist = Persist::digest;

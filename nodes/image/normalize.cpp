@@ -76,10 +76,9 @@ NodeType normalize_node() {
   t.category = "image";
   t.summary = "Brings an image to a given range or mean and deviation";
   t.help =
-      "Stretches the values linearly to a range, or to a mean and standard deviation; a constant image takes the "
-      "middle "
-      "or the mean. The coverage of colours is left alone. Normal maps are treated differently: every vector is made "
-      "unit length, and the parameters are not used.";
+      "Stretches the values linearly to a range, or to a mean and standard deviation; a constant image gets the middle "
+      "or the mean. Alpha stays as it is. Normal maps are different: every vector is made unit length, and the "
+      "parameters are ignored.";
   t.inputs = {image_port("image", "the image")};
   t.outputs = {image_port("image", "the normalised image")};
   t.params = {{.name = "mode",
@@ -93,13 +92,13 @@ NodeType normalize_node() {
               {.name = "deviation",
                .type = ParamType::number,
                .fallback = 0.2,
-               .help = "With mode statistics: the standard deviation. 8- and 16-bit maps are clamped to [0, 1] after.",
+               .help = "With mode statistics: the standard deviation. 8- and 16-bit maps are then clamped to [0, 1].",
                .min = 0,
                .max = largest_sample},
               {.name = "together",
                .type = ParamType::boolean,
                .fallback = true,
-               .help = "One stretch for all channels, so that hues stay; else each channel by itself."}};
+               .help = "One stretch for all channels, which keeps hues; false stretches each channel by itself."}};
   t.persist = Persist::digest;
   t.compute = compute;
   return t;

@@ -61,18 +61,19 @@ std::vector<Param> params() {
       {.name = "shape",
        .type = ParamType::choice,
        .fallback = "plane",
-       .help = "From above, pixel for texel where sizes agree, or wrapped around a ball.",
+       .help = "plane: seen from above, one texel per pixel if the sizes match. sphere: wrapped around a ball.",
        .choices = {"plane", "sphere"}},
       {.name = "size",
        .type = ParamType::size,
        .fallback = Size{512, 512},
-       .help = "Size of the picture; with several lights, of each picture on the sheet. Seen from above, the material "
-               "fills the picture's width, and repeats or is cut off below if their shapes differ; a note says so.",
+       .help = "Size of the picture; with several lights, of each one. On a plane the material fills the width, and "
+               "repeats or is cut off below if aspect ratios differ; a note says so.",
        .min = 1,
        .max = 8192,
        .unit = "pixels"},
-      number("azimuth", 135, -360, 360, "degrees", "Where the light stands: 0 right, 90 above, 180 left, 270 below."),
-      number("elevation", 40, 0, 90, "degrees", "How high the light stands over the picture plane; 90 is frontal."),
+      number("azimuth", 135, -360, 360, "degrees",
+             "Direction the light comes from: 0 right, 90 top, 180 left, 270 bottom."),
+      number("elevation", 40, 0, 90, "degrees", "Height of the light above the picture plane: 0 grazing, 90 frontal."),
       {.name = "lights",
        .type = ParamType::numbers,
        .fallback = Numbers{},
@@ -82,12 +83,13 @@ std::vector<Param> params() {
        .unit = "degrees",
        .max_count = 64},
       number("intensity", 1, 0, 100, "", "Brightness of the light; at 1 a white surface that faces it is white."),
-      number("ambient", 0.25, 0, 100, "", "Brightness of the even surroundings."),
-      number("exposure", 0, -10, 10, "stops", "Brightness of the whole picture."),
-      number("relief", 1, 0, 20, "", "Depth of parallax and shadows, times what the normals say; 0 switches them off."),
+      number("ambient", 0.25, 0, 100, "", "Brightness of the uniform surroundings; more lightens shadows."),
+      number("exposure", 0, -10, 10, "stops", "Brightness of the whole picture; +1 doubles it."),
+      number("relief", 1, 0, 20, "", "Depth of parallax and shadows relative to the normals; 0 switches them off."),
       number("repeats", 1, 0.01, 64, "", "Repeats of the material across the picture, or across the side of the ball."),
-      number("tilt", 0, 0, 75, "degrees", "Plane only: how far it leans back."),
-      number("distance", 4, 1.1, 100, "radii", "Sphere only: from the camera to the ball's centre."),
+      number("tilt", 0, 0, 75, "degrees", "Plane only: how far it tilts back."),
+      number("distance", 4, 1.1, 100, "radii",
+             "Sphere only: distance of the camera from the centre. More makes the ball smaller."),
       {.name = "background",
        .type = ParamType::numbers,
        .fallback = Numbers{0.12, 0.12, 0.13},
@@ -109,10 +111,10 @@ NodeType preview_node() {
   t.summary = "Renders a material under a movable light";
   t.help =
       "GGX reflection (Walter et al. 2007, Heitz 2014) with normal mapping in either convention, ambient occlusion, "
-      "metals, emission, and parallax and shadows marched through the height map. The depth of the relief is read from "
-      "the normals; without a normal map it is a twentieth of the material's width, and normals come from the height. "
-      "With several lights, maps that do not fit together show at once: bumps must be lit from the side of the light.";
-  t.inputs = {{.name = "material", .type = ValueType::material, .help = "any maps; what is missing is made up for"}};
+      "metals, emission, and parallax and shadows ray-marched through the height map. The depth of the relief is "
+      "estimated from the normals; without a normal map it is a twentieth of the material's width, and normals come "
+      "from the height. Render several lights to check that maps agree: bumps must be bright on the side of the light.";
+  t.inputs = {{.name = "material", .type = ValueType::material, .help = "any maps; missing ones get defaults"}};
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "8-bit colour picture"}};
   t.params = params();
   t.persist = Persist::payload;

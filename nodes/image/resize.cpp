@@ -50,29 +50,28 @@ NodeType resize_node() {
   t.summary = "Scales the maps of a material";
   t.help =
       "Scales to a given size, or by a factor. Colours stored as srgb_texture are filtered in linear light, normals as "
-      "vectors that are made unit length again, everything else as it is. The pixels are computed when they are read.";
+      "vectors that are renormalised, everything else as stored. Pixels are computed on demand.";
   t.inputs = {material_port("material", "the maps to scale; an image is taken as a material of one map")};
   t.outputs = {material_port("material", "the same maps, scaled")};
   t.params = {
       {.name = "size",
        .type = ParamType::size,
        .fallback = Size{0, 0},
-       .help = "The size all maps get. One side 0: it follows from the proportions of the material. Both 0: see scale.",
+       .help = "The size of all maps. If one side is 0, it follows from the aspect ratio; if both are, scale decides.",
        .min = 0,
        .max = 65536,
        .unit = "pixels"},
       {.name = "scale",
        .type = ParamType::number,
        .fallback = 1.0,
-       .help = "Factor on each map's own size, rounded to whole pixels; used when no size is given.",
+       .help = "Factor on each map's own size, rounded to whole pixels; used if no size is given.",
        .min = 0.0001,
        .max = 256},
       {.name = "filter",
        .type = ParamType::choice,
        .fallback = "auto",
-       .help =
-           "auto: lanczos3 to shrink, mitchell to enlarge, nearest for masks. Shrinking covers every pixel, whatever "
-           "the filter, but with nearest.",
+       .help = "auto: lanczos3 to shrink, mitchell to enlarge, nearest for masks. All but nearest average over every "
+               "source pixel when shrinking.",
        .choices = scaling_filter_names()},
       edges_param(),
       {.name = "maps", .type = ParamType::texts, .fallback = Texts{}, .help = "The maps to scale; empty for all."},

@@ -43,25 +43,24 @@ NodeType threshold_node() {
   NodeType t;
   t.name = "threshold";
   t.category = "image";
-  t.summary = "A mask of what is lighter than a value";
+  t.summary = "Makes a mask of pixels above a value";
   t.help =
-      "1 where the image is at or above the value, 0 below. The automatic value parts light from dark with the "
-      "greatest "
-      "variance between the two (Otsu 1979); it is printed.";
+      "1 where the image is at or above the value, 0 below. The automatic value separates light from dark by the "
+      "greatest variance between them (Otsu 1979); a note prints it.";
   t.inputs = {image_port("image", "the image, 1 channel")};
   t.outputs = {image_port("mask", "the mask, 1 channel")};
-  t.params = {sample_param("value", 0.5, "Where the mask begins."),
+  t.params = {sample_param("value", 0.5, "Pixels at or above it are in the mask."),
               {.name = "auto",
                .type = ParamType::boolean,
                .fallback = false,
-               .help = "Finds the value from the image; \"value\" is then not used."},
+               .help = "Finds the value from the image and ignores \"value\"."},
               {.name = "softness",
                .type = ParamType::number,
                .fallback = 0.0,
-               .help = "Width of the smooth transition around the value, in the image's values; 0 for a hard edge.",
+               .help = "Width of the transition around the value, in the image's values; 0 for a hard edge.",
                .min = 0,
                .max = largest_sample},
-              {.name = "inverted", .type = ParamType::boolean, .fallback = false, .help = "Exchanges 0 and 1."}};
+              {.name = "inverted", .type = ParamType::boolean, .fallback = false, .help = "Swaps 0 and 1."}};
   t.persist = Persist::digest;
   t.compute = compute;
   return t;

@@ -63,42 +63,42 @@ NodeType variants_node() {
   t.category = "image";
   t.summary = "Adds turned, mirrored and scaled copies of an exemplar";
   t.help =
-      "A small exemplar offers more to choose from when it may also appear turned, mirrored or at another scale. This "
-      "lays the original and its copies, every rotation of every scale and mirroring, side by side in one material, as "
-      "\"combine\" does: give the mask to \"weight\", set \"tiles\" to no there, and give the labels to "
-      "\"regularity\". "
-      "Normals turn with the surface. "
-      "Scaling is that of the whole body: slopes and so normals stay, and heights part from their mean by that factor "
-      "(clipped to 0..1 in maps of 8 and 16 bit: leave headroom with \"levels\" for scales above 1). Multiples of 90 "
-      "degrees move pixels and change none; other rotations interpolate (cubic convolution), and their empty corners "
-      "are left out of the mask. Do not turn what has an up and a down, or a direction of light. Mirrored copies meet "
-      "the original in butterflies where it is made of large features.";
+      "A small exemplar gives more variety if it may also appear turned, mirrored or at other scales. The original and "
+      "its copies, every rotation at every scale and mirroring, lie side by side in one material, as with \"combine\" "
+      ": connect the mask to \"weight\", set \"tiles\" to no there, and connect the labels to \"regularity\". Normals "
+      "turn with the surface. Scaling is in all three dimensions: normals stay, and heights scale about their mean (8- "
+      "and 16-bit maps clip to 0..1: leave headroom with \"levels\" for scales above 1). Multiples of 90 degrees only "
+      "move pixels; other rotations interpolate (cubic convolution), and their empty corners are masked out. Do not "
+      "turn materials that have an up and down, or baked-in light. With large features, mirrored copies can form "
+      "butterfly patterns.";
   t.inputs = {material_port("material", "the exemplar"),
               {.name = "mask",
                .type = ValueType::image,
-               .help = "where the exemplar may be sampled (above 0.5), 1 channel",
+               .help = "where the exemplar may be sampled: white (above 0.5), 1 channel",
                .optional = true}};
   t.outputs = atlas_outputs();
-  t.params = {{.name = "rotations",
-               .type = ParamType::numbers,
-               .fallback = Numbers{90, 180, 270},
-               .help = "Angles of copies beside the original, counter-clockwise; [] for none.",
-               .min = -360,
-               .max = 360,
-               .unit = "degrees",
-               .max_count = 16},
-              {.name = "scales",
-               .type = ParamType::numbers,
-               .fallback = Numbers{},
-               .help = "Sizes of copies, relative to the original.",
-               .min = 0.1,
-               .max = 10,
-               .max_count = 16},
-              {.name = "mirror",
-               .type = ParamType::choice,
-               .fallback = "none",
-               .help = "Adds copies with left and right exchanged (x), top and bottom (y), or both and each (xy).",
-               .choices = {"none", "x", "y", "xy"}}};
+  t.params = {
+      {.name = "rotations",
+       .type = ParamType::numbers,
+       .fallback = Numbers{90, 180, 270},
+       .help = "Angles of the copies, counter-clockwise; [] for none.",
+       .min = -360,
+       .max = 360,
+       .unit = "degrees",
+       .max_count = 16},
+      {.name = "scales",
+       .type = ParamType::numbers,
+       .fallback = Numbers{},
+       .help = "Scale factors of the copies; 2 is twice as large.",
+       .min = 0.1,
+       .max = 10,
+       .max_count = 16},
+      {.name = "mirror",
+       .type = ParamType::choice,
+       .fallback = "none",
+       .help =
+           "Adds copies with left and right swapped (x), top and bottom swapped (y), or all three combinations (xy).",
+       .choices = {"none", "x", "y", "xy"}}};
   for (Param& p : atlas_params()) t.params.push_back(std::move(p));
   t.persist = Persist::derived;
   t.check = check;

@@ -47,13 +47,12 @@ NodeType load_analysis_node() {
   t.category = "source";
   t.summary = "Reads an index that save_analysis wrote";
   t.help =
-      "Synthesis from the file gives the same uv map, bit for bit, as from the index that was saved, and needs nothing "
-      "else. The exemplar's maps come in only where pixels are wanted, and may be other maps than those that were "
-      "analysed, or larger ones (see `scale` of resolve_uv): {\"index\": {\"type\": \"load_analysis\", \"path\": "
-      "\"bricks.analysis\"}, \"layout\": {\"type\": \"synthesize\", \"index\": \"@index\"}, \"exemplar\": {\"type\": "
-      "\"load_material\", \"path\": \"bricks\"}, \"result\": {\"type\": \"resolve_uv\", \"uv\": \"@layout\", "
-      "\"material\": \"@exemplar\"}}. A file that is damaged, cut short, of a newer version, or no analysis at all is "
-      "refused.";
+      "Synthesis from the file gives the same uv map, bit for bit, as from the saved index. The exemplar's maps are "
+      "needed only by resolve_uv, and may be other maps than the analysed ones, or larger (see `scale` there): "
+      "{\"index\": {\"type\": \"load_analysis\", \"path\": \"bricks.analysis\"}, \"layout\": {\"type\": "
+      "\"synthesize\", \"index\": \"@index\"}, \"exemplar\": {\"type\": \"load_material\", \"path\": \"bricks\"}, "
+      "\"result\": {\"type\": \"resolve_uv\", \"uv\": \"@layout\", \"material\": \"@exemplar\"}}. Files that are "
+      "damaged, truncated, of a newer version, or no analysis are refused.";
   t.outputs = {{.name = "index", .type = ValueType::index, .help = "all that synthesis needs"}};
   t.params = {{.name = "path", .type = ParamType::path, .help = "The file."}};
   t.persist = Persist::digest;

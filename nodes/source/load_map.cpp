@@ -51,23 +51,22 @@ NodeType load_map_node() {
   t.category = "source";
   t.summary = "Reads one image file as a map";
   t.help =
-      "Reads PNG, TIFF, EXR, JPEG and whatever else OpenImageIO reads. Pixels stay as they are in the file (normals "
-      "stored as signed numbers are encoded, numbers that are not finite become 0); semantic, colour space and normal "
-      "convention say how later nodes read them.";
+      "Reads PNG, TIFF, EXR, JPEG and everything else OpenImageIO reads. Pixel values are not changed, except that "
+      "signed normals are encoded to 0..1 and NaN or infinite values become 0. Semantic, colour space and normal "
+      "convention tell later nodes how to interpret them.";
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "the map"}};
   t.params = {
       {.name = "path", .type = ParamType::path, .help = "The image file."},
       {.name = "semantic",
        .type = ParamType::choice,
        .fallback = "base_color",
-       .help = "What the map means; decides how it is weighted, filtered and written.",
+       .help = "What the map is; decides how it is weighted, filtered and written.",
        .choices = semantic_choices()},
       {.name = "color_space",
        .type = ParamType::text,
        .fallback = "auto",
-       .help =
-           "A colour space of the configuration. \"auto\": srgb_texture for colours in 8 and 16 bit, lin_rec709 for "
-           "colours in float files, raw for everything else."},
+       .help = "The file's colour space. \"auto\": srgb_texture for colours in 8 and 16 bit, lin_rec709 for colours in "
+               "float files, raw for everything else."},
       {.name = "normal_y",
        .type = ParamType::choice,
        .fallback = "up",

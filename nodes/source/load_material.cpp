@@ -201,13 +201,12 @@ NodeType load_material_node() {
   t.summary = "Reads a folder of maps as one material";
   t.help =
       "Finds the maps in a folder by the naming conventions of ambientCG, Poly Haven, Substance, Quixel Megascans, "
-      "Unreal, Unity and glTF, and by plain names; the last telling word of a name counts. Packed files (ORM, ARM, "
+      "Unreal, Unity and glTF, and by plain names; the last such word in a name counts. Packed files (ORM, ARM, "
       "metallicRoughness, MaskMap, MetallicSmoothness, AlbedoTransparency) are split into their channels, gloss and "
-      "smoothness maps inverted into roughness, grey maps stored in colour reduced to one channel, and a base colour's "
-      "alpha becomes the opacity map. Of several files for one map the OpenGL normal, the larger and the lossless one "
-      "is "
-      "taken. Maps may differ in size as long as they show the same area; a warning names those that are smaller than "
-      "the largest and so will be scaled up. The notes say what was recognised and what was left out.";
+      "smoothness maps are inverted into roughness, grey maps stored in colour are reduced to one channel, and a base "
+      "colour's alpha becomes the opacity map. If several files hold one map, OpenGL normals, larger and lossless "
+      "files are preferred. Maps may differ in size as long as they show the same area; a warning names those smaller "
+      "than the largest, which will be scaled up. Notes say what was recognised and what was left out.";
   t.outputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps found, named after their semantics"}};
   t.params = {
@@ -222,10 +221,8 @@ NodeType load_material_node() {
       {.name = "maps",
        .type = ParamType::text_map,
        .fallback = TextMap{},
-       .help =
-           "Files by map name, where the names do not say it: {\"height\": \"scan.tif\", \"roughness\": "
-           "\"packed.png:g\"}; relative to the folder, with the channels after a colon. An empty text leaves the map "
-           "out."},
+       .help = "Files by map name, where the file names do not say it: {\"height\": \"scan.tif\", \"roughness\": "
+               "\"packed.png:g\"}; Relative to the folder; channels after a colon. An empty text leaves the map out."},
       {.name = "ignore",
        .type = ParamType::texts,
        .fallback = Texts{},

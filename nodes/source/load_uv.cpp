@@ -28,11 +28,11 @@ NodeType load_uv_node() {
   t.category = "source";
   t.summary = "Reads a uv map that export wrote";
   t.help =
-      "Takes up a result again: to resolve other maps through it, to measure it with compare, or to work on from it. "
-      "EXR holds fractions of the exemplar's size, 16-bit PNG and TIFF its pixels; both come back exactly.";
+      "For resolving other maps through an earlier result, measuring it with compare, or editing it further. EXR holds "
+      "fractions of the exemplar's size, 16-bit PNG and TIFF its pixels; both are read back exactly.";
   t.inputs = {{.name = "exemplar",
                .type = ValueType::material,
-               .help = "what the uv map was made for, in the size that was analysed"}};
+               .help = "the exemplar that the uv map was made for, at the analysed size"}};
   t.outputs = {{.name = "uv", .type = ValueType::uv_map, .help = "the exemplar pixel of every output pixel"}};
   t.params = {{.name = "path", .type = ParamType::path, .help = "The image file."},
               {.name = "tileable",
@@ -43,7 +43,7 @@ NodeType load_uv_node() {
               {.name = "wraps",
                .type = ParamType::boolean,
                .fallback = false,
-               .help = "The exemplar tiles: going over its edge is no seam."}};
+               .help = "The exemplar tiles: crossing its border is not a seam."}};
   t.persist = Persist::digest;
   t.files_read = [](const Params& params) {
     return std::vector<std::filesystem::path>{std::get<std::string>(params.at("path"))};

@@ -69,45 +69,46 @@ std::vector<Param> params() {
       {.name = "scale",
        .type = ParamType::number,
        .fallback = 8.0,
-       .help = "Coarsest features across the image, or the size of one in pixels, by unit.",
+       .help = "Number or size of the coarsest features, see unit.",
        .min = 0.01,
        .max = 65536},
       {.name = "unit",
        .type = ParamType::choice,
        .fallback = "across",
-       .help = "What scale counts: features across the image's width, or pixels per feature.",
+       .help = "What scale means: features across the image's width (more are finer), or pixels per feature (more are "
+               "coarser).",
        .choices = {"across", "pixels"}},
       {.name = "octaves",
        .type = ParamType::integer,
        .fallback = int64_t{5},
-       .help = "Layers of noise; 1 is the basis alone.",
+       .help = "Layers of noise. More add finer detail; 1 is the basis alone.",
        .min = 1,
        .max = 16},
       {.name = "lacunarity",
        .type = ParamType::number,
        .fallback = 2.0,
-       .help = "How much finer each octave is than the one before.",
+       .help = "How many times finer each octave is than the one before.",
        .min = 1,
        .max = 4},
       {.name = "gain",
        .type = ParamType::number,
        .fallback = 0.5,
-       .help = "How strong each octave is, compared with the one before.",
+       .help = "Amplitude of each octave relative to the one before. Higher is rougher.",
        .min = 0,
        .max = 1},
       {.name = "seed",
        .type = ParamType::integer,
        .fallback = int64_t{1},
-       .help = "Another seed gives another noise of the same kind.",
+       .help = "Another number gives another noise of the same kind.",
        .min = 0},
       {.name = "tileable",
        .type = ParamType::boolean,
        .fallback = false,
-       .help = "The noise continues at its opposite border; features per octave are rounded to whole numbers."},
+       .help = "The noise wraps around without a seam; features per octave are rounded to whole numbers."},
       {.name = "semantic",
        .type = ParamType::choice,
        .fallback = "height",
-       .help = "What the noise is meant as.",
+       .help = "What the noise is used as; decides how it is filtered and written.",
        .choices = meanings()},
   };
 }
@@ -118,12 +119,11 @@ NodeType noise_node() {
   NodeType t;
   t.name = "noise";
   t.category = "source";
-  t.summary = "Makes a noise picture of one channel";
+  t.summary = "Generates procedural noise";
   t.help =
       "Value, Perlin (gradient) and simplex noise, Worley's distance to scattered points (worley) or to the borders "
-      "between them (worley_edges), summed over octaves. Computed when pulled, so a huge noise costs nothing until it "
-      "is "
-      "read. Values are in 0..1 and survive a 16-bit file.";
+      "between them (worley_edges), summed over octaves. Pixels are computed on demand, so a huge noise costs nothing "
+      "until it is read. Values are in 0..1 and fit a 16-bit file.";
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "one channel, 0..1"}};
   t.params = params();
   t.persist = Persist::derived;

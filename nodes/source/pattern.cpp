@@ -36,7 +36,7 @@ std::vector<std::string> check(const Params& params) {
 }
 
 std::vector<Param> params() {
-  std::string palettes = "The colours it comes in; empty for the kind's first. ";
+  std::string palettes = "Colour scheme; empty for the kind's first. ";
   std::vector<std::string> names;
   for (const PatternType& p : pattern_types()) {
     names.push_back(p.name);
@@ -44,7 +44,11 @@ std::vector<Param> params() {
   }
   palettes.replace(palettes.size() - 2, 2, ".");
   return {
-      {.name = "kind", .type = ParamType::choice, .fallback = "bricks", .help = "What to make.", .choices = names},
+      {.name = "kind",
+       .type = ParamType::choice,
+       .fallback = "bricks",
+       .help = "The kind of material.",
+       .choices = names},
       {.name = "size",
        .type = ParamType::size,
        .fallback = Size{512, 512},
@@ -55,38 +59,38 @@ std::vector<Param> params() {
       {.name = "seed",
        .type = ParamType::integer,
        .fallback = int64_t{1},
-       .help = "Another seed gives another piece of the same material.",
+       .help = "Another number gives another piece of the same material.",
        .min = 0},
       {.name = "scale",
        .type = ParamType::number,
        .fallback = 0.0,
-       .help = "Pieces (bricks, stones, yarns ...) across the image; 0 for the kind's own number. Rounded to whole "
-               "pieces where the material tiles.",
+       .help = "Pieces (bricks, stones, yarns ...) across the image; more are smaller. 0 for the kind's default. "
+               "Rounded to whole pieces if the material tiles.",
        .min = 0,
        .max = 200},
       {.name = "irregularity",
        .type = ParamType::number,
        .fallback = 0.5,
-       .help = "How much pieces differ in place, size and shape.",
+       .help = "How much pieces differ in position, size and shape; 0 is perfectly regular.",
        .min = 0,
        .max = 1},
       {.name = "wear",
        .type = ParamType::number,
        .fallback = 0.5,
-       .help = "Chips, pits, dirt and stains.",
+       .help = "Amount of chips, pits, dirt and stains; 0 is new.",
        .min = 0,
        .max = 1},
       {.name = "relief",
        .type = ParamType::number,
        .fallback = 1.0,
-       .help = "Depth as a multiple of the kind's natural one; steepens normals and deepens occlusion.",
+       .help = "Depth relative to the kind's natural one. More steepens normals and darkens occlusion.",
        .min = 0,
        .max = 10},
       {.name = "palette", .type = ParamType::text, .fallback = "", .help = palettes},
       {.name = "tileable",
        .type = ParamType::boolean,
        .fallback = true,
-       .help = "The material continues at its opposite border."},
+       .help = "The material wraps around without a seam."},
   };
 }
 
@@ -96,7 +100,7 @@ NodeType pattern_node() {
   NodeType t;
   t.name = "pattern";
   t.category = "source";
-  t.summary = "Makes a procedural material: bricks, stones, cloth ... with all maps consistent";
+  t.summary = "Generates a procedural material: bricks, stones, cloth ... with matching maps";
   t.help =
       "Describes a surface and derives every map from it: base colour, normal (green up), height, roughness and "
       "ambient "
