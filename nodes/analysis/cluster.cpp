@@ -78,42 +78,42 @@ NodeType cluster_node() {
   t.category = "analysis";
   t.summary = "Sorts pixels into groups of similar values (k-means)";
   t.help =
-      "Parts an exemplar into what it is made of: stones and mortar, rust and paint. k-means (Lloyd 1982) with "
-      "k-means++ seeds (Arthur & Vassilvitskii 2007) on features, images or both; every image is first brought to the "
-      "same variance. Feed it the responses of \"filter_bank\" to part regions by their texture. The labels serve as "
-      "guidance, or, with \"threshold\", as masks. They are ordered by the clusters' first channel, dark to light for "
-      "colours, so another seed that finds the same clusters gives the same labels.";
+      "Segments an exemplar into what it is made of: stones and mortar, rust and paint. k-means (Lloyd 1982) with "
+      "k-means++ seeds (Arthur & Vassilvitskii 2007) on features, images or both; images are first normalised to equal "
+      "variance. Connect the responses of \"filter_bank\" to segment by texture. Use the labels as guidance, as "
+      "controls of \"transfer\", or through \"threshold\" as masks. Clusters are ordered by their first channel, dark "
+      "to light for colours, so that seeds that find the same clusters give the same labels.";
   t.inputs = {{.name = "features", .type = ValueType::features, .help = "weighted channels", .optional = true},
               {.name = "images",
                .type = ValueType::image,
                .help = "images of the same size, colours compared in Oklab",
                .optional = true,
                .list = true}};
-  t.outputs = {image_port("labels", "which cluster, from 0 for the first to 1 for the last: i / (clusters - 1)"),
-               image_port("distance", "how far each pixel is from the middle of its cluster, in deviations")};
+  t.outputs = {image_port("labels", "cluster number, 0 for the first to 1 for the last: i / (clusters - 1)"),
+               image_port("distance", "distance of each pixel from its cluster's centre, in standard deviations")};
   t.params = {{.name = "k",
                .type = ParamType::integer,
                .fallback = int64_t{4},
-               .help = "The number of clusters; fewer are made if there are fewer different values.",
+               .help = "Number of clusters; fewer if there are fewer different values.",
                .min = 1,
                .max = 64},
               {.name = "smoothing",
                .type = ParamType::number,
                .fallback = 0.0,
-               .help = "Standard deviation of a Gaussian blur beforehand; gives larger, calmer regions.",
+               .help = "Standard deviation of a Gaussian blur beforehand; more gives larger, smoother regions.",
                .min = 0,
                .max = 1000,
                .unit = "pixels"},
               {.name = "iterations",
                .type = ParamType::integer,
                .fallback = int64_t{50},
-               .help = "At most so many rounds; it ends when no pixel changes its cluster.",
+               .help = "Maximum number of iterations; ends earlier once no pixel changes its cluster.",
                .min = 1,
                .max = 1000},
               {.name = "seed",
                .type = ParamType::integer,
                .fallback = int64_t{1},
-               .help = "Another seed starts from other pixels.",
+               .help = "Another number starts from other pixels.",
                .min = 0}};
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;

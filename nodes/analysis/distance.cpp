@@ -32,7 +32,9 @@ void compute(NodeContext& node) {
   require_one_channel("mask", *mask);
   const std::vector<uint8_t> set = set_pixels(*mask, float(node.number("threshold")));
   if (std::find(set.begin(), set.end(), 1) == set.end())
-    node.note("no pixel is at or above the threshold: all are as far as can be");
+    node.note(
+        "no pixel is at or above the threshold, so all get the greatest distance; lower \"threshold\" or check the "
+        "mask");
   const double limit = node.number("limit");
   const float most = limit > 0 ? float(limit) : std::numeric_limits<float>::max();
   std::vector<float> out = distances(set, mask->size(), edges_of(node) == Outside::wrap, node.flag("signed"), most);
@@ -53,20 +55,19 @@ NodeType distance_node() {
   NodeType t;
   t.name = "distance";
   t.category = "analysis";
-  t.summary = "Distance to what a mask marks";
+  t.summary = "Distance to the marked pixels of a mask";
   t.help =
-      "The exact Euclidean distance from every pixel's centre to the nearest pixel that is set (Meijster, Roerdink & "
-      "Hesselink 2000). Signed, it is the distance to the outline, negative inside: it then tells apart the middle and "
-      "the rim on both sides. Feed it to pca as guidance, or through \"levels\" to make rims, wear and contact "
-      "shadows. \"guidance\" does the same from edges that it finds itself.";
+      "The exact Euclidean distance from every pixel to the nearest set pixel (Meijster, Roerdink & Hesselink 2000); "
+      "signed, the distance to the outline, negative inside. Connect it to pca as guidance, or through \"levels\" to "
+      "make rims, wear and contact shadows. \"guidance\" computes it from edges that it detects.";
   t.inputs = {image_port("mask", "1 channel; pixels at or above the threshold are set")};
   t.outputs = {image_port("distance", "1 channel: 0 on set pixels; signed, 0 on their outline and negative inside")};
   t.params = {
-      {.name = "threshold", .type = ParamType::number, .fallback = 0.5, .help = "From which value on a pixel is set."},
+      {.name = "threshold", .type = ParamType::number, .fallback = 0.5, .help = "Pixels at or above it are set."},
       {.name = "signed",
        .type = ParamType::boolean,
        .fallback = false,
-       .help = "Measures inside too: half a pixel less than to the nearest pixel of the other kind."},
+       .help = "Measures inside too: to the outline, half a pixel before the nearest pixel of the other kind."},
       {.name = "limit",
        .type = ParamType::number,
        .fallback = 0.0,
@@ -77,8 +78,8 @@ NodeType distance_node() {
       {.name = "normalized",
        .type = ParamType::boolean,
        .fallback = false,
-       .help = "Divides by the limit, or without one by the greatest distance: 0..1, or -1..1 if signed. Else "
-               "distances are in pixels."},
+       .help = "Divides by the limit, or without one by the greatest distance: 0..1, or -1..1 if signed. false gives "
+               "pixels."},
       edges_param()};
   t.memory_hint = [](const NodeContext& node) { return size_t(node.input<Image>("mask")->size().area()) * 32; };
   t.compute = compute;

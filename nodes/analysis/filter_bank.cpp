@@ -46,29 +46,30 @@ NodeType filter_bank_node() {
   t.category = "analysis";
   t.summary = "Responses to edges, lines and blobs of several sizes (MR8)";
   t.help =
-      "The maximum response filter bank MR8 (Varma & Zisserman 2005): of 38 filters, the edge and line filters of 6 "
-      "orientations count only with their strongest, which leaves 8 responses that tell local structure apart whatever "
-      "way it runs. As guidance they keep lines and grain whole; with \"cluster\" they part a picture into regions of "
-      "different texture. The map is first brought to zero mean and unit deviation; filters have zero mean and an L1 "
-      "norm of 1. Values are positive and negative: use \"levels\" or \"normalize\" to look at them.";
+      "The maximum response filter bank MR8 (Varma & Zisserman 2005): 38 filters, of which edge and line filters keep "
+      "only the strongest of 6 orientations. The 8 responses describe local structure independent of its direction. As "
+      "guidance they keep lines and grain whole; with \"cluster\" they segment an image by texture. The map is first "
+      "normalised to zero mean and unit deviation; filters have zero mean and an L1 norm of 1. Values are signed: use "
+      "\"levels\" or \"normalize\" to look at them.";
   t.inputs = {material_port("material", "the exemplar, or an image")};
-  t.outputs = {image_port("edges", "3 channels: strength of edges at deviations of 1, 2 and 4 pixels, never negative"),
-               image_port("bars", "3 channels, at the same scales: light lines are positive, dark ones negative"),
-               image_port("blobs",
-                          "2 channels: lighter than the surroundings, as Gaussian and as its Laplacian, 10 "
-                          "pixels in deviation")};
-  t.params = {{.name = "map",
-               .type = ParamType::text,
-               .fallback = "",
-               .help = "The map to look at, by its lightness or first channel; empty for the base colour, or else the "
-                       "first map."},
-              {.name = "scale",
-               .type = ParamType::number,
-               .fallback = 1.0,
-               .help = "Factor on the size of all filters, which is 49 pixels.",
-               .min = 0.25,
-               .max = 4},
-              tiles_param()};
+  t.outputs = {
+      image_port("edges",
+                 "3 channels: strength of edges at scales of 1, 2 and 4 pixels (standard deviation), never negative"),
+      image_port("bars", "3 channels, same scales: light lines are positive, dark lines negative"),
+      image_port("blobs",
+                 "2 channels: lighter than the surroundings, by a Gaussian and its Laplacian, both at 10 pixels")};
+  t.params = {
+      {.name = "map",
+       .type = ParamType::text,
+       .fallback = "",
+       .help = "The map to filter: its lightness, or first channel. Empty for the base colour, or else the first map."},
+      {.name = "scale",
+       .type = ParamType::number,
+       .fallback = 1.0,
+       .help = "Factor on the size of all filters, 49 pixels. More responds to larger features.",
+       .min = 0.25,
+       .max = 4},
+      tiles_param()};
   t.files_read = [](const Params&) { return color_config_files(); };
   t.memory_hint = [](const NodeContext& node) {
     // Spectra of 19 pairs of filters, and the responses.

@@ -43,17 +43,17 @@ NodeType guidance_node() {
   t.category = "analysis";
   t.summary = "Extracts edges and the signed feature distance from a material's maps";
   t.help =
-      "Colours alone cannot tell the middle of a brick from its rim. The distance to the nearest edge can: fed to pca "
-      "as "
-      "guidance, it keeps bricks, cracks and joints whole (signed feature distance, Lefebvre & Hoppe 2006; edges from "
-      "any map of a material, Rudolph 2018). Look at the edges output to judge the threshold.";
+      "Colours alone cannot tell the middle of a brick from its rim; the distance to the nearest edge can. Connected "
+      "to pca as guidance, it keeps bricks, cracks and joints whole (signed feature distance, Lefebvre & Hoppe 2006; "
+      "edges from any map of a material, Rudolph 2018). Look at the edges output to judge the threshold.";
   t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}, mask_port()};
   t.outputs = {
       {.name = "distance", .type = ValueType::image, .help = "pixels to the nearest edge, negative inside edges"},
       {.name = "edges", .type = ValueType::image, .help = "the edges, 1 on an edge"},
       {.name = "gradients",
        .type = ValueType::image,
-       .help = "slopes along x and y of what the maps vary in most: a further guide, which tells a rim's sides apart"}};
+       .help = "x and y gradients of the maps' first principal component: further guidance, which tells a feature's "
+               "sides apart"}};
   t.params = {
       {.name = "maps",
        .type = ParamType::texts,
@@ -62,20 +62,21 @@ NodeType guidance_node() {
       {.name = "threshold",
        .type = ParamType::number,
        .fallback = 0.0,
-       .help = "Edge strength, relative to the strongest, above which a pixel is an edge; 0 chooses it automatically.",
+       .help = "Edge strength, relative to the strongest, above which a pixel is an edge. Higher keeps fewer edges; 0 "
+               "chooses automatically.",
        .min = 0,
        .max = 1},
       {.name = "smoothing",
        .type = ParamType::number,
        .fallback = 1.0,
-       .help = "Blur before looking for edges; more ignores finer detail.",
+       .help = "Standard deviation of the blur before edge detection; more ignores finer detail.",
        .min = 0,
        .max = 16,
        .unit = "pixels"},
       {.name = "reach",
        .type = ParamType::number,
        .fallback = 0.1,
-       .help = "Distances are limited to this fraction of the exemplar's shorter side.",
+       .help = "Distances are limited to this fraction of the exemplar's shorter side. Lower guides only near edges.",
        .min = 0.005,
        .max = 1},
       tiles_param(),

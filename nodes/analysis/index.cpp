@@ -8,18 +8,16 @@ NodeType index_node() {
   t.name = "index";
   t.version = 6;
   t.category = "analysis";
-  t.summary = "Finds each exemplar pixel's similar pixels";
+  t.summary = "Finds similar pixels for each exemplar pixel";
   t.help =
-      "For every pixel of every level but the finest, a few positions whose surroundings look alike (the k-coherent "
-      "candidates of "
-      "Tong et al. 2002). The result "
-      "is all that synthesis needs; it does not depend on the size or seed of what will be made.";
+      "For every pixel of every level but the finest, a few positions with similar neighbourhoods (k-coherent "
+      "candidates; Tong et al. 2002). The index is all that synthesis needs, for any size and seed.";
   t.inputs = {{.name = "appearance", .type = ValueType::appearance, .help = "the exemplar in appearance space"}};
-  t.outputs = {{.name = "index", .type = ValueType::index, .help = "the appearance with its similar sets"}};
+  t.outputs = {{.name = "index", .type = ValueType::index, .help = "the appearance with its similar pixels"}};
   t.params = {{.name = "similar",
                .type = ParamType::integer,
                .fallback = 3,
-               .help = "Similar pixels kept per pixel.",
+               .help = "Similar pixels per pixel. More gives synthesis more choice, and takes longer.",
                .min = 1,
                .max = most_similar}};
   t.compute = [](NodeContext& node) {

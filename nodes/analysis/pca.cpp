@@ -30,16 +30,15 @@ NodeType pca_node() {
   t.name = "pca";
   t.version = 2;
   t.category = "analysis";
-  t.summary = "Brings features into appearance space";
+  t.summary = "Transforms features into appearance space";
   t.help =
-      "Every pixel's 5x5 neighbourhood over all weighted channels is reduced to a few principal components, per level "
-      "of a "
-      "Gaussian pyramid (appearance space; Lefebvre & Hoppe 2006). Comparing two pixels then compares their "
+      "Per level of a Gaussian pyramid, every pixel's 5x5 neighbourhood in all weighted channels is reduced to a few "
+      "principal components (appearance space; Lefebvre & Hoppe 2006). Comparing two pixels then compares their "
       "neighbourhoods.";
   t.inputs = {{.name = "features", .type = ValueType::features, .help = "the exemplar's weighted channels"},
               {.name = "guidance",
                .type = ValueType::image,
-               .help = "images of the exemplar's size that steer coarse levels, such as a feature distance",
+               .help = "images of the exemplar's size that steer coarse levels, such as the distance of \"guidance\"",
                .optional = true,
                .list = true}};
   t.outputs = {{.name = "appearance", .type = ValueType::appearance, .help = "the exemplar in appearance space"}};
@@ -47,19 +46,20 @@ NodeType pca_node() {
       {.name = "dimensions",
        .type = ParamType::integer,
        .fallback = appearance_dimensions,
-       .help = "Principal components kept, at most.",
+       .help = "Maximum number of principal components. Fewer is less accurate.",
        .min = 1,
        .max = appearance_dimensions},
       {.name = "retained_variance",
        .type = ParamType::number,
        .fallback = 1.0,
-       .help = "Keep only as many components as explain this part of the variance.",
+       .help = "Keeps only as many components as explain this share of the variance; 1 keeps all.",
        .min = 0.01,
        .max = 1},
       {.name = "guidance_weight",
        .type = ParamType::number,
        .fallback = 0.25,
-       .help = "Weight of the guidance at the coarsest level; it fades to 0 at the finest.",
+       .help = "Weight of the guidance at the coarsest level; it fades to 0 at the finest. Higher follows the guidance "
+               "more than the maps.",
        .min = 0,
        .max = 100},
   };

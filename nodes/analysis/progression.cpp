@@ -31,27 +31,25 @@ NodeType progression_node() {
   t.summary = "A smooth control map of how an exemplar changes: wear, moisture, density";
   t.help =
       "Many surfaces go from one state to another: clean to worn, dry to wet, bare to overgrown (progressively variant "
-      "textures; Zhang et al. 2003). This blurs the chosen maps until only that change is left, takes the direction in "
-      "which they then vary most (their first principal component), and replaces values by their rank: 0 at one end, 1 "
-      "at the other, every value equally frequent. The lighter end, or that of larger values, is 1. As guidance it "
-      "tells synthesis where along the way a pixel lies; with a target map of 0..1, painted or made with \"noise\", "
-      "\"transfer\" puts each state where the target wants it. An image of one channel serves as well as a material.";
-  t.inputs = {material_port("material", "the exemplar, or a grey image to be smoothed and equalized")};
+      "textures; Zhang et al. 2003). The chosen maps are blurred until only that change is left, projected on their "
+      "first principal component, and histogram-equalised: 0 at one end, 1 at the other, lighter or larger values "
+      "towards 1. Use it as guidance, or as the exemplar control of \"transfer\" with a target map of 0..1, painted or "
+      "made with \"noise\". A one-channel image serves as well as a material.";
+  t.inputs = {material_port("material", "the exemplar, or a grey image to smooth and equalise")};
   t.outputs = {image_port("progression", "1 channel, 0..1, of the material's size")};
   t.params = {
       {.name = "maps",
        .type = ParamType::texts,
        .fallback = Texts{},
-       .help = "The maps in which the change shows; empty for all, by their default weights."},
+       .help = "The maps that show the change; empty for all, by their default weights."},
       {.name = "radius",
        .type = ParamType::number,
        .fallback = 0.08,
-       .help =
-           "Standard deviation of the blur, as a fraction of the material's shorter side. Should exceed the size of "
-           "single features: stones, tufts, cracks.",
+       .help = "Standard deviation of the blur, as a fraction of the material's shorter side. Choose it larger than "
+               "single features: stones, tufts, cracks.",
        .min = 0,
        .max = 1},
-      {.name = "inverted", .type = ParamType::boolean, .fallback = false, .help = "Exchanges the ends 0 and 1."},
+      {.name = "inverted", .type = ParamType::boolean, .fallback = false, .help = "Swaps 0 and 1."},
       tiles_param(),
   };
   t.files_read = [](const Params&) { return color_config_files(); };

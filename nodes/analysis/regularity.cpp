@@ -18,10 +18,9 @@ constexpr size_t most_described = 4;
 /// `least`: the certainty asked for.
 std::string described(const Lattice& l, double least) {
   if (l.rank == 0 && l.certainty >= least)
-    return fmt::format("no lattice found: what repeats (certainty {:.2f}) is too seldom, or not alike enough, to tell",
-                       l.certainty);
+    return fmt::format("no lattice found: too few repeats, or too unlike, to be sure (certainty {:.2f})", l.certainty);
   if (l.rank == 0)
-    return fmt::format("no lattice found (certainty {:.2f}, at least {:.2f} is asked for)", l.certainty, least);
+    return fmt::format("no lattice found (certainty {:.2f}, below \"least_certainty\" {:.2f})", l.certainty, least);
   if (l.rank == 2)
     return fmt::format("repeats by ({:.2f}, {:.2f}) and ({:.2f}, {:.2f}) pixels, certainty {:.2f}", l.first.x(),
                        l.first.y(), l.second.x(), l.second.y(), l.certainty);
@@ -54,9 +53,9 @@ std::string described(const BroughtTogether& all, double least) {
   if (count > most_described) text += fmt::format("; and {} more", count - most_described);
   if (all.kinds > 1)
     text +=
-        "; not all repeat alike, so that courses and tiles break where they meet: for one surface set \"alike\" to "
-        "true, "
-        "or \"mode\" to \"manual\" and give \"first\" and \"second\"; of copies take those that keep its grid";
+        "; they repeat differently, so that courses and tiles break where they meet. If they show one surface, set "
+        "\"alike\" to true, or \"mode\" to \"manual\" with \"first\" and \"second\"; if they are copies, use only "
+        "those that keep the grid";
   return text;
 }
 
@@ -88,9 +87,9 @@ void compute(NodeContext& node) {
   }
   if (too_few)
     node.warn(
-        "straight joints cross, but the exemplar shows too few tiles, or too unlike ones, to tell how they repeat, so "
-        "that results may break them; crop it to whole tiles so that its borders fit, take one of more tiles, or give "
-        "\"first\" and \"second\" with \"mode\": \"manual\"");
+        "there is a grid of joints, but with too few tiles, or too different ones, to find its lattice: results may "
+        "break tiles. Crop the exemplar to whole tiles so that it tiles, use one with more tiles, or give \"first\" "
+        "and \"second\" with \"mode\": \"manual\"");
   node.output("features", features->with(repeats));
 }
 
@@ -98,15 +97,15 @@ std::vector<std::string> check(const Params& params) {
   if (std::get<std::string>(params.at("mode")) != "manual") return {};
   const auto& first = std::get<Numbers>(params.at("first"));
   const auto& second = std::get<Numbers>(params.at("second"));
-  if (first.size() != 2)
-    return {"\"first\": expected [x, y], the pixels after which the exemplar repeats, since mode is \"manual\""};
-  if (!second.empty() && second.size() != 2) return {"\"second\": expected [x, y], or nothing for courses or columns"};
+  if (first.size() != 2) return {"\"first\": expected a lattice vector [x, y] in pixels, since \"mode\" is \"manual\""};
+  if (!second.empty() && second.size() != 2)
+    return {"\"second\": expected a lattice vector [x, y] in pixels, or nothing for courses or columns"};
   const auto is_short = [](const Numbers& v) { return std::max(std::abs(v[0]), std::abs(v[1])) < 1; };
-  if (is_short(first) || (!second.empty() && is_short(second))) return {"expected repeats after a pixel or more"};
+  if (is_short(first) || (!second.empty() && is_short(second))) return {"expected a vector at least one pixel long"};
   if (manual_lattice(first, second).is_valid()) return {};
   if (second.empty())
     return {"\"first\": without \"second\", expected [0, height] for courses or [width, 0] for columns"};
-  return {"\"second\": expected a direction other than that of \"first\""};
+  return {"\"second\": expected a direction different from \"first\""};
 }
 
 }  // namespace
@@ -118,42 +117,40 @@ NodeType regularity_node() {
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =
-      "Bricks, tiles and weaves repeat. From the autocorrelation of all weighted channels this finds by what vectors, "
-      "or in what "
-      "courses or columns, and says how sure it is. Synthesis then keeps every pixel at its place within the lattice's "
-      "cell, so "
-      "that courses stay straight and tiles keep their size over any distance. Exemplars without a lattice pass "
-      "through unchanged. Of several exemplars that lie side by side (\"combine\", \"variants\"; give their labels) "
-      "each has its own lattice; where those are alike, joints of one go on in another.";
+      "Bricks, tiles and weaves repeat. The autocorrelation of all weighted channels gives the lattice vectors, or the "
+      "period of courses or columns, and how certain they are. Synthesis then keeps every pixel at its phase in the "
+      "lattice's cell, so that courses stay straight and tiles keep their size over any distance. Exemplars without a "
+      "lattice pass through unchanged. If several exemplars lie side by side (\"combine\", \"variants\"; give their "
+      "labels) each gets its own lattice; where lattices are alike, joints continue from one to the other.";
   t.inputs = {{.name = "features", .type = ValueType::features, .help = "the exemplar's weighted channels"},
               {.name = "labels",
                .type = ValueType::image,
-               .help = "of several exemplars side by side, which one each pixel belongs to, 1 channel",
+               .help = "for several exemplars side by side: which one each pixel belongs to, 1 channel",
                .optional = true}};
-  t.outputs = {{.name = "features", .type = ValueType::features, .help = "the same, with the lattice"}};
+  t.outputs = {{.name = "features", .type = ValueType::features, .help = "the same, with their lattice"}};
   t.params = {
       {.name = "mode",
        .type = ParamType::choice,
        .fallback = "auto",
-       .help = "auto looks for a lattice, manual takes the given one, off uses none.",
+       .help = "auto looks for a lattice, manual takes the one in \"first\" and \"second\", off uses none.",
        .choices = {"auto", "manual", "off"}},
       {.name = "least_certainty",
        .type = ParamType::number,
        .fallback = 0.08,
-       .help = "A lattice found with less certainty is not used, nor one with less than 0.6 of which the exemplar "
-               "holds at most six cells.",
+       .help = "Lattices found with less certainty are not used. Higher accepts fewer. If the exemplar holds at most "
+               "six cells, 0.6 is needed.",
        .min = 0,
        .max = 1},
       {.name = "alike",
        .type = ParamType::boolean,
        .fallback = false,
-       .help = "With labels: the exemplars are of one surface and repeat alike. Where what is found of each does not "
-               "agree, one lattice is looked for in all of them together."},
+       .help = "With labels: the exemplars show one surface and repeat alike. If their lattices disagree, one is "
+               "searched in all of them together."},
       {.name = "first",
        .type = ParamType::numbers,
        .fallback = Numbers{},
-       .help = "For manual: [x, y] after which the exemplar repeats; alone, [0, height] of courses or [width, 0] of "
-               "columns.",
+       .help = "For manual: the first lattice vector, [x, y]. Without \"second\": [0, height] of courses, or [width, "
+               "0] of columns.",
        .min = -largest_side,
        .max = largest_side,
        .unit = "pixels",
@@ -161,7 +158,7 @@ NodeType regularity_node() {
       {.name = "second",
        .type = ParamType::numbers,
        .fallback = Numbers{},
-       .help = "For manual: the other direction, [x, y].",
+       .help = "For manual: the second lattice vector, [x, y].",
        .min = -largest_side,
        .max = largest_side,
        .unit = "pixels",

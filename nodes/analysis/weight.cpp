@@ -26,19 +26,18 @@ NodeType weight_node() {
   t.category = "analysis";
   t.summary = "Weights the maps of a material for analysis";
   t.help =
-      "Says how much each map, or each channel of a map, counts when neighbourhoods are compared. Colours are compared "
-      "in "
-      "Oklab, normals as unit vectors; each map is first brought to the same variance, so that 1 means the same for "
-      "all. Unless given, base colour counts 1, height and opacity 0.7, normal, metallic, emission and masks 0.5, "
-      "roughness, occlusion and specular 0.3.";
+      "Sets how much each map, or each channel of a map, counts when neighbourhoods are compared. Colours are compared "
+      "in Oklab, normals as unit vectors; maps are first normalised to equal variance, so that weights are comparable. "
+      "Defaults: base colour 1, height and opacity 0.7, normal, metallic, emission and masks 0.5, roughness, occlusion "
+      "and specular 0.3.";
   t.inputs = {{.name = "material", .type = ValueType::material, .help = "the exemplar"}, mask_port()};
-  t.outputs = {{.name = "features", .type = ValueType::features, .help = "its weighted channels"}};
+  t.outputs = {{.name = "features", .type = ValueType::features, .help = "the weighted channels"}};
   t.params = {
       {.name = "weights",
        .type = ParamType::number_map,
        .fallback = NumberMap{},
-       .help = "By map name, one weight or one per channel: {\"normal\": 2, \"base_color\": [1, 0.5, 0.5]}. 0 leaves a "
-               "map out.",
+       .help = "By map name, one weight or one per channel: {\"normal\": 2, \"base_color\": [1, 0.5, 0.5]}. Features "
+               "of a map with more weight are better preserved; 0 leaves a map out.",
        .min = 0,
        .max = 100},
       tiles_param(),

@@ -115,7 +115,7 @@ NodeType channel_pack_node() {
   for (const std::string& name : channel_names)
     t.inputs.push_back({.name = name,
                         .type = ValueType::image,
-                        .help = "where channel " + name + " comes from; without it, fill",
+                        .help = "source of channel " + name + "; if not connected, fill",
                         .optional = true});
   t.outputs = {image_port("image", "1 to 4 channels")};
   t.params = {

@@ -53,7 +53,7 @@ NodeType make_occlusion_node() {
       {.name = "strength",
        .type = ParamType::number,
        .fallback = 1.0,
-       .help = "Factor on the darkening; 1 is physical, more is darker.",
+       .help = "Factor on the darkening; 1 is as computed, more is darker.",
        .min = 0,
        .max = 4},
       edges_param()};

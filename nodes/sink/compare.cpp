@@ -20,18 +20,17 @@ double rounded(double v) {
 }
 
 void add_pixel_figures(const Quality& q, std::vector<Report::Figure>& out) {
-  out.push_back({"swd", rounded(q.swd),
-                 "distance of the patch distributions, all scales; lower is better, 0 = the same patches as often"});
+  out.push_back(
+      {"swd", rounded(q.swd),
+       "distance of the patch distributions, all scales; lower is better, 0 = the same patches equally often"});
   out.push_back({"cooccurrence", rounded(q.cooccurrence),
-                 "difference in which values stand beside one another, 0 to 1; lower is better"});
-  out.push_back(
-      {"coherence", rounded(q.coherence),
-       "how far output patches are from the exemplar's (broken features, seams); lower is better, 1 = as far as "
-       "exemplar patches from one another"});
-  out.push_back(
-      {"completeness", rounded(q.completeness),
-       "how far exemplar patches are from the output's (lost features); lower is better, 1 = as far as exemplar "
-       "patches from one another"});
+                 "difference in which values occur side by side, 0 to 1; lower is better"});
+  out.push_back({"coherence", rounded(q.coherence),
+                 "mean distance of output patches to the exemplar's (broken features, seams); lower is better, 1 = as "
+                 "far as exemplar patches are from one another"});
+  out.push_back({"completeness", rounded(q.completeness),
+                 "mean distance of exemplar patches to the output's (lost features); lower is better, 1 = as far as "
+                 "exemplar patches are from one another"});
   out.push_back(
       {"broken", rounded(q.broken),
        "share of output patches unlike anything in the exemplar (cut features, hard seams); lower is better"});
@@ -43,13 +42,13 @@ void add_layout_figures(const LayoutFigures& f, std::vector<Report::Figure>& out
   out.push_back({"largest_copy", rounded(f.largest_copy),
                  "area of the largest region copied in one piece over the exemplar's area; lower is more varied"});
   out.push_back({"usage_entropy", rounded(f.usage_entropy),
-                 "how evenly the exemplar is used, 0 to 1; higher is better, 1 = every part as often"});
+                 "how evenly the exemplar is used, 0 to 1; higher is better, 1 = every part equally often"});
   out.push_back({"seam_share", rounded(f.seam_share),
                  "share of neighbouring pixels that are not neighbours in the exemplar; lower is more coherent"});
   out.push_back({"seam_difference", rounded(f.seam_difference),
                  "mean difference across those seams in standard deviations; lower is better, 0 = invisible"});
   out.push_back({"seam_energy", rounded(f.seam_energy),
-                 "seam_share times seam_difference: what the seams cost in all; lower is better"});
+                 "seam_share times seam_difference: total visibility of seams; lower is better"});
 }
 
 /// The directions in which the output should wrap around.
@@ -148,17 +147,16 @@ NodeType compare_node() {
   t.category = "sink";
   t.summary = "Scores a result against its exemplar";
   t.help =
-      "Measures how well an output shows its exemplar's texture, without learned weights: patch statistics over "
-      "several "
-      "scales (sliced Wasserstein distance), co-occurrence of values, bidirectional patch similarity (Simakov et al. "
-      "2008), autocorrelation, repetition and verbatim copies; with the uv map also seams, evenness of use and the "
-      "exact size of copies. Read the figures together: plain tiling wins every one but verbatim and repeat.";
+      "Measures how well an output reproduces its exemplar's texture, without learned weights: patch statistics over "
+      "several scales (sliced Wasserstein distance), co-occurrence of values, bidirectional patch similarity (Simakov "
+      "et al. 2008), autocorrelation, repetition and verbatim copies; with the uv map also seams, evenness of use and "
+      "the exact size of copies. Read the figures together: plain tiling wins all of them except verbatim and repeat.";
   t.inputs = {
       {.name = "exemplar", .type = ValueType::material, .help = "what the output should look like"},
       {.name = "output", .type = ValueType::material, .help = "what was synthesized"},
       {.name = "uv",
        .type = ValueType::uv_map,
-       .help = "the uv map the output was resolved from: adds the figures about its layout",
+       .help = "the uv map that the output was resolved from: adds figures about its layout",
        .optional = true},
   };
   t.outputs = {
@@ -173,8 +171,7 @@ NodeType compare_node() {
       {.name = "wraps",
        .type = ParamType::boolean,
        .fallback = false,
-       .help = "The exemplar tiles: where the uv map goes over its edge, there is no seam. Most uv maps say so "
-               "themselves."},
+       .help = "The exemplar tiles: crossing its border is not a seam. Most uv maps say so themselves."},
       {.name = "tileable",
        .type = ParamType::choice,
        .fallback = "auto",
@@ -184,7 +181,7 @@ NodeType compare_node() {
       {.name = "sheet_size",
        .type = ParamType::integer,
        .fallback = int64_t{1536},
-       .help = "The most the contact sheet may measure, in width and height.",
+       .help = "Maximum width and height of the contact sheet.",
        .min = 256,
        .max = 16384,
        .unit = "pixels"},

@@ -273,20 +273,19 @@ std::vector<Param> params() {
       {.name = "path",
        .type = ParamType::path,
        .fallback = "",
-       .help = "Where the maps go: a pattern with {map} for the map's name, and if wanted {material}, {width} and "
+       .help = "File name pattern for the maps, with {map} for the map's name, and optionally {material}, {width} and "
                "{height}. The extension decides the format: png, tif or tiff, exr, jpg or jpeg. Needed if a material "
                "is connected."},
       {.name = "depth",
        .type = ParamType::choice,
        .fallback = "keep",
-       .help = "The depth of the values. \"keep\": each map's own, or the nearest the format holds.",
+       .help = "Bit depth. \"keep\": each map's own, or the nearest that the format holds.",
        .choices = {"keep", "uint8", "uint16", "half", "float"}},
       {.name = "color_space",
        .type = ParamType::text,
        .fallback = "keep",
-       .help = "\"keep\", or a colour space that the colour maps are converted to. Data maps are never converted. "
-               "\"keep\" writes sRGB and linear Rec.709 colours as readers of the file take them: linear in half and "
-               "float, sRGB in 8 and 16 bits."},
+       .help = "The colour space that colour maps are converted to; data maps never are. \"keep\" writes sRGB and "
+               "linear Rec.709 colours as applications expect them: linear in half and float, sRGB in 8 and 16 bit."},
       {.name = "normal_y",
        .type = ParamType::choice,
        .fallback = "keep",
@@ -295,21 +294,20 @@ std::vector<Param> params() {
       {.name = "jpeg_quality",
        .type = ParamType::integer,
        .fallback = int64_t{95},
-       .help = "The quality of JPEG files.",
+       .help = "Quality of JPEG files; lower makes smaller files with more artefacts.",
        .min = 1,
        .max = 100},
       {.name = "maps", .type = ParamType::texts, .fallback = Texts{}, .help = "The maps to write; empty for all."},
       {.name = "uv_path",
        .type = ParamType::path,
        .fallback = "",
-       .help =
-           "Where the uv map goes. EXR holds float fractions u = (x + 0.5) / exemplar width and v likewise from the "
-           "top; 16-bit PNG and TIFF hold the integer coordinates, x in red and y in green. Empty: as `path`, with "
-           "\"uv\" for the map's name."},
+       .help = "File name for the uv map. EXR holds float fractions u = (x + 0.5) / exemplar width and v likewise from "
+               "the top; 16-bit PNG and TIFF hold the integer coordinates, x in red and y in green. Empty: `path`, "
+               "with \"uv\" for the map's name."},
       {.name = "report_path",
        .type = ParamType::path,
        .fallback = "",
-       .help = "Where the report's figures go, as .json or .csv; its pictures are written beside it."},
+       .help = "File name for the report's figures, .json or .csv; its pictures are written beside it."},
   };
 }
 
@@ -322,12 +320,9 @@ NodeType export_node() {
   t.category = "sink";
   t.summary = "Writes maps, a uv map and a report to files";
   t.help =
-      "Writes PNG (8 and 16 bit), TIFF, EXR (half and float) and JPEG, strip by strip, so that a result never has to "
-      "fit "
-      "in memory. Every map keeps its depth, colour space and normal convention unless told otherwise; values read "
-      "from "
-      "a file of the same depth are written back exactly. Files appear complete or not at all. At least one of the "
-      "inputs must be connected.";
+      "Writes PNG (8 and 16 bit), TIFF, EXR (half and float) and JPEG, strip by strip, so that results need not fit in "
+      "memory. Every map keeps its depth, colour space and normal convention unless the parameters change them. Files "
+      "appear complete or not at all. At least one input must be connected.";
   t.inputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps to write", .optional = true},
       {.name = "uv", .type = ValueType::uv_map, .help = "a uv map to write", .optional = true},

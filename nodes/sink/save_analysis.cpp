@@ -9,12 +9,12 @@ NodeType save_analysis_node() {
   t.category = "sink";
   t.summary = "Writes an index as one portable file";
   t.help =
-      "The file holds all that synthesis needs, and none of the exemplar's pixels: it can be made once, kept with the "
-      "material and given to others. load_analysis reads it on any machine. It is compressed, carries its format's "
-      "version, and every byte of it lies under a checksum.";
+      "The file holds all that synthesis needs, and none of the exemplar's pixels: make it once and keep or share it "
+      "with the material. load_analysis reads it on any machine. It is compressed, versioned and checksummed.";
   t.inputs = {{.name = "index", .type = ValueType::index, .help = "the analysed exemplar"}};
-  t.params = {
-      {.name = "path", .type = ParamType::path, .help = "The file to write; bricks.analysis, say. Any name will do."}};
+  t.params = {{.name = "path",
+               .type = ParamType::path,
+               .help = "The file to write, such as bricks.analysis; any name will do."}};
   t.compute = [](NodeContext& node) {
     save_value(node.input<Index>("index"), node.stage(node.text("path")), node.task());
   };

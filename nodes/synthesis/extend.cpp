@@ -63,16 +63,16 @@ NodeType extend_node() {
   t.category = "synthesis";
   t.summary = "Grows an existing result, keeping its pixels";
   t.help =
-      "Places a uv map made earlier, from the same index, inside a larger one and synthesizes what surrounds it. The "
-      "pixels that were there stay bit for bit, in every map; of heights that resolve_uv joins, if it is given the "
-      "result that was there as `kept`.";
+      "Places an earlier uv map from the same index inside a larger one and synthesizes the rest. Old pixels stay bit "
+      "for bit in every map. If resolve_uv joins heights, connect the earlier result to `kept`, so that its heights "
+      "stay.";
   t.inputs = {index_port(), {.name = "uv", .type = ValueType::uv_map, .help = "the result to grow"}};
   t.outputs = {uv_output()};
   t.params = with_synthesis_params({result_size_param(),
                                     {.name = "at",
                                      .type = ParamType::numbers,
                                      .fallback = Numbers{0, 0},
-                                     .help = "Where the top left pixel of what is kept comes to lie: [x, y].",
+                                     .help = "Position of the kept result's top left pixel: [x, y].",
                                      .min = 0,
                                      .max = 32768,
                                      .unit = "pixels",

@@ -105,32 +105,31 @@ NodeType inpaint_node() {
   t.name = "inpaint";
   t.version = synthesis_version;
   t.category = "synthesis";
-  t.summary = "Fills holes and keeps the rest pixel by pixel";
+  t.summary = "Fills holes and keeps everything else to the pixel";
   t.help =
-      "Every map is filled at once, through one uv map: pixels outside the holes and a margin around them stay exactly "
-      "as they are, those inside continue them with material from elsewhere in the exemplar. In the margin the seam "
-      "between old and new looks for its place, along joints and cracks. Without \"uv\" the exemplar itself is what "
-      "is there; give weight the inverted mask then, so that nothing is taken out of the holes. With \"uv\" parts of "
-      "an earlier result are made anew, and it wraps as before. Where resolve_uv joins heights, those that are there "
-      "stay if it is given what is there as `kept` and `filled` as `holes`.";
+      "Fills all maps at once, through one uv map: pixels outside the holes and a margin around them stay exactly as "
+      "they are, those inside are filled with material from elsewhere in the exemplar. Within the margin the seam "
+      "between old and new follows joints and cracks. Without \"uv\" the exemplar itself is repaired; connect the "
+      "inverted mask to weight, so that nothing is taken from the holes. With \"uv\" parts of an earlier result are "
+      "replaced, and it wraps as before. If resolve_uv joins heights, connect what was there to `kept` and `filled` to "
+      "`holes`, so that old heights stay.";
   t.inputs = {index_port(),
               {.name = "mask",
                .type = ValueType::image,
-               .help = "the holes: above 0.5 (white) is filled, the rest stays. Of the shape of what is there, at any "
-                       "size; if it has several channels, the first counts"},
+               .help = "the holes: white (above 0.5) is filled, black stays. The aspect ratio of what is filled, at "
+                       "any size; only the first channel counts"},
               {.name = "uv",
                .type = ValueType::uv_map,
-               .help = "what is there; if not given, the exemplar as it is",
+               .help = "an earlier result to fill; the exemplar itself if not connected",
                .optional = true}};
-  t.outputs = {uv_output(),
-               {.name = "filled", .type = ValueType::image, .help = "a mask: white where pixels are made anew"}};
+  t.outputs = {uv_output(), {.name = "filled", .type = ValueType::image, .help = "a mask: white where pixels are new"}};
   t.params = with_synthesis_params(
       {{.name = "margin",
         .type = ParamType::number,
         .fallback = 0.0625,
-        .help = "How far from a hole pixels may give way, so that its outline does not show: below 1 a part of the "
-                "shorter side, else pixels; around thin holes, scratches say, no farther than the hole is wide. Half a "
-                "brick or tile suits walls and floors; 0 keeps every pixel outside the holes.",
+        .help = "How far around a hole pixels may change, so that its outline does not show: below 1 a share of the "
+                "shorter side, else pixels; never more than the width of the hole (for scratches). Half a brick or "
+                "tile suits walls and floors; 0 keeps every pixel outside the holes.",
         .min = 0,
         .max = 32768,
         .unit = "pixels or part of the side"},

@@ -114,22 +114,21 @@ NodeType make_tileable_node() {
   t.name = "make_tileable";
   t.version = synthesis_version;
   t.category = "synthesis";
-  t.summary = "Keeps an exemplar's interior and makes its border wrap";
+  t.summary = "Makes an exemplar tileable by replacing its border";
   t.help =
-      "The result has the exemplar's size, or nearly so where the exemplar repeats. Its interior stays exactly as it "
-      "is; a border is made anew from the exemplar so that opposite sides, and all four corners, fit together in every "
-      "map. In the border the seam between old and new looks for its place, along joints and cracks. "
-      "An exemplar that tiles already stays as it is. resolve_uv shows the result; where that joins heights, those of "
-      "the interior stay if it is given the exemplar as `kept` and `border` as `holes`.";
+      "The interior stays exactly as it is; the border is synthesized so that opposite sides, and all four corners, "
+      "fit together in every map. Within the border the seam between old and new follows joints and cracks. The result "
+      "has the exemplar's size, or nearly so if the exemplar repeats. An exemplar that already tiles stays as it is. "
+      "If resolve_uv joins heights, connect the exemplar to `kept` and `border` to `holes`, so that the interior's "
+      "heights stay.";
   t.inputs = {index_port()};
-  t.outputs = {uv_output(),
-               {.name = "border", .type = ValueType::image, .help = "a mask: white where pixels are made anew"}};
+  t.outputs = {uv_output(), {.name = "border", .type = ValueType::image, .help = "a mask: white where pixels are new"}};
   t.params = with_synthesis_params({
       {.name = "border",
        .type = ParamType::number,
        .fallback = 0.125,
-       .help = "Width of the border that is made anew, on each side: below 1 a part of the side, else pixels. Wider "
-               "borders have more room to lead one side into the other.",
+       .help = "Width of the new border on each side: below 1 a share of the side, else pixels. Wider borders give a "
+               "smoother transition and keep less.",
        .min = 0.01,
        .max = 32768,
        .unit = "pixels or part of the side"},
@@ -141,8 +140,8 @@ NodeType make_tileable_node() {
       {.name = "fit",
        .type = ParamType::choice,
        .fallback = "repeats",
-       .help = "For exemplars that repeat: \"repeats\" makes the result a little smaller or larger, so that it holds a "
-               "whole number of repeats; \"size\" keeps the exemplar's size and bends repeats within the border.",
+       .help = "For exemplars that repeat: repeats makes the result a little smaller or larger, so that it holds whole "
+               "repeats; size keeps the exemplar's size and stretches repeats within the border.",
        .choices = {"repeats", "size"}},
   });
   t.check = check;

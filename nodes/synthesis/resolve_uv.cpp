@@ -13,15 +13,14 @@ namespace {
 
 std::vector<Port> inputs() {
   return {{.name = "uv", .type = ValueType::uv_map, .help = "which exemplar pixel each output pixel shows"},
-          {.name = "material", .type = ValueType::material, .help = "the exemplar, with all maps that are wanted"},
+          {.name = "material", .type = ValueType::material, .help = "the exemplar, with all maps wanted"},
           {.name = "kept",
            .type = ValueType::material,
-           .help = "a result that the uv map keeps pixels of, resolved before: `join` leaves its heights as they "
-                   "are",
+           .help = "the earlier result whose pixels the uv map keeps: `join` does not change its heights",
            .optional = true},
           {.name = "holes",
            .type = ValueType::image,
-           .help = "a mask, stretched over the result: where it is white, nothing of `kept` is kept",
+           .help = "a mask, stretched over the result: where it is white, `kept` is ignored",
            .optional = true}};
 }
 
@@ -29,22 +28,23 @@ std::vector<Param> params() {
   return {{.name = "blend",
            .type = ParamType::number,
            .fallback = 0.0,
-           .help = "How far from a seam pixels are blended. 0: not at all; 2 to 3 hides most seams.",
+           .help = "How far from a seam pixels are blended; more is softer. 2 to 3 hides most seams; 0 keeps every "
+                   "pixel exact.",
            .min = 0,
            .max = largest_blend,
            .unit = "pixels of the uv map"},
           {.name = "join",
            .type = ParamType::number,
            .fallback = 0.0,
-           .help = "How far from a seam height maps of one channel give way so that pieces meet: below 1 a part of the "
-                   "analysed exemplar's shorter side, else pixels of the uv map. 0: not at all. Where they do, `blend` "
-                   "does not count for them.",
+           .help = "How far from a seam one-channel height maps change so that pieces meet: below 1 a share of the "
+                   "analysed exemplar's shorter side, else pixels of the uv map. More is smoother; 0 keeps heights "
+                   "exact. Replaces `blend` for these maps.",
            .min = 0,
            .max = farthest_join},
           {.name = "kept_at",
            .type = ParamType::numbers,
            .fallback = Numbers{0, 0},
-           .help = "Where the top left pixel of `kept` lies in the result: [x, y].",
+           .help = "Position of the top left pixel of `kept` in the result: [x, y].",
            .min = 0,
            .max = 32768,
            .unit = "pixels of the uv map",
@@ -52,8 +52,8 @@ std::vector<Param> params() {
           {.name = "scale",
            .type = ParamType::number,
            .fallback = 1.0,
-           .help = "How much larger the material is than the exemplar that was analysed, and the result than the uv "
-                   "map. 0: as much as it is.",
+           .help = "How many times larger the material is than the analysed exemplar, and the result than the uv map. "
+                   "0 takes it from the material.",
            .min = 0,
            .max = largest_scale}};
 }
@@ -113,29 +113,23 @@ NodeType resolve_uv_node() {
   t.name = "resolve_uv";
   t.version = 2;
   t.category = "synthesis";
-  t.summary = "Shows a material through a uv map";
+  t.summary = "Turns a uv map into the maps of a material";
   t.help =
       "Every output pixel of every map is exactly the exemplar pixel that the uv map names, unless `blend` or `join` "
-      "are "
-      "set, so maps cannot drift apart. Pixels are looked up when a later node pulls them; only the exemplar is held "
-      "in memory. "
-      "With `blend`, seams are softened: near a seam a pixel is the mean of what the pieces around it would continue "
-      "with (Lefebvre & Hoppe 2005). Colours are averaged in linear light, normals as vectors that get back the length "
-      "they had, heights "
-      "become continuous, and details keep their contrast (Heitz & Neyret 2018); away from seams every pixel stays "
-      "exactly the exemplar's. Maps that "
-      "mean mask or data stay exact everywhere, since their values may be labels. "
-      "With `join`, pieces of height maps are raised and lowered so that they meet, which removes steps where "
-      "pieces of different height lie side by side: slopes stay those of the exemplar, within pieces and across seams, "
-      "and so do cliffs that the exemplar has at a seam itself; the difference is spread over the surroundings "
-      "(gradient-domain compositing, Perez, Gangnet & Blake 2003, with the screened Poisson equation of Bhat et al. "
-      "2008). Heights stay within the exemplar's. Normals fit such heights as well as the exemplar's own. All of the "
-      "result is seen at once: tiles of a larger surface, each resolved by itself, fit together only without it. "
-      "With `scale`, an exemplar that is larger than the analysed one is shown: analyse and synthesize a copy made "
-      "smaller by `resize`, which is quicker and sees larger features, and give resolve_uv the original.";
+      "are set, so maps cannot drift apart. Pixels are computed on demand; only the exemplar is held in memory. "
+      "`blend` softens seams: near a seam a pixel is the mean of what the pieces around it would continue with "
+      "(Lefebvre & Hoppe 2005), colours in linear light, normals as vectors that keep their length, and details keep "
+      "their contrast (Heitz & Neyret 2018). Away from seams pixels stay exact, and so do masks and data everywhere, "
+      "since their values may be labels. `join` raises and lowers pieces of height maps so that they meet without "
+      "steps: slopes, and cliffs that the exemplar has itself, stay, and the difference is spread over the "
+      "surroundings (gradient-domain compositing, Perez, Gangnet & Blake 2003, with the screened Poisson equation of "
+      "Bhat et al. 2008). Heights stay within the exemplar's range, and normals still fit. Tiles of a larger surface "
+      "that are resolved one by one fit together only without `join`, which needs the whole result. `scale` shows a "
+      "larger exemplar than the analysed one: analyse and synthesize a copy reduced by `resize`, which is faster and "
+      "captures larger features, and connect the original here.";
   t.inputs = inputs();
   t.outputs = {
-      {.name = "material", .type = ValueType::material, .help = "the maps in the uv map's size, times `scale`"}};
+      {.name = "material", .type = ValueType::material, .help = "the maps, in the uv map's size times `scale`"}};
   t.params = params();
   t.persist = Persist::derived;
   t.check = check;

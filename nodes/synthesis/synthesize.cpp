@@ -78,29 +78,27 @@ NodeType synthesize_node() {
   t.category = "synthesis";
   t.summary = "Makes a uv map of any size from an index";
   t.help =
-      "Decides for every output pixel which exemplar pixel it shows, coarse to fine, so that every neighbourhood of "
-      "the result looks like one of the exemplar (appearance-space synthesis, Lefebvre & Hoppe 2006). The same index, "
-      "size and seed give the same uv map on every machine. resolve_uv turns the uv map into maps. "
-      "A surface that is too large to be made at once can be made in parts: give all of them the same \"surface\" and "
-      "parameters, and each its \"origin\". They fit together to the bit, on whatever machines and in whatever order "
-      "they are made; examples/huge-surface.json shows how.";
+      "Decides coarse to fine which exemplar pixel every output pixel shows, so that every neighbourhood of the result "
+      "looks like one of the exemplar (appearance-space synthesis, Lefebvre & Hoppe 2006). The same index, size and "
+      "seed give the same uv map on every machine. resolve_uv turns the uv map into maps. A surface too large to make "
+      "at once can be made in parts: give all of them the same \"surface\" and parameters, and each its \"origin\". "
+      "They fit together to the bit, made on any machine and in any order; see examples/huge-surface.json.";
   t.inputs = {index_port(),
               {.name = "coarse",
                .type = ValueType::uv_map,
-               .help = "the surface's coarse levels, from synthesize_coarse, so that not every part makes them again",
+               .help = "the surface's coarse levels from synthesize_coarse, so that parts do not compute them again",
                .optional = true}};
   t.outputs = {uv_output()};
   t.params = with_synthesis_params(
       {result_size_param(),
        tileable_param(),
        whole_bricks_param(),
-       surface_param("surface", "Size of the whole surface that the result is a part of; a side of 0 is the result's.",
-                     0),
+       surface_param("surface", "Size of the whole surface that the result is a part of; 0 for the result's own.", 0),
        {.name = "origin",
         .type = ParamType::numbers,
         .fallback = Numbers{0, 0},
-        .help = "Where the result's top left pixel lies on the surface: [x, y]. A part of a surface that tiles goes on "
-                "around its right and bottom border.",
+        .help = "Position of the result's top left pixel on the surface: [x, y]. On a tileable surface, parts may "
+                "cross the right and bottom border.",
         .min = 0,
         .max = largest_surface - 1,
         .unit = "pixels",

@@ -10,12 +10,12 @@ NodeType synthesize_coarse_node() {
   t.name = "synthesize_coarse";
   t.category = "synthesis";
   t.version = synthesis_version;
-  t.summary = "Makes the coarse levels of a surface too large to be made at once";
+  t.summary = "Makes the coarse levels of a surface too large to make at once";
   t.help =
-      "What synthesize does first: all that depends on the surface as a whole. Connect it to \"coarse\" of synthesize, "
-      "with the same surface, seed and other parameters, and make the surface part by part, on as many machines as "
-      "share the cache; this stage is then made once. It holds a quarter of the surface's pixels. Its uv map is for "
-      "synthesize only: it tells where blocks of 2x2 pixels of the finest level begin.";
+      "The first part of synthesize: everything that depends on the surface as a whole. Connect it to \"coarse\" of "
+      "synthesize, with the same surface, seed and other parameters, and make the surface part by part; machines that "
+      "share a cache compute this stage once. The uv map is for synthesize only: it has half the surface's size, and "
+      "gives the start of each 2x2 block of the finest level.";
   t.inputs = {index_port()};
   t.outputs = {{.name = "uv", .type = ValueType::uv_map, .help = "the coarse levels, for \"coarse\" of synthesize"}};
   t.params = with_synthesis_params(

@@ -94,36 +94,35 @@ std::vector<Param> params() {
       {.name = "strength",
        .type = ParamType::numbers,
        .fallback = Numbers{1},
-       .help = "How much the target counts against the texture's own structure; 0 not at all. One number for all "
-               "controls, or one for each. At 1 values may differ at no cost by as much as they do within a feature "
-               "(a sixteenth of the exemplar's longer side), so that features stay whole; 4 makes a picture plain "
-               "and takes features apart for it. Where the exemplar differs little from place to place, 4 and more "
-               "may be needed, or a control that spreads its values, such as that of progression.",
+       .help =
+           "How much the target counts against the texture's own structure; 0 ignores it. One number for all controls, "
+           "or one for each. At 1 deviations as large as those within a feature (a sixteenth of the exemplar's longer "
+           "side) are free, so that features stay whole; 4 shows a picture clearly but breaks features. Exemplars with "
+           "little variation may need 4 and more, or a control with evenly spread values, such as that of progression.",
        .min = 0,
        .max = 100,
        .min_count = 1},
       {.name = "mode",
        .type = ParamType::choice,
        .fallback = "values",
-       .help = "values: the nearer, the better. labels: every value is a thing of its own, such as moss or stone; "
-               "values of the target that the exemplar's control does not have count as the nearest it has.",
+       .help = "values: nearer values match better. labels: every value is a class, such as moss or stone; target "
+               "values missing in the exemplar's control count as the nearest it has.",
        .choices = {"values", "labels"}},
       {.name = "leeway",
        .type = ParamType::number,
        .fallback = 0.0,
-       .help = "Only for labels: how far borders between them may run beside where they are painted, so that bricks, "
-               "tiles and stones stay whole. Parts of the layout that are thinner than twice that, and tips of sharp "
-               "corners, stay at least as they are painted.",
+       .help = "Labels only: how far borders may deviate from where they are painted, so that bricks, tiles and stones "
+               "stay whole; 0 follows them exactly. Painted areas thinner than twice that, and sharp corners, are "
+               "always kept.",
        .min = 0,
        .max = 4096,
        .unit = "pixels of the result"},
       {.name = "match",
        .type = ParamType::choice,
        .fallback = "histogram",
-       .help = "How values of the target are brought to those of the exemplar's control, channel by channel. "
-               "histogram: by rank, so that any grey image works and all of the exemplar is used; its darkest "
-               "twentieth counts as one, and its lightest. range: darkest and "
-               "lightest become the same. none: values mean the same already.",
+       .help = "How the target's values are mapped to the exemplar control's, per channel. histogram: by rank, so that "
+               "any grey image works and all of the exemplar is used; the darkest and the lightest twentieth each "
+               "count as one value. range: darkest and lightest are matched. none: values are used as they are.",
        .choices = {"histogram", "range", "none"}},
   };
 }
@@ -137,24 +136,21 @@ NodeType transfer_node() {
   t.category = "synthesis";
   t.summary = "Synthesis steered by a target image";
   t.help =
-      "As synthesize, but a target says what goes where. \"exemplar_control\" is an image of the exemplar (a blurred "
-      "luminance, a wear or moisture map, painted labels), \"target\" the same thing for the result, of any size: it "
-      "is "
-      "stretched over it. A picture becomes visible in the texture (texture transfer, Efros & Freeman 2001), a mix map "
-      "or "
-      "progression is followed with mode values, a painted layout with mode labels. Several controls work together; "
-      "the "
-      "n-th target belongs to the n-th exemplar control.";
-  t.inputs = {
-      index_port(),
-      {.name = "exemplar_control",
-       .type = ValueType::image,
-       .help = "what the exemplar has where; of its shape, at any size",
-       .list = true},
-      {.name = "target",
-       .type = ValueType::image,
-       .help = "what is wanted where; as many images, with as many channels each (labels may be grey or colours)",
-       .list = true}};
+      "Like synthesize, but a target decides what goes where. \"exemplar_control\" describes the exemplar (blurred "
+      "luminance, a wear or moisture map, painted labels), \"target\" the wanted result in the same terms; it is "
+      "stretched over the result. For showing a picture in a texture (texture transfer, Efros & Freeman 2001), "
+      "following a mix map or progression (mode values) or a painted layout (mode labels). Several controls work "
+      "together; the n-th target belongs to the n-th exemplar control.";
+  t.inputs = {index_port(),
+              {.name = "exemplar_control",
+               .type = ValueType::image,
+               .help = "what is where in the exemplar; its aspect ratio at any size",
+               .list = true},
+              {.name = "target",
+               .type = ValueType::image,
+               .help = "what is wanted where in the result; as many images, with as many channels each (labels may be "
+                       "grey or coloured)",
+               .list = true}};
   t.outputs = {uv_output()};
   t.params = with_synthesis_params(params());
   t.check = check_synthesis_params;
