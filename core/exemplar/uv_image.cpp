@@ -43,7 +43,7 @@ ImagePtr uv_as_integers(const UvMapPtr& uv) {
 UvMapPtr uv_from_image(const Image& image, Size exemplar, UvWraps wraps) {
   const bool fractions = image.info().depth == Depth::f32;
   if (image.channels() < 2 || (!fractions && image.info().depth != Depth::u16))
-    throw Error(fmt::format("a uv map is two float channels or 16-bit red and green; found {} of {}",
+    throw Error(fmt::format("expected a uv map, of two float channels or 16-bit red and green; found {} of {}",
                             counted(image.channels(), "channel"), name_of(image.info().depth)));
   const double width = fractions ? exemplar.width : 65535, height = fractions ? exemplar.height : 65535;
   std::vector<ExemplarPixel> pixels;
@@ -53,8 +53,10 @@ UvMapPtr uv_from_image(const Image& image, Size exemplar, UvWraps wraps) {
       const double x = std::floor(values[0] * width + (fractions ? 0 : 0.5));
       const double y = std::floor(values[1] * height + (fractions ? 0 : 0.5));
       if (!(x >= 0 && y >= 0 && x < exemplar.width && y < exemplar.height))
-        throw Error(fmt::format("the uv map names the place ({}, {}), outside the exemplar's {}x{} pixels", x, y,
-                                exemplar.width, exemplar.height));
+        throw Error(
+            fmt::format("the uv map refers to pixel ({}, {}), outside the exemplar of {}x{} pixels; connect the "
+                        "exemplar it was made for",
+                        x, y, exemplar.width, exemplar.height));
       pixels.push_back({uint16_t(x), uint16_t(y)});
     }
   });

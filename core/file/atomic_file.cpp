@@ -102,12 +102,12 @@ std::string why_not_writable(const fs::path& folder, const std::string& name) {
     there = there.has_parent_path() ? there.parent_path() : fs::path(".");
     status = fs::status(there, failure);
   }
-  if (failure) return fmt::format("cannot look into {}: {}", there.string(), failure.message());
+  if (failure) return fmt::format("cannot access the folder {}: {}", there.string(), failure.message());
   if (!fs::is_directory(status)) return fmt::format("expected a folder to write to, found the file {}", there.string());
   const bool forbidden = ::faccessat(AT_FDCWD, there.c_str(), W_OK | X_OK, AT_EACCESS) != 0;
   if (const int error = forbidden ? errno : error_of_making(is_there, there); error != 0)
     return fmt::format("cannot write into the folder {}: {}; write to another folder", there.string(),
-                       error == ENOENT ? "nothing can be made there" : system_message(error));
+                       error == ENOENT ? "no file can be created there" : system_message(error));
   if (!name.empty() && fs::is_directory(folder / name, failure))
     return fmt::format("expected the name of a file to write, found the folder {}", (folder / name).string());
   return "";

@@ -113,12 +113,12 @@ void BlockFile::read_contents(uint64_t offset, uint64_t size, uint64_t expected)
       at += b.stored_bytes;
       const uint64_t elements = std::min(step, stream.elements - i * step);
       if (b.raw_bytes != raw_size(stream.kind, b.coding, elements) || b.stored_bytes > b.raw_bytes || at > offset)
-        throw DamagedFile("a block has a size that cannot be");
+        throw DamagedFile("a block has an impossible size");
     }
     streams_.push_back(std::move(stream));
   }
   in.expect_end();
-  if (at != offset) throw DamagedFile("its blocks do not fill it");
+  if (at != offset) throw DamagedFile("its blocks do not add up to its size");
 }
 
 void BlockFile::verify_block(const StoredBlock& block, std::vector<uint8_t>& stored) const {

@@ -54,7 +54,7 @@ class HalfPixels : public PixelSource {
 
 void check(const ImageInfo& info) {
   if (info.size.width <= 0 || info.size.height <= 0 || info.channels < 1 || info.channels > 4)
-    throw Error(fmt::format("an image of {}x{} pixels and {} cannot be; it needs at least 1x1 and 1 to 4 channels",
+    throw Error(fmt::format("expected an image of at least 1x1 pixels and 1 to 4 channels, found {}x{} pixels and {}",
                             info.size.width, info.size.height, counted(info.channels, "channel")));
 }
 

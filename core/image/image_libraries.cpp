@@ -29,8 +29,8 @@ fs::path module_path() {
     places += (places.empty() ? "" : ", ") + path.string();
   }
   throw Error(
-      fmt::format("the part of terrazzo that knows JPEG, TIFF and EXR files is missing; looked for {}. `cmake "
-                  "--install BUILD_FOLDER --prefix FOLDER` puts it and the program in their places",
+      fmt::format("the module for JPEG, TIFF and EXR files is missing; looked for {}. `cmake --install BUILD_FOLDER "
+                  "--prefix FOLDER` installs it with the program",
                   places));
 }
 

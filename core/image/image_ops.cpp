@@ -23,11 +23,9 @@ void require_one_channel(const std::string& port, const Image& image) {
 
 void require_no_normals(const std::string& port, const Image& image) {
   if (image.info().semantic != Semantic::normal) return;
-  throw Error(port,
-              fmt::format("expected values that can be changed one by one, found {}: its channels make up "
-                          "vectors; use \"blend\" or \"normalize\" for normals, or \"channel_split\" to take them "
-                          "apart",
-                          describe(image)));
+  throw Error(port, fmt::format("expected independent channels, found {}: its channels form vectors; use \"blend\" or "
+                                "\"normalize\" for normals, or \"channel_split\" to take them apart",
+                                describe(image)));
 }
 
 void require_same_size(const std::string& port, const Image& image, const std::string& other_port, const Image& other) {
@@ -39,8 +37,8 @@ void require_same_size(const std::string& port, const Image& image, const std::s
 
 void require_shape(const std::string& port, const Image& image, const std::string& of, Size size) {
   if (same_shape(image.size(), size)) return;
-  throw Error(port, fmt::format("expected an image of the shape of {}, {} pixels, at that or any other scale; found {}",
-                                of, describe(size), describe(image)));
+  throw Error(port, fmt::format("expected an image with the aspect ratio of {}, {} pixels, at any scale; found {}", of,
+                                describe(size), describe(image)));
 }
 
 ImagePtr nearest_at_size(const ImagePtr& image, Size size) {

@@ -89,19 +89,18 @@ OpenFile open(const fs::path& path) {
   if (header.deep) fail(path, "it is a deep image (several samples per pixel); expected a flat one");
   if (header.inks || (header.format == "jpeg" && read_jpeg_facts(path).components == 4))
     fail(path,
-         "its colours are printing inks (CMYK), which mean nothing without a printing profile; convert it to RGB in an "
-         "image editor first");
+         "it is CMYK, which has no colours without a printing profile; convert it to RGB in an image editor first");
   // The library reads some of these as zeros.
   if (header.type == "double" && header.format == "tiff")
     fail(path, "its values are 64-bit floats; expected at most 32 bits: save it as 32-bit float");
   if (file.channels() < 1 || file.channels() > 4)
-    fail(path, fmt::format("it has {} channels ({}); expected 1 to 4: write the wanted ones to a file of their own",
+    fail(path, fmt::format("it has {} channels ({}); expected 1 to 4: save the wanted ones as a separate file",
                            file.channels(), fmt::join(header.channels, ", ")));
   return file;
 }
 
 [[noreturn]] void fail_cut_off(const fs::path& path) {
-  fail(path, "it is cut off: the end of the image is missing");
+  fail(path, "it is truncated: the end of the image is missing");
 }
 
 /// The image library makes up what is missing of JPEG and TIFF files.
@@ -196,14 +195,14 @@ void encode_signed_normals(const fs::path& path, std::vector<float>& values, con
 void warn_of_layout(const fs::path& path, OpenFile& file, const Warn& warn) {
   const std::string name = path.filename().string();
   const StoredImage& header = file.header();
-  if (!header.exact) warn(fmt::format("{}: values of type {} are kept as 32-bit floats", name, header.type));
+  if (!header.exact) warn(fmt::format("{}: values of type {} are converted to 32-bit floats", name, header.type));
   if (header.stored != whole(header.size))
     warn(
         fmt::format("{}: its data window is not its display window; the display window of {}x{} pixels was read, black "
                     "where there is no data",
                     name, header.size.width, header.size.height));
   if (header.orientation != 1)
-    warn(fmt::format("{}: turned upright, as its orientation mark ({}) says", name, header.orientation));
+    warn(fmt::format("{}: rotated upright, as its orientation tag ({}) says", name, header.orientation));
   if (file.in->has_more_images()) warn(fmt::format("{}: it holds several images; the first was read", name));
 }
 

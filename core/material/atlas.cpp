@@ -88,7 +88,7 @@ Layout layout_of(const std::vector<Size>& sizes, int gap, int multiple) {
   }
   const Extent extent(best);
   if (extent.width > longest_side || extent.height > longest_side)
-    throw Error("materials", fmt::format("side by side the exemplars take {}x{} pixels, and {} a side is the most; use "
+    throw Error("materials", fmt::format("side by side the exemplars take {}x{} pixels, more than {} a side; use "
                                          "fewer, or put \"resize\" before this",
                                          extent.width, extent.height, longest_side));
   Layout layout{

@@ -68,7 +68,7 @@ void require_same_maps(const std::string& port, const std::vector<KnownMaps>& ma
       uncommon = less;
     }
     if (const auto more = maps_missing(other, first); !more.empty()) {
-      differences.push_back(fmt::format("has \"{}\" besides", fmt::join(more, "\", \"")));
+      differences.push_back(fmt::format("also has \"{}\"", fmt::join(more, "\", \"")));
       uncommon.insert(uncommon.end(), more.begin(), more.end());
     }
     if (differences.empty()) continue;
@@ -96,9 +96,10 @@ void require_one_shape(const std::string& port, const std::vector<std::pair<std:
   std::string all;
   for (const auto& [size, names] : by_size)
     all += fmt::format("{}{} ({})", all.empty() ? "" : ", ", describe(size), names);
-  throw Error(port, fmt::format("all maps must show the same area, but their shapes differ: {}. Cut or scale the files "
-                                "to one shape, or take some away; in a graph, the nodes \"crop\" and \"resize\" do it",
-                                all));
+  throw Error(port,
+              fmt::format("all maps must show the same area, but their aspect ratios differ: {}. Crop or scale the "
+                          "files to one aspect ratio, or leave some out; in a graph, use \"crop\" and \"resize\"",
+                          all));
 }
 
 void require_one_shape(const std::string& port, const Material& material) {

@@ -67,7 +67,7 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
     const auto compression_noise = float(tuning->compression_noise);
     for (int c = 1; c < colors; c++)
       if (!channel_is(file, c, compression_noise, [](const float* p) { return p[0]; })) {
-        notes.push_back(fmt::format("{} has different channels in {}; the first is taken", m.map, m.file));
+        notes.push_back(fmt::format("{} has channels that differ in {}; the first is used", m.map, m.file));
         break;
       }
     return {0};
@@ -81,7 +81,7 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
 void require_channels(const RecognisedMap& source, int file_channels) {
   for (const char c : source.channels)
     if (index_of_channel(c) >= file_channels)
-      throw Error("maps", fmt::format("{} is to be channel {} of {}, which has only {}", source.map, c, source.file,
+      throw Error("maps", fmt::format("{} should be channel {} of {}, which has only {}", source.map, c, source.file,
                                       counted(file_channels, "channel")));
 }
 

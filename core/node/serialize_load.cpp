@@ -70,7 +70,7 @@ class ValueReader {
     s.width = in_.get<int32_t>();
     s.height = in_.get<int32_t>();
     // Keeps every product of an area with channels or sizes of elements within 64 bits.
-    require(s.width > 0 && s.height > 0 && s.area() <= int64_t{1} << 48, "a size in it cannot be");
+    require(s.width > 0 && s.height > 0 && s.area() <= int64_t{1} << 48, "a size in it is impossible");
     return s;
   }
 
@@ -170,7 +170,7 @@ class ValueReader {
     AppearanceLevel l;
     l.size = size();
     l.dimensions = in_.get<int32_t>();
-    require(l.dimensions >= 0 && l.dimensions <= appearance_dimensions, "a number of dimensions cannot be");
+    require(l.dimensions >= 0 && l.dimensions <= appearance_dimensions, "a number of dimensions is out of range");
     l.scale = in_.get<double>();
     l.retained = in_.get<double>();
     require(std::isfinite(l.scale) && std::isfinite(l.retained), "a scale is not a number");
@@ -213,7 +213,7 @@ class ValueReader {
       SimilarSets s;
       s.per_pixel = in_.get<int32_t>();
       const auto area = uint64_t(l.size.area());
-      require(s.per_pixel >= 0 && s.per_pixel <= most_similar, "a number of similar pixels cannot be");
+      require(s.per_pixel >= 0 && s.per_pixel <= most_similar, "a number of similar pixels is out of range");
       s.positions = array<uint32_t>(area * uint64_t(s.per_pixel));
       for (const uint32_t p : s.positions) require(p < area, "a similar pixel lies outside the exemplar");
       levels.push_back(std::move(s));

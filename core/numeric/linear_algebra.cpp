@@ -24,7 +24,7 @@ SymmetricEigen eigen_symmetric(const MatrixXd& matrix) {
   if (matrix.rows() < 1 || matrix.rows() != matrix.cols()) throw std::logic_error("a square matrix is needed");
   fix_cache_sizes();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(matrix);
-  if (solver.info() != Eigen::Success) throw Error("the maps hold values that are infinite or not numbers");
+  if (solver.info() != Eigen::Success) throw Error("the maps hold infinite or NaN values");
   SymmetricEigen out{solver.eigenvalues().reverse(), solver.eigenvectors().rowwise().reverse()};
   for (auto vector : out.vectors.colwise()) {
     Eigen::Index peak = 0;

@@ -41,7 +41,7 @@ MaterialPtr make_pattern(const PatternSpec& given, const Task& task) {
   if (!palette) {
     std::string names;
     for (const Palette& p : type->palettes) names += (names.empty() ? "" : ", ") + p.name;
-    throw Error("palette", fmt::format("{} come in no palette \"{}\"; there are {}", type->name, given.palette, names));
+    throw Error("palette", fmt::format("{} have no palette \"{}\"; there are {}", type->name, given.palette, names));
   }
   PatternSpec spec = given;
   if (spec.scale <= 0) spec.scale = type->scale;

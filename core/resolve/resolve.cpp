@@ -202,7 +202,7 @@ void check_scale(Size exemplar, Size analysed, double scale) {
   const bool enlarged = found >= 1 && found <= largest_scale && fits(exemplar, analysed, found);
   if (scale == 0 ? enlarged : fits(exemplar, analysed, scale)) return;
   const std::string hint = enlarged && found > 1 && scale != 0
-                               ? fmt::format("; set \"scale\" to {:.6g} for a result as much larger", found)
+                               ? fmt::format("; set \"scale\" to {:.6g} to enlarge the result accordingly", found)
                                : "";
   if (scale == 0 || scale == 1)
     throw Error("material", fmt::format("the uv map was made for an exemplar of {}x{} pixels, this one has {}x{}{}",
@@ -218,7 +218,7 @@ KeptHeights kept_heights(const ResolveOptions& options, const std::string& map, 
   if (!options.kept) return {};
   const ImagePtr heights = options.kept->find(map);
   if (!heights || !can_join(heights->info()))
-    throw Error("kept", fmt::format("it lacks the material's heights, \"{}\"; its maps are {}", map,
+    throw Error("kept", fmt::format("expected the height map \"{}\" of the material, found the maps {}", map,
                                     options.kept->map_names()));
   const double scale_x = double(layout.size().width) / layout.uv().size().width;
   const double scale_y = double(layout.size().height) / layout.uv().size().height;

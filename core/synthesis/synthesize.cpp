@@ -70,8 +70,8 @@ void require_coarse(const SharedWork& s, const UvMap& coarse) {
   const UvWraps wraps{s.options.tile_x, s.options.tile_y, s.index.appearance()->wraps()};
   const auto directions = [](const UvWraps& w) { return w.x ? w.y ? "x and y" : "x" : w.y ? "y" : "no direction"; };
   if (coarse.exemplar() != exemplar)
-    throw Error("coarse", fmt::format("expected the coarse levels made from the same index (positions in an exemplar "
-                                      "of {}), found a uv map of an exemplar of {}",
+    throw Error("coarse", fmt::format("expected the coarse levels made from the same index (for an exemplar of {}), "
+                                      "found a uv map of an exemplar of {}",
                                       describe(exemplar), describe(coarse.exemplar())));
   if (coarse.size() != size)
     throw Error("coarse", fmt::format("a surface of {} has coarse levels of {}, these have {}; give both nodes the "
@@ -90,7 +90,7 @@ void require_inside(const SynthesisOptions& options, const Rect& region) {
   if (!fits(region.x, region.width, options.size.width, options.tile_x) ||
       !fits(region.y, region.height, options.size.height, options.tile_y))
     throw Error("origin",
-                fmt::format("expected a part of the surface, which has {}; found {} from ({}, {}) on",
+                fmt::format("expected a rectangle inside the surface of {}, found {} at ({}, {})",
                             describe(options.size), describe(Size{region.width, region.height}), region.x, region.y));
 }
 

@@ -129,10 +129,10 @@ class Parser {
       v.kind = Kind::boolean;
       v.boolean = word == "true";
     } else if (word != "null") {
-      if (peek() == '\'') fail("texts stand in double quotes (\"), found a single quote");
+      if (peek() == '\'') fail("texts need double quotes (\"), found a single quote");
       const std::string hint = word == "True" || word == "yes" || word == "TRUE" || word == "on"     ? "; write true"
                                : word == "False" || word == "no" || word == "FALSE" || word == "off" ? "; write false"
-                               : length > 0 ? "; texts stand in double quotes (\")"
+                               : length > 0 ? "; texts need double quotes (\")"
                                             : "";
       fail(fmt::format("expected {}, found {}{}", expected, found_here(), hint));
     }
@@ -171,7 +171,7 @@ class Parser {
     if (!well_formed) fail(fmt::format("expected a number such as 3, -1.5 or 2e-3, found {}", v.text.substr(0, 24)));
     const char* end = v.text.data() + v.text.size();
     if (std::from_chars(v.text.data(), end, v.number).ec != std::errc())
-      fail(fmt::format("the number {} is beyond what can be computed with", v.text.substr(0, 24)));
+      fail(fmt::format("the number {} is too large to compute with", v.text.substr(0, 24)));
     v.kind = whole && std::from_chars(v.text.data(), end, v.integer).ec == std::errc() ? Kind::integer : Kind::number;
     at_ = i;
   }
@@ -184,7 +184,7 @@ class Parser {
       if (at_end() || peek() == '\n')
         fail(fmt::format("the text that begins at column {} has no closing quote (\") on its line", begin.column));
       if (static_cast<uint8_t>(peek()) < 0x20)
-        fail(fmt::format("{} cannot stand in a text as it is; write {}", found_here(),
+        fail(fmt::format("{} must be escaped in a text; write {}", found_here(),
                          peek() == '\t' ? "\\t" : fmt::format("\\u{:04x}", peek())));
       if (peek() == '\\') {
         parse_escape(out);
@@ -211,8 +211,8 @@ class Parser {
       if (low < 0xDC00 || low > 0xDFFF) fail("expected the second half of a surrogate pair before this");
       point = 0x10000 + ((point - 0xD800) << 10) + (low - 0xDC00);
     }
-    if (point >= 0xD800 && point < 0xE000) fail("half a surrogate pair stands before this");
-    if (point == 0) fail("\\u0000 cannot stand in a text");
+    if (point >= 0xD800 && point < 0xE000) fail("expected the first half of a surrogate pair before this");
+    if (point == 0) fail("\\u0000 is not allowed in a text");
     append_utf8(out, point);
   }
 
@@ -287,7 +287,7 @@ class Parser {
       skip_space();
       if (!seen.insert(m.name).second)
         duplicates.push_back({m.place, "",
-                              fmt::format("{} stands here twice; the first is at line {}", in_quotes(m.name),
+                              fmt::format("{} is given twice; the first is at line {}", in_quotes(m.name),
                                           object.find(m.name)->place.line)});
       m.value = parse_value(depth, fmt::format("a value for {}", in_quotes(m.name)));
       m.value.comments_before = std::move(above);

@@ -35,10 +35,9 @@ bool migrate(JsonValue& document, const std::vector<Migration>& migrations, std:
     return false;
   }
   if (version->integer > current) {
-    problems.push_back(
-        {version->place, "\"terrazzo\"",
-         fmt::format("this file is of format {}; this terrazzo reads up to {}. A newer terrazzo is needed",
-                     version->integer, current)});
+    problems.push_back({version->place, "\"terrazzo\"",
+                        fmt::format("the file has format {}, this terrazzo reads up to {}; use a newer terrazzo",
+                                    version->integer, current)});
     return false;
   }
   for (int64_t v = version->integer; v < current; v++) migrations[v - 1](document);

@@ -241,7 +241,7 @@ const GraphParameter* Substitution::find(const std::string& name, Place place, D
   const auto at = uses_.find(name);
   if (at == uses_.end()) {
     const std::string hint = names_.empty() ? "; it has none" : suggestion(name, names_);
-    diagnostics.add(place, fmt::format("${} stands for a parameter that the graph does not have{}", name, hint));
+    diagnostics.add(place, fmt::format("${}: the graph has no parameter of that name{}", name, hint));
     return nullptr;
   }
   at->second.used = true;
@@ -272,10 +272,9 @@ std::optional<JsonValue> Substitution::expand_part(const JsonValue& value, bool 
 std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, bool wants_text, Diagnostics& diagnostics) {
   const std::string& text = value.text;
   if (text.starts_with("@") && !text.starts_with("@@")) {
-    diagnostics.add(value.place,
-                    fmt::format("this is a parameter, which takes no wire; found {} (write @@ for a text that "
-                                "begins with @)",
-                                in_quotes(text)));
+    diagnostics.add(
+        value.place,
+        fmt::format("a parameter takes no wire; found {} (write @@ for a text that begins with @)", in_quotes(text)));
     return std::nullopt;
   }
   JsonValue out = value;

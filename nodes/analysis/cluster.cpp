@@ -26,7 +26,7 @@ Planes joined(const Planes& a, const Planes& b) {
 
 void require_any(bool features, bool images) {
   if (!features && !images)
-    throw Error("features", "expected something to sort pixels by: connect \"features\" or \"images\", or both");
+    throw Error("features", "expected something to cluster by: connect \"features\" or \"images\", or both");
 }
 
 Planes planes_of(const NodeContext& node) {

@@ -35,9 +35,8 @@ void output_atlas(NodeContext& node, const std::vector<Exemplar>& exemplars, con
   const Size size = atlas.material->size();
   std::string note = fmt::format("{} in {} pixels", counted(int64_t(exemplars.size()), "exemplar"), describe(size));
   if (size.area() > quick)
-    note +=
-        fmt::format("; analysis of so many takes long and much memory: {}, or \"resize\" before this, make it smaller",
-                    how_to_shrink);
+    note += fmt::format("; analysing so many takes long and needs much memory: use {}, or put \"resize\" before this",
+                        how_to_shrink);
   node.note(note);
   node.output("material", atlas.material);
   node.output("mask", atlas.mask);

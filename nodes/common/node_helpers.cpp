@@ -114,8 +114,8 @@ void warn_of_smaller_maps(NodeContext& node, const Material& material, const Mat
   }
   if (smaller.empty()) return;
   node.warn(
-      fmt::format("the material has {} pixels, the size of its largest map; {} {} scaled up to that. Bring the "
-                  "maps to one size if this is not meant",
+      fmt::format("the material has {} pixels, the size of its largest map; {} {} scaled up to that. If this is not "
+                  "intended, bring the maps to one size",
                   describe(size), fmt::join(smaller, ", "), smaller.size() == 1 ? "is" : "are"));
 }
 
@@ -137,9 +137,9 @@ std::vector<double> per_channel(const NodeContext& node, const std::string& para
   const Numbers& given = node.numbers(param);
   if (given.size() == 1) return std::vector<double>(channels, given.front());
   if (int(given.size()) == channels) return given;
-  throw Error(param, fmt::format("expected one number, or one for each of the image's channels without coverage, {}; "
-                                 "found {}",
-                                 channels, given.size()));
+  throw Error(param,
+              fmt::format("expected one number, or one for each of the image's channels except alpha, {}; found {}",
+                          channels, given.size()));
 }
 
 }  // namespace terrazzo

@@ -164,7 +164,7 @@ SynthesisOptions synthesis_options(const NodeContext& node, const Index& index) 
 void require_same_exemplar(const UvMap& uv, const Index& index) {
   const Size analysed = index.appearance()->size();
   if (uv.exemplar() == analysed) return;
-  throw Error("uv", fmt::format("expected a uv map of the exemplar in \"index\", {}, found one of an exemplar of {}",
+  throw Error("uv", fmt::format("expected a uv map for the exemplar of \"index\", {}, found one for an exemplar of {}",
                                 describe(analysed), describe(uv.exemplar())));
 }
 
@@ -217,8 +217,8 @@ void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, b
   node.note(fmt::format("the result shows {}{}", shares, parts.size() > most_listed ? ", and others" : ""));
   if (!all_expected || unused.empty() || result.size().area() < area) return;  // a small one has no room for all
   node.warn(
-      fmt::format("nothing is shown of exemplar {}, which does not fit the others; another seed may show it, and a "
-                  "mix map says where it goes: graphs/mix.json",
+      fmt::format("the result shows nothing of exemplar {}, which does not fit the others; try another seed, or place "
+                  "it with a mix map (graphs/mix.json)",
                   unused));
 }
 

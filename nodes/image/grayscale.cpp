@@ -18,7 +18,7 @@ std::vector<double> weights_of(const NodeContext& node, int channels) {
   if (method != "weights") return std::vector<double>(channels, 1.0 / channels);
   const Numbers& weights = node.numbers("weights");
   if (int(weights.size()) != channels)
-    throw Error("weights", fmt::format("expected {}, one for each of the image's channels without coverage; found {}",
+    throw Error("weights", fmt::format("expected {}, one for each of the image's channels except alpha; found {}",
                                        counted(channels, "weight"), weights.size()));
   return weights;
 }

@@ -47,7 +47,7 @@ void find_black_and_white(NodeContext& node, const Image& image, std::vector<Lev
     levels[c].in_black = channels[c].quantile(clip);
     levels[c].in_white = channels[c].quantile(1 - clip);
     if (levels[c].in_black == levels[c].in_white) {
-      node.note(fmt::format("channel {} has one value only, {}; its levels stay as they are", c, levels[c].in_black));
+      node.note(fmt::format("channel {} has only one value, {}; its levels stay as they are", c, levels[c].in_black));
       levels[c] = {0, 1, 1, 0, 1, false};
     }
   }

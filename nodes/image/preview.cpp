@@ -20,8 +20,8 @@ void note_other_shape(NodeContext& node, const PreviewSpec& spec, Size material)
   const int whole = std::max(1, int(std::lround(double(spec.size.width) * material.height / material.width)));
   if (std::abs(whole - spec.size.height) <= 1) return;
   node.note(
-      fmt::format("the material has the shape of {}, the picture that of {}: its width is filled once, its height "
-                  "{:.2f} times; a size of {} shows the material once and whole",
+      fmt::format("the material ({}) and the picture ({}) differ in aspect ratio: the material fills the width once "
+                  "and the height {:.2f} times; a size of {} shows exactly one",
                   describe(material), describe(spec.size), double(spec.size.height) / whole,
                   describe(Size{spec.size.width, whole})));
 }

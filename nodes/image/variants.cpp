@@ -42,7 +42,7 @@ std::vector<Variant> asked_variants(const Params& params) {
 std::vector<std::string> check(const Params& params) {
   const size_t count = asked_variants(params).size();
   if (count <= most_variants) return {};
-  return {fmt::format("\"rotations\", \"scales\" and \"mirror\" together ask for {} copies; at most {} are made", count,
+  return {fmt::format("\"rotations\", \"scales\" and \"mirror\" together give {} copies; expected at most {}", count,
                       most_variants)};
 }
 

@@ -122,7 +122,7 @@ Job job_for(NodeContext& node, const std::string& name, const ImagePtr& image, c
     node.note(fmt::format("{}: {} values are written as {}{}", name, name_of(have), name_of(job.options.depth),
                           wanted ? "" : fmt::format(", the nearest that {} holds", name_of(job.options.format))));
   if (job.options.format == FileFormat::jpeg && image->channels() % 2 == 0)
-    node.note(fmt::format("{}: JPEG has no alpha channel; it is left out", name));
+    node.note(fmt::format("{}: alpha is left out, as JPEG has no alpha channel", name));
   return job;
 }
 
@@ -321,8 +321,9 @@ NodeType export_node() {
   t.summary = "Writes maps, a uv map and a report to files";
   t.help =
       "Writes PNG (8 and 16 bit), TIFF, EXR (half and float) and JPEG, strip by strip, so that results need not fit in "
-      "memory. Every map keeps its depth, colour space and normal convention unless the parameters change them. Files "
-      "appear complete or not at all. At least one input must be connected.";
+      "memory. Every map keeps its depth, colour space and normal convention unless the parameters change them; values "
+      "at the depth they were read are written back exactly. Files appear complete or not at all. At least one input "
+      "must be connected.";
   t.inputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps to write", .optional = true},
       {.name = "uv", .type = ValueType::uv_map, .help = "a uv map to write", .optional = true},

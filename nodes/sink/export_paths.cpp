@@ -22,13 +22,14 @@ std::string filled(const char* param, const std::string& pattern, const std::map
       continue;
     }
     const size_t end = pattern.find('}', i);
-    if (end == std::string::npos) throw Error(param, fmt::format("a {{ without }} in \"{}\"", pattern));
+    if (end == std::string::npos) throw Error(param, fmt::format("expected a }} after every {{ in \"{}\"", pattern));
     const std::string name = pattern.substr(i + 1, end - i - 1);
     const auto at = values.find(name);
     if (at == values.end())
-      throw Error(param, fmt::format("unknown place {{{}}} in \"{}\"; known are {{map}}, {{material}}, {{width}} and "
-                                     "{{height}}",
-                                     name, pattern));
+      throw Error(
+          param,
+          fmt::format("unknown placeholder {{{}}} in \"{}\"; known are {{map}}, {{material}}, {{width}} and {{height}}",
+                      name, pattern));
     out += at->second;
     i = end;
   }
@@ -49,7 +50,7 @@ void require_pattern_for(const std::string& pattern, const std::vector<std::stri
     throw Error("path", "expected a file name pattern such as out/{map}.png, since a material is connected");
   if (maps.size() > 1 && pattern.find("{map}") == std::string::npos)
     throw Error("path", fmt::format("\"{}\" names one file, but there are {} maps ({}); write {{map}} where the map's "
-                                    "name is to stand, or choose one with the parameter `maps`",
+                                    "name goes, or choose one with the parameter `maps`",
                                     pattern, maps.size(), fmt::join(maps, ", ")));
 }
 

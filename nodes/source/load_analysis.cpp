@@ -25,7 +25,7 @@ auto naming_remedy(const Read& read) {
   } catch (const DamagedFile& e) {
     throw Error(
         "path",
-        fmt::format("{}; expected a whole file as save_analysis writes it: copy it again, or make it anew", e.what()));
+        fmt::format("{}; expected a whole file as save_analysis writes it: copy it again, or recreate it", e.what()));
   } catch (const Error& e) {
     throw Error("path", e.what());
   }

@@ -23,10 +23,9 @@ void note_transparency(NodeContext& node, const Image& mask) {
     for (int64_t i = 0; i < r.area() && !transparent; i++) transparent = v[(i + 1) * channels - 1] < 1;
   });
   if (transparent)
-    node.warn(
-        fmt::format("the mask's first channel counts, not its transparency; for that take output \"{}\" of "
-                    "channel_split",
-                    channels == 2 ? "g" : "a"));
+    node.warn(fmt::format(
+        "only the mask's first channel counts, not its alpha; to use alpha, take output \"{}\" of channel_split",
+        channels == 2 ? "g" : "a"));
 }
 
 void compute(NodeContext& node) {

@@ -107,8 +107,8 @@ void check_named_convention(const RecognisedMap& source, const Image& normal, co
   const Judgement found = judged(normal, height);
   if (found.normal_y && *found.normal_y != *source.normal_y)
     notes.push_back(
-        fmt::format("normal: the name {} says that green points {}, but it looks as if it pointed {}, {}. "
-                    "The name is believed; set `normal_y` to \"{}\" if it is wrong",
+        fmt::format("normal: the name {} says that green points {}, but it seems to point {}, {}. The name is used; "
+                    "set `normal_y` to \"{}\" if it is wrong",
                     source.file, name_of_convention(*source.normal_y), name_of_convention(*found.normal_y),
                     found.grounds, *found.normal_y == NormalY::up ? "up" : "down"));
 }

@@ -49,7 +49,7 @@ void require_given_map(const fs::path& folder, const std::string& map, const std
   std::error_code missing;
   if (given.file == text && colon != std::string::npos && !fs::exists(folder / text, missing) &&
       fs::is_regular_file(folder / text.substr(0, colon), missing))
-    throw Error(fmt::format("{} is to be channel {} of {}, but channels are called r, g, b and a", map,
+    throw Error(fmt::format("{} should be channel {} of {}, but channels are called r, g, b and a", map,
                             text.substr(colon + 1), text.substr(0, colon)));
   require_image_file(folder / given.file);
   if (!given.channels.empty()) require_channels(given, read_image_info(folder / given.file).channels);
@@ -191,7 +191,7 @@ std::vector<RecognisedMap> find_maps(const Params& params, Texts& notes) {
   }
   notes.insert(notes.end(), recognition.notes.begin(), recognition.notes.end());
   if (!recognition.ignored.empty())
-    notes.push_back(fmt::format("ignored, the name says nothing: {}. Known words are {}",
+    notes.push_back(fmt::format("ignored, the name says no map: {}. Known words are {}",
                                 fmt::join(recognition.ignored, ", "), all_words()));
   return maps;
 }

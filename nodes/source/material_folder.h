@@ -12,7 +12,7 @@
 namespace terrazzo {
 
 /// What messages of find_maps advise those who write a graph.
-inline constexpr std::string_view advice_on_map_names = "the parameter `maps` names files outright";
+inline constexpr std::string_view advice_on_map_names = "the parameter `maps` names files explicitly";
 inline constexpr std::string_view advice_on_one_file = "load_map reads a single file";
 
 std::filesystem::path folder_of(const Params& params);

@@ -48,8 +48,8 @@ KeptPixels interior(Size exemplar, Size result, Size border) {
 void leave(NodeContext& node, const Index& index) {
   const Size size = index.appearance()->size();
   node.note(
-      "the exemplar wraps around already and stays as it is; if its border is to be made anew, set \"tiles\" to \"no\" "
-      "where it is analysed, in the stock graph by --set tiles=no");
+      "the exemplar already tiles and stays as it is; to replace its border anyway, set \"tiles\" to \"no\" where it "
+      "is analysed, in the stock graph by --set tiles=no");
   const KeptPixels kept = interior(size, size, {0, 0});
   const UvMapPtr uv = UvMap::make(size, size, kept.pixels, {true, true, true});
   node.output("border", made_anew(*uv, kept));
@@ -67,8 +67,8 @@ void compute(NodeContext& node) {
   const Size border{border_pixels(node.number("border"), exemplar.width, options.tile_x),
                     border_pixels(node.number("border"), exemplar.height, options.tile_y)};
   node.note(
-      "the exemplar does not seem to wrap around, so its border is made anew; if it does, set \"tiles\" to "
-      "\"yes\" where it is analysed, in the stock graph by --set tiles=yes");
+      "the exemplar does not seem to tile, so its border is replaced; if it does tile, set \"tiles\" to \"yes\" where "
+      "it is analysed, in the stock graph by --set tiles=yes");
   const Lattice& lattice = index->appearance()->lattice();
   const Size fitting =
       lattice.best_fitting(exemplar, options.tile_x, options.tile_y, {2 * border.width, 2 * border.height});
@@ -76,8 +76,8 @@ void compute(NodeContext& node) {
   options.kept = interior(exemplar, options.size, border);
   if (options.size != exemplar)
     node.note(
-        fmt::format("the exemplar of {} pixels repeats: the result has {}, so that repeats go around; set \"fit\" to "
-                    "\"size\" to keep {} and bend repeats in the border instead",
+        fmt::format("the exemplar of {} pixels repeats: the result has {}, so that whole repeats wrap around; set "
+                    "\"fit\" to \"size\" to keep {} and bend repeats in the border instead",
                     describe(exemplar), describe(options.size), describe(exemplar)));
   const Size room{2 * border.width + std::max(0, options.size.width - exemplar.width),
                   2 * border.height + std::max(0, options.size.height - exemplar.height)};

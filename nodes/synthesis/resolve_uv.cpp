@@ -63,9 +63,7 @@ std::vector<std::string> check(const Params& params) {
   std::vector<std::string> problems;
   if (scale > 0 && scale < 1)
     problems.push_back(
-        fmt::format("\"scale\": expected 1 or more, or 0 for whatever the material's size says; found "
-                    "{}",
-                    scale));
+        fmt::format("\"scale\": expected 1 or more, or 0 to take it from the material's size; found {}", scale));
   const auto& at = std::get<Numbers>(params.at("kept_at"));
   if (at.size() != 2 || at[0] != std::floor(at[0]) || at[1] != std::floor(at[1]))
     problems.push_back("\"kept_at\": expected [x, y] in whole pixels");

@@ -52,12 +52,11 @@ void warn_of_labels(NodeContext& node, const std::vector<Control>& controls, Siz
     if (control.mode != Control::Mode::labels) continue;
     const PaintedLabels labels = painted_labels(control, exemplar, control.target->size(), node.task());
     if (labels.unknown > most_unknown)
-      node.warn(
-          fmt::format("{:.0f} % of the target have values that \"exemplar_control\" does not have; they count as "
-                      "the nearest it has",
-                      100 * labels.unknown));
+      node.warn(fmt::format(
+          "{:.0f} % of the target have values missing in \"exemplar_control\"; they count as the nearest it has",
+          100 * labels.unknown));
     if (labels.count > 1 && labels.wanted == 1)
-      node.warn(fmt::format("the target shows one label only, of the {} that \"exemplar_control\" has", labels.count));
+      node.warn(fmt::format("the target has only one of the {} labels of \"exemplar_control\"", labels.count));
   }
 }
 
@@ -65,7 +64,7 @@ void warn_of_labels(NodeContext& node, const std::vector<Control>& controls, Siz
 void tell_of_stretched(NodeContext& node, const std::vector<Control>& controls, Size result) {
   for (const Control& control : controls)
     if (const Size target = control.target->size(); target.area() > 1 && !same_shape(target, result))
-      node.note(fmt::format("the target of {} pixels is stretched to the result's {}, which has another shape",
+      node.note(fmt::format("the target of {} pixels is stretched to the result's {}, which has another aspect ratio",
                             describe(target), describe(result)));
 }
 

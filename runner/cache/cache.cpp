@@ -122,7 +122,8 @@ std::optional<Value> Cache::load_value(const Digest& value) {
   if (!has_value(value)) return std::nullopt;
   try {
     Value loaded = terrazzo::load_value(path);
-    if (digest_of(loaded) != value) throw DamagedFile(fmt::format("{} lies under another value's name", path.string()));
+    if (digest_of(loaded) != value)
+      throw DamagedFile(fmt::format("{} is stored under another value's name", path.string()));
     return loaded;
   } catch (const DamagedFile& e) {
     state_->discard(path, e);

@@ -105,7 +105,7 @@ bool has_values_left(const CacheFolder& folder, const CacheEntry& stage) {
 void read_all(const CacheEntry& entry) {
   if (entry.kind == EntryKind::value) {
     if (digest_of(load_value(entry.path)) != entry.name)
-      throw DamagedFile(fmt::format("{} lies under another value's name", entry.path.string()));
+      throw DamagedFile(fmt::format("{} is stored under another value's name", entry.path.string()));
     return;
   }
   const auto bytes = CacheFolder::read(entry.path);

@@ -34,7 +34,7 @@ ByteReader unsealed(std::string_view magic, const Digest& name, const std::vecto
   ByteReader in(bytes.data(), size);
   const auto* found = reinterpret_cast<const char*>(in.take(magic.size()));
   if (std::string_view(found, magic.size()) != magic) throw DamagedFile("it is of another format");
-  if (in.get<Digest>() != name) throw DamagedFile("it lies under another entry's name");
+  if (in.get<Digest>() != name) throw DamagedFile("it is stored under another entry's name");
   return in;
 }
 

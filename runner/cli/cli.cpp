@@ -132,7 +132,7 @@ std::string for_command_line(std::string message, const std::string& folder) {
       message.replace(at, graph_advice.size(), advice);
   };
   replace(advice_on_map_names,
-          fmt::format("rename the files, or name them outright: `terrazzo run graphs/material.json --set material={} "
+          fmt::format("rename the files, or name them explicitly: `terrazzo run graphs/material.json --set material={} "
                       "--set 'exemplar.maps={{\"base_color\": \"FILE\"}}' --set out=OUT`",
                       folder));
   replace(advice_on_one_file,
@@ -187,9 +187,9 @@ int help_on(const CLI::App& app, const std::vector<std::string>& words, Progress
 }
 
 void add_help_command(CLI::App& app, Chosen& chosen, ProgressMode mode) {
-  CLI::App* help = app.add_subcommand("help", "Says what a command does and takes, as its --help does");
+  CLI::App* help = app.add_subcommand("help", "Describes a command, like its --help");
   const auto words = std::make_shared<std::vector<std::string>>();
-  help->add_option("COMMAND", *words, "The command; if none is given, what there is")->type_name("");
+  help->add_option("COMMAND", *words, "The command; all are listed if none is given")->type_name("");
   help->footer("Example:\n  terrazzo help synth");
   help->callback([&app, &chosen, words, mode] { chosen = [&app, words, mode] { return help_on(app, *words, mode); }; });
 }

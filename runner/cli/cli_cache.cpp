@@ -40,7 +40,7 @@ int verify(const CacheFlags& flags) {
 }  // namespace
 
 void add_cache_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* cache = app.add_subcommand("cache", "Looks after the folder of results that runs share");
+  CLI::App* cache = app.add_subcommand("cache", "Manages the cache that runs share");
   cache->require_subcommand(1);
   cache->footer(
       "The folder is $TERRAZZO_CACHE, or terrazzo under $XDG_CACHE_HOME, or ~/.cache/terrazzo.\n"
@@ -52,14 +52,14 @@ void add_cache_command(CLI::App& app, Chosen& chosen) {
     sub->callback([&chosen, flags, act] { chosen = [flags, act] { return act(*flags); }; });
     return sub;
   };
-  add("status", "Says where it lies and how large it is", show_status);
+  add("status", "Prints its folder and size", show_status);
   add("verify", "Reads every entry and removes damaged ones; exit code 1 if there were any", verify);
-  add("gc", "Makes room until the size limit holds",
+  add("gc", "Evicts entries until the size limit holds",
       [](const CacheFlags& f) {
         answer("{} freed\n", shown_bytes(f.open().collect()));
         return exit_done;
       })
-      ->add_option("--limit", flags->limit, "Another limit for this time, such as 500M or 2G")
+      ->add_option("--limit", flags->limit, "A limit for this call, such as 500M or 2G")
       ->type_name("SIZE");
   add("clear", "Removes everything that no running process uses", [](const CacheFlags& f) {
     answer("{} freed\n", shown_bytes(f.open().clear()));

@@ -89,8 +89,12 @@ int compare(const CompareFlags& flags) {
 void add_compare_command(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("compare", "Scores a result against its exemplar");
   const auto flags = std::make_shared<CompareFlags>();
-  command->add_option("EXEMPLAR", flags->exemplar, "A folder of maps, or one image")->required()->type_name("PATH");
-  command->add_option("OUTPUT", flags->output, "What was made from it")->required()->type_name("PATH");
+  command->add_option("EXEMPLAR", flags->exemplar, "The exemplar: a folder of maps, or one image")
+      ->required()
+      ->type_name("PATH");
+  command->add_option("OUTPUT", flags->output, "The result: a folder of maps, or one image")
+      ->required()
+      ->type_name("PATH");
   command
       ->add_option("--uv", flags->uv,
                    "The uv map that was exported with the output: adds figures about seams, copies and evenness of use")

@@ -35,7 +35,7 @@ void check_what_is_set(const Graph& graph, const std::string& unset) {
     if (n.params.size() == n.type->params.size()) complete.push_back(n);
   if (std::vector<Problem> problems = preflight_of_nodes(complete); !problems.empty())
     throw GraphError(graph.file.string(), std::move(problems));
-  say("note: what depends on a parameter that is not set was not looked at: --set {}=VALUE\n", unset);
+  say("note: nodes that depend on an unset parameter were not checked: --set {}=VALUE\n", unset);
 }
 
 int check(const DocumentFlags& flags) {
@@ -149,8 +149,8 @@ void add_document_commands(CLI::App& app, Chosen& chosen) {
   };
   const auto [check_command, check_flags] =
       add("check", "Checks a graph file without running it",
-          "Names every mistake at once, by line and column: in the file itself, in the sources and maps it speaks of,\n"
-          "and in the places it would write to.\n"
+          "Reports every mistake at once, with line and column: in the file, in the sources and maps it refers to,\n"
+          "and in the paths it would write to.\n"
           "Examples:\n"
           "  terrazzo check bricks.json\n"
           "  terrazzo check bricks.json --set material=bricks/",

@@ -124,7 +124,7 @@ int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cach
 }  // namespace
 
 void add_run_flags(CLI::App& command, RunFlags& flags) {
-  command.add_option("--only", flags.only, "Run just what this node needs; may be given several times")
+  command.add_option("--only", flags.only, "Run only this node and what it needs; may be given several times")
       ->type_name("NODE")
       ->take_all()
       ->expected(1);
@@ -142,7 +142,7 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
                    "Run again whenever the graph file or a file that it reads changes. Ctrl-C ends it, with the exit "
                    "code of the last run, or 130 if it interrupts one");
   command.add_option("--report", flags.report, "Write a report with pictures")->type_name("FILE.html");
-  command.add_option("--trace", flags.trace, "Write who did what when, for chrome://tracing")->type_name("FILE.json");
+  command.add_option("--trace", flags.trace, "Write a timeline for chrome://tracing")->type_name("FILE.json");
   command.add_option("--progress", flags.progress, "auto, bar, plain, json, or none: nothing but warnings and errors")
       ->type_name("MODE")
       ->check(CLI::IsMember(std::vector<std::string>(progress_mode_names.begin(), progress_mode_names.end()),
@@ -228,22 +228,22 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
   synth->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
   synth
       ->add_option("-o,--out", flags->out,
-                   "The folder to write to. {material}, {width}, {height} and {map} in it stand for what they name")
+                   "The folder to write to; {material}, {width}, {height} and {map} are replaced")
       ->required()
       ->type_name("DIR");
   synth->add_option("--size", flags->size, "The size of the result")->type_name("WxH");
-  synth->add_option("--seed", flags->seed, "Another number gives another variation")->type_name("N");
+  synth->add_option("--seed", flags->seed, "Another number gives another arrangement")->type_name("N");
   synth->add_option("--quality", flags->quality, "draft, normal or best: draft is quick, best takes its time")
       ->type_name("LEVEL");
   synth
-      ->add_option("--blend", flags->blend,
-                   "How far from a seam pixels are blended, 0 to 8; 2 to 3 hides most seams. None if not given")
+      ->add_option(
+          "--blend", flags->blend,
+          "How far from a seam pixels are blended, 0 to 8; more is softer, 2 to 3 hides most seams. 0 if not given")
       ->type_name("PIXELS");
   synth
-      ->add_option(
-          "--join", flags->join,
-          "How far heights give way so that pieces meet: below 1 a part of the exemplar's side, else pixels; 0 "
-          "keeps them as they are. 0.03 if not given")
+      ->add_option("--join", flags->join,
+                   "How far from a seam heights change so that pieces meet: below 1 a share of the exemplar's shorter "
+                   "side, else pixels; 0 keeps heights exact. 0.03 if not given")
       ->type_name("REACH");
   synth
       ->add_option("--format", flags->format,

@@ -69,11 +69,10 @@ void check_files_unchanged(const Stage& stage, Cache* cache) {
 /// A stage made again must give what its readers' keys already count on.
 void check_repeatable(const Stage& stage, const std::map<std::string, Digest>& names) {
   if (!stage.known->record || names == stage.known->record->outputs) return;
-  throw Error(
-      fmt::format("the same inputs and parameters gave another result than before. The program was changed "
-                  "without raising the version of the node type {}, or the node is faulty. `terrazzo cache "
-                  "clear` makes a fresh start",
-                  stage.type().name));
+  throw Error(fmt::format(
+      "the same inputs and parameters gave a different result than before. The program was changed without raising the "
+      "version of the node type {}, or the node is faulty. `terrazzo cache clear` starts afresh",
+      stage.type().name));
 }
 
 void compute(Job& job, const Stage& stage, const RunOptions& options) {
@@ -189,9 +188,9 @@ void perform(Job& job, const Plan& plan, const RunOptions& options) {
   } catch (const fs::filesystem_error& e) {
     fail("", fmt::format("{}: {}", e.path1().string(), e.code().message()));
   } catch (const std::bad_alloc&) {
-    fail("", "the machine has not enough memory for it");
+    fail("", "this machine does not have enough memory for it");
   } catch (const std::exception& e) {
-    fail("", fmt::format("a fault in the program: {}", e.what()));
+    fail("", fmt::format("internal error: {}", e.what()));
   }
   if (job.busy) return;
   if (job.context) job.made_folders = job.context->made_folders();

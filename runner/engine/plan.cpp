@@ -249,7 +249,7 @@ std::string Plan::summary() const {
   add(StageState::up_to_date, "up to date");
   add(StageState::derived, "derived");
   add(StageState::run, "to run");
-  add(StageState::depends, "to run or not, depending on what comes before");
+  add(StageState::depends, "undecided until earlier stages have run");
   return fmt::format("{}: {}", counted(needed(), "stage"), fmt::join(parts, ", "));
 }
 

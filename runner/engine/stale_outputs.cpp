@@ -79,8 +79,8 @@ std::vector<std::pair<int, std::string>> notes_on_stale_outputs(const Plan& plan
             said.insert(place_of_file(folder / name)).second)
           left_over.push_back(name);
       if (!left_over.empty())
-        notes.emplace_back(int(i), fmt::format("{} also holds {}, which this graph does not write: remove what is left "
-                                               "of another material, or write to another folder",
+        notes.emplace_back(int(i), fmt::format("{} also holds {}, which this graph does not write: remove them if they "
+                                               "belong to another material, or write to another folder",
                                                folder.string(), fmt::join(left_over, ", ")));
     }
   }

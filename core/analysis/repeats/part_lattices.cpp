@@ -139,8 +139,8 @@ BroughtTogether brought_together(const std::vector<ExemplarPart>& parts, const T
 std::vector<Rect> label_places(const ImagePtr& labels, Size exemplar, const Task& task) {
   require_one_channel("labels", *labels);
   if (labels->size() != exemplar)
-    throw Error("labels", fmt::format("expected the size of the features' exemplar, {}, found {}", describe(exemplar),
-                                      describe(labels->size())));
+    throw Error("labels", fmt::format("expected the size of the exemplar in \"features\", {}, found {}",
+                                      describe(exemplar), describe(labels->size())));
   struct Place {
     Rect bounds;
     int64_t pixels = 0;

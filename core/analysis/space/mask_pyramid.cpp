@@ -54,11 +54,10 @@ std::vector<uint8_t> allowed_pixels(const Features& features) {
     for (int64_t i = 0; i < r.area(); i++) out.push_back(v[i * mask->channels()] > 0.5f);
   });
   if (std::find(out.begin(), out.end(), 1) == out.end())
-    throw Error(
-        "mask",
-        "the mask leaves nothing of the exemplar to sample: it is nowhere above 0.5 (white). If white was to mark "
-        "what to leave out, invert it (levels); if it comes from holes that are to be filled, they cover "
-        "everything, and nothing is left to fill them with");
+    throw Error("mask",
+                "the mask allows no pixel of the exemplar: it is nowhere above 0.5 (white). If white marks what to "
+                "leave out, invert it with \"levels\"; if it comes from holes to fill, they cover everything, and "
+                "nothing is left to fill them with");
   return out;
 }
 

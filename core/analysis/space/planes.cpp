@@ -88,8 +88,9 @@ Planes guidance_planes(const Features& features, const std::vector<ImagePtr>& gu
   int channels = 0;
   for (const ImagePtr& g : guidance) {
     if (g->size() != size)
-      throw Error("guidance", fmt::format("guidance must have the features' size, {}x{}; this image has {}x{}",
-                                          size.width, size.height, g->width(), g->height()));
+      throw Error("guidance",
+                  fmt::format("expected an image of the features' size, {}x{}, found {}x{}; put \"resize\" before it",
+                              size.width, size.height, g->width(), g->height()));
     channels += g->channels();
   }
   Planes planes = Planes::zeros(size, channels, features.wraps());

@@ -71,7 +71,7 @@ TEST_CASE("a folder that may not be written is named") {
 }
 
 TEST_CASE("a folder in which nothing can be made is named, also to root, who is forbidden nothing") {
-  const std::string reason = ::geteuid() == 0 ? "nothing can be made there" : "Permission denied";
+  const std::string reason = ::geteuid() == 0 ? "no file can be created there" : "Permission denied";
   const std::string expected = "cannot write into the folder /proc: " + reason + "; write to another folder";
   CHECK(why_not_writable("/proc", "x.png") == expected);
   CHECK(why_not_writable("/proc/x/y", "x.png") == expected);

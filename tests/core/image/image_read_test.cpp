@@ -125,7 +125,7 @@ TEST_CASE("that the end of a file is missing shows before it is read, and whole 
       Bytes cut = whole;
       cut.resize(whole.size() - missing);
       write_bytes(path, cut);
-      CHECK(contains(trouble_of(path), "it is cut off: the end of the image is missing"));
+      CHECK(contains(trouble_of(path), "it is truncated: the end of the image is missing"));
       CHECK(error_of(path) != "");
     }
   }
@@ -253,13 +253,13 @@ TEST_CASE("integers of other depths become floats, and the warning says so") {
       const Read r = read(path);
       CHECK(r.image->info().depth == Depth::f32);
       for (int i = 0; i < 3; i++) CHECK(r.image->pixels()[i] == doctest::Approx(k.expected[i]).epsilon(1e-4));
-      CHECK(contains(r.warnings, "kept as 32-bit floats"));
+      CHECK(contains(r.warnings, "converted to 32-bit floats"));
     }
   write_bytes(path, make_tiff({1, 1}, 64, 3, Bytes(8)));
   CHECK(contains(error_of(path), "save it as 32-bit float"));
 }
 
-TEST_CASE("too many channels and printing inks are refused with advice") {
+TEST_CASE("too many channels and CMYK are refused with advice") {
   const TemporaryFolder folder;
   write_odd(folder.path() / "five.tif", {.size = {2, 2}, .channels = 5}, ramp(20));
   CHECK(contains(error_of(folder.path() / "five.tif"), "it has 5 channels"));

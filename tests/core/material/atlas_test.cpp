@@ -139,7 +139,7 @@ TEST_CASE("materials that do not go together are refused with what differs") {
                          doctest::Contains(message), Error);
   };
   refused(color_only, "base_color, height as in the first; material 2 (\"base_color\") lacks \"height\"");
-  refused(other, "material 2 (\"mossy\") lacks \"height\", has \"opacity\" besides");
+  refused(other, "material 2 (\"mossy\") lacks \"height\", also has \"opacity\"");
   refused(grey, "base_color with 3 channels in the first; in material 2 it is base_color with 1");
 }
 

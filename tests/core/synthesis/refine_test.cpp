@@ -130,5 +130,5 @@ TEST_CASE("coarse levels of another surface, exemplar or wrapping are refused") 
   CHECK_THROWS_WITH_AS(refine(*index_with({}, false, {80, 64}), *coarse, options, part, Task()),
                        doctest::Contains("same index"), Error);
   CHECK_THROWS_WITH_AS(refine(*index, *coarse, options, {195, 0, 10, 10}, Task()),
-                       doctest::Contains("part of the surface"), Error);
+                       doctest::Contains("rectangle inside the surface"), Error);
 }

@@ -101,9 +101,9 @@ TEST_CASE("a node that finds no lattice says what it found, and what was asked f
     return run_node("regularity", {}, {{"features", {features}}}).notes.front();
   };
   CHECK(note_of(0).starts_with("no lattice found (certainty 0.0"));
-  CHECK(note_of(0).ends_with(", at least 0.08 is asked for)"));
+  CHECK(note_of(0).ends_with(", below \"least_certainty\" 0.08)"));
   // Four cells of which no two are much alike.
-  CHECK(note_of(0.5f).starts_with("no lattice found: what repeats (certainty 0."));
+  CHECK(note_of(0.5f).starts_with("no lattice found: too few repeats, or too unlike, to be sure (certainty 0."));
 }
 
 TEST_CASE("noise has no lattice") {
@@ -136,7 +136,7 @@ TEST_CASE("a manual lattice that is none is refused when the graph is checked") 
   params["second"] = Numbers{6, 0};
   CHECK(type->check(params).empty());
   params["first"] = Numbers{0, 0.1};
-  CHECK(type->check(params) == std::vector<std::string>{"expected repeats after a pixel or more"});
+  CHECK(type->check(params) == std::vector<std::string>{"expected a vector at least one pixel long"});
 }
 
 namespace {
@@ -201,7 +201,7 @@ TEST_CASE("exemplars of one surface that seem to repeat differently have one lat
       features_of(two_parts, [](int x, int y) { return y % (x < 130 ? 30 : 20) < 3 ? 1.f : 0.f; });
   const auto run = [&](bool alike) { return run_with_labels(boards, halves(), {{"alike", alike}}); };
   const auto says_unlike = [](const NodeRun& r) {
-    return r.notes.front().find("not all repeat alike") != std::string::npos;
+    return r.notes.front().find("they repeat differently") != std::string::npos;
   };
   CHECK(says_unlike(run(false)));
   const NodeRun alike = run(true);

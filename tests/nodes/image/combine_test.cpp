@@ -53,5 +53,5 @@ TEST_CASE("combine takes a mask for each material, or none") {
                        "expected 2 masks, one for each material, or none; found 1", Error);
   const ImagePtr wide = flat_image({8, 2}, {1}, Semantic::mask);
   CHECK_THROWS_WITH_AS(run_node("combine", no_gap, {{"materials", {a}}, {"masks", {wide}}}),
-                       doctest::Contains("expected an image of the shape of its material, 8x8 pixels"), Error);
+                       doctest::Contains("expected an image with the aspect ratio of its material, 8x8 pixels"), Error);
 }

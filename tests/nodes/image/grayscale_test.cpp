@@ -40,6 +40,6 @@ TEST_CASE("grayscale is the same in tiles and as a whole") {
 
 TEST_CASE("grayscale says how many weights it wants") {
   CHECK(error_of("grayscale", {{"method", "weights"}}, {{"image", flat_image({2, 2}, {0, 0, 0})}}, "weights")
-            .find("expected 3 weights, one for each of the image's channels without coverage; found 1") !=
+            .find("expected 3 weights, one for each of the image's channels except alpha; found 1") !=
         std::string::npos);
 }

@@ -49,7 +49,7 @@ TEST_CASE("make_material warns of maps that it makes the smaller ones, and of no
   CHECK(notes({map(8, Semantic::height)}, mixed).empty());
   CHECK(notes({map(2, Semantic::height)}, mixed) ==
         std::vector<std::string>{"warning: the material has 8x8 pixels, the size of its largest map; height (2x2) is "
-                                 "scaled up to that. Bring the maps to one size if this is not meant"});
+                                 "scaled up to that. If this is not intended, bring the maps to one size"});
   const std::vector<std::string> larger = notes({map(16, Semantic::height)}, mixed);
   REQUIRE(larger.size() == 1);
   CHECK(larger.front().find("; base_color (8x8), roughness (4x4) are scaled up") != std::string::npos);

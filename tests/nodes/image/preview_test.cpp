@@ -164,8 +164,8 @@ TEST_CASE("a picture from above of another shape than the material is a note tha
   const std::vector<std::string> square = notes({{"size", Size{30, 30}}});
   REQUIRE(square.size() == 1);
   CHECK(square.front() ==
-        "the material has the shape of 60x40, the picture that of 30x30: its width is filled once, its height 1.50 "
-        "times; a size of 30x20 shows the material once and whole");
+        "the material (60x40) and the picture (30x30) differ in aspect ratio: the material fills the width once and "
+        "the height 1.50 times; a size of 30x20 shows the material once and whole");
   CHECK(notes({{"size", Size{30, 10}}}).front().find("its height 0.50 times") != std::string::npos);
   CHECK(notes({{"size", Size{31, 20}}}).empty());
   CHECK(notes({{"size", Size{30, 30}}, {"repeats", 2.0}}).empty());

@@ -37,7 +37,7 @@ TEST_CASE("what is odd about a file is noted") {
   write_odd(path, {.size = {3, 2}, .type = "float", .attributes = {{"Orientation", 6}}}, {0, 1, 2, 3, 4, 5});
   const NodeRun run = run_node("load_map", {{"path", path.string()}, {"semantic", "height"}});
   REQUIRE(run.notes.size() == 1);
-  CHECK(run.notes[0] == "odd.tif: turned upright, as its orientation mark (6) says");
+  CHECK(run.notes[0] == "odd.tif: rotated upright, as its orientation tag (6) says");
 }
 
 TEST_CASE("a mask painted as transparency is warned of, an opaque one is not") {

@@ -53,7 +53,7 @@ TEST_CASE("a folder of maps becomes a material with the folder's name") {
   CHECK(m->find("normal")->info().semantic == Semantic::normal);
   CHECK(m->find("normal")->info().normal_y == NormalY::up);
   CHECK(run.says("base_color: bricks_color.png"));
-  CHECK(run.says("ignored, the name says nothing: bricks_sheet.png. Known words are base_color: basecolor"));
+  CHECK(run.says("ignored, the name says no map: bricks_sheet.png. Known words are base_color: basecolor"));
   CHECK_FALSE(run.says("SOURCE"));
 }
 
@@ -66,8 +66,7 @@ TEST_CASE("maps smaller than the material are a warning that names them and both
   write(folder.path() / "wall_height.png", 1, ramp, {24, 16});
   CHECK(run_node("load_material", params)
             .says("warning: the material has 48x32 pixels, the size of its largest map; height (24x16) is scaled up to "
-                  "that. "
-                  "Bring the maps to one size if this is not meant"));
+                  "that. If this is not intended, bring the maps to one size"));
   write(folder.path() / "wall_roughness.png", 1, ramp, {30, 20});
   CHECK(run_node("load_material", params).says("height (24x16), roughness (30x20) are scaled up to that."));
 }
@@ -133,11 +132,11 @@ TEST_CASE("the normal convention comes from the parameter, the name, or the pixe
   fs::rename(folder.path() / "normal.png", folder.path() / "normal_gl.png");
   CHECK(convention("auto") == NormalY::up);
   const NodeRun misnamed = run_node("load_material", {{"path", folder.path().string()}});
-  CHECK(misnamed.says("normal_gl.png says that green points up (OpenGL), but it looks as if it pointed down"));
+  CHECK(misnamed.says("normal_gl.png says that green points up (OpenGL), but it seems to point down"));
   CHECK(misnamed.says("set `normal_y` to \"down\" if it is wrong"));
   fs::rename(folder.path() / "normal_gl.png", folder.path() / "normal_dx.png");
   CHECK(convention("auto") == NormalY::down);
-  CHECK_FALSE(run_node("load_material", {{"path", folder.path().string()}}).says("looks as if"));
+  CHECK_FALSE(run_node("load_material", {{"path", folder.path().string()}}).says("seems to point"));
   fs::remove(folder.path() / "normal_dx.png");
   write(folder.path() / "normal.png", 3, [](int, int, int c) { return c == 2 ? 1.0f : 0.5f; });
   CHECK(run_node("load_material", {{"path", folder.path().string()}}).says("up is assumed"));
@@ -164,10 +163,10 @@ TEST_CASE("the parameters maps and ignore overrule the names") {
                "did you mean \"scan.png\"?"));
   CHECK(contains(
       error_of("load_material", {{"path", folder.path().string()}, {"maps", TextMap{{"height", "scan.png:a"}}}}),
-      "height is to be channel a of scan.png, which has only 3 channels"));
+      "height should be channel a of scan.png, which has only 3 channels"));
   CHECK(contains(
       error_of("load_material", {{"path", folder.path().string()}, {"maps", TextMap{{"height", "scan.png:red"}}}}),
-      "height is to be channel red of scan.png, but channels are called r, g, b and a"));
+      "height should be channel red of scan.png, but channels are called r, g, b and a"));
   const NodeType* type = find_node_type("load_material");
   Params params = {{"maps", TextMap{{"hieght", "scan.png"}}}, {"color_space", "auto"}};
   REQUIRE(type->check(params).size() == 1);

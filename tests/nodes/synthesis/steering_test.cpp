@@ -93,8 +93,7 @@ TEST_CASE("make_tileable holds a whole number of repeats unless the size must st
   const FeaturesPtr plain = plain_features(wall({61, 53}));
   const IndexPtr index = index_of(plain->with(Lattice{2, {16, 0}, {8, 8}, 1}));
   const std::string anew =
-      "the exemplar does not seem to wrap around, so its border is made anew; if it does, set \"tiles\" to \"yes\" "
-      "where "
+      "the exemplar does not seem to tile, so its border is replaced; if it does tile, set \"tiles\" to \"yes\" where "
       "it is analysed, in the stock graph by --set tiles=yes";
   const NodeRun run = run_node("make_tileable", {}, {{"index", {index}}});
   const UvMapPtr uv = run.get<UvMap>("uv");
@@ -102,8 +101,8 @@ TEST_CASE("make_tileable holds a whole number of repeats unless the size must st
   for (int y = 7; y < 41; y++)
     for (int x = 8; x < 53; x++) REQUIRE(uv->at(x, y) == here(x, y));
   CHECK(run.notes == Texts{anew,
-                           "the exemplar of 61x53 pixels repeats: the result has 64x48, so that repeats go around; set "
-                           "\"fit\" to \"size\" to keep 61x53 and bend repeats in the border instead"});
+                           "the exemplar of 61x53 pixels repeats: the result has 64x48, so that whole repeats wrap "
+                           "around; set \"fit\" to \"size\" to keep 61x53 and bend repeats in the border instead"});
   const NodeRun kept = run_node("make_tileable", {{"fit", "size"}}, {{"index", {index}}});
   CHECK(kept.get<UvMap>("uv")->size() == Size{61, 53});
   CHECK(kept.notes ==
@@ -121,7 +120,7 @@ TEST_CASE("an exemplar that wraps already stays as it is, and a note says so") {
   CHECK(uv->wraps().x);
   CHECK(uv->wraps().y);
   REQUIRE(run.notes.size() == 1);
-  CHECK(run.notes[0].find("wraps around already") != std::string::npos);
+  CHECK(run.notes[0].find("already tiles") != std::string::npos);
   for (const float v : run.get<Image>("border")->pixels()) REQUIRE(v == 0);
 }
 
@@ -181,7 +180,7 @@ TEST_CASE("maps of different shapes are refused, all named with their sizes") {
   const Value material = Material::make("m", {{"base_color", flat({32, 32})}, {"height", flat({32, 16})}});
   for (const char* node : {"weight", "guidance", "progression", "filter_bank"})
     CHECK_THROWS_WITH_AS(run_node(node, {}, {{"material", {material}}}),
-                         doctest::Contains("their shapes differ: 32x32 (base_color), 32x16 (height)"), Error);
+                         doctest::Contains("their aspect ratios differ: 32x32 (base_color), 32x16 (height)"), Error);
   const Value smaller = Material::make("m", {{"base_color", flat({32, 32})}, {"height", flat({16, 16})}});
   CHECK_NOTHROW(run_node("weight", {}, {{"material", {smaller}}}));
 }
@@ -245,7 +244,7 @@ TEST_CASE("transfer steers by a target and wants controls in pairs") {
                     {{"index", {index}}, {"exemplar_control", {has}}, {"target", {wants}}});
   };
   CHECK(transfer({64, 32}).notes ==
-        Texts{"the target of 20x20 pixels is stretched to the result's 64x32, which has another shape"});
+        Texts{"the target of 20x20 pixels is stretched to the result's 64x32, which has another aspect ratio"});
   const NodeRun run = transfer({64, 64});
   CHECK(run.notes.empty());
   const UvMapPtr uv = run.get<UvMap>("uv");

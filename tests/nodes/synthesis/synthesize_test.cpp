@@ -126,6 +126,6 @@ TEST_CASE("of several exemplars it is told how much of each is shown, and which 
   const std::vector<std::string> one = notes(48, {100, 80});
   REQUIRE(one.size() == 2);
   CHECK(one[0] == "the result shows exemplar 1 in 100 %, exemplar 2 in 0 %");
-  CHECK(one[1].starts_with("warning: nothing is shown of exemplar 2,"));
+  CHECK(one[1].starts_with("warning: the result shows nothing of exemplar 2,"));
   CHECK(notes(48, {60, 40}).size() == 1);
 }

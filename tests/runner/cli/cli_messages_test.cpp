@@ -75,7 +75,8 @@ TEST_CASE("maps that another run has left in the folder are named, and stay") {
   };
   const auto note_on = [&](const std::string& files) {
     return "note: node \"files\": " + (w.path / "out").string() + " also holds " + files +
-           ", which this graph does not write: remove what is left of another material, or write to another folder\n";
+           ", which this graph does not write: remove them if they belong to another material, or write to another "
+           "folder\n";
   };
   CHECK_FALSE(contains(synth("two", "png"), "also holds"));
   CHECK_FALSE(contains(synth("two", "png"), "also holds"));
@@ -134,11 +135,12 @@ TEST_CASE("synth says of its folder that the maps differ in shape, once, before 
   write_picture(w.path / "odd/a_height.png", 5, Semantic::height, {64, 24});
   const ProgramRun r = w.run({"synth", "odd", "-o", "out"});
   CHECK(r.code == 2);
-  CHECK_MESSAGE(r.err ==
-                    "error: FOLDER: all maps must show the same area, but their shapes differ: 32x24 (base_color), "
-                    "64x24 (height). Cut or scale the files to one shape, or take some away; in a graph, the nodes "
-                    "\"crop\" and \"resize\" do it\n",
-                r.err);
+  CHECK_MESSAGE(
+      r.err ==
+          "error: FOLDER: all maps must show the same area, but their aspect ratios differ: 32x24 (base_color), "
+          "64x24 (height). Crop or scale the files to one aspect ratio, or leave some out; in a graph, use \"crop\" "
+          "and \"resize\"\n",
+      r.err);
 }
 
 TEST_CASE("the help of every command shows its own examples") {

@@ -49,7 +49,7 @@ TEST_CASE("check marks what is no mistake as a note or a warning") {
                 r.out);
   CHECK_MESSAGE(r.err ==
                     "warning: notes.json:3:5: node \"idle\": no sink reads it; it will not run\n"
-                    "note: what depends on a parameter that is not set was not looked at: --set image=VALUE\n",
+                    "note: nodes that depend on an unset parameter were not checked: --set image=VALUE\n",
                 r.err);
 }
 

@@ -200,7 +200,7 @@ TEST_CASE("-o may name places that the material and the result fill in, and says
   const ProgramRun wrong = w.run({"synth", "stone", "-o", "out {seed}"});
   CHECK(wrong.code == 2);
   CHECK_MESSAGE(contains(wrong.err, "error: -o"), wrong.err);
-  CHECK_MESSAGE(contains(wrong.err, "unknown place {seed}"), wrong.err);
+  CHECK_MESSAGE(contains(wrong.err, "unknown placeholder {seed}"), wrong.err);
   CHECK(contains(w.run({"synth", "--help"}).out, "{material}"));
 }
 
@@ -273,7 +273,7 @@ TEST_CASE("synth and new advise what can be typed when a folder holds no maps or
        {std::vector<std::string>{"synth", "odd", "-o", "x"}, {"new", "odd", "-o", "x.json"}}) {
     const ProgramRun r = w.run(command);
     CHECK_MESSAGE(contains(r.err,
-                           "; rename the files, or name them outright: `terrazzo run graphs/material.json --set "
+                           "; rename the files, or name them explicitly: `terrazzo run graphs/material.json --set "
                            "material=odd --set 'exemplar.maps={\"base_color\": \"FILE\"}' --set out=OUT`"),
                   r.err);
     CHECK_FALSE(contains(r.err, "the parameter `maps`"));

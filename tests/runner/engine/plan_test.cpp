@@ -46,7 +46,7 @@ TEST_CASE("a first plan runs what can be known and leaves open what depends on i
   CHECK(state(plan, "layout") == "depends");
   CHECK(reason(plan, "layout") == "depends on what @space gives");
   CHECK(state(plan, "aside") == "not needed");
-  CHECK(plan.summary() == "5 stages: 1 to run, 4 to run or not, depending on what comes before");
+  CHECK(plan.summary() == "5 stages: 1 to run, 4 undecided until earlier stages have run");
 }
 
 TEST_CASE("without a cache everything needed runs") {
@@ -203,7 +203,7 @@ TEST_CASE("the plan's table is aligned and says why") {
   p.graph.nodes.resize(2);
   const std::string key = make_plan(p.graph, nullptr).stages[0].known->key.hex().substr(0, 8);
   CHECK(make_plan(p.graph, nullptr).table() ==
-        "2 stages: 1 to run, 1 to run or not, depending on what comes before\n"
+        "2 stages: 1 to run, 1 undecided until earlier stages have run\n"
         "  node      type  state    key       why\n"
         "  exemplar  file  run      " +
             key +

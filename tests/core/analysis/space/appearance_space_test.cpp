@@ -63,7 +63,7 @@ TEST_CASE("too small an exemplar and guidance of another size are refused with t
   CHECK_THROWS_WITH_AS(make_appearance(*plain_features(wall({15, 40})), {}, {}, Task()),
                        "the exemplar has 15x40 pixels; it needs at least 16 and at most 65536 a side", Error);
   CHECK_THROWS_WITH_AS(make_appearance(*plain_features(wall({32, 32})), {wall({16, 32})}, {}, Task()),
-                       "guidance must have the features' size, 32x32; this image has 16x32", Error);
+                       "expected an image of the features' size, 32x32, found 16x32; put \"resize\" before it", Error);
 }
 
 TEST_CASE("guidance counts the same in pixels as in parts of their greatest") {

@@ -64,7 +64,7 @@ TEST_CASE("a mask may have any size of the exemplar's shape, and must allow some
                        doctest::Contains("shape of the exemplar, 32x24"), Error);
   const ImagePtr black = make_image({32, 24}, 1, [](int, int, int) { return 0.5f; });
   CHECK_THROWS_WITH_AS(allowed_pixels(*weighted_features(*wall_of({32, 24}), {}, false, black)),
-                       doctest::Contains("leaves nothing of the exemplar"), Error);
+                       doctest::Contains("allows no pixel of the exemplar"), Error);
 }
 
 TEST_CASE("what a mask forbids leaves no trace in the analysis") {
