@@ -101,7 +101,8 @@ std::vector<std::string> check(const Params& params) {
   if (!second.empty() && second.size() != 2)
     return {"\"second\": expected a lattice vector [x, y] in pixels, or nothing for courses or columns"};
   const auto is_short = [](const Numbers& v) { return std::max(std::abs(v[0]), std::abs(v[1])) < 1; };
-  if (is_short(first) || (!second.empty() && is_short(second))) return {"expected a vector at least one pixel long"};
+  for (const auto& [name, v] : {std::pair{"first", &first}, {"second", &second}})
+    if (!v->empty() && is_short(*v)) return {fmt::format("\"{}\": expected a vector at least one pixel long", name)};
   if (manual_lattice(first, second).is_valid()) return {};
   if (second.empty())
     return {"\"first\": without \"second\", expected [0, height] for courses or [width, 0] for columns"};

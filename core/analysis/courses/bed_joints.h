@@ -6,15 +6,14 @@
 
 namespace terrazzo {
 
-/// Where courses of bricks meet: what comes again with every period across them.
+/// Bed joints, the joints between courses, as they repeat with every period across the courses.
 struct BedJoints {
-  int half_breadth = 0;  ///< pixels to each side of the middle one
-  std::vector<double>
-      places;  ///< of middles, in 0..period, ascending; several where courses of several heights take turns
+  int half_breadth = 0;        ///< of a joint: pixels to each side of its centre
+  std::vector<double> places;  ///< centres, in 0..period, ascending; several if courses of different heights alternate
 };
 
-/// Bed joints differ from both their sides in the same way along most of the sheet. Empty if nothing does once a
-/// period. Thread-safe.
+/// Finds lines that differ from both their sides in the same way along most of the sheet, once per `period` (pixels).
+/// No places if there are none. Thread-safe.
 BedJoints find_bed_joints(const CourseSheet& sheet, double period);
 
 }  // namespace terrazzo

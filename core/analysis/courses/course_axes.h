@@ -5,10 +5,10 @@
 
 namespace terrazzo {
 
-/// Positions of a surface as its courses have them: along them, and across them from where they begin.
+/// Coordinates along and across courses, which may rise; in pixels of one level.
 struct CourseAxes {
   bool upright = false;  ///< courses run along y
-  double rise = 0;       ///< what they rise by across, for each pixel along
+  double rise = 0;       ///< pixels across per pixel along
 
   int shift(int along) const { return int(std::floor(rise * along + 0.5)); }
   /// x and y.

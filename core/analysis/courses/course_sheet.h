@@ -7,8 +7,8 @@
 
 namespace terrazzo {
 
-/// An exemplar level turned so that its courses run along the rows, and what its pixels show themselves: appearance
-/// vectors know which way a line runs, and joints run both ways.
+/// An exemplar level with its courses along the rows, and the channels of single pixels: appearance vectors depend on a
+/// line's direction, and joints run both ways. Immutable; thread-safe.
 class CourseSheet {
  public:
   static constexpr int most_channels = 12;
@@ -21,13 +21,13 @@ class CourseSheet {
         axes_(axes),
         pixels_(pixel_channels(level, most_channels)) {}
 
-  const int length, breadth;  ///< along the courses and across them
+  const int length, breadth;  ///< size along and across the courses, in pixels
   int channels() const { return pixels_.channels; }
   const float* at(int along, int across) const { return &pixels_.values[index(along, across) * size_t(channels())]; }
   bool usable(int along, int across) const { return level_.usable.empty() || level_.usable[index(along, across)]; }
 
  private:
-  /// Courses that rise leave the level here and there.
+  /// Clamps: rising courses leave the level in places.
   size_t index(int along, int across) const {
     const auto [x, y] = axes_.at(along, across);
     return size_t(std::clamp(y, 0, level_.size.height - 1)) * level_.size.width +

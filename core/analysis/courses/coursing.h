@@ -8,31 +8,29 @@
 
 namespace terrazzo {
 
-/// A course of bricks (tiles, blocks): what lies between the middles of two bed joints. Positions are pixels of the
-/// level that was looked at, along the course and across.
+/// A course of bricks (tiles, blocks), between the centres of two bed joints. Positions are pixels of the coursing's
+/// level.
 struct ExemplarCourse {
   double begin = 0, end = 0;  ///< across the courses
-  int kind = 0;               ///< courses of one kind come again after every period, as those of headers may
-  std::vector<float> joint;   ///< of each pixel along the course, how much it looks like a joint across: 0..1
+  int kind = 0;               ///< courses of one kind repeat with the period, as header courses may
+  std::vector<float> joint;   ///< per pixel along the course, likelihood of a head joint: 0..1
 };
 
-/// How an exemplar is built of courses, and where each may be cut without cutting a brick.
+/// The courses of an exemplar, and where each may be cut without cutting a brick.
 struct Coursing {
-  int level = 0;                        ///< of the pyramid; the positions are its pixels
-  CourseAxes axes;                      ///< how courses lie
-  double period = 0;                    ///< after which kinds come again
-  int half_joint = 0;                   ///< of a joint's breadth, without its middle
-  std::vector<double> beds;             ///< where the first course of each kind may begin, in 0..period, ascending
-  std::vector<ExemplarCourse> courses;  ///< those that lie in the exemplar as wholes
-  double separability = 0;  ///< Fisher's, of joints and bricks: how far they lie apart, in deviations; of the kind of
-                            ///< which it is least
+  int level = 0;                        ///< of the pyramid, 0 = finest; positions are its pixels
+  CourseAxes axes;                      ///< direction of the courses
+  double period = 0;                    ///< pixels across, after which kinds repeat
+  int half_joint = 0;                   ///< pixels of a joint to each side of its centre
+  std::vector<double> beds;             ///< where the first course of each kind begins, in 0..period, ascending
+  std::vector<ExemplarCourse> courses;  ///< those that lie wholly in the exemplar
+  double separability = 0;              ///< of joints and bricks, in standard deviations; the least of all kinds
   bool empty() const { return courses.empty(); }
   bool is_clear() const;
 };
 
-/// Bed joints are what differs from both its sides in the same way along all of the exemplar, once a period of the
-/// lattice's level courses or columns. What separates their pixels from those between (Fisher's linear discriminant,
-/// 1936) finds the joints across. Empty if the lattice has no courses, or their joints cannot be separated from bricks.
+/// Finds bed joints by the period of the lattice's courses or columns, then head joints by what separates bed joints
+/// from bricks (Fisher's linear discriminant, 1936). Empty if the lattice has no courses, or joints are not separable.
 /// Throws Cancelled.
 Coursing find_coursing(const Appearance& appearance, const Task& task);
 

@@ -8,23 +8,21 @@
 
 namespace terrazzo {
 
-/// Separates joints across courses of one kind from bricks, by what separates what lies along the courses' bed joints
-/// from what lies between them (Fisher's linear discriminant; The use of multiple measurements in taxonomic problems,
-/// 1936).
+/// Separates head joints from bricks in courses of one kind, by a linear discriminant learnt from bed joints and what
+/// lies between them (Fisher, The use of multiple measurements in taxonomic problems, 1936).
 class HeadJoints {
  public:
-  /// `courses`: those of one kind, also ones of which the exemplar has only a part. `half_breadth`: of joints.
+  /// `courses`: of one kind, partial ones included. `half_breadth`: of joints, in pixels. The sheet must outlive it.
   HeadJoints(const CourseSheet& sheet, const std::vector<ExemplarCourse>& courses, int half_breadth);
 
-  /// Fisher's: how far the means of joints and bricks lie apart, in standard deviations.
+  /// Distance between the means of joints and bricks, in standard deviations.
   double separability() const { return separability_; }
-  /// Of every column of the sheet how much it looks like a joint all through the course: 0 as bricks do on average, 1
-  /// as joints do.
+  /// Per column of the sheet, how much it looks like a joint across the whole course: 0 as bricks on average, 1 as
+  /// joints.
   std::vector<double> likeness(const ExemplarCourse& course) const;
 
-  /// Joints across may be narrower, shallower or darker than those along the courses: knows them from then on by those
-  /// columns of these courses that stand out from the others in `likeness`, which is each course's. Returns false, and
-  /// changes nothing, if there are hardly any.
+  /// Head joints may be narrower, shallower or darker than bed joints: learns from the columns that stand out in
+  /// `likeness`, one list per course. Returns false, and changes nothing, if there are too few.
   bool learn_from(const std::vector<ExemplarCourse>& courses, std::vector<std::vector<double>> likeness);
 
  private:
@@ -33,18 +31,18 @@ class HeadJoints {
 
   const CourseSheet& sheet_;
   int half_breadth_;
-  VectorXd weights_;  ///< of a pixel's traits; empty: nothing separates them
+  VectorXd weights_;  ///< of a pixel's traits; empty if not separable
   double offset_ = 0;
   double separability_ = 0;
 };
 
-/// The rows of a course that belong to no bed joint.
+/// The rows of a course without its bed joints: begin..end.
 struct CourseInside {
   CourseInside(const ExemplarCourse& course, int half_breadth);
   int begin, end;
 };
 
-/// The middles of the joints that a course surely has, ascending.
+/// Centres of the certain joints of a course, ascending, in pixels along it.
 std::vector<double> sure_joints(const ExemplarCourse& course);
 
 }  // namespace terrazzo

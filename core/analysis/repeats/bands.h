@@ -5,17 +5,18 @@
 
 namespace terrazzo {
 
+/// Courses or columns that repeat.
 struct Bands {
-  Lattice lattice;      ///< of rank 1 (stripes aslant: 2), or 0 if no lines repeat
-  double distinct = 0;  ///< how far lines that repeat stand out, of what differs from line to line at all
-  double alike = 0;     ///< how much lines that repeat are alike, along their whole length; nearly all must be
+  Lattice lattice;      ///< of rank 1 (diagonal stripes: 2), or 0 if no lines repeat
+  double distinct = 0;  ///< contrast of repeating lines, relative to all differences between lines
+  double alike = 0;     ///< correlation of repeating lines along their whole length
 };
 
-/// Courses, or columns: after how many pixels whole lines come again.
+/// Finds the period of courses, or of columns. Thread-safe.
 Bands bands_of(const Correlation& r, bool courses);
 
-/// The same of stripes that run aslant, in the direction in which lines differ most from one another: of rank 2, since
-/// they come again along both axes, with as long a step along the stripes as there is across them.
+/// The same for diagonal stripes, in the direction in which lines differ most. Rank 2, as they repeat along both axes;
+/// the step along the stripes is as long as the one across.
 Bands stripes_of(const Correlation& r);
 
 }  // namespace terrazzo

@@ -6,9 +6,8 @@
 
 namespace terrazzo {
 
-/// The bond of known courses or columns: the lattice of rank 2 by which the joints across them repeat. Averaged along a
-/// band's breadth they stand out even of grain that is louder than they are. The bands themselves where joints lie
-/// anyhow, as between headers and stretchers of all widths. Throws Cancelled.
+/// The bond of known courses or columns: the lattice of rank 2 by which the joints across them repeat. Averaging across
+/// a band makes joints visible in stronger grain. Returns `bands` if joints are irregular. Throws Cancelled.
 Lattice bond_of(const Planes& planes, const Lattice& bands, const Task& task);
 
 }  // namespace terrazzo

@@ -7,18 +7,19 @@
 
 namespace terrazzo {
 
+/// A candidate for the cell of a lattice.
 struct Cell {
-  Lattice lattice;      ///< of rank 2, as certain as what repeats is alike; of rank 0 if there is none
-  double distinct = 0;  ///< how far the correlation on its points stands out of that around them, of how far it could
+  Lattice lattice;      ///< of rank 2, its certainty the correlation of repeats; rank 0 if there is none
+  double distinct = 0;  ///< contrast of the correlation at its points against their surroundings, 0..1
 };
 
-/// The lattice on whose points the correlation stands out most from that around them, or the densest that does not do
-/// worse by more than chance: multiples of a cell do as well as the cell itself, parts of a cell (the grid of a
-/// herringbone's joints) do worse. `further`: lattices to try besides those that peaks of the correlation span.
+/// The lattice whose points have the highest contrast in the correlation; of those that differ only by chance, the
+/// densest: multiples of a cell score as well as the cell, parts of it (the joint grid of a herringbone) worse.
+/// `further`: lattices to try besides those spanned by correlation peaks.
 Cell best_cell(const Correlation& r, const std::vector<Lattice>& further);
 
-/// The lattice, or the one of a few times as large a cell on whose points another correlation is clearly higher: the
-/// joints of a chequered floor lie on a grid, but only every second tile has the same colour.
+/// The lattice, or one of a few times its cell if the correlation is clearly higher there: the joints of a chequered
+/// floor form a grid, but only every second tile has the same colour.
 Lattice without_false_repeats(const Correlation& r, const Lattice& lattice);
 
 }  // namespace terrazzo

@@ -11,26 +11,25 @@
 
 namespace terrazzo {
 
-/// Pixels; what repeats after fewer is grain.
+/// In pixels; shorter repeats are grain.
 double shortest_repeat();
 
-/// Of a maximum between its neighbours, in steps: the vertex of a parabola.
+/// Offset of a maximum between three samples, in steps, -0.5..0.5: the vertex of their parabola.
 inline double vertex_near(double before, double at, double after) {
   const double bend = before - 2 * at + after;
   return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
 }
 
-/// Correlation over lags, all channels together; symmetric about the origin.
+/// Autocorrelation by lag in pixels, over all channels; symmetric about the origin. Immutable; thread-safe.
 class Correlation {
  public:
-  /// `lags`: 0..width-1 in x, -(height-1)..height-1 in y, row by row. `wraps`: of an exemplar that tiles.
+  /// `lags`: 0..width-1 in x, -(height-1)..height-1 in y, row by row. `wraps`: the exemplar tiles.
   Correlation(std::vector<double> values, Size lags, Size exemplar, bool wraps);
 
   Size lags() const { return lags_; }
   Size exemplar() const { return exemplar_; }
   bool wraps() const { return wraps_; }
-  /// Whether enough of the exemplar lies on itself at this lag. All lags of an exemplar that tiles are within half its
-  /// sides.
+  /// Whether enough of the exemplar overlaps itself at this lag. If it tiles, lags are limited to half its sides.
   bool covers(double dx, double dy) const {
     const double x = std::abs(dx), y = std::abs(dy);
     if (wraps_) return x <= exemplar_.width * 0.5 && y <= exemplar_.height * 0.5;
@@ -46,7 +45,7 @@ class Correlation {
   }
   double at(const Vector2d& d) const { return at(int(std::floor(d.x() + 0.5)), int(std::floor(d.y() + 0.5))); }
 
-  /// The highest lag within one pixel and the correlation there, to a fraction of a pixel.
+  /// The highest correlation within one pixel of a lag, and its lag, with subpixel accuracy.
   std::pair<Vector2d, double> peak_near(const Vector2d& d) const {
     const int cx = int(std::floor(d.x() + 0.5)), cy = int(std::floor(d.y() + 0.5));
     int bx = cx, by = cy;
@@ -75,16 +74,15 @@ class Correlation {
   double least_overlap_;  ///< in pixels
 };
 
-/// The correlation of an exemplar's details with themselves, channels weighted by their variance: over lags up to five
-/// sixths of its sides or, around its borders, all of its sides if it tiles. `counts`: per pixel how much it counts,
-/// 0..1; empty: all do. Throws Cancelled.
+/// Autocorrelation of an exemplar's details, channels weighted by their variance, for lags up to five sixths of its
+/// sides, or all of them, cyclically, if it tiles. `counts`: weight per pixel, 0..1; empty: 1. Throws Cancelled.
 Correlation correlate(const Planes& planes, const std::vector<float>& counts, const Task& task);
 
-/// What several exemplars of one surface, at one scale, say together: the mean, by how much of them lies on itself at a
-/// lag. At least one; none of several may tile.
+/// Correlation of several exemplars of one surface at one scale: the mean, weighted by overlap at each lag. At least
+/// one; if several, none may tile.
 Correlation pooled(const std::vector<Correlation>& all);
 
-/// Edge strength, all channels together, as one channel: joints show in it however much bricks differ in colour.
+/// Edge strength over all channels, as one channel: shows joints even if bricks differ in colour.
 Planes outlines(const Planes& planes);
 
 }  // namespace terrazzo

@@ -8,35 +8,34 @@
 
 namespace terrazzo {
 
-/// An exemplar that lies beside others in one, and how it repeats.
+/// One of several exemplars in an atlas, and its lattice.
 struct ExemplarPart {
   Rect place;
   ExemplarView view;
   Lattice lattice;
 };
 
+/// The lattices of all parts.
 struct BroughtTogether {
   std::vector<LatticePart> parts;
-  size_t kinds = 0;      ///< how many different ways to repeat are left
-  bool too_few = false;  ///< in any of them, as FoundLattice says
+  size_t kinds = 0;      ///< number of different lattices
+  bool too_few = false;  ///< in any part, see FoundLattice
 };
 
-/// Brings parts that repeat alike together: cells of the same size and shape are shown as the same ones, moved by what
-/// makes them most alike, so that joints of one part go on in another whatever their colours; parts that have only the
-/// height of their courses in common, or the width of their columns, share these. What differs more keeps its own
-/// lattice. Throws Cancelled.
+/// Merges similar lattices: parts with cells of the same size and shape share one lattice, shifted to where their cells
+/// match best, so that joints continue from part to part whatever their colours. Parts that have only course height or
+/// column width in common share that; others keep their own lattice. Throws Cancelled.
 BroughtTogether brought_together(const std::vector<ExemplarPart>& parts, const Task& task);
 
-/// The rectangle of each label, in the order of their values: where exemplars lie that an atlas is made of. Throws
-/// Error about "labels" unless they are an image of one channel and the exemplar's size, of at most most_lattice_parts
-/// rectangles, and Cancelled.
+/// The rectangle of each label, ordered by value: the exemplars in an atlas. Throws Error about "labels" unless they
+/// have one channel, the exemplar's size, and at most most_lattice_parts rectangles. Throws Cancelled.
 std::vector<Rect> label_places(const ImagePtr& labels, Size exemplar, const Task& task);
 
-/// The lattice of what is seen of one exemplar, or of several of one surface.
+/// Finds the lattice of one exemplar, or of several of one surface.
 using LatticeFinder = std::function<FoundLattice(const std::vector<ExemplarView>&)>;
 
-/// What is found of each exemplar by itself, brought together; or, if they are of one surface (`alike`) and do not
-/// agree, of all of them together. Throws Cancelled.
+/// Finds each exemplar's lattice and merges them; if they show one surface (`alike`) and disagree, finds one lattice
+/// from all of them together. Throws Cancelled.
 BroughtTogether find_part_lattices(const Features& features, const std::vector<Rect>& places,
                                    const LatticeFinder& finder, bool alike, const Task& task);
 

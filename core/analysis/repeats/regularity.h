@@ -9,16 +9,16 @@ namespace terrazzo {
 
 struct FoundLattice {
   Lattice lattice;
-  /// Joints seem to cross, but of what is between them the exemplar does not hold enough to tell.
+  /// Joints cross, but the exemplar holds too few cells to find the lattice.
   bool too_few = false;
 };
 
-/// Finds how an exemplar, or several of one surface that are seen at one scale, repeats from the autocorrelation of all
-/// its weighted channels, or of their outlines where those repeat more surely: the cell whose repeats correlate most
-/// and places between them least (Liu, Collins & Tsin 2004 judge lattices alike), or else the period of its courses or
-/// columns, and their bond. Rank 0 if the certainty stays under `least_certainty`.
+/// Finds the lattice of an exemplar, or of several of one surface at one scale, from the autocorrelation of all
+/// weighted channels, or of their outlines if those repeat more clearly: the cell with the highest contrast between
+/// lattice points and the places between (as Liu, Collins & Tsin 2004), else the period of courses or columns, and
+/// their bond. Rank 0 below `least_certainty` (0..1). Throws Cancelled.
 FoundLattice find_lattice(const std::vector<ExemplarView>& views, double least_certainty, const Task& task);
-/// The same for all of an exemplar that its mask allows.
+/// The same for the allowed area of an exemplar.
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task);
 
 }  // namespace terrazzo

@@ -6,7 +6,7 @@
 namespace terrazzo {
 
 /// Whether opposite borders of every map fit together: windows across them resemble the rest of the map about as much
-/// as windows inside it do, and cells of a regular one come out even. Throws Cancelled.
+/// as windows inside, and a lattice, if any, has whole cells. Throws Cancelled.
 bool seems_to_tile(const Material& material, const Task& task);
 
 }  // namespace terrazzo

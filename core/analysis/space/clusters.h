@@ -7,11 +7,11 @@
 
 namespace terrazzo {
 
-/// Pixels sorted into groups of similar values.
+/// Pixels grouped by similar values.
 struct Clusters {
-  int count = 0;                 ///< at most what was asked for: fewer if there are not so many different values
+  int count = 0;                 ///< at most as asked for; fewer if there are fewer different values
   int channels = 0;              ///< values per centre
-  std::vector<double> centres;   ///< count rows, ascending by first channel, then by the next ...
+  std::vector<double> centres;   ///< count rows, in ascending lexicographic order
   std::vector<uint8_t> labels;   ///< per pixel the row of its centre
   std::vector<float> distances;  ///< per pixel the Euclidean distance to its centre
 };
@@ -22,10 +22,9 @@ struct ClusterOptions {
   uint64_t seed = 1;
 };
 
-/// k-means (Lloyd 1982) from greedy k-means++ seeds (Arthur & Vassilvitskii, k-means++: the advantages of careful
-/// seeding, 2007: of several candidates the one that lowers the sum of squared distances most). Centres are learned
-/// from at most 262144 of the pixels. Sums are taken in one fixed order: the same bits on every machine and for any
-/// number of threads. Throws Cancelled.
+/// k-means (Lloyd 1982) with greedy k-means++ seeding (Arthur & Vassilvitskii, k-means++: the advantages of careful
+/// seeding, 2007). Centres are learnt from at most 262144 pixels. The same bits on every machine and for any number of
+/// threads. Throws Cancelled.
 Clusters find_clusters(const Planes& planes, const ClusterOptions& options, const Task& task);
 
 }  // namespace terrazzo

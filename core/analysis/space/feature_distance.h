@@ -9,11 +9,12 @@ namespace terrazzo {
 
 struct EdgeOptions {
   std::vector<std::string> maps{};  ///< which maps to look for edges in; empty = all
-  /// On edge strength, which is relative to the strongest; none = automatic (Otsu 1979).
+  /// On edge strength, 0..1 of the strongest; none = automatic (Otsu 1979).
   std::optional<double> threshold{};
   double smoothing = 1;  ///< standard deviation of the Gaussian before differentiation, in pixels
   bool wraps = false;    ///< the exemplar tiles
-  ImagePtr mask{};       ///< where its first channel is 0.5 or less there are no edges; of the maps' shape; null: none
+  ImagePtr
+      mask{};  ///< no edges where its first channel is 0.5 or less; of the maps' aspect ratio; null: edges anywhere
 };
 
 struct Edges {
@@ -23,13 +24,13 @@ struct Edges {
   double threshold = 0;
 };
 
-/// The material's edges: gradient magnitude over all channels of the chosen maps in analysis space, each map brought to
-/// unit variance. Throws Error if a map is unknown.
+/// Gradient magnitude over all channels of the chosen maps in analysis space, each map at unit variance. Throws Error
+/// if a map is unknown.
 Edges find_edges(const Material& material, const EdgeOptions& options, const Task& task);
 
-/// The signed feature distance of Lefebvre & Hoppe 2006, section 5: the Euclidean distance to the nearest edge,
-/// negative inside edges that have a width, in pixels, limited to `limit`. It tells pixels apart that look alike but
-/// lie at different places between features. The image has semantic guidance.
+/// The signed feature distance of Lefebvre & Hoppe 2006, section 5: Euclidean distance to the nearest edge in pixels,
+/// negative inside wide edges, limited to `limit`. Distinguishes pixels that look alike but lie differently between
+/// features. Semantic guidance.
 ImagePtr feature_distance(const Edges& edges, Size size, bool wraps, float limit);
 
 }  // namespace terrazzo

@@ -5,12 +5,11 @@
 
 namespace terrazzo {
 
-/// Finds `per_pixel` (1..8) positions of similar surroundings for every pixel of every level but the finest (unless it
-/// is the only one), where synthesis does without. Members of a set keep a distance from the pixel itself and from one
-/// another, so that they offer real alternatives; of a regular exemplar they lie at the same place in the lattice's
-/// cell. Coarse levels are searched exhaustively; finer ones start from their parent's sets and spread good finds to
-/// neighbours, in the manner of generalized PatchMatch (Barnes et al. 2010) but in rounds that read the round before:
-/// the result does not depend on the order of work.
+/// Finds the k-coherent candidates of every pixel (Tong et al. 2002): `per_pixel` (1..8) positions with similar
+/// neighbourhoods, on every level but the finest, unless that is the only one. Candidates keep a distance from the
+/// pixel and from one another; with a lattice they have the pixel's phase. Coarse levels are searched exhaustively,
+/// finer ones from their parents' candidates by propagation, as generalized PatchMatch (Barnes et al. 2010), but in
+/// rounds that read the previous one, so that the result does not depend on the order of work. Throws Cancelled.
 IndexPtr make_index(const AppearancePtr& appearance, int per_pixel, const Task& task);
 
 }  // namespace terrazzo

@@ -7,9 +7,9 @@
 
 namespace terrazzo {
 
-/// One appearance level with a margin around it, so that windows need no bounds checks. Beyond the border the level is
-/// mirrored, at its outermost pixels, whether the exemplar tiles or not: what lies across then seldom fits, and neither
-/// does the border pixel itself, so that pieces end where the exemplar does instead of going on or being drawn out.
+/// One appearance level with a margin around it, so that windows need no bounds checks. The margin mirrors the level
+/// about its outermost pixels even if the exemplar tiles: mirrored pixels seldom match, so that pieces end at the
+/// border instead of being smeared beyond it. Immutable; thread-safe.
 class PaddedLevel {
  public:
   static constexpr int margin = 4;
@@ -23,25 +23,24 @@ class PaddedLevel {
   }
   /// Whether only some pixels are usable.
   bool masked() const { return masked_; }
-  /// Brings a position that a shift may have moved out of the exemplar back to where a window fits, `keep_off()` pixels
-  /// inside the border. Not around an exemplar that tiles either: what lies across its border fits, but no exemplar
-  /// shows the two sides together, and results are nearer to it the fewer such places they have.
+  /// Clamps a position to where a window fits, `keep_off()` pixels inside the border. Clamps rather than wraps even if
+  /// the exemplar tiles: no exemplar shows its two sides together, and fewer such places make better results.
   [[gnu::always_inline]] void settle_inside(int& x, int& y) const {
     x = within(x, keep_off_, size_.width - 1 - keep_off_);
     y = within(y, keep_off_, size_.height - 1 - keep_off_);
   }
-  /// Brings a position any number of times around an exemplar that tiles back into it; leaves those of others alone.
+  /// Wraps a position into an exemplar that tiles; does nothing for others.
   void unwind(int& x, int& y) const {
     if (!wraps_) return;
     if (x < 0 || x >= size_.width) x = wrap(x, size_.width);
     if (y < 0 || y >= size_.height) y = wrap(y, size_.height);
   }
-  /// The same as settle_inside, and then to the nearest usable pixel.
+  /// As settle_inside, then to the nearest usable pixel.
   void settle(int& x, int& y) const {
     settle_inside(x, y);
     if (masked_) settle_usable(x, y);
   }
-  /// Whether synthesis may take a position inside the level.
+  /// Whether synthesis may use a position inside the level.
   bool is_usable(int x, int y) const {
     const size_t at = size_t(y) * size_.width + x;
     return !masked_ || nearest_usable_[at] == at;
@@ -51,7 +50,7 @@ class PaddedLevel {
     settle_inside(x, y);
     return is_usable(x, y);
   }
-  /// Whether synthesis may take a position, which may lie outside, just as it is.
+  /// Whether a position, which may lie outside, is usable without being moved.
   bool holds(int x, int y) const {
     int u = x, v = y;
     return settles(u, v) && u == x && v == y;
@@ -61,12 +60,12 @@ class PaddedLevel {
     if (masked_) return usable_place(bits);
     return {int(below(uint32_t(bits), size_.width)), int(below(uint32_t(bits >> 32), size_.height))};
   }
-  /// How far positions keep off the border: 0 if the exemplar tiles. Of others, a window nearer to it sees continued
-  /// pixels: at coarse levels one row of those is better than to lose so much of the exemplar.
+  /// Least distance of positions from the border, in pixels: 0 if the exemplar tiles. Nearer windows see the margin;
+  /// coarse levels accept one row of it, to lose less of the exemplar.
   int keep_off() const { return keep_off_; }
 
  private:
-  // As std::clamp, but by value: its references may be taken through memory.
+  // As std::clamp, but by value: references may go through memory.
   [[gnu::always_inline]] static int within(int v, int least, int most) {
     const int raised = v < least ? least : v;
     return raised > most ? most : raised;
@@ -84,8 +83,8 @@ class PaddedLevel {
   std::vector<uint32_t> nearest_usable_;  // for every pixel
 };
 
-/// Squared distance of two appearance vectors. (The compiler makes vector instructions of it, as all differences fit 16
-/// bits, unless it unrolls the loop first, which it does within other loops.)
+/// Squared distance of two appearance vectors. Vectorised by the compiler, as differences fit 16 bits, unless it
+/// unrolls the loop first, as it does within other loops.
 inline int squared_distance(const AppearanceVector& a, const AppearanceVector& b) {
   int sum = 0;
 #pragma GCC unroll 1

@@ -136,7 +136,7 @@ TEST_CASE("a manual lattice that is none is refused when the graph is checked") 
   params["second"] = Numbers{6, 0};
   CHECK(type->check(params).empty());
   params["first"] = Numbers{0, 0.1};
-  CHECK(type->check(params) == std::vector<std::string>{"expected a vector at least one pixel long"});
+  CHECK(type->check(params) == std::vector<std::string>{"\"first\": expected a vector at least one pixel long"});
 }
 
 namespace {

@@ -165,8 +165,8 @@ TEST_CASE("a picture from above of another shape than the material is a note tha
   REQUIRE(square.size() == 1);
   CHECK(square.front() ==
         "the material (60x40) and the picture (30x30) differ in aspect ratio: the material fills the width once and "
-        "the height 1.50 times; a size of 30x20 shows the material once and whole");
-  CHECK(notes({{"size", Size{30, 10}}}).front().find("its height 0.50 times") != std::string::npos);
+        "the height 1.50 times; a size of 30x20 shows exactly one");
+  CHECK(notes({{"size", Size{30, 10}}}).front().find("the height 0.50 times") != std::string::npos);
   CHECK(notes({{"size", Size{31, 20}}}).empty());
   CHECK(notes({{"size", Size{30, 30}}, {"repeats", 2.0}}).empty());
   CHECK(notes({{"size", Size{30, 30}}, {"tilt", 30.0}}).empty());

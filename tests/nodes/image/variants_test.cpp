@@ -196,7 +196,7 @@ TEST_CASE("variants tells its size, and how to make it smaller if analysis of it
   CHECK(note_of({1020, 1020}) == "4 exemplars in 2048x2048 pixels");
   CHECK(note_of({1021, 1021}) ==
         "4 exemplars in 2050x2050 pixels; analysing so many takes long and needs much memory: use fewer `rotations` or "
-        "`scales`, or \"resize\" before this, make it smaller");
+        "`scales`, or put \"resize\" before this");
 }
 
 TEST_CASE("variants masks out what the exemplar's own mask leaves out") {
