@@ -7,28 +7,28 @@
 
 #include "core/material/material.h"
 
-/// Checks of a material's maps by name and size, for messages that are the same before a run and during it: nothing
-/// here looks at pixels.
+/// Checks of a material's maps by name and size only, so that messages are the same before and during a run.
 namespace terrazzo {
 
 std::vector<std::string> names_of(const std::vector<Map>& maps);
 
-/// Throws Error about `param` if any of `wanted` is not among the `known` maps of `whose` material, naming them all.
+/// Throws Error about `param`, listing the `known` maps, unless they include all `wanted`. `whose`: the material, for
+/// the message.
 void require_maps(const std::string& param, const std::vector<std::string>& wanted,
                   const std::vector<std::string>& known, const std::string& whose = "the material");
 
 /// What is known of a material.
 struct KnownMaps {
   std::string name{};
-  std::vector<std::string> maps{};  ///< that it has
-  /// Maps that it may have besides; none if there is no telling which.
+  std::vector<std::string> maps{};  ///< that it certainly has
+  /// Maps that it may also have; nullopt if not known.
   std::optional<std::vector<std::string>> possible_maps{};
 };
 
-/// Throws Error about `port`, naming what is missing or too much, if materials surely have other maps than the first.
+/// Throws Error about `port`, naming the differences, if materials certainly have other maps than the first.
 void require_same_maps(const std::string& port, const std::vector<KnownMaps>& materials);
 
-/// Throws Error about `port`, naming all maps and their sizes, unless all have one shape, at whatever sizes.
+/// Throws Error about `port`, listing maps and sizes, unless all have one aspect ratio.
 void require_one_shape(const std::string& port, const std::vector<std::pair<std::string, Size>>& maps);
 void require_one_shape(const std::string& port, const Material& material);
 

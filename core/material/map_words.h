@@ -8,10 +8,10 @@
 /// The vocabulary of core/material_files: which words in file names stand for which maps.
 namespace terrazzo {
 
-/// How much a word says by itself.
+/// Where a word counts.
 enum class WordStrength : uint8_t {
-  full,     ///< telling wherever it stands: "roughness"
-  ending,   ///< only as the last word, numbers aside: "rough", which may also be part of an asset's name
+  full,     ///< anywhere: "roughness"
+  ending,   ///< only as the last word before numbers: "rough", which may also be part of an asset's name
   initial,  ///< only as the last word and after another: "N" in T_Wall_N
 };
 
@@ -55,8 +55,7 @@ constexpr WordPart metallic_in(std::string_view c) {
   return {Semantic::metallic, "", c};
 }
 
-/// For each word the entry that asks for most channels comes first. The maps of a file that is some other semantic's
-/// stand-in (a bump map for height, gloss for roughness) are told by `inverted` and by `stands_in`.
+/// For each word the entry that needs the most channels comes first.
 inline constexpr auto map_words = [] {
   using enum Semantic;
   constexpr auto full = WordStrength::full, ending = WordStrength::ending, initial = WordStrength::initial;

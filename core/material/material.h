@@ -8,8 +8,8 @@
 
 namespace terrazzo {
 
-/// One map of a material. The name is how graphs, file patterns and weights speak of it: the semantic's name, or
-/// the semantic's name with a suffix where a material has several ("mask_moss").
+/// One map of a material. Graphs, file patterns and weights refer to it by name: the semantic's, with a suffix if a
+/// material has several ("mask_moss").
 struct Map {
   std::string name;
   ImagePtr image;
@@ -18,8 +18,8 @@ struct Map {
 class Material;
 using MaterialPtr = std::shared_ptr<const Material>;
 
-/// A named, ordered set of images that share one uv domain: the same relative position is the same point of the surface
-/// in every map. Sizes may differ. Immutable.
+/// A named, ordered set of images that share one uv domain: a relative position is the same surface point in every map.
+/// Sizes may differ. Immutable; thread-safe.
 class Material {
  public:
   /// Throws Error if there is no map, or if two maps have the same name.
@@ -31,9 +31,9 @@ class Material {
   const std::vector<Map>& maps() const { return maps_; }
   /// Null if there is no such map.
   ImagePtr find(std::string_view map) const;
-  /// The first map of that meaning; null if there is none.
+  /// The first map of that semantic; null if there is none.
   ImagePtr find(Semantic semantic) const;
-  /// The size in which the material is analysed and synthesized: that of its largest map.
+  /// The size at which the material is analysed and synthesized: that of its largest map.
   Size size() const;
   /// The names of the maps, comma separated, for messages.
   std::string map_names() const;

@@ -6,15 +6,15 @@
 #include "core/image/image.h"
 #include "core/material/material_files.h"
 
-/// From the pixels of a file to the map it holds.
+/// From the pixels of a file to its maps.
 namespace terrazzo {
 
-/// Throws Error about `maps` unless a file of so many channels has those that `source` names.
+/// Throws Error about "maps" unless a file with `file_channels` channels has those that `source` names.
 void require_channels(const RecognisedMap& source, int file_channels);
 
-/// The map that `source` describes, taken from its file: the channels that are meant, inverted if need be. Grey maps
-/// stored in colour are reduced to one channel, and alpha is left out. Throws Error if the file lacks the channels.
-/// What the user should know is added to `notes`.
+/// The map that `source` describes: its channels of the file, inverted if it says so. Grey maps stored in colour are
+/// reduced to one channel; alpha is dropped. Adds to `notes` what the user should know. Throws Error if the file lacks
+/// the channels.
 ImagePtr map_of_file(const RecognisedMap& source, const ImagePtr& file, const std::string& color_space,
                      std::vector<std::string>& notes);
 

@@ -5,10 +5,9 @@
 
 namespace terrazzo {
 
-/// How differently values stand beside one another (Haralick et al. 1973, over joint values of all channels): pixels
-/// are sorted into 16 classes that are equally frequent in the exemplar; for offsets of 1, 2, 4 and 8 pixels in four
-/// directions the tables of class pairs are compared by total variation. Mean over offsets: 0 = the same, 1 = nothing
-/// in common.
+/// Distance of co-occurrence matrices (Haralick et al. 1973, over joint values of all channels): pixels fall into 16
+/// classes that are equally frequent in the exemplar; matrices for offsets of 1, 2, 4 and 8 pixels in four directions
+/// are compared by total variation. Mean over offsets: 0 = equal, 1 = nothing in common. Throws Cancelled.
 double cooccurrence_distance(const Planes& exemplar, const Planes& output, const Task& task);
 
 }  // namespace terrazzo

@@ -14,15 +14,15 @@ struct Shift {
   bool operator==(const Shift&) const = default;
 };
 
-/// Regions copied in one piece: pixels of one shift that touch, or lie two apart in a row or column.
+/// Regions copied in one piece: pixels of equal shift that touch, or lie two apart in a row or column.
 struct CopiedRegions {
-  double typical_side = 0;  ///< square root of the area, meaned over pixels; in pixels
+  double typical_side = 0;  ///< square root of the area, averaged over pixels; in pixels
   double largest_area = 0;  ///< in pixels
 };
 CopiedRegions copied_regions(Size size, const std::vector<Shift>& shifts);
 
-/// The typical side of a copied region as a fraction of the exemplar's side, found by looking up each output patch's
-/// nearest exemplar patch. Plain tiling gives 0.7 to 1.
+/// The typical side of a copied region as a fraction of the exemplar's side, from each output patch's nearest exemplar
+/// patch. Plain tiling gives 0.7 to 1. Throws Cancelled.
 double verbatim_copies(const Planes& exemplar, const Planes& output, const Task& task);
 
 }  // namespace terrazzo

@@ -6,16 +6,15 @@
 namespace terrazzo {
 
 /// The sliced Wasserstein-1 distance (Rabin et al. 2011) between the 7x7 patch distributions of two images with the
-/// same channels, each slice in units of the exemplar's standard deviation along it. 0 = the same patches, in the same
-/// proportions.
+/// same channels, each slice in units of the exemplar's standard deviation. 0 = the same patches in the same
+/// proportions. Throws Cancelled.
 double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Task& task);
 
-/// Bidirectional patch similarity (Simakov et al. 2008), in units of the mean distance of exemplar patches to one
-/// another: 1 = as close as exemplar patches are to one another.
+/// Bidirectional patch similarity (Simakov et al. 2008), in units of the mean distance between exemplar patches.
 struct PatchSimilarity {
   double coherence = 0;     ///< mean distance of an output patch to its nearest exemplar patch
   double completeness = 0;  ///< mean distance of an exemplar patch to its nearest output patch
-  double broken = 0;        ///< share of output patches farther from the exemplar than 95 % of its own patches are
+  double broken = 0;        ///< share of output patches farther from the exemplar than 95 % of its own patches
 };
 PatchSimilarity patch_similarity(const Planes& exemplar, const Planes& output, const Task& task);
 

@@ -8,8 +8,8 @@
 
 namespace terrazzo {
 
-/// Patches are 7x7 pixels with all their channels; a patch is named by the rank of its top left corner among all
-/// positions where a whole patch fits, row by row.
+/// Patches are 7x7 pixels with all channels, numbered by their top left corners among all positions where a whole patch
+/// fits, row by row.
 inline constexpr int patch_side = 7;
 using PatchList = std::vector<uint32_t>;
 
@@ -18,7 +18,7 @@ inline int patch_values(const Planes& image) {
   return patch_side * patch_side * image.channels;
 }
 PatchList all_patches(Size image);
-/// At most `count` different patches in random order, a function of the arguments alone.
+/// At most `count` different patches in random order; a pure function.
 PatchList random_patches(Size image, size_t count, uint64_t seed);
 
 /// An affine map of a patch to `outputs` numbers (a multiple of 8).
@@ -26,15 +26,15 @@ struct Projection {
   int inputs = 0;
   int outputs = 0;
   std::vector<float> mean;     ///< inputs; subtracted first
-  std::vector<float> weights;  ///< inputs rows of outputs
+  std::vector<float> weights;  ///< row major, inputs x outputs
 };
 
-/// Onto the patches' leading principal components; learnt from at most 20 000 of them.
+/// Onto the patches' leading principal components, learnt from at most 20 000 patches. Throws Cancelled.
 Projection principal_projection(const Planes& image, const PatchList& patches, int outputs, const Task& task);
 /// Random unit vectors, evenly spread over all directions.
 Projection random_directions(int inputs, int outputs, uint64_t seed);
 
-/// One row of projection.outputs numbers per patch.
+/// One row of projection.outputs numbers per patch. Throws Cancelled.
 std::vector<float> project(const Planes& image, const PatchList& patches, const Projection& projection,
                            const Task& task);
 

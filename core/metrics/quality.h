@@ -9,8 +9,8 @@
 
 namespace terrazzo {
 
-/// How well an output shows the texture of its exemplar, from pixels alone and without learned weights. All are lower
-/// is better and dimensionless. Read them together: plain tiling wins all but verbatim and repeat.
+/// How well an output reproduces its exemplar's texture, from pixels alone and without learned weights. Dimensionless;
+/// lower is better. Read them together: plain tiling wins all but verbatim and repeat.
 struct Quality {
   double swd = 0;           ///< see sliced_wasserstein; mean over a Gaussian pyramid
   double cooccurrence = 0;  ///< see cooccurrence_distance; mean over up to 3 levels
@@ -22,14 +22,14 @@ struct Quality {
   double repeat = 0;    ///< see repetition
 };
 
-/// The smallest image that can be measured, in pixels a side.
+/// Pixels a side of the smallest image that can be measured.
 inline constexpr int smallest_measured = 16;
-/// Of larger images the part at the top left is measured.
+/// Pixels a side; of larger images only the top left part is measured.
 inline constexpr int largest_measured = 2048;
 
 /// What to measure; the rest stays 0.
 struct QualityParts {
-  bool verbatim = true;  ///< not needed if a uv map tells it
+  bool verbatim = true;  ///< not needed with a uv map
 };
 
 /// Both images have the same channels and at least smallest_measured pixels a side. Deterministic. Thread-safe; throws
@@ -37,18 +37,17 @@ struct QualityParts {
 Quality measure_quality(Planes exemplar, Planes output, const QualityParts& parts, const Task& task);
 
 /// The channels of the exemplar's and the output's maps, stacked, in units of the exemplar's standard deviation.
-/// Colours and vectors give three channels, other maps their first;
-/// grey counts as three equal channels where the other image has colour. At most largest_measured pixels a side, from
-/// the top left.
+/// Colours and vectors give three channels, other maps their first; grey becomes three channels if the other image has
+/// colour. At most largest_measured pixels a side, from the top left.
 struct ComparedPlanes {
   Planes exemplar;
   Planes output;
 };
-/// `maps`: names that both have; empty for all they share. Throws Error (about "maps") if one has no such map, or if
-/// two maps of one name do not fit together.
+/// `maps`: names; empty for all that both have. Throws Error about "maps" if one lacks a map, or two maps of one name
+/// are not comparable.
 ComparedPlanes compared_planes(const Material& exemplar, const Material& output, const std::vector<std::string>& maps);
 
-/// `maps`, checked, or all maps that both have, in the exemplar's order.
+/// `maps`, checked, or all maps that both have, in the exemplar's order. Throws Error about "maps".
 std::vector<std::string> compared_maps(const Material& exemplar, const Material& output,
                                        const std::vector<std::string>& maps);
 

@@ -25,7 +25,7 @@ using Texts = std::vector<std::string>;
 
 using ParamAlternatives = std::variant<bool, int64_t, double, std::string, Size, Numbers, Texts, NumberMap, TextMap>;
 
-/// Alternatives are in the order of ParamType; choice, path and color_space are texts. A structure, so that copying
+/// Alternatives are in the order of ParamType; choices and paths are texts. A structure, so that copying
 /// and destroying nine alternatives is compiled once: it took a tenth of the time that a node's file compiles in.
 struct ParamValue : ParamAlternatives {
   using ParamAlternatives::ParamAlternatives;
@@ -46,7 +46,7 @@ enum class ParamType : uint8_t {
   texts,       ///< a list of texts
   number_map,  ///< numbers by name
   text_map,    ///< texts by name
-  choice,      ///< a text out of `choices`
+  choice,      ///< one of `choices`
   path,        ///< a file or folder; made absolute before the node sees it
 };
 std::string_view name_of(ParamType type);
@@ -62,7 +62,7 @@ struct Param {
   int min_count = 0, max_count = 0;      ///< for numbers and texts; 0 = no limit
 };
 
-/// All of a node's parameters by name, defaults filled in, checked against the descriptor.
+/// All of a node's parameters by name: defaults filled in, checked against the descriptor.
 using Params = std::map<std::string, ParamValue>;
 
 /// Feeds parameters into a key: by name and value, independent of order and of how the document wrote them.
@@ -76,37 +76,37 @@ struct Port {
   bool list = false;  ///< takes a list of wires
 };
 
-/// One of the steps that a node's work consists of, for its reference.
+/// A step of a node's algorithm, for its reference.
 struct NodeStep {
   std::string name;
-  std::string when;  ///< in the work, and under which conditions
+  std::string when;  ///< phase, and conditions
   std::string help;  ///< what it does
 };
 
 /// What becomes of a node's outputs.
 enum class Persist : uint8_t {
-  payload,  ///< costly: outputs are stored in the cache
-  digest,   ///< quick: only the outputs' digests are stored; they are made again when a reader must run
-  derived,  ///< lazy: outputs are recipes, named by the node's key; never stored
+  payload,  ///< slow: outputs are stored in the cache
+  digest,   ///< fast: only the outputs' digests are stored; they are recomputed when a reader runs
+  derived,  ///< lazy: outputs are computed on demand, named by the node's key, and never stored
 };
 
-/// A file that a sink is going to write.
+/// A file that a sink will write.
 struct FutureFile {
   std::string param;  ///< the parameter that says where
   std::filesystem::path folder;
-  std::string name;    ///< empty as long as it is not known; `folder` is then where it will lie, or deeper
-  std::string what{};  ///< what it is to hold, for messages
+  std::string name;    ///< empty if not known yet; the file is then in `folder`, or deeper
+  std::string what{};  ///< its content, for messages
 };
 
-/// What can be told of a node's results before anything runs.
+/// What is known of a node's results before anything runs.
 struct Forecast {
-  std::vector<std::string> maps{};  ///< that its material will have
-  /// Maps that it may have besides; none if there is no telling which.
+  std::vector<std::string> maps{};  ///< of its material
+  /// Maps that it may also have; nullopt if not known.
   std::optional<std::vector<std::string>> possible_maps{};
   std::map<std::string, Size> sizes{};  ///< of maps, where they are known
   std::vector<FutureFile> files{};      ///< of a sink
 };
-/// Of a node's inputs: by connected port, one for each wire.
+/// By connected port, one for each wire.
 using InputForecasts = std::map<std::string, std::vector<Forecast>>;
 
 class NodeContext;
@@ -116,24 +116,24 @@ struct NodeType {
   int version = 1;       ///< raise it whenever the same inputs would give other outputs
   std::string category;  ///< source, image, analysis, synthesis, sink
   std::string summary;   ///< one line
-  std::string help{};    ///< as long as it takes: what it does, when to use it, where the method comes from
+  std::string help{};    ///< what it does, when to use it, references for the method
   std::vector<Port> inputs;
   std::vector<Port> outputs;
   std::vector<Param> params;
   std::vector<NodeStep> steps{};  ///< in the order in which they run; empty for most nodes
   Persist persist = Persist::payload;
   std::function<void(NodeContext&)> compute;
-  /// The files the node reads, given its parameters; their content goes into the key. Empty for most nodes. A missing
-  /// file may be listed: the key then says "missing", and compute reports it properly.
+  /// The files that the node reads; their content is part of the key. Missing files may be listed: the key then says
+  /// "missing", and compute reports them.
   std::function<std::vector<std::filesystem::path>(const Params&)> files_read;
-  /// Bytes of memory that compute will need beside its inputs, roughly; lets the scheduler keep to its budget.
+  /// Estimated bytes that compute needs besides its inputs, for the memory budget.
   std::function<size_t(const NodeContext&)> memory_hint;
-  /// Checks that involve several parameters; returns one message per problem, each starting with the parameter's name
-  /// in quotes. Called when a document is checked, before anything runs.
+  /// Checks of several parameters together; one message per problem, starting with the parameter's name in quotes.
+  /// Called when a document is checked, before anything runs.
   std::function<std::vector<std::string>(const Params&)> check;
-  /// Looks ahead while a plan is made, so that mistakes are found before hours of work: throws Error, or Errors, for
-  /// what compute would refuse (a folder that is not there), and says what is known of the results. Quick; may look at
-  /// files that `files_read` names. What it says must be true whatever runs; nothing need be said.
+  /// Runs while a plan is made, so that mistakes are found before hours of work: throws Error, or Errors, for what
+  /// compute would refuse (such as a missing folder), and returns what is certain about the results. Must be fast; may
+  /// read files that `files_read` names.
   std::function<Forecast(const Params&, const InputForecasts&)> preflight;
 
   const Port* find_input(std::string_view port) const;
@@ -149,8 +149,8 @@ struct StagedFile {
   std::filesystem::path target;
 };
 
-/// What compute gets: inputs, parameters, and a place for the results. Used from one thread at a time (a node may use
-/// many threads inside); `task()` is thread-safe.
+/// What compute works with: inputs, parameters and outputs. Not thread-safe, except for `task()`; a node may use many
+/// threads internally.
 class NodeContext {
  public:
   NodeContext(const NodeType& type, Params params, std::map<std::string, std::vector<Value>> inputs, Digest key,
@@ -193,22 +193,21 @@ class NodeContext {
 
   /// Every declared output must be set before compute returns.
   void output(std::string_view port, Value value);
-  /// Something the user should know (what was recognised, what was ignored); printed, and repeated from the cache.
+  /// Something the user should know (what was recognised or ignored); printed, and stored with the result.
   void note(std::string message) { notes_.push_back(std::move(message)); }
-  /// The same for what is likely to be a mistake, or costs what the user would not want to lose. Shown where it cannot
-  /// be overlooked.
+  /// The same for likely mistakes and losses of quality; shown prominently.
   void warn(const std::string& message) { notes_.push_back(std::string(warning_mark) + message); }
 
-  /// For sinks: a temporary name beside `target` (folders are made, and what killed runs left in them is removed) to
-  /// write to. The runner renames all staged files once compute has returned, and removes them and the folders if it
-  /// throws: a failed run leaves no partial file.
+  /// For sinks: a temporary name beside `target` to write to. Creates folders, and removes what killed runs left in
+  /// them. The runner renames all staged files once compute has returned, and removes them and the folders if it
+  /// throws.
   std::filesystem::path stage(const std::filesystem::path& target);
 
-  // What the runner takes away.
+  // For the runner.
   std::map<std::string, Value>& outputs() { return outputs_; }
   const std::vector<std::string>& notes() const { return notes_; }
   const std::vector<StagedFile>& staged() const { return staged_; }
-  /// The folders that `stage` has made, outer ones first.
+  /// The folders that `stage` has created, outer ones first.
   const std::vector<std::filesystem::path>& made_folders() const { return made_folders_; }
 
  private:

@@ -7,9 +7,9 @@
 
 namespace terrazzo {
 
-/// The pixels of an image that lies in stream number `stream` of a block file, which must hold exactly its samples, row
-/// by row. Blocks are read, verified and decoded when a region needs them; the blocks of a band of rows are kept.
-/// read() throws DamagedFile or Error, naming the file.
+/// The pixels of an image in stream `stream` of a block file, which must hold exactly its samples, row by row. Blocks
+/// are read, verified and decoded on demand; those of a band of rows stay in memory. read() throws DamagedFile or
+/// Error, naming the file.
 std::shared_ptr<const PixelSource> stored_pixels(std::shared_ptr<const BlockFile> file, uint32_t stream, Size size,
                                                  int channels);
 

@@ -10,7 +10,7 @@
 
 namespace terrazzo {
 
-// Their headers bring Eigen, which most that pass values on do not need.
+// Forward declared, as their headers include Eigen.
 class Features;
 class Appearance;
 class Index;
@@ -34,7 +34,7 @@ inline ValueType type_of(const Value& value) {
 }
 const Digest& digest_of(const Value& value);
 
-/// Whether a wire may join the two: the same type, or the lossless image -> material of one map.
+/// Whether a wire may connect the two: the same type, or the lossless image -> material of one map.
 inline bool converts(ValueType from, ValueType to) {
   return from == to || (from == ValueType::image && to == ValueType::material);
 }

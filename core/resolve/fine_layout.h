@@ -8,45 +8,43 @@
 
 namespace terrazzo {
 
-/// From an output pixel to the exemplar pixel it shows, in pixels of the exemplar that is resolved.
+/// From an output pixel to the exemplar pixel it shows, in pixels of the resolved exemplar.
 struct Offset {
   int x = 0;
   int y = 0;
   bool operator==(const Offset&) const = default;
 };
 
-/// A uv map seen at the resolution of an exemplar that may be larger than the analysed one. Immutable, so thread-safe.
+/// A uv map at the resolution of an exemplar that may be larger than the analysed one. Immutable; thread-safe.
 class FineLayout {
  public:
-  /// `exemplar`: the size that is resolved, at least the analysed one. `radius` of the neighbours that matter, in
-  /// pixels of the uv map.
+  /// `exemplar`: size of the resolved exemplar, at least the analysed one's. `radius`: of blending, in pixels of the uv
+  /// map.
   FineLayout(UvMapPtr uv, Size exemplar, double radius);
 
-  /// Of the output: the uv map's times that of the exemplar over the analysed one.
+  /// Size of the output: the uv map's, times exemplar size over analysed size.
   Size size() const { return {x_.length(uv_->size().width), y_.length(uv_->size().height)}; }
   Size exemplar() const { return exemplar_; }
   double radius() const { return radius_; }
-  /// How many pixels of the uv map beyond its own one a fine pixel may see in each direction.
+  /// How many pixels of the uv map a fine pixel sees to each side of its own.
   int reach() const { return reach_; }
   const UvMap& uv() const { return *uv_; }
 
   /// The pixel of the uv map that a fine pixel lies in.
   int owner_x(int x) const { return std::min(x_.coarse(x), uv_->size().width - 1); }
   int owner_y(int y) const { return std::min(y_.coarse(y), uv_->size().height - 1); }
-  /// From the centre of a pixel of the uv map (which may lie outside it) to that of a fine pixel, in pixels of the uv
-  /// map.
+  /// From the centre of a uv map pixel (which may lie outside) to that of a fine pixel, in pixels of the uv map.
   double distance_x(int owner, int x) const { return x_.centre(x) - (owner + 0.5); }
   double distance_y(int owner, int y) const { return y_.centre(y) - (owner + 0.5); }
 
-  /// The offsets that a row of the uv map proposes, from column `left` on. Beyond a border the other side follows if
-  /// the output wraps, else the border pixels' pieces go on.
+  /// The offsets of `count` pixels of row `y` of the uv map, from column `left` on; both may lie outside. Wraps if the
+  /// output does, else border pixels' pieces continue.
   void offsets(int left, int y, int count, Offset* out) const;
 
-  /// The exemplar pixels that part of a row of the output shows. The part lies inside.
+  /// The exemplar pixels shown by part of an output row, which must lie inside.
   void shown(int x, int y, int count, Offset* out) const;
 
-  /// The exemplar pixel at coordinates that an offset led to: around the other side if it wraps; false if they lie
-  /// outside.
+  /// Wraps exemplar coordinates that an offset led to; false if they lie outside.
   bool inside(int& x, int& y) const;
   /// The same for a pixel's own proposal, which rounding may move one fine pixel over the border.
   void settle(int& x, int& y) const;
@@ -69,16 +67,16 @@ class FineLayout {
   int reach_;
 };
 
-/// The offsets around a region of the output, and where no seam is near. Belongs to one thread.
+/// The offsets around a region of the output, and where no seam is near. Not thread-safe.
 class LayoutWindow {
  public:
   LayoutWindow(const FineLayout& layout, const Rect& region);
 
-  /// The proposal of a pixel of the uv map, up to `reach` beyond those that own the region's pixels.
+  /// The offset of a uv map pixel, up to `reach` beyond the owners of the region's pixels.
   const Offset& at(int owner_x, int owner_y) const {
     return offsets_[size_t(owner_y - around_.y) * around_.width + size_t(owner_x - around_.x)];
   }
-  /// Whether all proposals within reach of that pixel's fine pixels are the same.
+  /// Whether all offsets within reach of that pixel are equal: no seam is near.
   bool calm(int owner_x, int owner_y) const {
     return calm_.empty() || calm_[size_t(owner_y - owners_.y) * owners_.width + size_t(owner_x - owners_.x)] != 0;
   }
@@ -88,7 +86,7 @@ class LayoutWindow {
 
   Rect owners_, around_;
   std::vector<Offset> offsets_;
-  std::vector<uint8_t> calm_;  ///< empty if reach is 0: a pixel alone has no seam
+  std::vector<uint8_t> calm_;  ///< empty if reach is 0: there are no seams then
 };
 
 }  // namespace terrazzo

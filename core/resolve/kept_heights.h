@@ -7,21 +7,21 @@
 
 namespace terrazzo {
 
-/// Heights that a result has already and that stay as they are.
+/// Heights of an earlier result that must not change.
 struct KeptHeights {
-  ImagePtr heights{};  ///< of one channel, at the result's scale; null: nothing is kept
-  int x = 0, y = 0;    ///< where their top left pixel lies in the result; what lies beyond it does not count
-  ImagePtr holes{};    ///< what is above 0.5 in its first channel is not kept; stretched over the result; null: none
+  ImagePtr heights{};  ///< one channel, at the result's scale; null: nothing is kept
+  int x = 0, y = 0;    ///< of their top left pixel in the result; what lies outside is ignored
+  ImagePtr holes{};  ///< nothing is kept where its first channel exceeds 0.5; stretched over the result; null: no holes
 };
 
-/// The same, held in memory. Immutable, so thread-safe.
+/// The same, in memory. Immutable; thread-safe.
 class KeptLookup {
  public:
   /// `result`: its size.
   KeptLookup(const KeptHeights& kept, Size result);
 
   bool any() const { return heights_ != nullptr; }
-  /// The height that is kept at a pixel of the result; null if it is free.
+  /// The kept height of a pixel of the result; null if it is free.
   const float* at(int x, int y) const {
     if (!heights_ || x < area_.x || y < area_.y || x >= area_.right() || y >= area_.bottom()) return nullptr;
     const size_t i = size_t(y - area_.y) * size_t(area_.width) + size_t(x - area_.x);
@@ -31,7 +31,7 @@ class KeptLookup {
  private:
   ImagePtr heights_;
   Rect area_;
-  std::vector<uint8_t> free_;  ///< of the area; empty: nothing
+  std::vector<uint8_t> free_;  ///< 1 where a pixel of the area is free; empty: none is
 };
 
 }  // namespace terrazzo

@@ -5,8 +5,8 @@
 /// What nodes with a parameter that names a colour space share.
 namespace terrazzo {
 
-/// For NodeType::check: one message if the text parameter names no colour space of the configuration. `keyword`: a word
-/// that it may hold instead ("auto", "keep").
+/// For NodeType::check: a message unless the parameter names a colour space of the configuration, or is `keyword`
+/// ("auto", "keep").
 std::vector<std::string> color_space_problems(const Params& params, const std::string& param,
                                               const std::string& keyword = "", const std::string& config = "");
 

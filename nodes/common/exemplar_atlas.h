@@ -10,11 +10,11 @@ namespace terrazzo {
 std::vector<Port> atlas_outputs();
 /// Parameters "gap" and "edges".
 std::vector<Param> atlas_params();
-/// Sets the outputs from the exemplars, as the parameters say. If the atlas is so large that analysis takes long, the
-/// note tells `how_to_shrink` it, what there should be less of.
+/// Sets the outputs from the exemplars and parameters. If the atlas is large, a note recommends `how_to_shrink` ("fewer
+/// exemplars").
 void output_atlas(NodeContext& node, const std::vector<Exemplar>& exemplars, const std::string& how_to_shrink);
-/// The material with a mask that came in at `port`, if one did. Throws Error unless it has the material's shape and one
-/// channel.
+/// The material with the mask of `port`, or null. Throws Error unless the mask has one channel and the material's
+/// aspect ratio.
 Exemplar masked_exemplar(const MaterialPtr& material, const std::string& port, const ImagePtr& mask);
 
 }  // namespace terrazzo

@@ -7,10 +7,10 @@ namespace terrazzo {
 
 /// Parameter "tiles": whether the exemplar tiles.
 Param tiles_param();
-/// Its answer for the material. "auto" looks at the borders, and a note says so if they fit.
+/// Its value for the material. "auto" compares opposite borders; a note says if they match.
 bool exemplar_tiles(NodeContext& node, const Material& material);
 
-/// Port "mask": which part of the exemplar counts.
+/// Port "mask": where the exemplar may be sampled.
 Port mask_port();
 
 }  // namespace terrazzo

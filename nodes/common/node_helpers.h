@@ -4,10 +4,10 @@
 
 #include "core/node/node.h"
 
-/// What the descriptors of image-work nodes share.
+/// What descriptors of image nodes share.
 namespace terrazzo {
 
-/// Parameter "edges": what lies beyond the image's border.
+/// Parameter "edges": clamp or wrap beyond the image's border.
 Param edges_param();
 Outside edges_of(const NodeContext& node);
 
@@ -18,7 +18,7 @@ NormalY normal_y_of(const NodeContext& node);
 /// Parameter "height_scale" of nodes that read a height map as a surface.
 Param height_scale_param();
 
-/// Bounds of parameters that are pixel values: room for heights in any unit, none for slips.
+/// Limit of parameters that are pixel values: allows heights in any unit, and catches typos.
 inline constexpr double largest_sample = 1e6;
 /// A parameter that is a pixel value.
 Param sample_param(const std::string& name, double fallback, const std::string& help);
@@ -26,35 +26,35 @@ Param sample_param(const std::string& name, double fallback, const std::string& 
 Port image_port(const std::string& name, const std::string& help);
 Port material_port(const std::string& name, const std::string& help);
 
-/// For nodes whose material has the maps of the one at `port`, or of the first there: their look ahead, see NodeType.
+/// The preflight of nodes whose material has the maps of the (first) one at `port`, see NodeType.
 std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const std::string& port);
 
-/// For a look ahead: throws Error about `param` if it names maps that the material surely has not.
+/// For preflights: throws Error about `param` if it names maps that the material certainly lacks.
 void preflight_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
                     const std::string& whose = "the material");
-/// For a look ahead: throws Error about `port` if its material's maps surely differ in shape.
+/// For preflights: throws Error about `port` if its material's maps certainly differ in aspect ratio.
 void preflight_one_shape(const std::string& port, const InputForecasts& inputs);
 
-/// The look ahead of nodes that analyse maps of their "material" together. `param` names those `wanted`.
+/// The preflight of nodes that analyse maps of their "material" together. `param` names those `wanted`.
 Forecast preflight_analysis(const std::string& param, const std::vector<std::string>& wanted,
                             const InputForecasts& inputs);
 
-/// The recipe of one of several lazily computed maps: the node's type and parameters, and the map it is made from.
+/// The recipe digest of one of several lazy maps: the node's type and parameters, and the source map.
 Digest map_recipe(const NodeContext& node, const Image& map);
 
-/// The material with every map in `maps` (all if empty) replaced by what `change` makes of it. Throws Error about
-/// parameter "maps" if it names a map that the material does not have.
+/// The material with `change` applied to every map in `maps` (all if empty). Throws Error about "maps" if the material
+/// lacks one.
 MaterialPtr with_maps_changed(const MaterialPtr& material, const Texts& maps,
                               const std::function<ImagePtr(const Map&)>& change);
 
 /// Warns of maps that are smaller than the material and so will be scaled up: likely a file of the wrong size. Those
-/// that `known`, if there is one, held beside maps of that size have been spoken of before.
+/// that were already smaller in `known`, if given, have been reported before.
 void warn_of_smaller_maps(NodeContext& node, const Material& material, const Material* known = nullptr);
 
 /// Throws Error about `param` unless the material has a map of that name.
 ImagePtr require_map(const std::string& param, const Material& material, const std::string& map);
 
-/// A value for each of an image's channels out of a parameter that holds one for all or one for each.
+/// A value per channel from a parameter that holds one for all, or one for each. Throws Error about `param`.
 std::vector<double> per_channel(const NodeContext& node, const std::string& param, int channels);
 
 }  // namespace terrazzo

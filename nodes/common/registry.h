@@ -7,7 +7,7 @@
 
 namespace terrazzo {
 
-/// Every node type, in the order of the registry. Thread-safe; descriptors live as long as the program.
+/// All node types, in the order of node_list.inc. Thread-safe; descriptors live as long as the program.
 const std::vector<NodeType>& node_types();
 /// Null if there is no such type.
 const NodeType* find_node_type(std::string_view name);

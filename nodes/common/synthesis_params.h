@@ -6,7 +6,7 @@
 #include "core/node/node.h"
 #include "core/synthesis/synthesize.h"
 
-/// What nodes that synthesize share.
+/// What synthesis nodes share.
 namespace terrazzo {
 
 Port index_port();
@@ -14,39 +14,39 @@ Port uv_output();
 
 /// Parameter "size" of the result.
 Param result_size_param();
-/// A parameter for the size of a whole surface.
+/// A parameter for the size of a whole surface; sides from `least` to largest_surface pixels.
 inline constexpr int largest_surface = 65536;
 Param surface_param(std::string name, std::string help, int least);
 /// Parameter "tileable": directions in which the result wraps around.
 Param tileable_param();
-/// Parameter "whole_bricks", of nodes that make surfaces anew.
+/// Parameter "whole_bricks", of nodes that make whole surfaces.
 Param whole_bricks_param();
 /// `own` parameters, followed by those of every synthesis: seed, quality, coherence, evenness, and jitter.
 std::vector<Param> with_synthesis_params(std::vector<Param> own);
 /// Checks them; for NodeType::check.
 std::vector<std::string> check_synthesis_params(const Params& params);
 
-/// What the parameters above say; "size", "tileable" and "whole_bricks" if the node has them.
+/// The values of the parameters above; "size", "tileable" and "whole_bricks" if the node has them.
 SynthesisOptions synthesis_options(const NodeContext& node, const Index& index);
 
 /// Throws Error about port "uv" unless the uv map was made for the exemplar of the index.
 void require_same_exemplar(const UvMap& uv, const Index& index);
 
-/// Unless a result that wraps holds a whole number of the exemplar's repeats, or nearly so, warns what becomes of them
-/// and names a size near it that does.
+/// Warns if a result that wraps does not hold (nearly) a whole number of the exemplar's repeats: states the
+/// `consequence` and names the nearest size that does.
 void warn_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
                              std::string_view consequence);
 
-/// Of an exemplar of several parts: notes how much of the result shows which and, if all are expected, warns of those
-/// of which nothing is shown, though there is room for all.
+/// For exemplars of several parts: notes the share of the result that shows each and, if `all_expected`, warns of parts
+/// that are not shown although there is room.
 void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, bool all_expected);
 
-/// A mask of a result: white where it no longer shows what was kept.
+/// A mask of a result: white where it does not show the kept pixels.
 ImagePtr made_anew(const UvMap& result, const KeptPixels& kept);
 
-/// What synthesis of so many output pixels needs.
+/// Bytes that synthesis of that size needs.
 size_t synthesis_memory(Size size);
-/// What the coarse levels of a surface need.
+/// Bytes that the coarse levels of a surface need.
 size_t coarse_memory(Size surface);
 
 }  // namespace terrazzo
