@@ -25,8 +25,8 @@ using Texts = std::vector<std::string>;
 
 using ParamAlternatives = std::variant<bool, int64_t, double, std::string, Size, Numbers, Texts, NumberMap, TextMap>;
 
-/// Alternatives are in the order of ParamType; choices and paths are texts. A structure, so that copying
-/// and destroying nine alternatives is compiled once: it took a tenth of the time that a node's file compiles in.
+/// Alternatives are in the order of ParamType; choices and paths are texts. A structure, so that copying and destroying
+/// nine alternatives is compiled once: it took a tenth of a node's compile time.
 struct ParamValue : ParamAlternatives {
   using ParamAlternatives::ParamAlternatives;
   ParamValue(const ParamValue& other);

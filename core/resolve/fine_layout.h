@@ -46,7 +46,7 @@ class FineLayout {
 
   /// Wraps exemplar coordinates that an offset led to; false if they lie outside.
   bool inside(int& x, int& y) const;
-  /// The same for a pixel's own proposal, which rounding may move one fine pixel over the border.
+  /// The same for a pixel's own offset, which rounding may move one fine pixel outside; clamps it.
   void settle(int& x, int& y) const;
 
  private:

@@ -12,7 +12,7 @@
 #include "core/base/hash.h"
 #include "core/file/file_io.h"
 
-/// The cache's layout on disk and the way files get into it:
+/// The cache's layout on disk:
 ///   v1/values/ab/<digest>.tzv   core/node/serialize.h
 ///   v1/stages/ab/<key>          runner/cache/cache_records.h
 ///   v1/files/ab/<path digest>   runner/cache/cache_records.h
@@ -60,20 +60,20 @@ class CacheFolder {
   std::filesystem::path leases() const { return root_ / "leases"; }
   std::filesystem::path lock() const { return root_ / "lock"; }
 
-  /// A name beside `target`, whose folder is made, to write to. `owner` tells whose it is. Throws FileError.
+  /// A temporary name beside `target`, whose folder is created. `owner`: see Pins::owner. Throws FileError.
   std::filesystem::path temporary(const std::filesystem::path& target, const std::string& owner);
-  /// Writes all of the bytes or nothing. If `sync`, they are there after a power failure too. Throws FileError.
+  /// Writes atomically; durably, if `sync`. Throws FileError.
   void write(const std::filesystem::path& target, const std::vector<uint8_t>& bytes, const std::string& owner,
              bool sync);
 
   /// The bytes of a small file; none if it does not exist. Throws FileError.
   static std::optional<std::vector<uint8_t>> read(const std::filesystem::path& path);
-  /// The same, and the entry counts as used now.
+  /// The same, and marks the entry as used now.
   static std::optional<std::vector<uint8_t>> read_and_use(const std::filesystem::path& path);
-  /// Notes that an entry is used now; false if it does not exist.
+  /// Marks an entry as used now; false if it does not exist.
   static bool use(const std::filesystem::path& path);
 
-  /// All that is there now.
+  /// All entries and temporary files.
   CacheScan scan() const;
 
  private:

@@ -6,12 +6,12 @@
 #include "core/base/hash.h"
 #include "core/file/file_io.h"
 
-/// How processes that share a cache keep from computing the same stage at once. Who computes one holds a file in
-/// leases/, named after the stage's key and locked with flock; the others wait and then find the result. The lock goes
-/// with the process, however it ends, so that nobody waits for the dead.
+/// Leases keep processes that share a cache from computing a stage twice. The process that computes it holds a file in
+/// leases/, named after the stage's key and locked with flock; the others wait for the result. The lock ends with the
+/// process, however that ends.
 namespace terrazzo {
 
-/// Gives the stage up when it goes.
+/// Releases the stage when destroyed.
 class Lease {
  public:
   Lease(std::filesystem::path path, File file) : path_(std::move(path)), file_(std::move(file)) {}
@@ -25,17 +25,17 @@ class Lease {
 };
 
 struct LeaseAttempt {
-  std::shared_ptr<Lease> lease;  ///< null: somebody else has it, or there is none to be had
-  bool taken = false;            ///< somebody else has it
+  std::shared_ptr<Lease> lease;  ///< null if taken, or if leases do not work in this folder
+  bool taken = false;            ///< by another process, or another holder in this one
 };
 
-/// Does not wait. Where files cannot be written or locked there are no leases.
+/// Never waits. Gives no lease if files cannot be written or locked.
 LeaseAttempt try_lease(const std::filesystem::path& folder, const Digest& key);
 
-/// Whether somebody has the stage's lease; takes and leaves nothing. False where that cannot be told.
+/// Whether the stage's lease is taken; false if unknown. Changes nothing.
 bool lease_is_taken(const std::filesystem::path& folder, const Digest& key);
 
-/// Removes the files of processes that were killed.
+/// Removes the lease files of dead processes.
 void remove_abandoned_leases(const std::filesystem::path& folder);
 
 }  // namespace terrazzo

@@ -8,26 +8,26 @@
 #include "core/base/hash.h"
 #include "core/file/file_io.h"
 
-/// How processes tell each other which values they use. Each Cache object holds a file in pins/, locked with flock for
-/// as long as the object lives, to which it appends the digests it has asked for. Whoever evicts reads the files that
-/// are locked; one that is not belonged to a dead process. Pinning takes the folder's lock shared and evicting takes
-/// it exclusively, so that nothing is pinned between looking at the pins and removing a value.
+/// Pins tell other processes which values are in use. Each Cache object has a file in pins/, locked with flock while
+/// the object lives, to which it appends the digests it has asked for. Eviction reads all locked files; unlocked ones
+/// belong to dead processes. Pinning takes the folder's lock shared, eviction exclusively, so that nothing is pinned
+/// between reading pins and removing values.
 namespace terrazzo {
 
 /// flock(2), uninterrupted; false if it fails, and errno says why.
 bool lock_file(const File& file, int operation);
 
-/// What running processes use.
+/// Values and owners in use by running processes.
 struct LivePins {
   std::set<Digest> values;
   std::set<std::string> owners;
 };
 
-/// Reads all pins and removes the files of dead processes. Where files cannot be locked (and for files of other hosts,
-/// whose locks may not be seen here) those touched within a day count as alive.
+/// Reads all pins and removes the files of dead processes. If locks do not work, and for other hosts, whose locks may
+/// be invisible, files touched within a day count as alive.
 LivePins read_live_pins(const std::filesystem::path& folder);
 
-/// Holds the folder's lock exclusively; does nothing where files cannot be locked.
+/// Holds the folder's lock exclusively; does nothing if files cannot be locked.
 class EvictionLock {
  public:
   explicit EvictionLock(const std::filesystem::path& lock);
@@ -39,15 +39,15 @@ class EvictionLock {
 /// This object's own pins. Thread-safe.
 class Pins {
  public:
-  /// Without a writable folder there are no pins; failure() tells.
+  /// If the folder is not writable there are no pins, see failure().
   Pins(const std::filesystem::path& folder, const std::filesystem::path& lock);
   ~Pins();
   Pins(const Pins&) = delete;
   Pins& operator=(const Pins&) = delete;
 
-  /// Host, process and a counter: no other Cache object has the same.
+  /// Host, process and a counter: unique to this Cache object.
   const std::string& owner() const { return owner_; }
-  /// The operating system's error number if there are no pins; else 0.
+  /// errno if there are no pins; else 0.
   int failure() const { return failure_; }
   void pin(const Digest& value);
 

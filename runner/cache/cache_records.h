@@ -9,7 +9,7 @@
 /// The cache's small files: a magic word, a version, the content and a checksum.
 namespace terrazzo {
 
-/// A file's content, known from the last time somebody looked, and how to tell that it is still the same.
+/// Identifies a version of a file: while it is equal, the memoised digest is valid.
 struct FileStamp {
   uint64_t bytes = 0;
   int64_t modified_ns = 0;

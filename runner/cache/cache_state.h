@@ -9,7 +9,7 @@
 #include "runner/cache/cache_folder.h"
 #include "runner/cache/cache_pins.h"
 
-/// What the parts of the cache share.
+/// State shared by the parts of the cache.
 namespace terrazzo {
 
 struct Cache::State {
@@ -20,11 +20,11 @@ struct Cache::State {
   CacheFolder folder;
   Pins pins;
 
-  /// Once per text.
+  /// Adds a warning, once per text.
   void warn(const std::string& text);
-  /// The cache could not be written.
+  /// Warns that the cache cannot be written.
   void warn_unwritten(const Error& why);
-  /// Removes an entry that cannot be used.
+  /// Removes a damaged entry, with a warning.
   void discard(const std::filesystem::path& path, const Error& why);
   std::vector<std::string> take_warnings();
 

@@ -11,11 +11,11 @@ namespace CLI {
 class App;
 }
 
-/// The commands, one file per group. Each function adds its commands to the program; the one that is given on the
-/// command line puts what it does into `chosen`, which returns the exit code.
+/// The commands, one file per group. Each function adds its commands to the program; the one on the command line sets
+/// `chosen`, which runs it and returns the exit code.
 namespace terrazzo {
 
-/// The program. Exit codes are those below.
+/// Runs the program; returns one of the exit codes below.
 int run_command_line(int argc, const char* const* argv);
 
 inline constexpr int exit_done = 0;
@@ -38,13 +38,12 @@ void add_node_commands(CLI::App& app, Chosen& chosen);
 void add_cache_command(CLI::App& app, Chosen& chosen);
 void add_compare_command(CLI::App& app, Chosen& chosen);
 
-/// Better to say it before the run than after it: throws UsageError unless the option's file can be written. No file if
-/// `path` is empty.
+/// Throws UsageError, before the run, unless the option's file can be written. Accepts an empty `path`.
 void check_writable(const char* option, const std::string& path);
-/// A message about the folder of a material, which advises the writer of a graph, with advice for someone who has named
-/// `folder` to a command that takes no parameters of nodes.
+/// Replaces advice for graph authors in a message about a material's `folder` by advice for commands without node
+/// parameters.
 std::string for_command_line(std::string message, const std::string& folder);
-/// "512M", "2G", "1.5 GiB" in bytes. Throws UsageError.
+/// Parses "512M", "2G", "1.5 GiB" into bytes. Throws UsageError.
 uint64_t parse_bytes(const std::string& text, const std::string& option);
 /// 1536 MiB as "1.5 GiB".
 std::string shown_bytes(uint64_t bytes);

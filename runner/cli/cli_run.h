@@ -30,8 +30,8 @@ struct RunFlags {
 
 void add_run_flags(CLI::App& command, RunFlags& flags);
 
-/// Runs the graph that `load` gives, as the flags say; returns the exit code. With `watch`, loads and runs it again
-/// whenever one of its files changes. Throws UsageError and GraphError.
+/// Runs the graph from `load`; returns the exit code. With `watch`, loads and runs it again whenever one of its files
+/// changes. Throws UsageError and GraphError.
 int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags);
 
 }  // namespace terrazzo

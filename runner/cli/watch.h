@@ -11,9 +11,9 @@ namespace terrazzo {
 /// The files that a graph depends on: the graph file and everything its nodes read.
 class Watch {
  public:
-  /// Watches this graph's files from now on, as they are now.
+  /// Starts to watch this graph's files.
   void look_at(const Graph& graph);
-  /// Waits until one of them changes, appears or goes away; looks twice a second. False if `cancelled` was set first.
+  /// Waits until one of them changes, appears or disappears; polls twice a second. False once `cancelled` is set.
   bool wait_for_change(const std::atomic<bool>& cancelled);
   size_t count() const { return seen_.size(); }
 

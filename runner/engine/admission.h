@@ -9,14 +9,13 @@
 
 namespace terrazzo {
 
-/// For each stage the seconds that the longest path from it to a target is expected to take, itself included: the
-/// critical path is computed first. A stage is expected to take what it took when its result, or else its node's last
-/// result, was computed; 1 second where neither is known, and nothing where the plan expects no computing or only a
-/// recipe. `history` may be null.
+/// For each stage the expected seconds of the longest path from it to a target, itself included, for critical-path
+/// scheduling. A stage's expected time is that of its recorded result, else of its node's last run, else 1 second; 0 if
+/// the plan expects no computing, or the stage is lazy. `history` may be null.
 std::vector<double> remaining_seconds(const Plan& plan, const History* history);
 
-/// Decides which of the waiting jobs start, and when. The same jobs in the same order of arrival and of ending start in
-/// the same order: no clock is asked. Not thread-safe.
+/// Decides which waiting jobs start, and when. Deterministic in the order in which jobs arrive and end: uses no clock.
+/// Not thread-safe.
 ///
 /// - First come stores, since other processes wait for them and they hold values; then look-ups, which are quick and
 ///   show what there is to do; then loads and computations, those with the longest remaining path first. Ties go by
@@ -29,7 +28,7 @@ std::vector<double> remaining_seconds(const Plan& plan, const History* history);
 ///   starts, and nothing is loaded, until it has started.
 class Admission {
  public:
-  /// High enough that a large job does not leave the other threads idle early; low enough that it is not left for last.
+  /// Higher keeps threads busy while a large job waits; lower keeps large jobs from coming last.
   static constexpr uint64_t patience = 8;
 
   /// `remaining`: see remaining_seconds. `memory`: the budget in bytes.
@@ -39,14 +38,14 @@ class Admission {
   void add(JobPtr job);
   /// The jobs to start now, given the bytes of values in memory.
   std::vector<JobPtr> admit(uint64_t held);
-  /// One that was admitted has come to its end.
+  /// An admitted job has ended.
   void ended(const Job& job);
-  /// Forgets waiting jobs.
+  /// Drops waiting jobs.
   void forget_if(const std::function<bool(const Job&)>& unwanted);
   bool idle() const { return running_ == 0 && waiting_.empty(); }
 
  private:
-  /// What decides who comes first.
+  /// The order of waiting jobs.
   struct Rank {
     int urgency = 0;
     double remaining = 0;
@@ -60,7 +59,7 @@ class Admission {
     bool refused = false;
   };
   using Queue = std::map<Rank, Waiting>;
-  /// A computation for which there was no memory.
+  /// A computation that had to wait for memory.
   struct Refusal {
     Rank rank;
     uint64_t computations_before = 0;
@@ -83,7 +82,7 @@ class Admission {
   int waiting_computations_ = 0;
   int running_ = 0;
   int computing_ = 0;
-  uint64_t in_use_ = 0;  ///< by computations, expected
+  uint64_t in_use_ = 0;  ///< bytes, expected, by running computations
 };
 
 }  // namespace terrazzo

@@ -12,37 +12,36 @@
 
 namespace terrazzo {
 
-/// Decides what is done next. It holds the state of a run and is told of every finished job, one at a time; it answers
-/// with the jobs that can start now. It never blocks and does no work of its own. Not thread-safe.
+/// Holds the state of a run: takes finished jobs, one at a time, and returns the jobs that can start. Never blocks and
+/// does no work of its own. Not thread-safe.
 ///
-/// What a stage can go through is in runner/engine/stage_state.h, which job starts when in runner/engine/admission.h. A
-/// stage whose readers are all cached is never touched, and the readers of a stage that comes out as before are cached.
+/// The states of a stage are in runner/engine/stage_state.h, the order of jobs in runner/engine/admission.h. A stage
+/// whose readers are all cached is never touched; readers of a stage with an unchanged result are cached.
 class Coordinator {
  public:
-  /// `threads`: that run jobs; `memory`: the budget in bytes. Plan and options must outlive it.
+  /// `threads`: number of workers; `memory`: the budget in bytes. Plan and options must outlive it.
   Coordinator(Plan& plan, const RunOptions& options, int threads, uint64_t memory);
 
-  /// Takes note of a job that ended, or that need not wait for another process any more. Throws std::logic_error if the
-  /// stage is in no state for it.
+  /// Processes a job that ended, or that no longer waits for another process. Throws std::logic_error if the stage's
+  /// state does not allow it.
   void settle(const JobPtr& job);
   /// The jobs to start now.
   std::vector<JobPtr> admit();
-  /// The jobs that wait for another process. Each is to be settled again, with `resumed` set, when there is reason to
-  /// try it once more.
+  /// The jobs that wait for another process. Settle each again, with `resumed` set, to retry it.
   std::vector<JobPtr> take_postponed() { return std::exchange(postponed_, {}); }
 
-  /// Nothing new will be computed: the run was cancelled, or a stage failed.
+  /// No new computation starts: the run was cancelled, or a stage failed.
   bool stopping() const { return cancelled_ || outcomes_.any_failed(); }
   bool cancelled() const { return cancelled_; }
   Outcomes& outcomes() { return outcomes_; }
   std::map<std::string, std::map<std::string, Value>> take_kept();
 
   const StageStates& states() const { return states_; }
-  /// By the values that wait for their readers, in bytes.
+  /// Bytes of values in memory that wait for readers.
   uint64_t held_memory() const { return held_.bytes(); }
 
  private:
-  /// What one thing leads to. Put off instead of called: it may go on along thousands of stages.
+  /// Queued instead of called, as chains may be thousands of stages long.
   enum class Step : uint8_t { look_up, want_values, let_go };
 
   void react(Job& job);

@@ -10,19 +10,18 @@
 
 namespace terrazzo {
 
-/// How much memory the values that wait for their readers take, roughly: pixels, vectors and positions. What several
-/// values share (an index and its appearance, a material and one of its maps) counts once. A lazy image is read from
-/// the inputs of the stage that made it, so these count for as long as it is held, whether or not their own stages
-/// still hold them. Not thread-safe.
+/// Estimates the memory of values that wait for readers: pixels, vectors and positions. Shared parts (an index and its
+/// appearance, a material and its maps) count once. A lazy image keeps the inputs of its stage alive, so these count as
+/// long as it is held. Not thread-safe.
 class HeldMemory {
  public:
   explicit HeldMemory(size_t stages) : current_(stages, none) {}
 
-  /// The values of a stage are in memory from now on, computed from those that these stages hold just now.
+  /// Adds the values of a stage, computed from those that `inputs` hold now.
   void hold_computed(int stage, const std::map<std::string, Value>& values, const std::vector<int>& inputs);
-  /// The same for values from the cache: images are read from there when they are pulled, and take no memory.
+  /// The same for values from the cache, whose images are read on demand and take no memory.
   void hold_loaded(int stage, const std::map<std::string, Value>& values);
-  /// The stage has let them go; nothing happens if it had none.
+  /// Removes the values of a stage, if it has any.
   void release(int stage);
   uint64_t bytes() const { return bytes_; }
 

@@ -10,20 +10,19 @@
 
 namespace terrazzo {
 
-/// What the stages of one graph file were made of the last time they ran, so that a plan can name the first thing that
-/// differs, and how long they took, so that a run can begin with what takes longest. Kept beside the cache; losing it
-/// loses nothing but the wording of reasons and a good order. Not thread-safe.
+/// The ingredients and times of a graph file's stages at their last run: a plan names the first difference, and a run
+/// starts with what takes longest. Stored beside the cache; not needed for correct results. Not thread-safe.
 class History {
  public:
-  /// Reads what `folder` has on `graph_file`; nothing if it cannot be read.
+  /// Reads the history of `graph_file` in `folder`; empty if that fails.
   History(const std::filesystem::path& folder, const std::filesystem::path& graph_file);
 
   /// "parameter seed changed from 1 to 2"; empty if the node has not been seen before, or nothing differs.
   std::string first_difference(const std::string& node, const std::vector<Ingredient>& now) const;
-  /// What computing the node took the last time; nothing if that is not known.
+  /// Time of the node's last computation; nullopt if unknown.
   std::optional<double> seconds(const std::string& node) const;
   void remember(const std::string& node, const std::vector<Ingredient>& now, double seconds);
-  /// Writes it back if anything has been remembered; silent if that fails.
+  /// Writes changes back; ignores errors.
   void save() const;
 
  private:

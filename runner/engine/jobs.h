@@ -6,7 +6,7 @@
 
 namespace terrazzo {
 
-/// A piece of work for one stage, and what came of it. Made by the coordinator, filled in by `perform` on some worker.
+/// A piece of work for one stage, and its result. Created by the coordinator, run by `perform` on a worker.
 struct Job {
   enum class Kind : uint8_t {
     begin,    ///< nothing to do; wakes the coordinator
@@ -17,25 +17,25 @@ struct Job {
   };
   Kind kind = Kind::begin;
   int stage = 0;
-  uint64_t memory = 0;                   ///< what a compute job is expected to need
+  uint64_t memory = 0;                   ///< bytes that a compute job is expected to need
   std::unique_ptr<NodeContext> context;  ///< for compute
   std::map<std::string, Value> values;   ///< in for store; out for load (empty if it failed) and compute
   std::optional<StageRecord> record;     ///< in for store; out for compute
   std::optional<Resolution> resolution;  ///< out for look_up
   std::shared_ptr<Lease> lease;          ///< out for compute, in for store: given up once its result is stored
-  bool made_elsewhere = false;           ///< out for compute: values and record are what another process has stored
-  bool busy = false;                     ///< out for compute: another process is at it; to be tried again
-  bool resumed = false;                  ///< was busy, and there is reason to try it again
+  bool made_elsewhere = false;           ///< out for compute: values and record were stored by another process
+  bool busy = false;                     ///< out for compute: another process is computing it; to be retried
+  bool resumed = false;                  ///< was busy, and is being retried
   bool waited = false;                   ///< has been busy before
   bool cancelled = false;
-  std::optional<std::string> failure;  ///< a complete message
-  std::string blames_input;            ///< what it says, if what came in is to blame: others may say the same
+  std::optional<std::string> failure;  ///< the complete message
+  std::string blames_input;            ///< the message if an input is to blame: other readers may report the same
   std::vector<std::filesystem::path> made_folders;  ///< by compute, outer ones first
   Span span;
 };
 using JobPtr = std::shared_ptr<Job>;
 
-/// Does what the job says; never throws. Reads of the plan only what is settled by then.
+/// Runs the job on any thread; never throws. Reads only settled parts of the plan.
 void perform(Job& job, const Plan& plan, const RunOptions& options);
 
 }  // namespace terrazzo

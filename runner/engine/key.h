@@ -9,15 +9,15 @@
 
 namespace terrazzo {
 
-/// One thing that a stage's result depends on. `what` and `digest` are in the key; `shown` is for people only, so that
-/// it may name files and nodes.
+/// One thing that a stage's result depends on. `what` and `digest` are in the key; `shown` is for display only, and may
+/// name files and nodes.
 struct Ingredient {
   std::string what;  ///< "type", "parameter seed", "input features", "file height.png"
   Digest digest;
   std::string shown;
 };
 
-/// The names of the values that arrive at a node's inputs, by port and in the document's order.
+/// Digests of the values at a node's inputs, by port, in the document's order.
 using InputNames = std::map<std::string, std::vector<Digest>>;
 
 /// Everything a stage's result depends on: its type and version, its parameters, the names of its inputs, and the
@@ -29,10 +29,10 @@ std::vector<Ingredient> ingredients_of(const GraphNode& node, const InputNames& 
 /// The key of a stage made of these ingredients.
 Digest key_of(const std::vector<Ingredient>& ingredients);
 
-/// What a lazily computed output is called before anything has been computed: its recipe's name.
+/// The digest of a lazy output: it names the recipe, before anything is computed.
 Digest derived_name(const Digest& key, std::string_view port);
 
-/// A parameter's value as a person would write it, shortened if it is long.
+/// A parameter's value for display, shortened if long.
 std::string shown_value(const ParamValue& value);
 
 }  // namespace terrazzo

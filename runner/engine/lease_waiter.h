@@ -13,37 +13,37 @@
 
 namespace terrazzo {
 
-/// Keeps jobs whose stage another process is computing until there is reason to try them again, on a thread of its own
-/// that sleeps: no worker waits. It looks after 5 ms, and then after twice as long as the last time, up to 200 ms.
-/// The thread starts with the first job. All functions are thread-safe.
+/// Holds jobs whose stage another process is computing, on a thread of its own, so that no worker waits. Polls after 5
+/// ms, then with exponential back-off up to 200 ms. The thread starts with the first job. All functions are
+/// thread-safe.
 class LeaseWaiter {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds first_pause{5}, longest_pause{200};
-  /// How soon it notices that the run has been cancelled.
+  /// Longest delay until cancellation is noticed.
   static constexpr std::chrono::milliseconds cancel_pause{50};
 
-  /// Whether another process is still at it. Called without locks; must not throw.
+  /// Whether another process is still computing it. Called without locks; must not throw.
   using Taken = std::function<bool(const Job&)>;
-  /// How long a job has waited.
+  /// The time span of a wait.
   struct Wait {
     Clock::time_point start, end;
-    int row = 0;  ///< for drawings: the lowest number that no other waiting job had when it began
+    int row = 0;  ///< for timelines: the lowest number that was free when the wait began
   };
-  /// Takes a job back. Called without locks, once for every job, on the waiter's thread; must not throw.
+  /// Receives a job back. Called once per job, without locks, on the waiter's thread; must not throw.
   using GiveBack = std::function<void(JobPtr, const Wait&)>;
 
-  /// `cancelled` may be null; once it is set all jobs are given back.
+  /// `cancelled` may be null; once set, all jobs are given back.
   LeaseWaiter(Taken taken, GiveBack give_back, const std::atomic<bool>* cancelled);
-  /// Gives everything back first.
+  /// Gives all jobs back first.
   ~LeaseWaiter();
   LeaseWaiter(const LeaseWaiter&) = delete;
   LeaseWaiter& operator=(const LeaseWaiter&) = delete;
 
   void add(JobPtr job);
-  /// A result has been stored: looks at all jobs at once.
+  /// Polls all jobs now, as a result has been stored.
   void look_now();
-  /// The run is coming to its end: gives all jobs back, those that are added later, too.
+  /// Gives all jobs back, now and those added later: the run is ending.
   void give_all_back();
 
  private:
@@ -57,7 +57,7 @@ class LeaseWaiter {
   void run();
   Clock::time_point next_look() const;
   std::vector<Entry> take_due(bool all);
-  /// Gives those back that need not wait; returns the others.
+  /// Gives back the jobs that need not wait; returns the others.
   std::vector<Entry> look_at(std::vector<Entry> due, bool give_all_back, std::vector<int>& free_rows);
 
   const Taken taken_;

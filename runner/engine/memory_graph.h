@@ -6,8 +6,8 @@
 
 namespace terrazzo {
 
-/// A node for a graph made by a program instead of a document: parameters that are not given take their defaults.
-/// Throws std::logic_error if there is no such type, or a parameter without a default is missing.
+/// A node for a graph built in code: missing parameters take their defaults. Throws std::logic_error if there is no
+/// such type, or a parameter without a default is missing.
 GraphNode memory_node(const std::string& name, const std::string& type, const Params& given);
 
 /// A node that reads a material from a folder of maps, or one map from an image file.

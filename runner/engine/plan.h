@@ -12,48 +12,48 @@ namespace terrazzo {
 class History;
 
 enum class StageState : uint8_t {
-  not_needed,  ///< nothing that was asked for needs it
-  cached,      ///< computed before; its outputs are known, and read from the cache if a reader wants them
-  up_to_date,  ///< a sink whose files are all there, as it wrote them
-  derived,     ///< lazy; made when a reader runs
-  depends,     ///< runs or not, depending on what comes out of a stage that runs
+  not_needed,  ///< no target needs it
+  cached,      ///< computed before; outputs are read from the cache if a reader needs them
+  up_to_date,  ///< a sink whose files are all there, unchanged
+  derived,     ///< lazy; computed when a reader runs
+  depends,     ///< runs or not, depending on the result of a stage that runs
   run,         ///< has to run
 };
 std::string_view name_of(StageState state);
 
-/// What is known of a stage once the names of all its inputs are.
+/// What is known of a stage once all its inputs have names.
 struct Resolution {
   Digest key;
   std::vector<Ingredient> ingredients;
-  std::optional<StageRecord> record;    ///< what the cache knows
+  std::optional<StageRecord> record;    ///< from the cache
   std::map<std::string, Digest> names;  ///< by output port; empty until known
-  bool stored = false;                  ///< every output that somebody may want lies in the cache
-  std::string must_run;                 ///< why it has to run whatever its readers do; empty if it has not
+  bool stored = false;                  ///< every output that may be needed is in the cache
+  std::string must_run;                 ///< why it must run whatever its readers do; empty if it need not
 };
 
-/// A node of the graph as the runner sees it. Other stages are named by their index in Plan::stages.
+/// A node of the graph in a plan. Other stages are given by their index in Plan::stages.
 struct Stage {
   const GraphNode* node = nullptr;
   bool needed = false;
-  bool target = false;                    ///< asked for: a sink, or named in `only`
-  bool kept = false;                      ///< its values are asked for
+  bool target = false;                    ///< a sink, or named in `only`
+  bool kept = false;                      ///< its values are returned to the caller
   std::vector<int> sources;               ///< the stages its wires come from, each once
   std::vector<int> readers;               ///< the needed stages that read it, each once
-  std::vector<std::string> used_outputs;  ///< the ports that those read, or all of them if it is kept or a target
-  std::optional<Resolution> known;        ///< missing as long as an input's name is
+  std::vector<std::string> used_outputs;  ///< the ports that these read; all if it is kept or a target
+  std::optional<Resolution> known;        ///< missing while an input has no name
   StageState state = StageState::not_needed;
   std::string reason;
 
   const NodeType& type() const { return *node->type; }
-  /// Whether a run is going to reuse or compute it; a lazy stage that has never run may not be asked for.
+  /// Whether a run will reuse or compute it; a lazy stage that has never run may not be needed.
   bool expected() const { return needed && (state != StageState::derived || known->record); }
-  /// Whether its values can be had without running it.
+  /// Whether its values can be loaded without running it.
   bool loadable() const { return known && known->record && type().persist == Persist::payload && known->stored; }
 };
 
 struct PlanOptions {
-  std::vector<std::string> only;  ///< the targets; empty: every sink, or every node nobody reads if there is no sink
-  std::vector<std::string> keep;  ///< more targets, whose values are wanted in memory
+  std::vector<std::string> only;  ///< the targets; empty: every sink, or without sinks every node that nothing reads
+  std::vector<std::string> keep;  ///< more targets, whose values are returned in memory
 };
 
 /// What a run will do, and why. The graph must outlive it.
@@ -69,22 +69,22 @@ struct Plan {
   std::string table() const;
 };
 
-/// Works out what has to run. `cache` may be null: then everything has to; `history`, if given, lets reasons name the
-/// first thing that differs from the last run. Throws Error if a name in `options` is not a node, and GraphError with
-/// all problems that can be told before anything runs (see runner/engine/preflight.h).
+/// Determines what must run: everything if `cache` is null. With `history`, reasons name the first difference from the
+/// last run. Throws Error if a name in `options` is not a node, and GraphError with all problems that can be found
+/// before anything runs (see runner/engine/preflight.h).
 Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options = {}, const History* history = nullptr);
 
-/// What can be said of a stage now that all its inputs' names are known. Reads the cache; changes nothing.
+/// Looks up a stage whose inputs all have names. Reads the cache; changes nothing.
 Resolution resolve(const Plan& plan, int stage, Cache* cache, const History* history);
 
-/// The names of a stage's outputs after computing it to `values`.
+/// The names of a stage's outputs, given the computed `values`.
 std::map<std::string, Digest> names_of(const NodeType& type, const Digest& key,
                                        const std::map<std::string, Value>& values);
 
 /// Whether the record names all outputs.
 bool is_complete(const StageRecord& record, const NodeType& type);
 
-/// The content digest of a file, memoised if there is a cache.
+/// The digest of a file's content, memoised if there is a cache.
 Digest digest_of_file(Cache* cache, const std::filesystem::path& path);
 
 }  // namespace terrazzo

@@ -10,8 +10,8 @@
 
 namespace terrazzo {
 
-/// Told what a run does. Calls come from any thread, several at once, and must be quick. Of a needed stage comes one of
-/// finished, reused, spared and failed, unless the run ends before.
+/// Receives the events of a run. Calls come from any thread, concurrently, and must return quickly. Every needed stage
+/// gets one of finished, reused, spared and failed, unless the run ends before.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
@@ -22,9 +22,9 @@ class RunObserver {
   virtual void progressed(const Stage&, double /*fraction*/) {}
   virtual void noted(const Stage&, const std::string& /*message*/) {}
   virtual void finished(const Stage&, double /*seconds*/) {}
-  /// It did not have to run: its result, or what its files hold, is what was computed before.
+  /// It did not have to run: its result is cached, or its files are up to date.
   virtual void reused(const Stage&) {}
-  /// Nobody has asked for its result, and there is none.
+  /// Its result was not needed after all, and does not exist.
   virtual void spared(const Stage&) {}
   virtual void failed(const Stage&, const std::string& /*message*/) {}
 };
@@ -34,12 +34,12 @@ struct RunOptions {
   Cache* cache = nullptr;      ///< null: nothing is reused and nothing is kept
   History* history = nullptr;  ///< for the reasons in plans; updated by the run
   int threads = 0;             ///< 0: one per core
-  uint64_t memory = 0;         ///< bytes that running nodes may need together; 0: half of the machine's memory
-  const std::atomic<bool>* cancelled = nullptr;  ///< set it to stop the run; it may stay null
+  uint64_t memory = 0;         ///< budget in bytes for values and running nodes; 0: half of the machine's memory
+  const std::atomic<bool>* cancelled = nullptr;  ///< set it to stop the run; may be null
   RunObserver* observer = nullptr;
 };
 
-/// Something a worker did, for `write_trace`; times in seconds since the start of the run.
+/// An activity of a worker, for `write_trace`; times in seconds since the start of the run.
 struct Span {
   std::string what;  ///< "run", "wait", "load", "store", "look up"
   int stage = 0;
@@ -49,17 +49,17 @@ struct Span {
 
 struct StageOutcome {
   enum class Kind : uint8_t {
-    idle,        ///< not needed, or lazy and never asked for
-    reused,      ///< its result was there
+    idle,        ///< not needed, or lazy and never read
+    reused,      ///< its result was cached
     run,         ///< it was computed
     failed,      ///< it threw
     unfinished,  ///< the run ended before it
   };
   Kind kind = Kind::idle;
   std::string node;
-  double seconds = 0;              ///< what computing took, this time
-  std::vector<std::string> notes;  ///< what it said, this time or when its result was computed
-  std::vector<OutputFile> files;   ///< what a sink wrote, this time or before
+  double seconds = 0;              ///< computing time in this run
+  std::vector<std::string> notes;  ///< from this run, or from when its result was computed
+  std::vector<OutputFile> files;   ///< written by a sink, in this run or before
 };
 
 struct Failure {
@@ -81,12 +81,12 @@ struct RunResult {
   std::string summary() const;
 };
 
-/// Plans the graph and runs what has to be run. Independent nodes run side by side; a node's inputs are let go after
-/// its last reader. The first node that fails ends the run once the nodes that are running have finished. Failures and
-/// cancellation are in the result; only what keeps a plan from being made is thrown, see make_plan.
+/// Plans the graph and runs what must run. Independent nodes run in parallel; values are freed after their last reader.
+/// The first failure ends the run once running nodes have finished. Failures and cancellation are in the result; only
+/// make_plan throws.
 RunResult run_graph(const Graph& graph, const RunOptions& options);
 
-/// Runs a plan that was made with the same targets, cache and history.
+/// Runs a plan made with the same targets, cache and history.
 RunResult run_plan(Plan plan, const RunOptions& options);
 
 }  // namespace terrazzo

@@ -7,11 +7,10 @@
 
 #include "runner/engine/plan.h"
 
-/// What becomes of a stage in a run: where its outputs' names stand, where their values stand, and the only moves there
-/// are between these states.
+/// The states of a stage in a run: one for its outputs' names, one for their values, and the allowed transitions.
 ///
-/// Names flow forward: a stage whose inputs all have names is looked up. Values are made on demand, backward: a stage
-/// that is to be computed asks its sources, and they load their values, compute them, or hold them already.
+/// Names flow forward: a stage whose inputs all have names is looked up. Values are demanded backward: a stage that
+/// must be computed asks its sources, which load their values, compute them, or already hold them.
 namespace terrazzo {
 
 /// The names (digests) of a stage's outputs.
@@ -24,29 +23,29 @@ enum class NameState : uint8_t {
 enum class NameEvent : uint8_t {
   inputs_named,
   found,      ///< the cache knows the names, or the stage is lazy and they follow from its key
-  not_found,  ///< nobody knows them
+  not_found,  ///< the cache does not know them
   computed,
 };
 
 /// The values of a stage's outputs.
 enum class ValueState : uint8_t {
   open,       ///< not in memory; the stage may have to be computed
-  resting,    ///< not in memory; nobody is going to ask, or the values can be loaded
-  loading,    ///< on their way from the cache
+  resting,    ///< not in memory; not needed, or can be loaded
+  loading,    ///< being loaded from the cache
   awaiting,   ///< to be computed as soon as all sources' values are in memory
-  computing,  ///< a job for it waits or runs, here or in another process
+  computing,  ///< its job is queued or runs, here or in another process
   held,       ///< in memory
 };
 enum class ValueEvent : uint8_t {
   rest,         ///< it is certain that no reader needs it to be computed
-  load,         ///< asked for, and the cache has them
-  compute,      ///< asked for, and the cache has them not; or the stage has to run in any case
+  load,         ///< needed, and in the cache
+  compute,      ///< needed and not in the cache; or the stage must run anyway
   inputs_held,  ///< the last of its sources' values is in memory
   read,         ///< out of the cache
-  unreadable,   ///< the cache's entry is gone or damaged
-  busy,         ///< another process is computing it; to be tried again
+  unreadable,   ///< the cache entry is missing or damaged
+  busy,         ///< another process is computing it; to be retried
   computed,
-  let_go,  ///< no reader is going to ask for them again
+  let_go,  ///< no reader will need them again
 };
 
 std::string_view name_of(NameState state);
@@ -61,7 +60,7 @@ struct Transition {
   State to;
 };
 
-/// Every move there is. A stage whose job fails stays where it is: the run ends.
+/// All allowed transitions. A stage whose job fails keeps its state: the run ends.
 inline constexpr std::array name_transitions = {
     Transition{NameState::unknown, NameEvent::inputs_named, NameState::looking_up},
     Transition{NameState::looking_up, NameEvent::found, NameState::named},
@@ -81,13 +80,13 @@ inline constexpr std::array value_transitions = {
     Transition{ValueState::held, ValueEvent::let_go, ValueState::resting},
 };
 
-/// Whether a stage in this state may still ask for its sources' values, so that they must not be let go.
+/// Whether a stage in this state may still need its sources' values, so that they must stay in memory.
 constexpr bool claims_sources(ValueState state) {
   return state == ValueState::open || state == ValueState::awaiting || state == ValueState::computing;
 }
 
-/// Whether a stage can be in both states at once: a key is looked up before anything is made, and whatever is in
-/// memory, or might be loaded, has a name.
+/// Whether both states can occur together: a key is looked up before anything is computed, and values in memory, or in
+/// the cache, have a name.
 constexpr bool go_together(NameState name, ValueState value) {
   switch (name) {
     case NameState::unknown:
@@ -101,7 +100,7 @@ constexpr bool go_together(NameState name, ValueState value) {
   return false;
 }
 
-/// The states of all stages of a plan, and what follows from them for the neighbours. Not thread-safe.
+/// The states of all stages of a plan. Not thread-safe.
 class StageStates {
  public:
   /// Every stage's name is unknown and its values are open. The plan must outlive it.
@@ -110,8 +109,8 @@ class StageStates {
   NameState name(int stage) const { return entries_[stage].name; }
   ValueState value(int stage) const { return entries_[stage].value; }
 
-  /// The only ways to change a state. Throw std::logic_error that names the stage, its state and the event if the
-  /// tables do not allow it, and leave everything as it was then.
+  /// Apply a transition. Throw std::logic_error, which names stage, state and event, and change nothing if the tables
+  /// do not allow it.
   void advance(int stage, NameEvent event);
   void advance(int stage, ValueEvent event);
 
@@ -119,11 +118,11 @@ class StageStates {
   bool inputs_named(int stage) const { return entries_[stage].unnamed_sources == 0; }
   /// Every source's values are in memory.
   bool inputs_held(int stage) const { return entries_[stage].unheld_sources == 0; }
-  /// A reader may still ask for its values, or the caller wants to keep them.
+  /// A reader may still need its values, or the caller keeps them.
   bool claimed(int stage) const { return entries_[stage].claims > 0; }
 
  private:
-  /// The numbers follow from the neighbours' states; kept so that nobody has to count in wide graphs.
+  /// The counters follow from the neighbours' states; kept to avoid counting in wide graphs.
   struct Entry {
     NameState name = NameState::unknown;
     ValueState value = ValueState::open;

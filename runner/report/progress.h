@@ -7,28 +7,28 @@
 
 #include "runner/engine/schedule.h"
 
-/// What a run says while it runs.
+/// Progress and messages of a run.
 namespace terrazzo {
 
 enum class ProgressMode : uint8_t {
   automatic,  ///< bar on a terminal, else plain
-  bar,        ///< one line that is drawn again and again; notes above it
-  plain,      ///< a line per finished stage; now and then one for a stage that takes long
+  bar,        ///< one line that is redrawn; notes above it
+  plain,      ///< a line per finished stage, and occasional ones for slow stages
   json,       ///< an object per line, see make_progress
   none,       ///< nothing but warnings and errors
 };
 inline constexpr std::array<std::string_view, 5> progress_mode_names = {"auto", "bar", "plain", "json", "none"};
 std::optional<ProgressMode> progress_mode_from(std::string_view name);
 
-/// An observer that also tells how the run ended. Thread-safe.
+/// An observer that also reports the end of the run. Thread-safe.
 class Progress : public RunObserver {
  public:
-  /// Something that is not about a node; before closed.
+  /// A warning that is not about a node; call before closed.
   virtual void warned(const std::string& message) = 0;
   virtual void closed(const RunResult& result) = 0;
 };
 
-/// `terminal` decides what automatic means. `out` must outlive it.
+/// `terminal`: whether `out` is one; decides what automatic means. `out` must outlive it.
 ///
 /// json writes these objects, one per line, each with "event":
 ///   error     "message"; "file", "line", "column" and "node" where they are known: a wrong command line, a wrong
@@ -48,11 +48,11 @@ class Progress : public RunObserver {
 ///   watching  "files": how many; the run is over and waits for one of them to change
 std::unique_ptr<Progress> make_progress(ProgressMode mode, std::ostream& out, bool terminal);
 
-/// A warning from before a run has an observer, as the mode has it: an object or a line of text.
+/// Writes a warning before there is an observer: an object or a line of text, by mode.
 void write_warning(ProgressMode mode, std::ostream& out, const std::string& message);
-/// The same for what is not the failure of a running node; a GraphError is an object or a line for each problem.
+/// The same for errors other than of running nodes; a GraphError gives an object or a line per problem.
 void write_error(ProgressMode mode, std::ostream& out, const std::exception& error);
-/// That the run waits for one of so many files to change.
+/// Reports that the run waits for one of `files` files to change.
 void write_watching(ProgressMode mode, std::ostream& out, size_t files);
 
 }  // namespace terrazzo
