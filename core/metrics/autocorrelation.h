@@ -18,12 +18,13 @@ struct Correlogram {
 /// Per channel; subtract the mean first. `lags`: at most the image's size. Throws Cancelled.
 std::vector<Correlogram> correlograms(const Planes& image, Size lags, const Task& task);
 
-/// Mean absolute difference of the images' autocorrelations over channels and lags up to a quarter of the smaller
-/// image's shorter side. 0 = equal; measures whether long-range structure (courses, weaves) was kept.
+/// Mean absolute difference of the images' autocorrelations, averaged over channels, at lags up to a quarter of the
+/// smaller image's shorter side. 0 = equal; measures whether long-range structure (courses, weaves) was kept.
 double autocorrelation_difference(const Planes& exemplar, const Planes& output, const Task& task);
 
-/// How much the output's highest autocorrelation peak at far lags (with at least a fifth of the image overlapping)
-/// exceeds the exemplar's; 0 if it does not. Measures visible repetition.
+/// How much the output's highest autocorrelation peak at far lags (beyond an eighth of the smaller image's shorter
+/// side, with at least a fifth of the image overlapping) exceeds the exemplar's; 0 if it does not. Measures visible
+/// repetition.
 double repetition(const Planes& exemplar, const Planes& output, const Task& task);
 
 }  // namespace terrazzo

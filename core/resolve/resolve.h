@@ -32,7 +32,7 @@ bool can_blend(Semantic semantic);
 /// The maps of an output, computed on demand from uv map and exemplar.
 ///
 /// Without blending each pixel is exactly one exemplar pixel. With it, every pixel q of the uv map within the radius of
-/// an output pixel p proposes the exemplar pixel that continues q's piece to p, and p shows their mean, weighted by (1
+/// an output pixel p proposes the exemplar pixel that continues q's piece to p, and p shows their mean with weights (1
 /// - (distance / radius)^2)^2: the magnification of Lefebvre & Hoppe (Parallel controllable texture synthesis, 2005)
 /// with a wider and smoother kernel. To keep contrast, local means are averaged plainly, and the averaged details get
 /// back their variance (Heitz & Neyret, High-performance by-example noise using a histogram-preserving blending

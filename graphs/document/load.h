@@ -19,14 +19,14 @@ struct LoadOptions {
   /// Node types that the document may use; they must outlive the graph.
   const std::vector<NodeType>& types = node_types();
   const std::vector<Migration>& migrations = document_migrations();
-  /// Parameters without a default need not be set. What depends on them is then missing from the nodes: such a graph
-  /// can be looked at, but not run.
+  /// Parameters without a default may be unset. Nodes that depend on them are then missing: such a graph can be
+  /// inspected, but not run.
   bool allow_unset = false;
-  /// Unless empty, and if all are there: only these nodes and what they need will run, and only what they need must be
-  /// set. If something else is not, the graph comes without all other nodes.
+  /// Unless empty, and if all exist: only these nodes and their sources will run, and only parameters that these need
+  /// must be set. If others are unset, the graph has only these nodes.
   std::vector<std::string> only{};
-  /// If a document has problems: finds more, in its nodes that have none themselves (whatever they read), so that the
-  /// user is told all at once. In an order in which wires come from earlier nodes, as far as there is one.
+  /// If a document has problems: finds more in its valid nodes, so that all are reported at once. Gets the nodes in
+  /// topological order, as far as there is one.
   std::function<std::vector<Problem>(const std::vector<GraphNode>&)> look_ahead{};
 };
 

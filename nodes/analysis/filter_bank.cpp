@@ -49,7 +49,7 @@ NodeType filter_bank_node() {
       "The maximum response filter bank MR8 (Varma & Zisserman 2005): 38 filters, of which edge and line filters keep "
       "only the strongest of 6 orientations. The 8 responses describe local structure independent of its direction. As "
       "guidance they keep lines and grain whole; with \"cluster\" they segment an image by texture. The map is first "
-      "normalised to zero mean and unit deviation; filters have zero mean and an L1 norm of 1. Values are signed: use "
+      "normalised to zero mean and unit variance; filters have zero mean and an L1 norm of 1. Values are signed: use "
       "\"levels\" or \"normalize\" to look at them.";
   t.inputs = {material_port("material", "the exemplar, or an image")};
   t.outputs = {

@@ -73,12 +73,12 @@ std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const
 void preflight_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
                     const std::string& whose) {
   if (!material.possible_maps) return;
-  std::vector<std::string> surely_wrong = wanted;
-  std::erase_if(surely_wrong, [&](const std::string& name) {
+  std::vector<std::string> certainly_missing = wanted;
+  std::erase_if(certainly_missing, [&](const std::string& name) {
     return std::find(material.possible_maps->begin(), material.possible_maps->end(), name) !=
            material.possible_maps->end();
   });
-  require_maps(param, surely_wrong, material.maps, whose);
+  require_maps(param, certainly_missing, material.maps, whose);
 }
 
 void preflight_one_shape(const std::string& port, const InputForecasts& inputs) {

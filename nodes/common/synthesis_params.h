@@ -42,7 +42,7 @@ void warn_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
 void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, bool all_expected);
 
 /// A mask of a result: white where it does not show the kept pixels.
-ImagePtr made_anew(const UvMap& result, const KeptPixels& kept);
+ImagePtr new_pixels_mask(const UvMap& result, const KeptPixels& kept);
 
 /// Bytes that synthesis of that size needs.
 size_t synthesis_memory(Size size);

@@ -28,7 +28,7 @@ const std::vector<Situation>& situations() {
   return all;
 }
 
-/// The levels on which the step applies, in words; empty if on none.
+/// The levels on which the step applies, in words; empty if none.
 std::string levels_of(const Step& step, LevelFacts facts) {
   facts.levels = levels;
   int first = levels, last = -1, count = 0;

@@ -10,7 +10,7 @@ namespace terrazzo {
 
 namespace {
 
-/// What is done to a channel: v * factor + offset.
+/// The mapping of a channel: v * factor + offset.
 struct Line {
   double factor = 1;
   double offset = 0;

@@ -12,7 +12,7 @@ int scaled(int length, double factor) {
   return std::max(1, int(std::lround(length * factor)));
 }
 
-/// What a map becomes. `material` is the size that a side of 0 takes its proportions from.
+/// The new size of a map. `material`: the size whose aspect ratio decides sides of 0.
 Size target_size(const NodeContext& node, Size map, Size material) {
   const Size asked = node.size("size");
   if (asked.width && asked.height) return asked;

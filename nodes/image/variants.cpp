@@ -64,8 +64,8 @@ NodeType variants_node() {
   t.summary = "Adds turned, mirrored and scaled copies of an exemplar";
   t.help =
       "A small exemplar gives more variety if it may also appear turned, mirrored or at other scales. The original and "
-      "its copies, every rotation at every scale and mirroring, lie side by side in one material, as with \"combine\" "
-      ": connect the mask to \"weight\", set \"tiles\" to no there, and connect the labels to \"regularity\". Normals "
+      "its copies, every rotation at every scale and mirroring, lie side by side in one material, as with \"combine\": "
+      "connect the mask to \"weight\", set \"tiles\" to no there, and connect the labels to \"regularity\". Normals "
       "turn with the surface. Scaling is in all three dimensions: normals stay, and heights scale about their mean (8- "
       "and 16-bit maps clip to 0..1: leave headroom with \"levels\" for scales above 1). Multiples of 90 degrees only "
       "move pixels; other rotations interpolate (cubic convolution), and their empty corners are masked out. Do not "

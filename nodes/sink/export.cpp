@@ -55,7 +55,7 @@ void require_depth(FileFormat format, const std::string& depth) {
                                      depths_of(format), depth));
 }
 
-/// The format's depth that is nearest to what the map has, and does not lose by it if there is one.
+/// The format's depth nearest to the map's, lossless if there is one.
 Depth nearest_depth(FileFormat format, Depth have) {
   if (holds(format, have)) return have;
   switch (format) {
@@ -98,8 +98,8 @@ std::vector<Map> chosen_maps(const NodeContext& node, const Material& material) 
   return chosen;
 }
 
-/// Colours as asked for. Kept ones are linear in float files and sRGB in others, as whoever opens them will take them
-/// to be; other spaces have to be told to readers in any case.
+/// Converts colours as asked for. Kept ones are linear in float files and sRGB in others, as applications assume; for
+/// other spaces users must tell them anyway.
 ImagePtr with_colors(const ImagePtr& image, const std::string& wish, Depth written) {
   const ImageInfo& info = image->info();
   if (!is_color(info.semantic)) return image;
@@ -188,7 +188,7 @@ void require_distinct(const std::vector<Job>& jobs) {
   }
 }
 
-/// Loud, unless it is no more than what filters overshoot by.
+/// A warning, or a note if it is no more than filter overshoot.
 void tell_of_clipping(NodeContext& node, const Job& job) {
   constexpr float overshoot = 0.01f;
   const Clipping& c = job.clipped;
@@ -243,7 +243,7 @@ void compute(NodeContext& node) {
   write_all(node, jobs);
 }
 
-/// What can be said of the parameters before anything runs.
+/// Checks of the parameters before anything runs.
 std::vector<std::string> check(const Params& params) {
   const auto text = [&](const char* name) { return std::get<std::string>(params.at(name)); };
   std::vector<std::string> problems;

@@ -80,7 +80,7 @@ void require_some_input(bool connected) {
 
 namespace {
 
-/// The file of a pattern whose places are known in part; the folder it surely lies in if its name is not.
+/// The file of a pattern whose placeholders are partly known; only its folder if its name is not.
 FutureFile future_file(const char* param, const std::string& pattern, const std::string& map, const std::string& what) {
   std::string path = pattern;
   for (size_t at; !map.empty() && (at = path.find("{map}")) != std::string::npos;) path.replace(at, 5, map);

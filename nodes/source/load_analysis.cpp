@@ -9,7 +9,7 @@ namespace terrazzo {
 
 namespace {
 
-/// What does not need all of the file to be read.
+/// Checks that need not read the whole file.
 void require_analysis(const std::filesystem::path& path) {
   const ValueFileSummary file = summarize_value_file(path);
   if (file.type != ValueType::index)
@@ -17,7 +17,7 @@ void require_analysis(const std::filesystem::path& path) {
                             name_of(file.type)));
 }
 
-/// What `read` throws is about the parameter "path".
+/// Rethrows errors of `read` about the parameter "path".
 template <class Read>
 auto naming_remedy(const Read& read) {
   try {

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file that has been read, with what the reader said of it.
+/// A file that has been read, with the warnings of the reader.
 struct Source {
   ImagePtr image;
   std::vector<std::string> warnings;
@@ -69,7 +69,7 @@ std::string_view name_of_convention(NormalY y) {
   return y == NormalY::up ? "up (OpenGL)" : "down (DirectX)";
 }
 
-/// What the pixels say about the convention, and how that was found out.
+/// The convention judged by pixels, and on which grounds.
 struct Judgement {
   std::optional<NormalY> normal_y;
   std::string grounds;
@@ -88,7 +88,7 @@ Judgement judged(const Image& normal, const ImagePtr& height) {
   return {e.normal_y, fmt::format("judged by the normals themselves (correlation {:.2f})", e.along_y)};
 }
 
-/// Finds out by looking; says what it found.
+/// Judges the convention by pixels; notes the result.
 NormalY detect_convention(const Image& normal, const ImagePtr& height, std::vector<std::string>& notes) {
   const Judgement found = judged(normal, height);
   if (found.normal_y) {

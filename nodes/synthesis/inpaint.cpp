@@ -94,7 +94,7 @@ void compute(NodeContext& node) {
                 "the holes cover everything, so that nothing is kept; white (above 0.5) is filled and black stays. "
                 "Invert the mask (levels) if it is the other way round; for wholly new material use \"synthesize\"");
   const UvMapPtr filled = synthesize(*index, options, node.task());
-  node.output("filled", made_anew(*filled, options.kept));
+  node.output("filled", new_pixels_mask(*filled, options.kept));
   node.output("uv", filled);
 }
 
@@ -132,7 +132,7 @@ NodeType inpaint_node() {
                 "tile suits walls and floors; 0 keeps every pixel outside the holes.",
         .min = 0,
         .max = 32768,
-        .unit = "pixels or part of the side"},
+        .unit = "pixels or share of the side"},
        tileable_param()});
   t.check = check_synthesis_params;
   t.steps = described_synthesis_steps();

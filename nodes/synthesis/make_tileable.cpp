@@ -52,7 +52,7 @@ void leave(NodeContext& node, const Index& index) {
       "is analysed, in the stock graph by --set tiles=no");
   const KeptPixels kept = interior(size, size, {0, 0});
   const UvMapPtr uv = UvMap::make(size, size, kept.pixels, {true, true, true});
-  node.output("border", made_anew(*uv, kept));
+  node.output("border", new_pixels_mask(*uv, kept));
   node.output("uv", uv);
 }
 
@@ -92,7 +92,7 @@ void compute(NodeContext& node) {
   else if (bent > lattice.unseen_bend())
     node.note(how);
   const UvMapPtr uv = synthesize(*index, options, node.task());
-  node.output("border", made_anew(*uv, options.kept));
+  node.output("border", new_pixels_mask(*uv, options.kept));
   node.output("uv", uv);
 }
 
@@ -131,7 +131,7 @@ NodeType make_tileable_node() {
                "smoother transition and keep less.",
        .min = 0.01,
        .max = 32768,
-       .unit = "pixels or part of the side"},
+       .unit = "pixels or share of the side"},
       {.name = "directions",
        .type = ParamType::choice,
        .fallback = "xy",

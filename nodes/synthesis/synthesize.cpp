@@ -81,8 +81,8 @@ NodeType synthesize_node() {
       "Decides coarse to fine which exemplar pixel every output pixel shows, so that every neighbourhood of the result "
       "looks like one of the exemplar (appearance-space synthesis, Lefebvre & Hoppe 2006). The same index, size and "
       "seed give the same uv map on every machine. resolve_uv turns the uv map into maps. A surface too large to make "
-      "at once can be made in parts: give all of them the same \"surface\" and parameters, and each its \"origin\". "
-      "They fit together to the bit, made on any machine and in any order; see examples/huge-surface.json.";
+      "at once can be made in parts: give all of them the same \"surface\" and other parameters, and each its "
+      "\"origin\". They fit together to the bit, made on any machine and in any order; see examples/huge-surface.json.";
   t.inputs = {index_port(),
               {.name = "coarse",
                .type = ValueType::uv_map,

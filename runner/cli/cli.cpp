@@ -68,7 +68,7 @@ std::vector<std::string> command_names(const CLI::App* app) {
   return names;
 }
 
-/// A value that may be left out is not told from an argument that comes next.
+/// An optional value cannot be distinguished from the next argument.
 std::string direction_hint(const CLI::App* command, const std::string& arg) {
   const bool direction = arg == "x" || arg == "y" || arg == "xy";
   return direction && command->get_option_no_throw("--tileable") ? fmt::format("; did you mean --tileable={}?", arg)

@@ -5,7 +5,7 @@
 namespace terrazzo {
 
 Outcomes::Outcomes(const Plan& plan, const RunOptions& options)
-    : plan_(plan), options_(options), told_(plan.stages.size(), false) {
+    : plan_(plan), options_(options), notified_(plan.stages.size(), false) {
   for (const Stage& s : plan.stages) {
     StageOutcome outcome;
     outcome.node = s.node->name;
@@ -32,8 +32,8 @@ void Outcomes::note(int stage) {
 }
 
 void Outcomes::rests(int stage) {
-  if (told_[stage]) return;
-  told_[stage] = true;
+  if (notified_[stage]) return;
+  notified_[stage] = true;
   if (!options_.observer) return;
   if (stages_[stage].kind != StageOutcome::Kind::reused) return options_.observer->spared(plan_.stages[stage]);
   options_.observer->reused(plan_.stages[stage]);
@@ -51,8 +51,8 @@ void Outcomes::computed(const Job& job) {
   } else {
     outcome.seconds += job.record->seconds;
     if (options_.observer) options_.observer->finished(s, job.record->seconds);
-    if (options_.observer && !told_[job.stage]) note(job.stage);
-    told_[job.stage] = true;
+    if (options_.observer && !notified_[job.stage]) note(job.stage);
+    notified_[job.stage] = true;
   }
   if (options_.history) options_.history->remember(s.node->name, s.known->ingredients, job.record->seconds);
 }

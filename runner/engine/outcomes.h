@@ -41,7 +41,7 @@ class Outcomes {
   const Plan& plan_;
   const RunOptions& options_;
   std::vector<StageOutcome> stages_;
-  std::vector<bool> told_;  ///< the observer has been notified of the outcome
+  std::vector<bool> notified_;  ///< the observer has been notified of the outcome
   std::vector<Failure> failures_;
   std::set<std::string> blamed_inputs_;
   std::vector<Span> spans_;
