@@ -8,10 +8,10 @@
 
 #include "core/node/node.h"
 
-/// A graph that has been read, expanded and checked: everything the runner needs, nothing of JSON.
+/// A graph that has been read, expanded and checked: everything that the runner needs, independent of JSON.
 namespace terrazzo {
 
-/// Where something stands in its document; 1-based, 0 = nowhere (it came from the command line, say).
+/// A position in a document; 1-based, 0 = none (for values from the command line).
 struct Place {
   int line = 0;
   int column = 0;

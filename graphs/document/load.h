@@ -48,7 +48,7 @@ LoadedGraph load_graph(const std::filesystem::path& path, const std::vector<std:
 LoadedGraph load_graph_text(std::string_view text, const std::filesystem::path& path,
                             const std::vector<std::string>& overrides = {}, const LoadOptions& options = {});
 
-/// What a graph offers to those who run it.
+/// Summary and parameters of a graph.
 struct GraphInterface {
   std::string summary;
   std::string help;

@@ -12,7 +12,7 @@
 #include "graphs/document/override.h"
 #include "graphs/document/parameters.h"
 
-/// The section `nodes`: each node by itself. What joins them is in wires.h.
+/// The section `nodes`: each node by itself; wires are in wires.h.
 namespace terrazzo {
 
 /// A wire as a node names it: "@node" or "@node.port".
@@ -37,7 +37,7 @@ struct NodeDraft {
   std::set<std::string> unset;  ///< the graph's parameters that it needs and that have no value
 };
 
-/// What every node is read with.
+/// Context for reading nodes.
 struct NodeReading {
   explicit NodeReading(const std::vector<NodeType>& known);
   std::map<std::string, const NodeType*, std::less<>> types;

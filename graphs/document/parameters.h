@@ -20,7 +20,7 @@ namespace terrazzo {
 struct GraphParameter {
   Param param;
   Place place;
-  std::optional<ParamValue> value;  ///< paths absolute; empty if it has not been set, or not rightly
+  std::optional<ParamValue> value;  ///< paths absolute; empty if not set, or invalid
   bool overridden = false;
   bool is_wrong = false;   ///< a problem with its declaration or value has been reported
   std::string as_written;  ///< of a path, what the document or the override said
@@ -58,10 +58,10 @@ class Substitution {
   /// The parameters of type path among those that a text refers to.
   std::set<std::string> paths_in(const JsonValue& value) const;
 
-  /// The parameters without a value that expand has met since this was last asked.
+  /// The parameters without a value that expand has met since the last call.
   std::set<std::string> take_unset() { return std::exchange(unset_, {}); }
 
-  /// Parameters that no call of expand has met.
+  /// Parameters that expand has never met.
   std::vector<const GraphParameter*> unused() const;
 
  private:

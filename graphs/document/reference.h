@@ -6,7 +6,7 @@
 #include "core/node/node.h"
 #include "nodes/common/registry.h"
 
-/// What there is to know about node types, made from their descriptors.
+/// The reference of node types, generated from their descriptors.
 namespace terrazzo {
 
 /// One node type for reading: summary, help, ports, and parameters with type, range, unit, choices and default; at most

@@ -6,7 +6,7 @@
 
 #include "graphs/document/nodes.h"
 
-/// What joins the nodes of a document.
+/// The wires between the nodes of a document.
 namespace terrazzo {
 
 /// Resolves every wire into the inputs of its node: the other node and its output exist, the type fits. Problems go to

@@ -11,7 +11,7 @@
 /// Where the node `export` writes to, as far as its parameters say. All throw Error naming the parameter.
 namespace terrazzo {
 
-/// Fills {name} places; throws for unknown ones and for braces that do not match.
+/// Fills {name} placeholders; throws for unknown ones and unmatched braces.
 std::string filled(const char* param, const std::string& pattern, const std::map<std::string, std::string>& values);
 
 /// The format that a path's extension names.
@@ -31,7 +31,7 @@ void require_report_path(const std::filesystem::path& report_path);
 /// Throws if nothing is connected.
 void require_some_input(bool connected);
 
-/// The node's look ahead, see NodeType.
+/// The node's preflight, see NodeType.
 Forecast foresee_export(const Params& params, const InputForecasts& inputs);
 
 }  // namespace terrazzo

@@ -20,14 +20,14 @@ std::filesystem::path folder_of(const Params& params);
 /// The names of a folder's image files, sorted.
 std::vector<std::string> image_names(const std::filesystem::path& folder);
 
-/// One sentence for each name in `maps` that is no map's.
+/// A message for each name in `maps` that is not a map name.
 std::vector<std::string> problems_with_map_names(const Params& params);
 
-/// Which file of the folder is which map. Throws Error about the parameter to blame if the folder or files named in
-/// `maps` are not there, or if nothing is recognised. Adds what the user should know to `notes`.
+/// Recognises the maps of the folder. Throws Error about the parameter if the folder or files named in `maps` are
+/// missing, or nothing is recognised. Adds what the user should know to `notes`.
 std::vector<RecognisedMap> find_maps(const Params& params, Texts& notes);
 
-/// All files that decide what the material is, sorted: the folder's images and those named in `maps`.
+/// All files that the material depends on, sorted: the folder's images and those named in `maps`.
 std::vector<std::filesystem::path> files_of_material(const Params& params);
 
 }  // namespace terrazzo
