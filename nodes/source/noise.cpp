@@ -75,13 +75,13 @@ std::vector<Param> params() {
       {.name = "unit",
        .type = ParamType::choice,
        .fallback = "across",
-       .help = "What scale means: features across the image's width (more are finer), or pixels per feature (more are "
+       .help = "What scale counts: features across the image's width (more is finer), or pixels per feature (more is "
                "coarser).",
        .choices = {"across", "pixels"}},
       {.name = "octaves",
        .type = ParamType::integer,
        .fallback = int64_t{5},
-       .help = "Layers of noise. More add finer detail; 1 is the basis alone.",
+       .help = "Layers of noise. More adds finer detail; 1 is the basis alone.",
        .min = 1,
        .max = 16},
       {.name = "lacunarity",

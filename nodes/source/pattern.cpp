@@ -64,8 +64,8 @@ std::vector<Param> params() {
       {.name = "scale",
        .type = ParamType::number,
        .fallback = 0.0,
-       .help = "Pieces (bricks, stones, yarns ...) across the image; more are smaller. 0 for the kind's default. "
-               "Rounded to whole pieces if the material tiles.",
+       .help = "Pieces (bricks, stones, yarns ...) across the image; more makes them smaller, 0 takes the kind's "
+               "default. Rounded to whole pieces if the material tiles.",
        .min = 0,
        .max = 200},
       {.name = "irregularity",
