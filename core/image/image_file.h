@@ -37,11 +37,11 @@ FileInfo read_image_info(const std::filesystem::path& path);
 /// Reads the first image of the file into memory. 1..4 channels come through; palettes are expanded; CMYK and images of
 /// more channels are refused, as are empty, truncated and absurdly large files (over 2^31 pixel values). Alpha is never
 /// multiplied in or divided out of formats that keep it apart. An EXR file comes as its display window, an image with
-/// an orientation mark as it is meant to be seen. Values of 8 bits are exactly k / 255, of 16 bits k / 65535; halfs
-/// stay halfs; integers of other depths become floats. Pixels that are not finite become 0. Normals stored as signed
-/// numbers are encoded. `warn` is told whatever the user should know, a sentence each, beginning with warning_mark
-/// if it is about values that are lost. `info` gives semantic, colour
-/// space and normal convention; size, channels and depth are taken from the file.
+/// an orientation tag as it is meant to be seen. Values of 8 bits are exactly k / 255, of 16 bits k / 65535; halfs stay
+/// halfs; integers of other depths become floats. Pixels that are not finite become 0. Normals stored as signed numbers
+/// are encoded. `warn` is told whatever the user should know, a sentence each, beginning with warning_mark if it is
+/// about values that are lost. `info` gives semantic, colour space and normal convention; size, channels and depth are
+/// taken from the file.
 ImagePtr read_image(const std::filesystem::path& path, const ImageInfo& info,
                     const std::function<void(const std::string&)>& warn);
 

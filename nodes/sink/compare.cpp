@@ -20,17 +20,16 @@ double rounded(double v) {
 }
 
 void add_pixel_figures(const Quality& q, std::vector<Report::Figure>& out) {
-  out.push_back(
-      {"swd", rounded(q.swd),
-       "distance of the patch distributions, all scales; lower is better, 0 = the same patches equally often"});
+  out.push_back({"swd", rounded(q.swd),
+                 "distance of the patch distributions, all scales; lower is better, 0 = the same patches as often"});
   out.push_back({"cooccurrence", rounded(q.cooccurrence),
-                 "difference in which values occur side by side, 0 to 1; lower is better"});
+                 "difference in which values stand beside one another, 0 to 1; lower is better"});
   out.push_back({"coherence", rounded(q.coherence),
-                 "mean distance of output patches to the exemplar's (broken features, seams); lower is better, 1 = as "
-                 "far as exemplar patches are from one another"});
+                 "how far output patches are from the exemplar's (broken features, seams); lower is better, 1 = as far "
+                 "as exemplar patches from one another"});
   out.push_back({"completeness", rounded(q.completeness),
-                 "mean distance of exemplar patches to the output's (lost features); lower is better, 1 = as far as "
-                 "exemplar patches are from one another"});
+                 "how far exemplar patches are from the output's (lost features); lower is better, 1 = as far as "
+                 "exemplar patches from one another"});
   out.push_back(
       {"broken", rounded(q.broken),
        "share of output patches unlike anything in the exemplar (cut features, hard seams); lower is better"});
@@ -42,13 +41,13 @@ void add_layout_figures(const LayoutFigures& f, std::vector<Report::Figure>& out
   out.push_back({"largest_copy", rounded(f.largest_copy),
                  "area of the largest region copied in one piece over the exemplar's area; lower is more varied"});
   out.push_back({"usage_entropy", rounded(f.usage_entropy),
-                 "how evenly the exemplar is used, 0 to 1; higher is better, 1 = every part equally often"});
+                 "how evenly the exemplar is used, 0 to 1; higher is better, 1 = every part as often"});
   out.push_back({"seam_share", rounded(f.seam_share),
                  "share of neighbouring pixels that are not neighbours in the exemplar; lower is more coherent"});
   out.push_back({"seam_difference", rounded(f.seam_difference),
                  "mean difference across those seams in standard deviations; lower is better, 0 = invisible"});
   out.push_back({"seam_energy", rounded(f.seam_energy),
-                 "seam_share times seam_difference: total visibility of seams; lower is better"});
+                 "seam_share times seam_difference: what the seams cost in all; lower is better"});
 }
 
 /// The directions in which the output should wrap around.

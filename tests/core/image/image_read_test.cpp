@@ -316,7 +316,7 @@ TEST_CASE("channels of an EXR file are found by name, single ones whatever they 
   CHECK(read(folder.path() / "bgr.exr").image->pixels() == std::vector<float>{0.75f, 0.5f, 0.25f});
 }
 
-TEST_CASE("an orientation mark turns the image upright") {
+TEST_CASE("an orientation tag rotates the image upright") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "turned.tif";
   // Stored rows: 0 1 2 / 3 4 5.
@@ -331,7 +331,7 @@ TEST_CASE("an orientation mark turns the image upright") {
     CHECK(r.image->pixels() == std::vector<float>(order.begin(), order.end()));
     CHECK(r.image->width() == (orientation >= 5 ? 2 : 3));
     CHECK(read_image_info(path).size == r.image->size());
-    CHECK(contains(r.warnings, "turned upright") == (orientation != 1));
+    CHECK(contains(r.warnings, "rotated upright") == (orientation != 1));
   }
 }
 

@@ -66,7 +66,7 @@ TEST_CASE("upgrading rewrites a document through every version and keeps its com
 TEST_CASE("a document from the future is refused") {
   CHECK_THROWS_WITH_AS(
       upgraded("{\"terrazzo\": 4}", "a.json", two_migrations()),
-      "a.json:1:14: \"terrazzo\": this file is of format 4; this terrazzo reads up to 3. A newer terrazzo is needed",
+      "a.json:1:14: \"terrazzo\": the file has format 4, this terrazzo reads up to 3; use a newer terrazzo",
       GraphError);
   CHECK_THROWS_AS(upgraded("{\"terrazzo\": 1,}", "a.json"), GraphError);
 }

@@ -127,7 +127,7 @@ TEST_CASE("the filter_bank node gives guidance of the material's size from the m
   const NodeRun of_height = run_node("filter_bank", {{"map", std::string("height")}}, {{"material", {material}}});
   CHECK(greatest_difference(*run.get<Image>("edges"), *of_height.get<Image>("edges")) > 0.1);
   CHECK_THROWS_WITH_AS(run_node("filter_bank", {{"map", std::string("normal")}}, {{"material", {material}}}),
-                       doctest::Contains("its channels make up vectors"), Error);
+                       doctest::Contains("its channels form vectors"), Error);
   check_every_size([](Size size) {
     return run_node("filter_bank", {{"scale", 0.25}}, {{"material", {noise_image(size, 1)}}}).get<Image>("bars");
   });

@@ -217,7 +217,7 @@ TEST_CASE("labels must be rectangles of the features' size") {
     CHECK_THROWS_WITH_AS(run_with_labels(features, labels), doctest::Contains(message), Error);
   };
   refused(labels_of([](int, int) { return 0.f; }, {20, 20}),
-          "expected the size of the features' exemplar, 260x96, found 20x20");
+          "expected the size of the exemplar in \"features\", 260x96, found 20x20");
   refused(labels_of([](int x, int y) { return float(x > y); }), "each a rectangle");
   refused(labels_of([](int x, int) { return x == 20 ? std::numeric_limits<float>::quiet_NaN() : 0.f; }),
           "not a number");

@@ -214,5 +214,5 @@ TEST_CASE("too many copies are refused when the graph is checked") {
   for (int i = 1; i <= 16; i++) many.push_back(i);
   const NodeType* type = find_node_type("variants");
   CHECK(type->check(params_of(many, {}, "x")).empty());
-  CHECK(type->check(params_of(many, {0.5}, "x")).front().find("68 copies; at most 64") != std::string::npos);
+  CHECK(type->check(params_of(many, {0.5}, "x")).front().find("68 copies; expected at most 64") != std::string::npos);
 }

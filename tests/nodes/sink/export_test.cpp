@@ -213,7 +213,7 @@ TEST_CASE("what cannot be exported is refused, and nothing is left behind") {
   CHECK(contains(error_of("export", {{"path", in("out.png")}}, material),
                  "there are 3 maps (base_color, normal, height)"));
   CHECK(contains(error_of("export", {{"path", in("{name}.png")}}, material), "unknown placeholder {name}"));
-  CHECK(contains(error_of("export", {{"path", in("{map.png")}}, material), "without }"));
+  CHECK(contains(error_of("export", {{"path", in("{map.png")}}, material), "expected a } after every {"));
   CHECK(contains(error_of("export", {{"path", in("{map}.bmp")}}, material), "ends in \".bmp\"; expected .png"));
   CHECK(contains(error_of("export", {{"path", in("{map}.pgn")}}, material), "did you mean \".png\"?"));
   CHECK(contains(error_of("export", {{"path", in("{map}")}}, material), "ends in no extension"));

@@ -96,7 +96,7 @@ TEST_CASE("grey maps stored in colour are reduced, with a note if the channels d
   const NodeRun run = run_node("load_material", {{"path", folder.path().string()}});
   CHECK(run.get<Material>("material")->find("height")->channels() == 1);
   CHECK(run.get<Material>("material")->find("roughness")->channels() == 1);
-  CHECK(run.says("roughness has different channels in roughness.png; the first is taken"));
+  CHECK(run.says("roughness has channels that differ in roughness.png; the first is used"));
   CHECK_FALSE(run.says("height has different channels"));
 }
 

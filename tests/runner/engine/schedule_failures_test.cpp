@@ -154,7 +154,7 @@ TEST_CASE("a stage that gives another result for the same key is reported, not b
   set(g, "total", "plus", 1.0);
   const RunResult r = run_graph(g, keeping({"total"}, &cache));
   REQUIRE(r.failures.size() == 1);
-  CHECK(r.failures[0].message.find("gave another result than before") != std::string::npos);
+  CHECK(r.failures[0].message.find("gave a different result than before") != std::string::npos);
 }
 
 TEST_CASE("a node that changes a file it reads is refused, and nothing is filed under the wrong key") {

@@ -61,7 +61,7 @@ TEST_CASE("a mask may have any size of the exemplar's shape, and must allow some
   CHECK(allowed_pixels(*features->with(Lattice{})) == allowed_pixels(*features));
   CHECK(features->digest() != weighted_features(*wall_of({32, 24}), {}, false)->digest());
   CHECK_THROWS_WITH_AS(weighted_features(*wall_of({32, 24}), {}, false, left_half({64, 64})),
-                       doctest::Contains("shape of the exemplar, 32x24"), Error);
+                       doctest::Contains("aspect ratio of the exemplar, 32x24"), Error);
   const ImagePtr black = make_image({32, 24}, 1, [](int, int, int) { return 0.5f; });
   CHECK_THROWS_WITH_AS(allowed_pixels(*weighted_features(*wall_of({32, 24}), {}, false, black)),
                        doctest::Contains("allows no pixel of the exemplar"), Error);

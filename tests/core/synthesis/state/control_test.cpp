@@ -178,7 +178,7 @@ TEST_CASE("controls that do not suit are refused with what would") {
     CHECK_THROWS_WITH_AS(synthesize(two_sorts(), options, Task()), doctest::Contains(message), Error);
   };
   const ImagePtr one = grey({40, 40}, [](int x, int) { return float(x); });
-  refused({.exemplar = one, .target = one}, "shape of the exemplar, 64x48");
+  refused({.exemplar = one, .target = one}, "aspect ratio of the exemplar, 64x48");
   refused({.exemplar = grey(exemplar_size, [](int x, int) { return float(x); }),
            .target = make_image({40, 40}, 3, [](int, int, int) { return 0.f; })},
           "as many channels");
