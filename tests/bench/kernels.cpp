@@ -167,7 +167,11 @@ void k_coherent_candidates(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(make_index(a, similar_per_pixel, Task()).get());
   count_items(state, a->size().area());
 }
-BENCHMARK(k_coherent_candidates)->RangeMultiplier(2)->Range(256, 2048)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(k_coherent_candidates)
+    ->RangeMultiplier(2)
+    ->Range(256, 2048)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
 
 /// Arguments: the result's side, the number of threads.
 void synthesis(benchmark::State& state) {
