@@ -20,8 +20,8 @@ struct Planes {
   static Planes zeros(Size size, int channels, bool wraps = false) {
     return {size, channels, wraps, std::vector<float>(size_t(size.area()) * channels)};
   }
-  const float* at(int x, int y) const { return &values[(size_t(y) * size.width + x) * channels]; }
-  float* at(int x, int y) { return &values[(size_t(y) * size.width + x) * channels]; }
+  const float* at(int x, int y) const { return values.data() + (size_t(y) * size.width + x) * channels; }
+  float* at(int x, int y) { return values.data() + (size_t(y) * size.width + x) * channels; }
   /// The column or row that stands for one outside.
   int column(int x) const { return wraps ? wrap(x, size.width) : std::clamp(x, 0, size.width - 1); }
   int row(int y) const { return wraps ? wrap(y, size.height) : std::clamp(y, 0, size.height - 1); }
