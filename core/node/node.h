@@ -103,7 +103,7 @@ struct Forecast {
   std::vector<std::string> maps{};  ///< of its material
   /// Maps that it may also have; nullopt if not known.
   std::optional<std::vector<std::string>> possible_maps{};
-  std::map<std::string, Size> sizes{};  ///< of maps, where they are known
+  std::map<std::string, Size> sizes{};  ///< of maps, where they are known; of an image under ""
   std::vector<FutureFile> files{};      ///< of a sink
 };
 /// By connected port, one for each wire.

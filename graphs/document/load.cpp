@@ -1,16 +1,15 @@
 #include "graphs/document/load.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
-#include "core/image/image_file.h"
+#include "graphs/document/forecasts.h"
 #include "graphs/document/nodes.h"
+#include "graphs/document/read_document.h"
 #include "graphs/document/wires.h"
 
 namespace terrazzo {
@@ -46,6 +45,8 @@ class Loader {
     if (const JsonValue* v = text_at("summary")) out.summary = v->text;
     if (const JsonValue* v = text_at("help")) out.help = v->text;
     if (const JsonValue* v = document_.find("parameters")) out.parameters = read_parameters(*v, folder_, problems_);
+    if (const JsonValue* v = document_.find("presets")) out.presets = read_presets(*v, folder_, "", true, problems_);
+    for (Preset& p : presets_beside(file_, problems_)) out.presets.push_back(std::move(p));
     return out;
   }
 
@@ -56,18 +57,30 @@ class Loader {
     out.graph.summary = std::move(head.summary);
     out.help = std::move(head.help);
     out.parameters = std::move(head.parameters);
+    out.presets = std::move(head.presets);
 
     const JsonValue& nodes = nodes_section();
-    const std::vector<Override> overrides = read_overrides(override_texts, problems_);
+    std::vector<Override> overrides = chosen_presets(out.presets, options.presets, problems_);
+    const auto add = [&](std::vector<Override> more) {
+      overrides.insert(overrides.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    };
+    for (const fs::path& file : options.settings) add(read_settings(file, problems_));
+    add(read_overrides(override_texts, working_folder(), problems_));
     NodeReading reading(options.types);
     reading.graph_folder = folder_;
-    reading.working_folder = working_folder();
-    set_parameters(out.parameters, overrides, working_folder(), node_types(nodes, reading), problems_);
-    Substitution substitution(out.parameters);
+    const NodeTypes types = node_types(nodes, reading);
+    for (const Preset& p : out.presets)
+      if (std::ranges::find(options.presets, p.name) == options.presets.end())
+        check_targets(p, out.parameters, types, problems_);
+    set_parameters(out.parameters, overrides, types, problems_);
+    GraphScope scope(out.parameters, types, problems_);
+    scope.evaluate_parameters();
+    Substitution substitution(scope);
     std::vector<NodeDraft> drafts = read_nodes(nodes, overrides, reading, substitution, problems_);
     std::vector<Problem> conversions;
     connect(drafts, problems_, conversions);
     const std::vector<size_t> order = execution_order(drafts, problems_);
+    read_what_waits(drafts, order, reading, scope, substitution);
     const std::set<std::string> wanted = wanted_nodes(drafts, options.only);
     if (!options.allow_unset) require_set(out.parameters, drafts, wanted);
     trace_files(drafts, order);
@@ -76,7 +89,8 @@ class Loader {
     finish();
 
     for (const Problem& p : conversions) out.conversions.push_back(describe(file_, p));
-    for (const Problem& p : warnings_about(drafts, order, substitution)) out.warnings.push_back(describe(file_, p));
+    for (const Problem& p : warnings_about(drafts, order, out.parameters, substitution.unused()))
+      out.warnings.push_back(describe(file_, p));
     const bool complete = std::ranges::all_of(drafts, [](const NodeDraft& d) { return d.unset.empty(); });
     for (const size_t i : order)
       if (complete || options.allow_unset || wanted.contains(drafts[i].node.name))
@@ -86,7 +100,8 @@ class Loader {
 
  private:
   void check_keys() {
-    static const std::vector<std::string> keys = {"terrazzo", "summary", "help", "parameters", "nodes", "$schema"};
+    static const std::vector<std::string> keys = {"terrazzo", "summary", "help",   "parameters",
+                                                  "presets",  "nodes",   "$schema"};
     for (const JsonMember& m : document_.members)
       if (std::find(keys.begin(), keys.end(), m.name) == keys.end())
         problems_.push_back(
@@ -119,6 +134,56 @@ class Loader {
     return out;
   }
 
+  /// Evaluates what is made from the forecasts of nodes: node by node, so that each can ask for earlier ones.
+  void read_what_waits(std::vector<NodeDraft>& drafts, const std::vector<size_t>& order, const NodeReading& reading,
+                       GraphScope& scope, Substitution& substitution) {
+    std::vector<std::string> asked;
+    for (const NodeDraft& d : drafts) asked.insert(asked.end(), d.asked.begin(), d.asked.end());
+    if (asked.empty()) return;
+    std::map<std::string, const NodeDraft*> by_name;
+    for (const NodeDraft& d : drafts) by_name[d.node.name] = &d;
+    const std::set<std::string> needed = needed_nodes(drafts, asked);
+    std::set<std::string> incomplete;  // what is wrong with them, or is to be set, has been said or will be
+    Forecasts forecasts;
+    scope.set_forecasts([&](const std::string& node) -> const Forecast& {
+      if (const Forecast* known = forecasts.find(node)) return *known;
+      throw Error(fmt::format("what \"{}\" gives is not known before it runs", node));
+    });
+    for (const size_t i : order) {
+      NodeDraft& d = drafts[i];
+      bool complete = true;
+      for (const std::string& source : d.asked) {
+        complete &= !incomplete.contains(source);
+        d.unset.insert(by_name[source]->unset.begin(), by_name[source]->unset.end());
+      }
+      if (complete && !d.waiting.empty()) read_waiting(d, reading, substitution, problems_);
+      if (needed.contains(d.node.name) && !(complete && look_ahead(d, forecasts, incomplete)))
+        incomplete.insert(d.node.name);
+    }
+    scope.evaluate_parameters();
+  }
+
+  /// Whether all is known that can be; what the node's preflight finds wrong is a problem.
+  bool look_ahead(const NodeDraft& draft, Forecasts& forecasts, const std::set<std::string>& incomplete) {
+    const GraphNode& node = draft.node;
+    if (!node.type || node.params.size() < node.type->params.size()) return false;
+    for (const PortWires& p : draft.ports) {
+      const auto wires = node.inputs.find(p.port->name);
+      if (wires == node.inputs.end() || wires->second.size() < p.wires.size()) return false;
+      for (const Wire& w : wires->second)
+        if (incomplete.contains(w.node)) return false;
+    }
+    try {
+      forecasts.add(node);
+      return true;
+    } catch (const Errors& all) {
+      for (const Error& e : all.all()) problems_.push_back(problem_of(node, e.about(), e.what()));
+    } catch (const Error& e) {
+      problems_.push_back(problem_of(node, e.about(), e.what()));
+    }
+    return false;
+  }
+
   /// What only these nodes need; all there is if there are none or one of them is not there.
   static std::set<std::string> wanted_nodes(const std::vector<NodeDraft>& drafts,
                                             const std::vector<std::string>& only) {
@@ -135,7 +200,7 @@ class Loader {
     for (const NodeDraft& d : drafts)
       if (wanted.contains(d.node.name)) unset.insert(d.unset.begin(), d.unset.end());
     for (const GraphParameter& p : parameters)
-      if (!p.value && !p.is_wrong && (wanted.size() == drafts.size() || unset.contains(p.param.name)))
+      if (!p.value && !p.is_wrong && !p.formula && (wanted.size() == drafts.size() || unset.contains(p.param.name)))
         problems_.push_back({p.place, "parameter " + in_quotes(p.param.name),
                              fmt::format("has no default and must be set: --set {}=VALUE", p.param.name)});
   }
@@ -169,10 +234,12 @@ class Loader {
   }
 
   static std::vector<Problem> warnings_about(const std::vector<NodeDraft>& drafts, const std::vector<size_t>& order,
-                                             const Substitution& substitution) {
+                                             const std::vector<GraphParameter>& parameters,
+                                             const std::vector<std::string>& unused) {
     std::vector<Problem> out;
-    for (const GraphParameter* p : substitution.unused())
-      out.push_back({p->place, "parameter " + in_quotes(p->param.name), "no node uses it"});
+    for (const GraphParameter& p : parameters)
+      if (std::ranges::find(unused, p.param.name) != unused.end())
+        out.push_back({p.place, "parameter " + in_quotes(p.param.name), "no node uses it"});
     std::vector<std::string> sinks;
     for (const NodeDraft& d : drafts)
       if (d.node.type->is_sink()) sinks.push_back(d.node.name);
@@ -193,40 +260,7 @@ class Loader {
   std::vector<Problem> problems_;
 };
 
-/// The file that a wrong path may have meant.
-std::string file_suggestion(const fs::path& path) {
-  std::vector<std::string> names;
-  std::error_code ended;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  for (fs::directory_iterator at(folder, ended), end; !ended && at != end; at.increment(ended))
-    names.push_back(at->path().filename().string());
-  std::sort(names.begin(), names.end());
-  const std::string best = nearest(path.filename().string(), names);
-  return best.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", (path.parent_path() / best).string());
-}
-
 }  // namespace
-
-std::string read_document(const fs::path& path) {
-  constexpr uintmax_t most = 64 << 20;
-  const auto refuse = [&](const std::string& message) -> GraphError {
-    return GraphError(path.string(), {{{}, "", message}});
-  };
-  std::error_code failure;
-  const fs::file_status status = fs::status(path, failure);
-  if (!fs::exists(status)) throw refuse("there is no such graph file" + file_suggestion(path));
-  if (fs::is_directory(status)) throw refuse("expected a graph file, found a folder");
-  if (looks_like_image(path)) throw refuse("expected a graph file, found an image; graphs load images by their nodes");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw refuse(fmt::format("the graph file cannot be read: {}", std::strerror(errno)));
-  std::string text;
-  for (char block[65536]; file.read(block, sizeof block), file.gcount() > 0;) {
-    text.append(block, static_cast<size_t>(file.gcount()));
-    if (text.size() > most) throw refuse("expected a graph file of at most 64 MiB, found a larger file");
-  }
-  if (file.bad()) throw refuse("the graph file cannot be read to its end");
-  return text;
-}
 
 LoadedGraph load_graph_text(std::string_view text, const fs::path& path, const std::vector<std::string>& overrides,
                             const LoadOptions& options) {

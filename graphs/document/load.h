@@ -9,6 +9,7 @@
 #include "graphs/document/graph.h"
 #include "graphs/document/migrate.h"
 #include "graphs/document/parameters.h"
+#include "graphs/document/presets.h"
 #include "graphs/document/problem.h"
 #include "nodes/common/registry.h"
 
@@ -19,6 +20,10 @@ struct LoadOptions {
   /// Node types that the document may use; they must outlive the graph.
   const std::vector<NodeType>& types = node_types();
   const std::vector<Migration>& migrations = document_migrations();
+  /// Presets by name, then settings files (see read_settings); each counts more than those before it, and overrides
+  /// count more than all of them.
+  std::vector<std::string> presets{};
+  std::vector<std::filesystem::path> settings{};
   /// Parameters without a default may be unset. Nodes that depend on them are then missing: such a graph can be
   /// inspected, but not run.
   bool allow_unset = false;
@@ -34,6 +39,7 @@ struct LoadedGraph {
   Graph graph;
   std::string help;
   std::vector<GraphParameter> parameters;
+  std::vector<Preset> presets;
   /// Images that become materials of one map; nodes and parameters that nothing uses. In the form of describe().
   std::vector<std::string> conversions, warnings;
 };
@@ -53,12 +59,10 @@ struct GraphInterface {
   std::string summary;
   std::string help;
   std::vector<GraphParameter> parameters;
+  std::vector<Preset> presets;
 };
 
 /// Reads summary and parameters; nodes are not looked at. Throws GraphError.
 GraphInterface read_interface(const std::filesystem::path& path);
-
-/// The text of a document. Throws GraphError if there is none, it cannot be read, or it is absurdly large.
-std::string read_document(const std::filesystem::path& path);
 
 }  // namespace terrazzo

@@ -11,58 +11,45 @@ namespace terrazzo {
 
 namespace {
 
-/// One key of a node, from the document or, if `by` is set, from the command line.
-struct Entry {
-  std::string name;
-  Place place;
-  const JsonValue* value = nullptr;
-  const Override* by = nullptr;
-};
-
-bool takes_texts(ParamType type) {
-  return type == ParamType::text || type == ParamType::texts || type == ParamType::text_map ||
-         type == ParamType::choice || type == ParamType::path;
-}
-
 bool is_wire(const JsonValue& v) {
   return v.is_text() && v.text.starts_with("@") && !v.text.starts_with("@@");
 }
 
 class NodeReader {
  public:
-  NodeReader(const JsonMember& member, const NodeReading& reading, Substitution& substitution,
-             std::vector<Problem>& problems)
-      : member_(member),
+  NodeReader(NodeDraft& draft, const NodeReading& reading, Substitution& substitution, std::vector<Problem>& problems)
+      : draft_(draft),
         reading_(reading),
         substitution_(substitution),
         problems_(problems),
-        where_("node " + in_quotes(member.name)) {
-    draft_.node.name = member.name;
-    draft_.node.place = member.place;
-  }
+        where_("node " + in_quotes(draft.node.name)) {}
 
-  NodeDraft read(const std::vector<const Override*>& overrides) {
-    if (!is_node_name(member_.name)) complain(member_.place, "expected a name of letters, digits, _ and -");
-    if (!member_.value.is_object()) {
-      complain(member_.value.place,
-               "expected an object such as {\"type\": \"load_map\", ...}, found " + found(member_.value));
-    } else if (find_type()) {
-      for (const Entry& e : entries(overrides)) read_entry(e);
-      draft_.unset = substitution_.take_unset();
+  void read(const JsonValue& value, const std::vector<const Override*>& overrides) {
+    const Place place = draft_.node.place;
+    if (!is_node_name(draft_.node.name)) complain(place, "expected a name of letters, digits, _ and -");
+    if (!value.is_object()) {
+      complain(value.place, "expected an object such as {\"type\": \"load_map\", ...}, found " + found(value));
+    } else if (find_type(value)) {
+      for (const NodeEntry& e : entries(value, overrides)) read_entry(e);
       add_missing();
       run_check();
     }
-    return std::move(draft_);
+  }
+
+  void read_waiting() {
+    const std::vector<NodeEntry> waiting = std::exchange(draft_.waiting, {});
+    for (const NodeEntry& e : waiting) read_parameter(e, *type().find_param(e.name));
+    run_check();
   }
 
  private:
   const NodeType& type() const { return *draft_.node.type; }
   void complain(Place place, const std::string& message) { problems_.push_back({place, where_, message}); }
 
-  bool find_type() {
-    const JsonValue* given = member_.value.find("type");
+  bool find_type(const JsonValue& value) {
+    const JsonValue* given = value.find("type");
     if (!given) {
-      complain(member_.place, "expected a \"type\"; `terrazzo nodes` lists them");
+      complain(draft_.node.place, "expected a \"type\"; `terrazzo nodes` lists them");
       return false;
     }
     const auto at = given->is_text() ? reading_.types.find(given->text) : reading_.types.end();
@@ -79,27 +66,27 @@ class NodeReader {
     return false;
   }
 
-  std::vector<Entry> entries(const std::vector<const Override*>& overrides) const {
-    std::vector<Entry> out;
-    for (const JsonMember& m : member_.value.members)
+  static std::vector<NodeEntry> entries(const JsonValue& value, const std::vector<const Override*>& overrides) {
+    std::vector<NodeEntry> out;
+    for (const JsonMember& m : value.members)
       if (m.name != "type") out.push_back({m.name, m.place, &m.value, nullptr});
     for (const Override* o : overrides) {
-      const auto at = std::find_if(out.begin(), out.end(), [&](const Entry& e) { return e.name == o->name; });
+      const auto at = std::find_if(out.begin(), out.end(), [&](const NodeEntry& e) { return e.name == o->name; });
       if (at == out.end()) {
-        out.push_back({o->name, {}, nullptr, o});
+        out.push_back({o->name, o->place, nullptr, o});
       } else {
-        *at = {o->name, {}, nullptr, o};
+        *at = {o->name, o->place, nullptr, o};
       }
     }
     return out;
   }
 
-  Diagnostics complaints_about(const Entry& e, std::string_view kind) {
+  Diagnostics complaints_about(const NodeEntry& e, std::string_view kind) {
     return e.by ? e.by->diagnostics(problems_)
                 : Diagnostics(problems_, fmt::format("{}, {} {}", where_, kind, in_quotes(e.name)));
   }
 
-  void read_entry(const Entry& e) {
+  void read_entry(const NodeEntry& e) {
     given_.insert(e.name);
     draft_.node.places[e.name] = e.place;
     if (const Port* port = type().find_input(e.name)) {
@@ -116,21 +103,24 @@ class NodeReader {
     }
   }
 
-  void read_parameter(const Entry& e, const Param& param) {
+  void read_parameter(const NodeEntry& e, const Param& param) {
     Diagnostics diagnostics = complaints_about(e, "parameter");
-    const JsonValue given = e.by ? read_command_line(e.by->value, param) : *e.value;
-    const std::optional<JsonValue> value = substitution_.expand(given, takes_texts(param.type), diagnostics);
+    const JsonValue given = e.by ? e.by->json_for(param) : *e.value;
+    const std::optional<JsonValue> value = substitution_.expand(given, param, diagnostics);
+    const Lacking lacking = substitution_.take_lacking();
+    draft_.unset.insert(lacking.unset.begin(), lacking.unset.end());
+    draft_.asked.insert(lacking.nodes.begin(), lacking.nodes.end());
+    if (!lacking.nodes.empty()) draft_.waiting.push_back(e);
     if (!value) return;
     if (param.type == ParamType::path) draft_.node.files_by[param.name] = substitution_.paths_in(given);
-    const std::filesystem::path& base = e.by ? reading_.working_folder : reading_.graph_folder;
+    const std::filesystem::path& base = e.by ? e.by->base : reading_.graph_folder;
     if (std::optional<ParamValue> read = read_param(*value, param, base, diagnostics))
       draft_.node.params.emplace(param.name, std::move(*read));
   }
 
-  void read_port(const Entry& e, const Port& port) {
+  void read_port(const NodeEntry& e, const Port& port) {
     PortWires wires{&port, {}, complaints_about(e, "port")};
-    const JsonValue given =
-        e.by ? read_command_line(e.by->value, {.name = port.name, .type = ParamType::texts}) : *e.value;
+    const JsonValue given = e.by ? e.by->json_for({.name = port.name, .type = ParamType::texts}) : *e.value;
     const std::string expected = fmt::format("a {} such as \"@node\" or \"@node.port\"{}",
                                              port.list ? "list of wires" : "wire", port.list ? ", or one wire," : "");
     if (is_wire(given)) {
@@ -164,14 +154,15 @@ class NodeReader {
   void add_missing() {
     for (const Port& p : type().inputs)
       if (!p.optional && !given_.contains(p.name))
-        complain(member_.place,
+        complain(draft_.node.place,
                  fmt::format("the port \"{}\" must be given: expected a wire of type {}", p.name, name_of(p.type)));
     for (const Param& p : type().params) {
       if (given_.contains(p.name)) continue;
       if (p.fallback) {
         draft_.node.params.emplace(p.name, default_of(p, reading_.graph_folder));
       } else {
-        complain(member_.place, fmt::format("the parameter \"{}\" must be given: expected {}", p.name, expectation(p)));
+        complain(draft_.node.place,
+                 fmt::format("the parameter \"{}\" must be given: expected {}", p.name, expectation(p)));
       }
     }
   }
@@ -187,12 +178,11 @@ class NodeReader {
     return draft_.node.place_of(message.starts_with('"') && end != message.npos ? message.substr(1, end - 1) : "");
   }
 
-  const JsonMember& member_;
+  NodeDraft& draft_;
   const NodeReading& reading_;
   Substitution& substitution_;
   std::vector<Problem>& problems_;
   std::string where_;
-  NodeDraft draft_;
   std::set<std::string> given_;
 };
 
@@ -216,17 +206,27 @@ std::vector<NodeDraft> read_nodes(const JsonValue& section, const std::vector<Ov
     by_node[o.node].push_back(&o);
     if (std::find(names.begin(), names.end(), o.node) == names.end())
       o.diagnostics(problems).add(
-          {}, fmt::format("the graph has no node {}{}", in_quotes(o.node), suggestion(o.node, names)));
+          o.place, fmt::format("the graph has no node {}{}", in_quotes(o.node), suggestion(o.node, names)));
   }
   std::vector<NodeDraft> drafts;
   for (const JsonMember& m : section.members) {
     const auto its = by_node.find(m.name);
     const size_t before = problems.size();
-    drafts.push_back(NodeReader(m, reading, substitution, problems)
-                         .read(its == by_node.end() ? std::vector<const Override*>() : its->second));
+    NodeDraft& draft = drafts.emplace_back();
+    draft.node.name = m.name;
+    draft.node.place = m.place;
+    NodeReader(draft, reading, substitution, problems)
+        .read(m.value, its == by_node.end() ? std::vector<const Override*>() : its->second);
     for (size_t i = before; i < problems.size(); i++) problems[i].node = m.name;
   }
   return drafts;
+}
+
+void read_waiting(NodeDraft& draft, const NodeReading& reading, Substitution& substitution,
+                  std::vector<Problem>& problems) {
+  const size_t before = problems.size();
+  NodeReader(draft, reading, substitution, problems).read_waiting();
+  for (size_t i = before; i < problems.size(); i++) problems[i].node = draft.node.name;
 }
 
 }  // namespace terrazzo

@@ -10,7 +10,7 @@
 #include "graphs/document/graph.h"
 #include "graphs/document/json.h"
 #include "graphs/document/override.h"
-#include "graphs/document/parameters.h"
+#include "graphs/document/substitution.h"
 
 /// The section `nodes`: each node by itself; wires are in wires.h.
 namespace terrazzo {
@@ -30,11 +30,21 @@ struct PortWires {
   Diagnostics diagnostics;
 };
 
+/// One key of a node, from the document or, if `by` is set, from the command line.
+struct NodeEntry {
+  std::string name;
+  Place place;
+  const JsonValue* value = nullptr;
+  const Override* by = nullptr;
+};
+
 /// A node read and checked, but for its wires.
 struct NodeDraft {
   GraphNode node;  ///< `type` is null if it is unknown; `inputs` are still empty
   std::vector<PortWires> ports;
-  std::set<std::string> unset;  ///< the graph's parameters that it needs and that have no value
+  std::set<std::string> unset;       ///< the graph's parameters that it needs and that have no value
+  std::set<std::string> asked;       ///< nodes whose forecasts its parameters are made from
+  std::vector<NodeEntry> waiting{};  ///< parameters that are made from them, not read yet
 };
 
 /// Context for reading nodes.
@@ -42,13 +52,17 @@ struct NodeReading {
   explicit NodeReading(const std::vector<NodeType>& known);
   std::map<std::string, const NodeType*, std::less<>> types;
   std::vector<std::string> type_names;
-  std::filesystem::path graph_folder;    ///< absolute
-  std::filesystem::path working_folder;  ///< absolute
+  std::filesystem::path graph_folder;  ///< absolute
 };
 
-/// Reads the section; overrides with a node replace what its entries say.
+/// Reads the section, which must outlive the drafts, as must the overrides: those with a node replace what its entries
+/// say.
 std::vector<NodeDraft> read_nodes(const JsonValue& section, const std::vector<Override>& overrides,
                                   const NodeReading& reading, Substitution& substitution,
                                   std::vector<Problem>& problems);
+
+/// Reads what waits for forecasts, once these are known.
+void read_waiting(NodeDraft& draft, const NodeReading& reading, Substitution& substitution,
+                  std::vector<Problem>& problems);
 
 }  // namespace terrazzo

@@ -1,27 +1,48 @@
 #include "graphs/document/override.h"
 
-#include "graphs/document/json.h"
+#include <fmt/format.h>
+
+#include "core/node/node.h"
+#include "graphs/document/convert.h"
+#include "graphs/document/read_document.h"
 
 namespace terrazzo {
 
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Splits "node.name" or "name". False if a part is missing.
+bool split_target(const std::string& target, Override& out) {
+  const size_t dot = target.find('.');
+  if (dot != target.npos) out.node = target.substr(0, dot);
+  out.name = dot == target.npos ? target : target.substr(dot + 1);
+  return !out.name.empty() && (dot == target.npos || !out.node.empty());
+}
+
+}  // namespace
+
 Diagnostics Override::diagnostics(std::vector<Problem>& all) const {
-  return Diagnostics(all, where_of_override(spelled)).from_command_line();
+  Diagnostics out(all, where);
+  if (place.line == 0) out.from_command_line();
+  return out;
+}
+
+JsonValue Override::json_for(const Param& param) const {
+  return json ? *json : read_command_line(value, param);
 }
 
 std::string where_of_override(const std::string& spelled) {
   return "override " + in_quotes(spelled);
 }
 
-std::vector<Override> read_overrides(const std::vector<std::string>& texts, std::vector<Problem>& problems) {
+std::vector<Override> read_overrides(const std::vector<std::string>& texts, const fs::path& base,
+                                     std::vector<Problem>& problems) {
   std::vector<Override> out;
   for (const std::string& text : texts) {
-    Override o{.spelled = text, .node = "", .name = "", .value = ""};
+    Override o{.node = "", .name = "", .value = "", .base = base, .where = where_of_override(text)};
     const size_t equals = text.find('=');
-    const std::string target = text.substr(0, equals);
-    const size_t dot = target.find('.');
-    if (dot != target.npos) o.node = target.substr(0, dot);
-    o.name = dot == target.npos ? target : target.substr(dot + 1);
-    if (equals == text.npos || o.name.empty() || (dot != target.npos && o.node.empty())) {
+    if (!split_target(text.substr(0, equals), o) || equals == text.npos) {
       o.diagnostics(problems).add({}, "expected name=value for a graph's parameter, or node.parameter=value");
       continue;
     }
@@ -29,6 +50,45 @@ std::vector<Override> read_overrides(const std::vector<std::string>& texts, std:
     out.push_back(std::move(o));
   }
   return out;
+}
+
+std::vector<Override> read_override_object(const JsonValue& object, const fs::path& base, const std::string& where,
+                                           bool in_graph, std::vector<Problem>& problems) {
+  std::vector<Override> out;
+  if (!object.is_object()) {
+    const Place place = in_graph ? object.place : Place{};
+    problems.push_back(
+        {place, where, "expected an object such as {\"seed\": 3, \"node.parameter\": 0.5}, found " + found(object)});
+    return out;
+  }
+  for (const JsonMember& m : object.members) {
+    Override o{.node = "", .name = "", .value = "", .json = m.value, .base = base, .where = ""};
+    if (in_graph) {
+      o.place = m.place;
+      o.where = fmt::format("{}, {}", where, in_quotes(m.name));
+    } else {
+      o.where = fmt::format("{}:{}:{}: {}", where, m.place.line, m.place.column, in_quotes(m.name));
+    }
+    if (split_target(m.name, o)) {
+      out.push_back(std::move(o));
+    } else {
+      o.diagnostics(problems).add(m.place, "expected the name of a graph's parameter, or node.parameter");
+    }
+  }
+  return out;
+}
+
+std::vector<Override> read_settings(const fs::path& file, std::vector<Problem>& problems) {
+  try {
+    const ParsedJson parsed = parse_json(read_document(file, "settings file"));
+    for (const Problem& p : parsed.problems)
+      problems.push_back({{}, fmt::format("{}:{}:{}", file.string(), p.place.line, p.place.column), p.message});
+    if (!parsed.value) return {};
+    return read_override_object(*parsed.value, fs::absolute(file).parent_path(), file.string(), false, problems);
+  } catch (const GraphError& e) {
+    for (const Problem& p : e.problems()) problems.push_back({{}, file.string(), p.message});
+    return {};
+  }
 }
 
 }  // namespace terrazzo

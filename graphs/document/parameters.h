@@ -1,30 +1,49 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <optional>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/node/node.h"
 #include "graphs/document/diagnostics.h"
 #include "graphs/document/json.h"
 #include "graphs/document/override.h"
+#include "graphs/expression/expression.h"
 
-/// A graph's parameters: the section of the document that declares them, and `$name` in its nodes.
+/// A graph's parameters: the section of the document that declares them.
 namespace terrazzo {
+
+/// An expression that a parameter of a graph is given as its value.
+struct Formula {
+  std::shared_ptr<const Expression> expression;
+  JsonValue text;                ///< as it stands in the document, or on the command line
+  std::filesystem::path base;    ///< where relative paths lie
+  std::optional<Override> by{};  ///< empty if the document says it
+
+  Diagnostics diagnostics(std::vector<Problem>& problems, const std::string& parameter) const;
+};
 
 /// A parameter of a graph: declared like a node's.
 struct GraphParameter {
   Param param;
   Place place;
-  std::optional<ParamValue> value;  ///< paths absolute; empty if not set, or invalid
+  std::string group{};                    ///< the heading it is listed under; empty: none
+  std::optional<JsonValue> visible_if{};  ///< an expression, true if it matters; always if there is none
+  std::optional<ParamValue> value;        ///< paths absolute; empty if not set, invalid, or not known yet
+  std::optional<Formula> formula{};       ///< what the value is made from, if it is an expression
   bool overridden = false;
   bool is_wrong = false;   ///< a problem with its declaration or value has been reported
   std::string as_written;  ///< of a path, what the document or the override said
 };
+
+/// Where a part of the expression in `text` stands; the offset counts from behind the =.
+Place place_in(const JsonValue& text, size_t offset);
+/// The expression in a text that begins with =. Empty after a problem. Whether its names exist is for GraphScope.
+std::optional<Expression> parse_expression(const JsonValue& text, Diagnostics& diagnostics);
+std::optional<Formula> formula_of(const JsonValue& text, const std::filesystem::path& base, std::optional<Override> by,
+                                  Diagnostics& diagnostics);
 
 /// The names that a document gives the types of parameters, in the order of ParamType.
 const std::vector<std::string>& parameter_type_names();
@@ -40,41 +59,8 @@ std::vector<GraphParameter> read_parameters(const JsonValue& section, const std:
 /// The nodes of a graph by name, in its order; the type is null if it is unknown.
 using NodeTypes = std::vector<std::pair<std::string, const NodeType*>>;
 
-/// Sets what the overrides without a node say. Relative paths lie in `folder`, which is absolute. `nodes` are for
-/// hints.
+/// Sets what the overrides without a node say, the last of several for one parameter. `nodes` are for hints.
 void set_parameters(std::vector<GraphParameter>& parameters, const std::vector<Override>& overrides,
-                    const std::filesystem::path& folder, const NodeTypes& nodes, std::vector<Problem>& problems);
-
-/// Puts the parameters' values where a node says `$name`.
-class Substitution {
- public:
-  explicit Substitution(const std::vector<GraphParameter>& parameters);
-
-  /// The value with every `$name` (or `${name}`) replaced, `$$` and a leading `@@` made plain. A text that is nothing
-  /// but a `$name` becomes the parameter's value, or that value as text if `wants_text`. A path that begins a longer
-  /// text is absolute; further on it stands as it was written. Empty after a problem, or if a parameter has no value.
-  std::optional<JsonValue> expand(const JsonValue& value, bool wants_text, Diagnostics& diagnostics);
-
-  /// The parameters of type path among those that a text refers to.
-  std::set<std::string> paths_in(const JsonValue& value) const;
-
-  /// The parameters without a value that expand has met since the last call.
-  std::set<std::string> take_unset() { return std::exchange(unset_, {}); }
-
-  /// Parameters that expand has never met.
-  std::vector<const GraphParameter*> unused() const;
-
- private:
-  struct Use {
-    const GraphParameter* parameter;
-    bool used = false;
-  };
-  std::optional<JsonValue> expand_part(const JsonValue& value, bool wants_text, Diagnostics& diagnostics);
-  std::optional<JsonValue> expand_text(const JsonValue& value, bool wants_text, Diagnostics& diagnostics);
-  const GraphParameter* find(const std::string& name, Place place, Diagnostics& diagnostics);
-  std::map<std::string, Use> uses_;
-  std::vector<std::string> names_;
-  std::set<std::string> unset_;
-};
+                    const NodeTypes& nodes, std::vector<Problem>& problems);
 
 }  // namespace terrazzo

@@ -50,7 +50,7 @@ std::string wrapped(const std::string& text, const std::string& first, size_t in
 }
 
 std::string described(const std::string& name, const std::string& kind, const std::string& help) {
-  return wrapped(kind, fmt::format("  {}: ", name), 6) + wrapped(help, "      ", 6);
+  return wrapped(kind, fmt::format("  {}: ", name), 6) + (help.empty() ? "" : wrapped(help, "      ", 6));
 }
 
 std::string described_port(const Port& p) {
@@ -63,6 +63,14 @@ std::string described_param(const Param& p) {
       p.type == ParamType::choice ? fmt::format("one of {}", fmt::join(p.choices, ", ")) : expectation(p);
   const std::string fallback = p.fallback ? "default " + compact(json_of(*p.fallback)) : "must be given";
   return described(p.name, taken + "; " + fallback, p.help);
+}
+
+std::string described_parameter(const GraphParameter& p) {
+  Param param = p.param;
+  if (p.formula) param.fallback = ParamValue(p.formula->text.text);
+  std::string out = described_param(param);
+  if (p.visible_if) out += wrapped("only if " + p.visible_if->text.substr(1), "      ", 6);
+  return out;
 }
 
 std::string described_step(const NodeStep& s) {
@@ -132,6 +140,31 @@ std::string node_reference(const NodeType& type) {
   section("Outputs", type.outputs, described_port);
   section("Parameters", type.params, described_param);
   section("Steps, in the order in which they run", type.steps, described_step);
+  return out;
+}
+
+std::string graph_reference(const std::string& name, const GraphInterface& graph) {
+  std::string out = wrapped(graph.summary.empty() ? "a graph" : graph.summary, name + ": ", 2);
+  if (!graph.help.empty()) out += '\n' + wrapped(graph.help, "", 0);
+  std::vector<std::string> groups;  // those without a heading first, the others in the order of the document
+  groups.emplace_back();
+  for (const GraphParameter& p : graph.parameters)
+    if (std::find(groups.begin(), groups.end(), p.group) == groups.end()) groups.push_back(p.group);
+  for (const std::string& group : groups) {
+    std::string lines;
+    for (const GraphParameter& p : graph.parameters)
+      if (p.group == group) lines += described_parameter(p);
+    const std::string title = group.empty() ? "Parameters (--set NAME=VALUE)" : group;
+    if (!lines.empty()) out += '\n' + title + '\n' + lines;
+  }
+  if (graph.presets.empty()) return out;
+  out += "\nPresets (--preset NAME)\n";
+  for (const Preset& p : graph.presets) {
+    std::vector<std::string> sets;
+    for (const Override& o : p.set) sets.push_back(o.node.empty() ? o.name : o.node + "." + o.name);
+    out += described(p.name, p.help.empty() ? fmt::format("sets {}", fmt::join(sets, ", ")) : p.help,
+                     p.help.empty() ? "" : fmt::format("sets {}", fmt::join(sets, ", ")));
+  }
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/node/node.h"
+#include "graphs/document/load.h"
 #include "nodes/common/registry.h"
 
 /// The reference of node types, generated from their descriptors.
@@ -12,6 +13,9 @@ namespace terrazzo {
 /// One node type for reading: summary, help, ports, and parameters with type, range, unit, choices and default; at most
 /// 80 columns wide.
 std::string node_reference(const NodeType& type);
+
+/// A graph for those who run it: summary, help, its parameters by group, and its presets.
+std::string graph_reference(const std::string& name, const GraphInterface& graph);
 
 /// All node types by category, one line each.
 std::string node_list(const std::vector<NodeType>& types = node_types());

@@ -37,9 +37,9 @@ ordered_json text() {
   return {{"type", "string"}, {"pattern", "^($|[^@]|@@)"}};
 }
 
-/// Values of texts and numbers inside lists and maps may be references too.
+/// Values of texts and numbers inside lists and maps may be references and expressions too.
 ordered_json number_or_reference(const char* type, const Param& p) {
-  return any_of({number(type, p), reference("reference")});
+  return any_of({number(type, p), reference("reference"), reference("expression")});
 }
 
 ordered_json map_of(const Param& p, const ordered_json& values) {
@@ -90,10 +90,11 @@ ordered_json value_schema(const Param& p) {
   return {};
 }
 
-/// A parameter's schema with its default and description; `$name` may always stand for the value.
+/// A parameter's schema with its default and description; `$name` or an expression may always stand for the value.
 ordered_json param_schema(const Param& p) {
   const bool is_text = p.type == ParamType::text || p.type == ParamType::path;
-  ordered_json out = is_text ? value_schema(p) : any_of({value_schema(p), reference("reference")});
+  ordered_json out =
+      is_text ? value_schema(p) : any_of({value_schema(p), reference("reference"), reference("expression")});
   out["description"] = p.help + (p.unit.empty() ? "" : " (" + p.unit + ")");
   if (p.fallback) out["default"] = ordered_json::parse(compact(json_of(*p.fallback)));
   return out;
@@ -139,15 +140,49 @@ ordered_json any_node_schema(const std::vector<NodeType>& types) {
   return {{"type", "object"}, {"properties", {{"type", {{"enum", names}}}}}, {"required", {"type"}}, {"allOf", cases}};
 }
 
+/// What a graph's parameter of this type takes as its default, and which keys go with the type.
+ordered_json parameter_case(const std::string& name, ParamType type) {
+  const bool takes_range = type == ParamType::integer || type == ParamType::number || type == ParamType::size ||
+                           type == ParamType::numbers || type == ParamType::number_map;
+  const bool is_choice = type == ParamType::choice;
+  const ordered_json value = is_choice ? text() : value_schema({.name = name, .type = type});
+  ordered_json properties = {{"default", any_of({value, reference("expression")})}};
+  if (!takes_range) properties["min"] = properties["max"] = false;
+  if (!is_choice) properties["choices"] = false;
+  ordered_json then = {{"properties", properties}};
+  if (is_choice) then["required"] = {"choices"};
+  return {{"if", {{"properties", {{"type", {{"const", name}}}}}, {"required", {"type"}}}}, {"then", then}};
+}
+
 ordered_json parameter_schema() {
+  ordered_json cases = ordered_json::array();
+  for (size_t i = 0; i < parameter_type_names().size(); i++)
+    cases.push_back(parameter_case(parameter_type_names()[i], static_cast<ParamType>(i)));
+  const ordered_json string = {{"type", "string"}};
   ordered_json properties = {{"type", {{"enum", parameter_type_names()}}},
                              {"default", ordered_json::object()},
-                             {"help", {{"type", "string"}}},
+                             {"help", string},
                              {"min", {{"type", "number"}}},
                              {"max", {{"type", "number"}}},
-                             {"choices", list_of({{"type", "string"}})}};
+                             {"unit", string},
+                             {"choices", list_of(string)},
+                             {"group", string},
+                             {"visible_if", reference("expression")}};
   properties["choices"]["minItems"] = 1;
-  return {{"type", "object"}, {"properties", properties}, {"required", {"type"}}, {"additionalProperties", false}};
+  properties["group"]["description"] = "the heading that it is listed under";
+  return {{"type", "object"},
+          {"properties", properties},
+          {"required", {"type"}},
+          {"additionalProperties", false},
+          {"allOf", cases}};
+}
+
+ordered_json preset_schema() {
+  return {
+      {"type", "object"},
+      {"properties",
+       {{"help", {{"type", "string"}}}, {"set", {{"type", "object"}, {"description", "values by NAME or NODE.NAME"}}}}},
+      {"additionalProperties", false}};
 }
 
 ordered_json definitions(const std::vector<NodeType>& types) {
@@ -155,10 +190,15 @@ ordered_json definitions(const std::vector<NodeType>& types) {
   out["reference"] = {{"type", "string"},
                       {"description", "the value of a parameter of the graph"},
                       {"pattern", "^\\$([A-Za-z][A-Za-z0-9_]*|\\{[A-Za-z][A-Za-z0-9_]*\\})$"}};
+  out["expression"] = {
+      {"type", "string"},
+      {"description", "an expression, such as \"=size.x / 2\"; a text that begins with = is written =="},
+      {"pattern", "^=([^=]|$)"}};
   out["wire"] = {{"type", "string"},
                  {"description", "an output of another node: @node for its first one, or @node.port"},
                  {"pattern", "^@[A-Za-z0-9_-]+(\\.[A-Za-z0-9_]+)?$"}};
   out["parameter"] = parameter_schema();
+  out["preset"] = preset_schema();
   out["node"] = any_node_schema(types);
   for (const NodeType& t : types) out["node_" + t.name] = node_schema(t);
   return out;
@@ -178,6 +218,7 @@ std::string json_schema(const std::vector<NodeType>& types) {
                                    {"summary", text_value},
                                    {"help", text_value},
                                    {"parameters", by_name("^[A-Za-z][A-Za-z0-9_]*$", "parameter")},
+                                   {"presets", by_name("", "preset")},
                                    {"nodes", by_name("^[A-Za-z0-9_-]+$", "node")}};
   const ordered_json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                                {"title", "terrazzo graph"},

@@ -107,6 +107,12 @@ class Walk {
       for (const PortWires& p : drafts[i].ports)
         for (const WireEnd& end : p.wires)
           if (const auto at = positions.find(end.node); at != positions.end()) sources_[i].push_back(at->second);
+    for (size_t i = 0; i < drafts.size(); i++)
+      for (const std::string& asked : drafts[i].asked)
+        if (const auto at = positions.find(asked); at != positions.end()) {
+          sources_[i].push_back(at->second);
+          reads_ = "the wires, and expressions that ask for nodes, form a cycle: ";
+        }
   }
 
   std::vector<size_t> order() {
@@ -153,12 +159,13 @@ class Walk {
       if (path[i].node == closing) break;
     }
     const GraphNode& node = drafts_[first].node;
-    problems_.push_back({node.place, "node " + in_quotes(node.name), "the wires form a cycle: " + names, node.name});
+    problems_.push_back({node.place, "node " + in_quotes(node.name), reads_ + names, node.name});
   }
 
   const std::vector<NodeDraft>& drafts_;
   std::vector<Problem>& problems_;
   std::vector<std::vector<size_t>> sources_;
+  std::string reads_ = "the wires form a cycle: ";
   std::vector<State> state_;
   std::vector<size_t> order_;
 };

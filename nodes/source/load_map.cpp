@@ -88,8 +88,9 @@ NodeType load_map_node() {
   };
   t.check = [](const Params& p) { return color_space_problems(p, "color_space", "auto"); };
   t.preflight = [](const Params& p, const InputForecasts&) {
-    require_readable_image(std::get<std::string>(p.at("path")));
-    return Forecast{};
+    const std::string& path = std::get<std::string>(p.at("path"));
+    require_readable_image(path);
+    return Forecast{.sizes = {{"", read_image_info(path).size}}};
   };
   t.compute = compute;
   return t;

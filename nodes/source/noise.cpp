@@ -127,6 +127,9 @@ NodeType noise_node() {
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "one channel, 0..1"}};
   t.params = params();
   t.persist = Persist::derived;
+  t.preflight = [](const Params& params, const InputForecasts&) {
+    return Forecast{.sizes = {{"", std::get<Size>(params.at("size"))}}};
+  };
   t.compute = compute;
   return t;
 }

@@ -115,9 +115,11 @@ NodeType pattern_node() {
   t.persist = Persist::payload;
   t.check = check;
   t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 9 * sizeof(float); };
-  t.preflight = [](const Params&, const InputForecasts&) {
-    return Forecast{.maps = {"base_color", "normal", "height", "roughness", "ambient_occlusion"},
-                    .possible_maps = Texts{}};
+  t.preflight = [](const Params& params, const InputForecasts&) {
+    Forecast out{.maps = {"base_color", "normal", "height", "roughness", "ambient_occlusion"},
+                 .possible_maps = Texts{}};
+    for (const std::string& map : out.maps) out.sizes[map] = std::get<Size>(params.at("size"));
+    return out;
   };
   t.compute = [](NodeContext& node) { node.output("material", make_pattern(spec_of(node.params()), node.task())); };
   return t;

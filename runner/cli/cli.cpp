@@ -17,6 +17,7 @@
 #include "graphs/document/problem.h"
 #include "nodes/source/material_folder.h"
 #include "runner/cli/cli_commands.h"
+#include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
 #include "runner/report/progress.h"
 
@@ -194,6 +195,21 @@ void add_help_command(CLI::App& app, Chosen& chosen, ProgressMode mode) {
   help->callback([&app, &chosen, words, mode] { chosen = [&app, words, mode] { return help_on(app, *words, mode); }; });
 }
 
+/// Help, or the version; if the command works on a graph and one is named, first what that graph offers.
+int show_help(const CLI::App& app, const CLI::Success& asked, ProgressMode mode) {
+  try {
+    const bool is_help = dynamic_cast<const CLI::CallForVersion*>(&asked) == nullptr;
+    const std::string about_graph = is_help ? help_on_graph(*named_command(&app)) : "";
+    std::ostringstream help;
+    const int code = app.exit(asked, help, help);
+    answer("{}{}", about_graph.empty() ? "" : about_graph + "\n", help.str());
+    return code;
+  } catch (const GraphError& e) {
+    write_error(mode, std::cerr, e);
+    return exit_usage;
+  }
+}
+
 /// Runs what the words ask for; returns the exit code.
 int obey(int argc, const char* const* argv, ProgressMode mode) {
   CLI::App app("terrazzo turns a small PBR material into as much new, non-repeating material as a scene needs.",
@@ -215,10 +231,7 @@ int obey(int argc, const char* const* argv, ProgressMode mode) {
     if (!chosen) throw CLI::RequiredError("A command");
     return chosen();
   } catch (const CLI::Success& e) {
-    std::ostringstream help;
-    const int code = app.exit(e, help, help);
-    answer("{}", help.str());
-    return code;
+    return show_help(app, e, mode);
   } catch (const CLI::ParseError& e) {
     return usage_error(app, mode, e.what());
   } catch (const GraphError& e) {

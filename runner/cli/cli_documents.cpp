@@ -6,9 +6,10 @@
 #include "core/base/text.h"
 #include "core/file/atomic_file.h"
 #include "graphs/document/draw.h"
-#include "graphs/document/load.h"
 #include "graphs/document/migrate.h"
+#include "graphs/document/read_document.h"
 #include "runner/cli/cli_commands.h"
+#include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/starting_graph.h"
@@ -22,10 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct DocumentFlags {
-  std::string graph;
+struct DocumentFlags : GraphFlags {
   std::string out;
-  std::vector<std::string> set;
 };
 
 /// Looks ahead as far as nothing depends on a parameter that is not set.
@@ -39,8 +38,7 @@ void check_what_is_set(const Graph& graph, const std::string& unset) {
 }
 
 int check(const DocumentFlags& flags) {
-  const LoadedGraph loaded =
-      load_graph(flags.graph, flags.set, {.allow_unset = true, .look_ahead = preflight_of_nodes});
+  const LoadedGraph loaded = flags.load({.allow_unset = true, .look_ahead = preflight_of_nodes});
   for (const std::string& c : loaded.conversions) answer("note: {}\n", c);
   for (const std::string& w : loaded.warnings) say("warning: {}\n", w);
   const auto unset = std::find_if(loaded.parameters.begin(), loaded.parameters.end(),
@@ -71,7 +69,7 @@ int draw(const DocumentFlags& flags) {
   const std::string ending = fs::path(flags.out).extension().string();
   if (ending != ".svg" && ending != ".dot")
     throw UsageError(fmt::format("-o takes a file that ends in .svg or .dot; \"{}\" does not", flags.out));
-  const Graph graph = load_graph(flags.graph, flags.set, {.allow_unset = true}).graph;
+  const Graph graph = flags.load({.allow_unset = true}).graph;
   write_whole_file(flags.out, ending == ".svg" ? draw_svg(graph) : draw_dot(graph));
   say("wrote {}\n", flags.out);
   return exit_done;
@@ -137,15 +135,9 @@ void add_document_commands(CLI::App& app, Chosen& chosen) {
     CLI::App* command = app.add_subcommand(name, help);
     command->footer(footer);
     const auto flags = std::make_shared<DocumentFlags>();
-    command->add_option("GRAPH", flags->graph, "The graph file")->required()->type_name("FILE.json");
+    add_graph_argument(*command, *flags);
     command->callback([&chosen, flags, act] { chosen = [flags, act] { return act(*flags); }; });
     return std::pair(command, flags);
-  };
-  const auto add_set = [](CLI::App* command, DocumentFlags& flags) {
-    command->add_option("--set", flags.set, "Sets a graph parameter, or node.parameter")
-        ->type_name("NAME=VALUE")
-        ->take_all()
-        ->expected(1);
   };
   const auto [check_command, check_flags] =
       add("check", "Checks a graph file without running it",
@@ -155,7 +147,7 @@ void add_document_commands(CLI::App& app, Chosen& chosen) {
           "  terrazzo check bricks.json\n"
           "  terrazzo check bricks.json --set material=bricks/",
           check);
-  add_set(check_command, *check_flags);
+  add_value_flags(*check_command, *check_flags);
   const auto [upgrade_command, upgrade_flags] =
       add("upgrade", "Rewrites a graph file in the current format version and layout",
           "Example:\n  terrazzo upgrade bricks.json", upgrade);
@@ -167,7 +159,7 @@ void add_document_commands(CLI::App& app, Chosen& chosen) {
                                               "  terrazzo draw bricks.json -o bricks.dot",
                                               draw);
   draw_command->add_option("-o,--out", draw_flags->out, "The drawing")->required()->type_name("FILE.svg|.dot");
-  add_set(draw_command, *draw_flags);
+  add_value_flags(*draw_command, *draw_flags);
 }
 
 }  // namespace terrazzo

@@ -11,6 +11,7 @@
 #include "graphs/document/load.h"
 #include "graphs/document/override.h"
 #include "runner/cli/cli_commands.h"
+#include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/stock_graphs.h"
@@ -162,14 +163,11 @@ int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
 void add_run_command(CLI::App& app, Chosen& chosen) {
   CLI::App* run = app.add_subcommand("run", "Runs a graph: only what has changed since it last ran");
   struct Flags : RunFlags {
-    std::vector<std::string> set;
+    GraphFlags values;
   };
   const auto flags = std::make_shared<Flags>();
-  run->add_option("GRAPH", flags->graph, "The graph file")->required()->type_name("FILE.json");
-  run->add_option("--set", flags->set, "Sets a graph parameter, or node.parameter; may be given several times")
-      ->type_name("NAME=VALUE")
-      ->take_all()
-      ->expected(1);
+  add_graph_argument(*run, flags->values);
+  add_value_flags(*run, flags->values);
   add_run_flags(*run, *flags);
   run->footer(
       "Examples:\n"
@@ -177,10 +175,10 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       "  terrazzo run bricks.json --only layout --dry-run");
   run->callback([&chosen, flags] {
     chosen = [flags] {
+      flags->graph = flags->values.graph;
       return run_with_flags(
           [&] {
-            LoadedGraph loaded =
-                load_graph(flags->graph, flags->set, {.only = flags->only, .look_ahead = preflight_of_nodes});
+            LoadedGraph loaded = flags->values.load({.only = flags->only, .look_ahead = preflight_of_nodes});
             for (const std::string& w : loaded.warnings) warn(*flags, w);
             return std::move(loaded.graph);
           },

@@ -7,6 +7,7 @@
 
 #include "core/base/paths.h"
 #include "core/file/atomic_file.h"
+#include "graphs/document/forecasts.h"
 
 namespace terrazzo {
 
@@ -41,13 +42,9 @@ class Foresight {
   }
 
   void look_at(const GraphNode& node, bool writes) {
-    if (!node.type->preflight) return;
     try {
-      const Forecast forecast = node.type->preflight(node.params, inputs_of(node));
-      if (writes) check_files(node, forecast.files);
-      // An image that becomes a material of one map is none of the material beside it.
-      for (const Port& p : node.type->outputs)
-        if (p.type == ValueType::material) forecasts_[{node.name, p.name}] = forecast;
+      const Forecast* forecast = forecasts_.add(node);
+      if (forecast && writes) check_files(node, forecast->files);
     } catch (const Errors& all) {
       for (const Error& e : all.all()) complain(node, e);
     } catch (const Error& e) {
@@ -60,16 +57,6 @@ class Foresight {
     const auto wires = node.inputs.find(e.about());
     if (wires == node.inputs.end() || said_.emplace(wires->second, e.what()).second)
       problems_.push_back(problem_of(node, e.about(), e.what()));
-  }
-
-  InputForecasts inputs_of(const GraphNode& node) const {
-    InputForecasts inputs;
-    for (const auto& [port, wires] : node.inputs)
-      for (const Wire& w : wires) {
-        const auto known = forecasts_.find({w.node, w.port});
-        inputs[port].push_back(known == forecasts_.end() ? Forecast{} : known->second);
-      }
-    return inputs;
   }
 
   void check_files(const GraphNode& node, const std::vector<FutureFile>& files) {
@@ -96,7 +83,7 @@ class Foresight {
     fs::path path;  ///< as it names the file
   };
 
-  std::map<std::pair<std::string, std::string>, Forecast> forecasts_;  ///< by node and port
+  Forecasts forecasts_;
   std::map<fs::path, std::string> readers_;
   std::map<fs::path, Writer> writers_;  ///< by place_of_file
   std::set<std::pair<std::vector<Wire>, std::string>> said_;

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "graphs/document/graph.h"
+
+namespace terrazzo {
+
+/// What is known of the results of nodes before anything runs, as their preflights say.
+class Forecasts {
+ public:
+  /// Looks ahead at a checked node, after all that it reads. Null if its type cannot tell. Throws what its preflight
+  /// throws: Error, or Errors.
+  const Forecast* add(const GraphNode& node);
+  /// Null if nothing is known.
+  const Forecast* find(const std::string& node) const;
+
+ private:
+  InputForecasts inputs_of(const GraphNode& node) const;
+
+  std::map<std::string, Forecast> nodes_;
+  std::map<Wire, Forecast> outputs_;
+};
+
+}  // namespace terrazzo

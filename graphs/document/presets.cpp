@@ -1,0 +1,129 @@
+#include "graphs/document/presets.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/suggest.h"
+#include "graphs/document/read_document.h"
+
+namespace terrazzo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class PresetReader {
+ public:
+  PresetReader(const fs::path& base, const std::string& where, bool in_graph, std::vector<Problem>& problems)
+      : base_(base), file_(where), in_graph_(in_graph), problems_(problems) {}
+
+  Preset read(const JsonMember& member) {
+    Preset out{member.name, "", {}};
+    const std::string where = (in_graph_ ? "" : file_ + ": ") + "preset " + in_quotes(member.name);
+    const auto complain = [&](Place place, const std::string& message) {
+      if (in_graph_)
+        problems_.push_back({place, where, message});
+      else
+        problems_.push_back({{}, fmt::format("{}:{}:{}", file_, place.line, place.column), message});
+    };
+    if (!member.value.is_object()) {
+      complain(member.value.place,
+               "expected an object such as {\"help\": \"...\", \"set\": {\"seed\": 3}}, found " + found(member.value));
+      return out;
+    }
+    static const std::vector<std::string> keys = {"help", "set"};
+    for (const JsonMember& m : member.value.members) {
+      if (m.name == "set") {
+        out.set = read_override_object(m.value, base_, in_graph_ ? where : file_, in_graph_, problems_);
+      } else if (m.name != "help") {
+        complain(m.place, fmt::format("unknown key {}{}", in_quotes(m.name), suggestion(m.name, keys)));
+      } else if (m.value.is_text()) {
+        out.help = m.value.text;
+      } else {
+        complain(m.value.place, "expected a text for \"help\", found " + found(m.value));
+      }
+    }
+    return out;
+  }
+
+ private:
+  const fs::path& base_;
+  const std::string& file_;
+  const bool in_graph_;
+  std::vector<Problem>& problems_;
+};
+
+}  // namespace
+
+std::vector<Preset> read_presets(const JsonValue& section, const fs::path& base, const std::string& where,
+                                 bool in_graph, std::vector<Problem>& problems) {
+  std::vector<Preset> out;
+  if (!section.is_object())
+    problems.push_back({in_graph ? section.place : Place{}, in_graph ? "\"presets\"" : where,
+                        "expected an object of presets by name, found " + found(section)});
+  PresetReader reader(base, where, in_graph, problems);
+  for (const JsonMember& m : section.members) out.push_back(reader.read(m));
+  return out;
+}
+
+std::vector<Preset> presets_beside(const fs::path& graph, std::vector<Problem>& problems) {
+  fs::path file = graph;
+  file.replace_extension(".presets.json");
+  std::error_code missing;
+  if (graph.empty() || !fs::exists(file, missing)) return {};
+  try {
+    const ParsedJson parsed = parse_json(read_document(file, "file of presets"));
+    for (const Problem& p : parsed.problems)
+      problems.push_back({{}, fmt::format("{}:{}:{}", file.string(), p.place.line, p.place.column), p.message});
+    if (!parsed.value) return {};
+    return read_presets(*parsed.value, fs::absolute(file).parent_path(), file.string(), false, problems);
+  } catch (const GraphError& e) {
+    for (const Problem& p : e.problems()) problems.push_back({{}, file.string(), p.message});
+    return {};
+  }
+}
+
+std::vector<Override> chosen_presets(const std::vector<Preset>& presets, const std::vector<std::string>& names,
+                                     std::vector<Problem>& problems) {
+  std::vector<Override> out;
+  std::vector<std::string> known;
+  for (const Preset& p : presets) known.push_back(p.name);
+  for (const std::string& name : names) {
+    const auto at = std::ranges::find(presets, name, &Preset::name);
+    if (at == presets.end()) {
+      const std::string hint = known.empty() ? "; it has none" : suggestion(name, known);
+      problems.push_back({{}, "--preset " + name, "the graph has no preset of that name" + hint});
+    } else {
+      out.insert(out.end(), at->set.begin(), at->set.end());
+    }
+  }
+  return out;
+}
+
+void check_targets(const Preset& preset, const std::vector<GraphParameter>& parameters, const NodeTypes& nodes,
+                   std::vector<Problem>& problems) {
+  std::vector<std::string> parameter_names, node_names;
+  for (const GraphParameter& p : parameters) parameter_names.push_back(p.param.name);
+  for (const auto& [name, type] : nodes) node_names.push_back(name);
+  const auto require = [&](const Override& o, const std::string& what, const std::string& name,
+                           const std::vector<std::string>& known) {
+    if (std::ranges::find(known, name) == known.end())
+      o.diagnostics(problems).add(o.place, fmt::format("{} {}{}", what, in_quotes(name), suggestion(name, known)));
+  };
+  for (const Override& o : preset.set) {
+    if (o.node.empty()) {
+      require(o, "the graph has no parameter", o.name, parameter_names);
+      continue;
+    }
+    require(o, "the graph has no node", o.node, node_names);
+    const auto node = std::ranges::find(nodes, o.node, &NodeTypes::value_type::first);
+    if (node == nodes.end() || !node->second) continue;
+    std::vector<std::string> known;
+    for (const Port& p : node->second->inputs) known.push_back(p.name);
+    for (const Param& p : node->second->params) known.push_back(p.name);
+    require(o, node->second->name + " has no port or parameter", o.name, known);
+  }
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,56 @@
+#include "graphs/document/read_document.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/suggest.h"
+#include "core/image/image_file.h"
+
+namespace terrazzo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The file that a wrong path may have meant.
+std::string file_suggestion(const fs::path& path) {
+  std::vector<std::string> names;
+  std::error_code ended;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  for (fs::directory_iterator at(folder, ended), end; !ended && at != end; at.increment(ended))
+    names.push_back(at->path().filename().string());
+  std::sort(names.begin(), names.end());
+  const std::string best = nearest(path.filename().string(), names);
+  return best.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", (path.parent_path() / best).string());
+}
+
+}  // namespace
+
+std::string read_document(const fs::path& path, const std::string& what) {
+  constexpr uintmax_t most = 64 << 20;
+  const auto refuse = [&](const std::string& message) -> GraphError {
+    return GraphError(path.string(), {{{}, "", message}});
+  };
+  std::error_code failure;
+  const fs::file_status status = fs::status(path, failure);
+  if (!fs::exists(status)) throw refuse(fmt::format("there is no such {}{}", what, file_suggestion(path)));
+  if (fs::is_directory(status)) throw refuse(fmt::format("expected a {}, found a folder", what));
+  if (looks_like_image(path))
+    throw refuse(fmt::format("expected a {}, found an image; graphs load images by their nodes", what));
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw refuse(fmt::format("the {} cannot be read: {}", what, std::strerror(errno)));
+  std::string text;
+  for (char block[65536]; file.read(block, sizeof block), file.gcount() > 0;) {
+    text.append(block, static_cast<size_t>(file.gcount()));
+    if (text.size() > most) throw refuse(fmt::format("expected a {} of at most 64 MiB, found a larger file", what));
+  }
+  if (file.bad()) throw refuse(fmt::format("the {} cannot be read to its end", what));
+  return text;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "graphs/document/diagnostics.h"
+#include "graphs/document/parameters.h"
+#include "graphs/expression/expression.h"
+
+namespace terrazzo {
+
+/// What a value still lacks: parameters of the graph that must be set, and nodes whose forecasts it asks for.
+struct Lacking {
+  std::set<std::string> unset, nodes;
+  bool wrong = false;  ///< something that it is made from has a problem, which has been reported
+  bool nothing() const { return unset.empty() && nodes.empty() && !wrong; }
+};
+
+/// The graph's parameters as expressions see them. Parameters that are expressions themselves are evaluated when they
+/// are first asked for; the problems of each are reported once.
+class GraphScope : public ExpressionScope {
+ public:
+  using Forecasts = std::function<const Forecast&(const std::string& node)>;
+
+  /// All of these must outlive the scope.
+  GraphScope(std::vector<GraphParameter>& parameters, const NodeTypes& nodes, std::vector<Problem>& problems);
+
+  /// From now on nodes can be asked. It throws Error if nothing is known of the node.
+  void set_forecasts(Forecasts forecasts) { forecasts_ = std::move(forecasts); }
+
+  /// Null if there is none of that name. With its value, if all that it is made from is known by now.
+  const GraphParameter* find(const std::string& name);
+  /// What this parameter, or the expression, lacks before it can be evaluated.
+  Lacking lacking(const std::string& parameter) const;
+  Lacking lacking(const Expression& expression) const;
+
+  /// Evaluates an expression that stands in `value`, a text, for a value with this unit (empty: any). Empty after a
+  /// problem; nothing may be lacking.
+  std::optional<ParamValue> evaluate(const Expression& expression, const JsonValue& value, const std::string& unit,
+                                    Diagnostics& diagnostics);
+  /// Whether all that an expression names is there; what is not is a problem.
+  bool check_names(const Expression& expression, const JsonValue& text, Diagnostics& diagnostics) const;
+  /// Whether a parameter matters, as its `visible_if` says. True if that cannot be told yet.
+  bool is_visible(const GraphParameter& parameter);
+
+  /// Evaluates every parameter that asks for no node.
+  void evaluate_parameters();
+
+  const std::vector<std::string>& names() const { return names_; }
+  /// Adds to some parameters those that their expressions, or those of what is visible, name.
+  void add_what_they_use(std::set<std::string>& parameters) const;
+
+  ExpressionValue parameter(const std::string& name) override;
+  const Forecast& forecast(const std::string& node) override;
+
+ private:
+  GraphParameter* position(const std::string& name) const;
+  void collect(const std::string& parameter, std::set<std::string>& seen, Lacking& out) const;
+  void collect(const Expression& expression, std::set<std::string>& seen, Lacking& out) const;
+  void evaluate(GraphParameter& parameter);
+  void check_formulas();
+  void check_condition(GraphParameter& parameter);
+  void report_circles();
+
+  std::vector<GraphParameter>& parameters_;
+  const NodeTypes& nodes_;
+  std::vector<Problem>& problems_;
+  std::vector<std::string> names_;
+  Forecasts forecasts_;
+};
+
+}  // namespace terrazzo

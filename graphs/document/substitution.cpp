@@ -1,0 +1,188 @@
+#include "graphs/document/substitution.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/suggest.h"
+#include "core/base/text.h"
+#include "graphs/document/convert.h"
+
+namespace terrazzo {
+
+namespace {
+
+bool takes_texts(ParamType type) {
+  return type == ParamType::text || type == ParamType::texts || type == ParamType::text_map ||
+         type == ParamType::choice || type == ParamType::path;
+}
+
+/// A `$name` or `${name}` in a text.
+struct Reference {
+  std::string name;
+  size_t end = 0;
+};
+
+/// Empty if no name follows the $ at `at`.
+std::optional<Reference> reference_at(const std::string& text, size_t at) {
+  const bool is_braced = text.compare(at, 2, "${") == 0;
+  const size_t begin = at + 1 + is_braced;
+  size_t end = begin;
+  while (end < text.size() && is_word(text[end])) end++;
+  const bool is_closed = !is_braced || (end < text.size() && text[end] == '}');
+  if (end == begin || !is_closed) return std::nullopt;
+  return Reference{text.substr(begin, end - begin), end + is_braced};
+}
+
+JsonValue placed(JsonValue value, Place place) {
+  value.place = place;
+  for (JsonValue& item : value.items) item = placed(std::move(item), place);
+  for (JsonMember& m : value.members) m = {m.name, place, placed(std::move(m.value), place)};
+  return value;
+}
+
+/// A value of an expression as text, for a parameter that takes texts.
+JsonValue as_text(const JsonValue& v, const ParamValue& value) {
+  JsonValue out = JsonValue::of(text_of(value));
+  out.place = v.place;
+  return out;
+}
+
+/// How "$size/2" is written, where arithmetic was meant.
+std::string expression_hint(const std::string& text, const Param& param) {
+  if (takes_texts(param.type) || text.find('$') == std::string::npos) return "";
+  if (text.find_first_of("+-*/%") == std::string::npos) return "";
+  std::string plain;
+  for (const char c : text)
+    if (c != '$' && c != '{' && c != '}') plain += c;
+  return fmt::format("; to compute with it, write {}", in_quotes("=" + plain));
+}
+
+}  // namespace
+
+std::optional<JsonValue> Substitution::expand(const JsonValue& value, const Param& param, Diagnostics& diagnostics) {
+  std::optional<JsonValue> out = expand_part(value, param, diagnostics);
+  const bool has_changed = out && value.is_text() && (!out->is_text() || out->text != value.text);
+  if (has_changed) {
+    const bool is_number_in_text = out->is_text() && !is_expression(value.text);
+    diagnostics.set_origin(fmt::format(" (from {}{})", in_quotes(value.text),
+                                       is_number_in_text ? expression_hint(value.text, param) : ""));
+  }
+  return out;
+}
+
+std::optional<JsonValue> Substitution::expand_part(const JsonValue& value, const Param& param,
+                                                   Diagnostics& diagnostics) {
+  if (value.is_text()) return expand_text(value, param, diagnostics);
+  JsonValue out = value;
+  bool complete = true;
+  const auto replace = [&](JsonValue& part) {
+    std::optional<JsonValue> expanded = expand_part(part, param, diagnostics);
+    complete &= expanded.has_value();
+    if (expanded) part = std::move(*expanded);
+  };
+  for (JsonValue& item : out.items) replace(item);
+  for (JsonMember& m : out.members) replace(m.value);
+  return complete ? std::optional(std::move(out)) : std::nullopt;
+}
+
+/// Notes what there is not yet.
+bool Substitution::has_all(const Lacking& lacking) {
+  lacking_.unset.insert(lacking.unset.begin(), lacking.unset.end());
+  lacking_.nodes.insert(lacking.nodes.begin(), lacking.nodes.end());
+  return lacking.nothing();
+}
+
+std::optional<JsonValue> Substitution::expand_expression(const JsonValue& value, const Param& param,
+                                                         Diagnostics& diagnostics) {
+  const std::optional<Expression> expression = parse_expression(value, diagnostics);
+  if (!expression) return std::nullopt;
+  for (const auto& [name, offset] : expression->parameters()) used_.insert(name);
+  if (!scope_.check_names(*expression, value, diagnostics) || !has_all(scope_.lacking(*expression)))
+    return std::nullopt;
+  const std::optional<ParamValue> result = scope_.evaluate(*expression, value, param.unit, diagnostics);
+  if (!result) return std::nullopt;
+  JsonValue out = placed(json_of(*result), value.place);
+  const bool is_plain = out.is_number() || out.kind == JsonValue::Kind::boolean;
+  return is_plain && takes_texts(param.type) ? as_text(value, *result) : out;
+}
+
+std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, const Param& param,
+                                                   Diagnostics& diagnostics) {
+  const std::string& text = value.text;
+  if (text.starts_with("@") && !text.starts_with("@@")) {
+    diagnostics.add(
+        value.place,
+        fmt::format("a parameter takes no wire; found {} (write @@ for a text that begins with @)", in_quotes(text)));
+    return std::nullopt;
+  }
+  if (is_expression(text)) return expand_expression(value, param, diagnostics);
+  JsonValue out = value;
+  out.text.clear();
+  bool complete = true;
+  for (size_t at = text.starts_with("@@") || text.starts_with("==") ? 1 : 0; at < text.size();) {
+    if (text[at] != '$' || text.compare(at, 2, "$$") == 0) {
+      out.text += text[at];
+      at += text[at] == '$' ? 2 : 1;
+      continue;
+    }
+    const std::optional<Reference> reference = reference_at(text, at);
+    if (!reference) {
+      diagnostics.add(
+          value.place,
+          fmt::format("expected a parameter's name after $ in {} (a plain dollar is written $$)", in_quotes(text)));
+      return std::nullopt;
+    }
+    const GraphParameter* parameter = scope_.find(reference->name);
+    if (!parameter) {
+      const std::string hint = scope_.names().empty() ? "; it has none" : suggestion(reference->name, scope_.names());
+      diagnostics.add(value.place,
+                      fmt::format("${}: the graph has no parameter of that name{}", reference->name, hint));
+    }
+    used_.insert(reference->name);
+    if (parameter && parameter->value) {
+      const bool is_whole = at == 0 && reference->end == text.size();
+      if (is_whole && !takes_texts(param.type)) return placed(json_of(*parameter->value), value.place);
+      const bool keeps_spelling = parameter->param.type == ParamType::path && at > 0;
+      out.text += keeps_spelling ? parameter->as_written : text_of(*parameter->value);
+    } else {
+      if (parameter) has_all(scope_.lacking(reference->name));
+      complete = false;
+    }
+    at = reference->end;
+  }
+  return complete ? std::optional(std::move(out)) : std::nullopt;
+}
+
+std::set<std::string> Substitution::paths_in(const JsonValue& value) {
+  std::set<std::string> out;
+  const auto add_path = [&](const std::string& name) {
+    if (const GraphParameter* p = scope_.find(name); p && p->param.type == ParamType::path) out.insert(name);
+  };
+  if (is_expression(value.text)) {
+    std::vector<Problem> ignored;
+    Diagnostics diagnostics(ignored, "");
+    if (const std::optional<Expression> expression = parse_expression(value, diagnostics))
+      for (const auto& [name, offset] : expression->parameters()) add_path(name);
+    return out;
+  }
+  for (size_t at = value.text.find('$'); at != std::string::npos; at = value.text.find('$', at + 1)) {
+    if (value.text.compare(at, 2, "$$") == 0) {
+      at++;
+      continue;
+    }
+    if (const std::optional<Reference> reference = reference_at(value.text, at)) add_path(reference->name);
+  }
+  return out;
+}
+
+std::vector<std::string> Substitution::unused() const {
+  std::set<std::string> used = used_;
+  scope_.add_what_they_use(used);
+  std::vector<std::string> out;
+  for (const std::string& name : scope_.names())
+    if (!used.contains(name)) out.push_back(name);
+  return out;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "core/node/node.h"
+
+/// Expressions in the parameters of graphs: "=size.x / 2". A small language without loops, names of its own or side
+/// effects; examples/guide/expressions.md has all of it on a page. Thread-safe.
+namespace terrazzo {
+
+/// A value and its unit ("pixels", "degrees"; empty: none, or not known).
+struct ExpressionValue {
+  ParamValue value;
+  std::string unit{};
+};
+
+/// What is wrong with an expression, and where.
+class ExpressionError : public Error {
+ public:
+  ExpressionError(size_t offset, const std::string& message) : Error(message), offset_(offset) {}
+  /// Bytes from the beginning of the text that Expression was given.
+  size_t offset() const { return offset_; }
+
+ private:
+  size_t offset_;
+};
+
+/// What the names in an expression stand for. What these throw as Error becomes an ExpressionError at the name.
+class ExpressionScope {
+ public:
+  virtual ~ExpressionScope() = default;
+  /// A parameter of the graph.
+  virtual ExpressionValue parameter(const std::string& name) = 0;
+  /// What is known of a node's results before anything runs.
+  virtual const Forecast& forecast(const std::string& node) = 0;
+};
+
+namespace expression {
+struct Node;
+}
+
+/// A parsed expression.
+class Expression {
+ public:
+  /// `text` without the leading "=". Throws ExpressionError.
+  explicit Expression(std::string_view text);
+  ~Expression();
+  Expression(Expression&&) noexcept;
+  Expression& operator=(Expression&&) noexcept;
+
+  /// The parameters that it names and the nodes whose forecasts it asks for, each with its first offset.
+  const std::map<std::string, size_t>& parameters() const { return parameters_; }
+  const std::map<std::string, size_t>& nodes() const { return nodes_; }
+
+  /// Throws ExpressionError. Whole numbers are computed exactly; a result beyond 64 bits is an error.
+  ExpressionValue evaluate(ExpressionScope& scope) const;
+
+ private:
+  std::map<std::string, size_t> parameters_, nodes_;
+  std::unique_ptr<const expression::Node> root_;  // parsed into the names above
+};
+
+/// Whether a text in a document is an expression: it begins with one "=". Two stand for a text that begins with "=".
+bool is_expression(std::string_view text);
+
+}  // namespace terrazzo

@@ -1,0 +1,37 @@
+#include "runner/cli/cli_graph.h"
+
+#include <CLI/CLI.hpp>
+
+#include "graphs/document/reference.h"
+
+namespace terrazzo {
+
+LoadedGraph GraphFlags::load(LoadOptions options) const {
+  options.presets = presets;
+  options.settings.assign(settings.begin(), settings.end());
+  return load_graph(graph, set, options);
+}
+
+void add_graph_argument(CLI::App& command, GraphFlags& flags) {
+  command.add_option("GRAPH", flags.graph, "The graph file")->required()->type_name("FILE.json");
+}
+
+void add_value_flags(CLI::App& command, GraphFlags& flags) {
+  const auto add = [&](const char* name, std::vector<std::string>& values, const char* type, const char* help) {
+    command.add_option(name, values, help)->type_name(type)->take_all()->expected(1);
+  };
+  add("--set", flags.set, "NAME=VALUE",
+      "Sets a graph parameter, or node.parameter; may be given several times. GRAPH --help lists the parameters");
+  add("--preset", flags.presets, "NAME", "Sets what a preset of the graph says; of several, the last counts most");
+  add("--params", flags.settings, "FILE.json",
+      "Sets what a file says, an object of values by name. Counts more than presets, less than --set");
+}
+
+std::string help_on_graph(const CLI::App& command) {
+  const CLI::Option* graph = command.get_option_no_throw("GRAPH");
+  if (!graph || graph->results().empty()) return "";
+  const std::string& file = graph->results().front();
+  return graph_reference(file, read_interface(file));
+}
+
+}  // namespace terrazzo

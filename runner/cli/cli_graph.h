@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "graphs/document/load.h"
+
+namespace CLI {
+class App;
+}
+
+namespace terrazzo {
+
+/// Which graph a command works on, and with which values.
+struct GraphFlags {
+  std::string graph;
+  std::vector<std::string> set, presets, settings;
+
+  /// Loads it; `options` are completed by the presets and settings files. Throws GraphError.
+  LoadedGraph load(LoadOptions options) const;
+};
+
+/// The argument GRAPH.
+void add_graph_argument(CLI::App& command, GraphFlags& flags);
+/// --set, --preset and --params.
+void add_value_flags(CLI::App& command, GraphFlags& flags);
+
+/// What `COMMAND GRAPH --help` adds about the graph; empty if the command takes none or none has been named. Throws
+/// GraphError.
+std::string help_on_graph(const CLI::App& command);
+
+}  // namespace terrazzo

@@ -1,0 +1,167 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "tests/graphs/document/fake_types.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+
+const std::string photo_a = R"("a": {"type": "photo", "file": "maps/a.png"})";
+
+std::string adjust(const std::string& entries) {
+  return photo_a + fmt::format(R"(, "b": {{"type": "adjust", "image": "@a", {}}})", entries);
+}
+
+template <typename T>
+T adjusted(const std::string& param, const std::string& json, const std::string& parameters,
+           const std::vector<std::string>& overrides = {}) {
+  const LoadedGraph loaded =
+      load_fake(document(adjust(fmt::format(R"("{}": {})", param, json)), parameters), overrides);
+  return std::get<T>(loaded.graph.find("b")->params.at(param));
+}
+
+const std::string size_and_count =
+    R"("size": {"type": "size", "default": [512, 256]}, "count": {"type": "int", "default": 6})";
+
+}  // namespace
+
+TEST_CASE("a parameter takes the value of an expression") {
+  CHECK(adjusted<Size>("size", R"("=size / 2")", size_and_count) == Size{256, 128});
+  CHECK(adjusted<Size>("size", R"("=[size.x, count * 16]")", size_and_count) == Size{512, 96});
+  CHECK(adjusted<Size>("size", R"(["=size.x / 4", 64])", size_and_count) == Size{128, 64});
+  CHECK(adjusted<int64_t>("steps", R"("=count + 1")", size_and_count) == 7);
+  CHECK(adjusted<double>("amount", R"("=count / 12")", size_and_count) == 0.5);
+  CHECK(adjusted<bool>("wrap", R"("=count > 5")", size_and_count));
+  CHECK(adjusted<std::string>("label", R"("=count > 5 ? 'many' : 'few'")", size_and_count) == "many");
+  CHECK(adjusted<std::string>("label", R"("=count / 4")", size_and_count) == "1.5");
+  CHECK(adjusted<std::string>("label", R"("==count")", size_and_count) == "=count");
+  CHECK(adjusted<std::string>("label", R"("a=count")", size_and_count) == "a=count");
+}
+
+TEST_CASE("overrides and defaults may be expressions as well") {
+  const std::string twice = R"("a": {"type": "int", "default": 4}, "b": {"type": "int", "default": "=a * 2"},)"
+                            R"("c": {"type": "int", "default": "=b + 1"})";
+  CHECK(adjusted<int64_t>("steps", R"("$c")", twice) == 9);
+  CHECK(adjusted<int64_t>("steps", R"("=c * b")", twice) == 72);
+  CHECK(adjusted<int64_t>("steps", R"("$c")", twice, {"a=1"}) == 3);
+  CHECK(adjusted<int64_t>("steps", R"("$c")", twice, {"b=1"}) == 2);
+  CHECK(adjusted<int64_t>("steps", R"("$c")", twice, {"b==a * a"}) == 17);
+  CHECK(adjusted<int64_t>("steps", R"("$c")", twice, {"b.steps==a * 5"}) == 20);
+}
+
+TEST_CASE("a path that is made by an expression lies where it is written") {
+  const std::string name = R"("name": {"type": "text", "default": "x"})";
+  const LoadedGraph loaded =
+      load_fake(document(R"("a": {"type": "photo", "file": "=name == 'x' ? 'one.png' : 'two.png'"})", name));
+  CHECK(std::get<std::string>(loaded.graph.find("a")->params.at("file")) == "/project/graphs/one.png");
+}
+
+TEST_CASE("what is wrong in an expression is said with its column") {
+  const auto problem = [](const std::string& entry, const std::string& parameters = size_and_count) {
+    return problems_of(document(adjust(entry), parameters));
+  };
+  CHECK(problem(R"("steps": "=cuont + 1")").find("\"cuont\" (did you mean \"count\"?)") != std::string::npos);
+  CHECK(problem(R"("steps": "=count / 4")") ==
+        "test.json:1:226: node \"b\", parameter \"steps\": expected an integer of at least 1, found the number 1.5 "
+        "(from \"=count / 4\")");
+  CHECK(problem(R"("steps": "=count +")")
+            .find(": expected a number, a name, 'text' or (, found the end, in "
+                  "\"=count +\"") != std::string::npos);
+  CHECK(problem(R"("size": "$size/2")").find("to compute with it, write \"=size/2\"") != std::string::npos);
+  // The place is that of the name inside the text.
+  const std::string at_start = problem(R"("steps": "=wrong")"), further = problem(R"("steps": "=    wrong")");
+  const auto column = [](const std::string& message) { return std::stoi(message.substr(message.find(":1:") + 3)); };
+  CHECK(column(further) == column(at_start) + 4);
+}
+
+TEST_CASE("values that are made from themselves are refused") {
+  const auto problem = [](const std::string& parameters) {
+    return problems_of(document(adjust(R"("steps": "$a")"), parameters));
+  };
+  CHECK(problem(R"("a": {"type": "int", "default": "=b"}, "b": {"type": "int", "default": "=a"})")
+            .find("its value is made from itself: a -> b -> a") != std::string::npos);
+  CHECK(problem(R"("a": {"type": "int", "default": "=a + 1"})").find("from itself: a -> a") != std::string::npos);
+  const auto link = [](int i) { return fmt::format(R"("a{}": {{"type": "int", "default": "=a{} + 1"}}, )", i, i - 1); };
+  std::string forth, back;
+  for (int i = 1; i < 5000; i++) {
+    forth += link(i);
+    back = link(i) + back;
+  }
+  for (const std::string& chain : {forth, back}) {
+    const std::string all = chain + R"("a0": {"type": "int", "default": 1}, "a": {"type": "int", "default": "=a4999"})";
+    CHECK(problem(all).find("made from more than 100 others in a row") != std::string::npos);
+  }
+}
+
+TEST_CASE("an expression of a parameter that is not set asks for that parameter") {
+  const std::string parameters = R"("a": {"type": "int"}, "b": {"type": "int", "default": "=a * 2"})";
+  const std::string text = document(adjust(R"("steps": "=b + 1")"), parameters);
+  CHECK(problems_of(text).find("parameter \"a\": has no default and must be set: --set a=VALUE") != std::string::npos);
+  CHECK(problems_of(text).find("parameter \"b\"") == std::string::npos);
+  CHECK(problems_of(text, {"a=2"}).empty());
+}
+
+TEST_CASE("units are checked where both sides name one") {
+  const std::string degrees = R"("turn": {"type": "number", "default": 90, "unit": "degrees"})";
+  CHECK(problems_of(document(adjust(R"("size": "=[turn, turn]")"), degrees))
+            .find("expected pixels, found a value in degrees") != std::string::npos);
+  CHECK(problems_of(document(adjust(R"("amount": "=turn / 180")"), degrees)).empty());
+}
+
+TEST_CASE("a parameter that only another one uses is used") {
+  const std::string parameters = R"("a": {"type": "int", "default": 2}, "b": {"type": "int", "default": "=a * 2"},)"
+                                 R"("c": {"type": "int", "default": 3})";
+  const LoadedGraph loaded = load_fake(document(
+      adjust(R"("steps": "=b")") +
+          R"(, "w": {"type": "gather", "images": "@b"}, "f": {"type": "write", "material": "@w", "path": "x"})",
+      parameters));
+  REQUIRE(loaded.warnings.size() == 1);
+  CHECK(loaded.warnings.front().find("parameter \"c\": no node uses it") != std::string::npos);
+}
+
+TEST_CASE("sizes of sources are known to expressions before anything runs") {
+  const auto load = [](const std::string& nodes, const std::string& parameters,
+                       const std::vector<std::string>& overrides = {}) {
+    return load_graph_text(document(nodes, parameters), "/project/test.json", overrides);
+  };
+  const std::string twice = R"("size": {"type": "size", "default": "=@stones.size * 2"})";
+  const std::string nodes = R"("far": {"type": "noise", "size": "$size"},)"
+                            R"("mean": {"type": "noise", "size": "=@far.size / 4 + [0, @stones.count]"},)"
+                            R"("stones": {"type": "pattern", "kind": "gravel", "size": [96, 64]})";
+  const LoadedGraph loaded = load(nodes, twice);
+  const auto size_of = [](const LoadedGraph& graph, const std::string& node) {
+    return std::get<Size>(graph.graph.find(node)->params.at("size"));
+  };
+  CHECK(size_of(loaded, "far") == Size{192, 128});
+  CHECK(size_of(loaded, "mean") == Size{48, 37});
+  CHECK(std::get<Size>(*loaded.parameters.front().value) == Size{192, 128});
+  CHECK(size_of(load(nodes, twice, {"stones.size=32"}), "far") == Size{64, 64});
+  CHECK(size_of(load(nodes, twice, {"size=100"}), "far") == Size{100, 100});
+  CHECK(size_of(load(nodes, twice, {"far.size==@stones.size.x"}), "far") == Size{96, 96});
+}
+
+TEST_CASE("an expression cannot ask for what is made from it, nor for what is not known") {
+  const auto problem = [](const std::string& nodes) {
+    return problems_of(document(nodes)) + [&] {
+      try {
+        load_graph_text(document(nodes), "test.json");
+        return std::string();
+      } catch (const GraphError& e) {
+        return std::string(e.what());
+      }
+    }();
+  };
+  CHECK(problem(R"("a": {"type": "noise", "size": "=@b.size"}, "b": {"type": "noise", "size": "=@a.size"})")
+            .find("form a cycle: a -> b -> a") != std::string::npos);
+  CHECK(problem(R"("a": {"type": "noise", "size": 64}, "b": {"type": "blur", "image": "@a", "radius": "=@b.size.x"})")
+            .find("cycle") != std::string::npos);
+  CHECK(problem(R"("a": {"type": "noise", "size": 64}, "b": {"type": "grayscale", "image": "@a"},)"
+                R"("c": {"type": "noise", "size": "=@b.size"})")
+            .find("what \"b\" gives is not known before it runs") != std::string::npos);
+  CHECK(problem(R"("a": {"type": "noise", "size": "=@wrong.size"})").find("@wrong leads to no node") !=
+        std::string::npos);
+  CHECK(problem(R"("a": {"type": "load_map", "path": "missing.png"}, "b": {"type": "noise", "size": "=@a.size"})")
+            .find("missing.png") != std::string::npos);
+}
