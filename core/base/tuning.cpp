@@ -66,13 +66,13 @@ std::string overridden_tuning() {
 
 namespace detail {
 
-void add_constants(std::string_view group, std::vector<TuningConstant> constants) {
-  for (TuningConstant& c : constants) {
+void add_constants(std::string_view group, const std::vector<TuningConstant>& constants) {
+  for (const TuningConstant& c : constants) {
     const std::string name = c.name;
     defaults()[name] = c.number();
     if (!(c.least <= c.number() && c.number() <= c.most))
       throw std::logic_error(fmt::format("the tuning constant \"{}\" does not take its own value", name));
-    if (!all_constants().try_emplace(name, std::move(c)).second)
+    if (!all_constants().try_emplace(name, c).second)
       throw std::logic_error(fmt::format("two tuning constants are called \"{}\" (group {})", name, group));
   }
 }

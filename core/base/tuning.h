@@ -56,7 +56,7 @@ void override_tuning(std::string_view name, double value);
 std::string overridden_tuning();
 
 namespace detail {
-void add_constants(std::string_view group, std::vector<TuningConstant> constants);
+void add_constants(std::string_view group, const std::vector<TuningConstant>& constants);
 [[noreturn]] void reject_incomplete(std::string_view group);
 }  // namespace detail
 

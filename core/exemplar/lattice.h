@@ -147,8 +147,8 @@ class LatticePhase {
 
   /// By how many cells, in each direction, the exemplar position (u, v) is too far on for the output position (x, y).
   Vector2d cells(int u, int v, double x, double y) const {
-    const Vector2d straight = to_exemplar_.col(0) * double(u) + to_exemplar_.col(1) * double(v) -
-                              to_output_.col(0) * x - to_output_.col(1) * y + origin_;
+    Vector2d straight = to_exemplar_.col(0) * double(u) + to_exemplar_.col(1) * double(v) - to_output_.col(0) * x -
+                        to_output_.col(1) * y + origin_;
     if (bent_x_.empty()) return straight;
     return straight + bent_x_[size_t(x)] + bent_y_[size_t(y)];
   }

@@ -132,7 +132,7 @@ std::string name_in_config(const Configuration& c, const std::string& name) {
 }
 
 std::string required_name(const Configuration& c, const std::string& name) {
-  const std::string found = name_in_config(c, name);
+  std::string found = name_in_config(c, name);
   if (found.empty()) fail_unknown(c, name);
   return found;
 }

@@ -18,7 +18,9 @@ constexpr int strip_rows = 32;
 struct Range {
   float min = std::numeric_limits<float>::max();
   float max = std::numeric_limits<float>::lowest();
+  /// Computed pixels may be anything; what is not finite counts for nothing.
   void include(float v) {
+    if (!std::isfinite(v)) return;
     min = std::min(min, v);
     max = std::max(max, v);
   }
@@ -75,6 +77,7 @@ std::vector<std::vector<Bin>> bins_of(const Image& image, const std::vector<Rang
   visit_strips(image, states, task, 0.5, [&](Bins& all, const float* p, int64_t count) {
     for (int64_t i = 0; i < count; i++)
       for (int c = 0; c < channels; c++, p++) {
+        if (!std::isfinite(*p)) continue;
         Bin& bin = all[c][int((double(*p) - ranges[c].min) * scale[c] + 0.5)];
         bin.count++;
         bin.values.include(*p);
@@ -100,6 +103,7 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
 }  // namespace
 
 Distribution::Distribution(std::vector<Atom> atoms) : atoms_(std::move(atoms)) {
+  if (atoms_.empty()) atoms_.push_back({.value = 0, .count = 1});  // nothing was finite
   uint64_t total = 0, below = 0;
   for (const Atom& a : atoms_) total += a.count;
   for (const Atom& a : atoms_) {

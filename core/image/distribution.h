@@ -19,7 +19,7 @@ class Distribution {
 
   /// One per channel. Looks at all pixels twice, in parallel, strip by strip.
   static std::vector<Distribution> of(const Image& image, const Task& task);
-  /// Several as one: what `per channel` is not.
+  /// All of them as one distribution, instead of one per channel.
   static Distribution merged(const std::vector<Distribution>& parts);
 
   /// Ascending in value; at least one.

@@ -24,7 +24,7 @@ fs::path module_path() {
   const std::array<fs::path, 3> folders = {beside, beside / "../lib/terrazzo", TERRAZZO_MODULE_FOLDER};
   std::string places;
   for (const fs::path& folder : folders) {
-    const fs::path path = (folder / module_name).lexically_normal();
+    fs::path path = (folder / module_name).lexically_normal();
     if (std::error_code missing; fs::exists(path, missing)) return path;
     places += (places.empty() ? "" : ", ") + path.string();
   }

@@ -19,7 +19,7 @@ void make_sum_one(std::vector<double>& weights, Taps& taps) {
   std::transform(weights.begin(), weights.end(), taps.weights.begin(), [sum](double w) { return float(w / sum); });
 }
 
-AxisFilter copying(std::function<int(int)> position) {
+AxisFilter copying(const std::function<int(int)>& position) {
   return {[position](int i) { return Taps{position(i), {1.0f}}; }, true, false};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <variant>
 
@@ -24,8 +25,9 @@ using Value = std::variant<ImagePtr, MaterialPtr, FeaturesPtr, AppearancePtr, In
 /// In the order of Value's alternatives.
 enum class ValueType : uint8_t { image, material, features, appearance, index, uv_map, report };
 
-inline constexpr std::array<std::string_view, 7> value_type_names = {"image", "material", "features", "appearance",
-                                                                     "index", "uv_map",   "report"};
+inline constexpr auto value_type_names =
+    std::to_array<std::string_view>({"image", "material", "features", "appearance", "index", "uv_map", "report"});
+static_assert(value_type_names.size() == std::variant_size_v<Value>, "each type of value has a name");
 inline std::string_view name_of(ValueType type) {
   return value_type_names[static_cast<size_t>(type)];
 }

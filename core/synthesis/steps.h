@@ -14,6 +14,9 @@
 /// The synthesis as a list. Every ingredient is a step: a value that says when in the work on a level it runs, where it
 /// applies and what it does. steps.cpp holds the one table of them, in the order in which they run. To add an
 /// ingredient, write it as a file in steps/ and give it a row there.
+///
+/// The finest level may be worked out in parts: its field is then `level.window` of the plane, of which only
+/// `StepContext::wanted` has to be right. What steps of that level read beyond it must be within reach_of().
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
@@ -103,7 +106,7 @@ struct StepContext {
   Field& field;                             ///< while upsampling, each of its pixels stands for a block of 2x2
   const Field* parent = nullptr;            ///< while upsampling: the next coarser level
   int pass = 0;                             ///< of effort.passes
-  Rect wanted{};                            ///< of a pass: the columns and rows that have to be right after it
+  Rect wanted{};                            ///< the columns and rows that have to be right in the end
   std::optional<SeamMoves> seams{};         ///< how seams move on this level, if a step before has decided it
   std::vector<uint32_t> piece_coherence{};  ///< for this pass, see CorrectionPass
 

@@ -17,8 +17,9 @@ constexpr double title_height = 40, row_height = 17, title_char = 8.2, port_char
                  legend_height = 26;
 
 /// In the order of ValueType.
-constexpr std::array<std::string_view, value_type_names.size()> wire_colours = {
-    "#2f7d32", "#1565c0", "#8e24aa", "#c2185b", "#d84315", "#00838f", "#5d4037"};
+constexpr auto wire_colours =
+    std::to_array<std::string_view>({"#2f7d32", "#1565c0", "#8e24aa", "#c2185b", "#d84315", "#00838f", "#5d4037"});
+static_assert(wire_colours.size() == value_type_names.size(), "wires of each type of value have a colour");
 
 std::string_view box_colour(const NodeType& type) {
   if (type.category == "source") return "#e3f2e1";

@@ -90,7 +90,11 @@ NodeType load_map_node() {
   t.preflight = [](const Params& p, const InputForecasts&) {
     const std::string& path = std::get<std::string>(p.at("path"));
     require_readable_image(path);
-    return Forecast{.sizes = {{"", read_image_info(path).size}}};
+    try {
+      return Forecast{.sizes = {{"", read_image_info(path).size}}};
+    } catch (const Error&) {
+      return Forecast{};  // compute reports it
+    }
   };
   t.compute = compute;
   return t;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "nodes/common/registry.h"
+
 namespace terrazzo::test {
 
 namespace {
@@ -20,8 +22,11 @@ std::string difference(const GoldenLine& recorded, const GoldenLine& now) {
   if (recorded.type != now.type) return what + fmt::format("It was a \"{}\"; {}.", recorded.type, anew);
   if (recorded.version != now.version)
     return what + fmt::format("Its version went from {} to {}, as it should; {}.", recorded.version, now.version, anew);
-  return what +
-         fmt::format("Its version is still {}: undo the change, or raise its version and {}.", now.version, anew);
+  return what + fmt::format("Its version is still {}: undo the change, or raise its version ({}) and {}.", now.version,
+                            find_node_type(now.type) && find_node_type(now.type)->steps.empty()
+                                ? "in its file"
+                                : "synthesis_version in core/synthesis/steps.h",
+                            anew);
 }
 
 }  // namespace
@@ -53,8 +58,9 @@ void Verdict::judge(const GoldenCase& golden) {
     } else if (differs(file, *recorded, now, !golden.decided)) {
       if (!follower) complaints_.push_back(difference(*recorded, now));
     } else if (recorded->version != now.version && !follower) {
-      complaints_.push_back(fmt::format("{}: the version of \"{}\" went from {} to {}; {}.", now.name, now.type,
-                                        recorded->version, now.version, anew));
+      if (versions_said_.insert(now.type).second)
+        complaints_.push_back(fmt::format("{}: the version of \"{}\" went from {} to {}; {}.", now.name, now.type,
+                                          recorded->version, now.version, anew));
       continue;
     } else {
       continue;

@@ -35,6 +35,7 @@ class Verdict {
   std::set<Wire> changed_;
   std::set<std::filesystem::path> changed_files_;
   std::map<std::string, std::set<std::pair<std::string, std::string>>> seen_;  // by file: name and port
+  std::set<std::string> versions_said_;                                        // node types
   std::vector<std::string> complaints_;
   int followers_ = 0;
 };

@@ -193,7 +193,7 @@ BroughtTogether find_part_lattices(const Features& features, const std::vector<R
   BroughtTogether apart = brought(std::move(views), [&](const ExemplarView& view) { return finder({view}); });
   if (!alike || apart.kinds < 2) return apart;
   views = views_at_one_scale(planes, allowed, places);
-  const FoundLattice of_all = finder(views);
+  FoundLattice of_all = finder(views);
   return of_all.lattice.rank > 0 ? brought(std::move(views), [&](const ExemplarView&) { return of_all; }) : apart;
 }
 

@@ -1,5 +1,7 @@
 #include "core/image/distribution.h"
 
+#include <limits>
+
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
@@ -26,4 +28,17 @@ TEST_CASE("a distribution does not depend on which thread saw which values") {
   };
   const Digest one = describe(1);
   for (int round = 0; round < 8; round++) REQUIRE(describe(4) == one);
+}
+
+TEST_CASE("what is not finite counts for nothing") {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+  const ImagePtr image = make_image({4, 2}, 1, [&](int x, int y, int) {
+    return y == 0 ? float(x) : x == 0 ? nan : x == 1 ? infinite : x == 2 ? -infinite : 3.0f;
+  });
+  const Distribution d = Distribution::of(*image, Task()).front();
+  CHECK(d.quantile(0) == 0);
+  CHECK(d.quantile(1) == 3);
+  CHECK(d.mean() == doctest::Approx(9.0 / 5));
+  const ImagePtr nothing = make_image({4, 2}, 1, [&](int, int, int) { return nan; });
+  CHECK(Distribution::of(*nothing, Task()).front().mean() == 0);
 }

@@ -32,6 +32,7 @@ void check_part(const Index& index, const SynthesisOptions& options, const UvMap
     for (int x = 0; x < region.width; x++)
       different +=
           part->at(x, y) != all.at(wrap(region.x + x, all.size().width), wrap(region.y + y, all.size().height));
+  INFO("If a step of the finest level reads farther than reach_of() allows for, parts differ from the whole.");
   CHECK(different == 0);
 }
 

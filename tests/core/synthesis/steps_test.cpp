@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
-#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -14,14 +15,12 @@ namespace terrazzo {
 namespace {
 
 /// The names of the steps that apply, in order.
-std::vector<std::string> applying(const LevelFacts& facts) {
-  std::vector<std::string> names;
+std::string applying(const LevelFacts& facts) {
+  std::string names;
   for (const Step& s : synthesis_steps())
-    if (s.phase != Phase::coarsest && s.applies(facts)) names.emplace_back(s.name);
+    if (s.phase != Phase::coarsest && s.applies(facts)) names += (names.empty() ? "" : " ") + std::string(s.name);
   return names;
 }
-
-using Names = std::vector<std::string>;
 
 }  // namespace
 
@@ -39,24 +38,42 @@ TEST_CASE("steps stand in the order of their phases, each named after its file")
 
 TEST_CASE("which steps run is decided by the facts of a level") {
   const LevelFacts plain{.level = 2, .levels = 6};
-  CHECK(applying(plain) ==
-        Names{"proximity_penalty", "initialize", "graphcut_repair", "piece_limits", "correction", "coherence_repair"});
+  CHECK(applying(plain) == "proximity_penalty initialize graphcut_repair piece_limits correction coherence_repair");
   LevelFacts coarse = plain;
   coarse.level = 4;
-  CHECK(applying(coarse) == Names{"usage_penalty", "proximity_penalty", "initialize", "piece_limits", "correction"});
+  CHECK(applying(coarse) == "usage_penalty proximity_penalty initialize piece_limits correction");
   LevelFacts draft = plain;
   draft.quality = Quality::draft;
-  CHECK(applying(draft) == Names{"proximity_penalty", "initialize", "piece_limits", "correction"});
+  CHECK(applying(draft) == "proximity_penalty initialize piece_limits correction");
   const LevelFacts lattice{.level = 1, .levels = 6, .regular = true};
-  CHECK(applying(lattice) ==
-        Names{"initialize", "piece_relocation", "alignment", "seams", "graphcut_repair", "correction"});
+  CHECK(applying(lattice) == "initialize piece_relocation alignment seams graphcut_repair correction");
   const LevelFacts bricks{.level = 0, .levels = 6, .regular = true, .may_have_bricks = true};
-  CHECK(applying(bricks) == Names{"initialize", "alignment", "course_layout", "seams", "correction"});
+  CHECK(applying(bricks) == "initialize alignment course_layout seams correction");
   const LevelFacts kept{.level = 1, .levels = 6, .kept = true};
-  CHECK(applying(kept) == Names{"proximity_penalty", "initialize", "fixed_pixels", "seams", "graphcut_repair",
-                                "correction", "coherence_repair"});
+  CHECK(applying(kept) ==
+        "proximity_penalty initialize fixed_pixels seams graphcut_repair correction coherence_repair");
   const LevelFacts steered{.level = 2, .levels = 6, .steered = true};
-  CHECK(applying(steered) == Names{"initialize", "correction"});
+  CHECK(applying(steered) == "initialize correction");
+}
+
+TEST_CASE("every step is explained in the guide, and has its section of experiments") {
+  const auto read = [](const std::string& path) {
+    std::ifstream in(std::string(TERRAZZO_SOURCE_DIR) + "/" + path);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+  };
+  std::string guide = read("examples/guide/how-synthesis-works.md");
+  for (char& c : guide) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c == '_' ? ' ' : c;
+  const std::string experiments = read("tests/bench/experiments.md");
+  for (const Step& s : synthesis_steps()) {
+    CAPTURE(std::string(s.name));
+    std::string words(s.name);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    CHECK_MESSAGE(guide.find(words) != guide.npos, "examples/guide/how-synthesis-works.md does not name it");
+    CHECK_MESSAGE(experiments.find("## " + std::string(s.name) + "\n") != experiments.npos,
+                  "tests/bench/experiments.md has no heading of its name");
+  }
 }
 
 TEST_CASE("effort belongs to the coarse levels, and grows with quality") {
