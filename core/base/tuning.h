@@ -89,7 +89,7 @@ class Tunable {
       constants.push_back(std::move(c));
     }
     if (described + alignof(T) <= sizeof(T)) detail::reject_incomplete(group);
-    detail::add_constants(group, std::move(constants));
+    detail::add_constants(group, constants);
   }
   Tunable(const Tunable&) = delete;
   Tunable& operator=(const Tunable&) = delete;
