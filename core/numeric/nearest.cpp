@@ -81,7 +81,7 @@ void NearestPoints::scan(uint32_t leaf, Search& search) const {
       }
     }
     bool any = false;
-    for (int i = 0; i < leaf_size; i++) any |= squared[i] <= search.best.squared;
+    for (const float s : squared) any |= s <= search.best.squared;
     if (!any) return;
   }
   const uint32_t* indices = &leaf_indices_[size_t(leaf) * leaf_size];
