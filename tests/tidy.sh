@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# clang-tidy over as much of the tree as it can in a number of minutes (default 10, 0 = all of it). What the last commit
+# clang-tidy over as much of the tree as it can in a number of minutes (default 10; 0: all of it, a quarter of an hour). What the last commit
 # changed comes first; the rest starts elsewhere after every commit, so that all files get their turn.
 # Usage: tests/tidy.sh [MINUTES] [FILE...]      (given files, no others)
 set -euo pipefail

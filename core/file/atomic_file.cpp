@@ -145,6 +145,7 @@ void write_whole_file(const fs::path& target, std::string_view bytes, const fs::
 void write_whole_file(const fs::path& target, std::string_view bytes) {
   std::error_code missing;
   if (fs::exists(target, missing) && !fs::is_regular_file(target, missing)) return write_file(target, bytes);
+  if (target.has_parent_path()) fs::create_directories(target.parent_path(), missing);
   write_whole_file(target, bytes, temporary_beside(target));
 }
 

@@ -8,7 +8,8 @@
 
 #include "graphs/document/problem.h"
 
-/// JSON as graph files use it: every value knows its line and column, `//` comments are kept, objects keep their order.
+/// JSON as graph files use it: every value knows its line and column, `//` comments are kept, a comma may follow the
+/// last entry, objects keep their order.
 namespace terrazzo {
 
 struct JsonMember;

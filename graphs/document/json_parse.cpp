@@ -230,11 +230,7 @@ class Parser {
     const int line = line_;
     skip_space();
     last.comment_after = take_comment_on(line);
-    if (peek() == close) {
-      for (std::string& c : take_comments()) container.comments_inside.push_back(std::move(c));
-      at_++;
-      return false;
-    }
+    if (peek() == close) return end_of(container);
     if (peek() != ',') {
       const Place p = container.place;
       const char begin = close == '}' ? '{' : '[';
@@ -245,8 +241,14 @@ class Parser {
     at_++;
     skip_space();
     if (last.comment_after.empty()) last.comment_after = take_comment_on(comma_line);
-    if (peek() == close) fail(fmt::format("expected another {} after the comma, found \"{}\"", entry, close));
-    return true;
+    return peek() == close ? end_of(container) : true;  // a comma at the end is taken, as comments are
+  }
+
+  /// Steps over the closing bracket.
+  bool end_of(JsonValue& container) {
+    for (std::string& c : take_comments()) container.comments_inside.push_back(std::move(c));
+    at_++;
+    return false;
   }
 
   /// Steps over the opening bracket. False if the container is empty, and then it has been closed.

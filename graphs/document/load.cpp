@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
+#include "graphs/document/convert.h"
 #include "graphs/document/forecasts.h"
 #include "graphs/document/nodes.h"
 #include "graphs/document/read_document.h"
@@ -76,6 +77,7 @@ class Loader {
     GraphScope scope(out.parameters, types, problems_);
     scope.evaluate_parameters();
     Substitution substitution(scope);
+    reading.seed = read_seed(substitution);
     std::vector<NodeDraft> drafts = read_nodes(nodes, overrides, reading, substitution, problems_);
     std::vector<Problem> conversions;
     connect(drafts, problems_, conversions);
@@ -100,8 +102,8 @@ class Loader {
 
  private:
   void check_keys() {
-    static const std::vector<std::string> keys = {"terrazzo", "summary", "help",   "parameters",
-                                                  "presets",  "nodes",   "$schema"};
+    static const std::vector<std::string> keys = {"terrazzo", "summary", "help",  "parameters",
+                                                  "presets",  "seed",    "nodes", "$schema"};
     for (const JsonMember& m : document_.members)
       if (std::find(keys.begin(), keys.end(), m.name) == keys.end())
         problems_.push_back(
@@ -132,6 +134,20 @@ class Loader {
       out.emplace_back(m.name, known == reading.types.end() ? nullptr : known->second);
     }
     return out;
+  }
+
+  /// The graph's own seed; empty if it has none or it is not set yet.
+  std::optional<int64_t> read_seed(Substitution& substitution) {
+    const JsonValue* given = document_.find("seed");
+    if (!given) return std::nullopt;
+    const Param param{.name = "seed", .type = ParamType::integer, .min = 0};
+    Diagnostics diagnostics(problems_, "\"seed\"");
+    const std::optional<JsonValue> value = substitution.expand(*given, param, diagnostics);
+    if (!substitution.take_lacking().nodes.empty())
+      diagnostics.add(given->place, "the seed cannot be made from what nodes give: they may depend on it");
+    if (!value) return std::nullopt;
+    const std::optional<ParamValue> read = read_param(*value, param, folder_, diagnostics);
+    return read ? std::optional(std::get<int64_t>(*read)) : std::nullopt;
   }
 
   /// Evaluates what is made from the forecasts of nodes: node by node, so that each can ask for earlier ones.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/hash.h"
 #include "core/base/suggest.h"
 #include "graphs/document/convert.h"
 
@@ -13,6 +14,12 @@ namespace {
 
 bool is_wire(const JsonValue& v) {
   return v.is_text() && v.text.starts_with("@") && !v.text.starts_with("@@");
+}
+
+/// The order of nodes does not matter, nor do other nodes. 31 bits: every tool that shows it can hold it.
+int64_t derived_seed(int64_t graph_seed, const std::string& node) {
+  const std::string hex = Hasher().add("seed of a node").add(graph_seed).add(node).digest().hex();
+  return int64_t(std::stoul(hex.substr(0, 8), nullptr, 16) & 0x7FFFFFFF);
 }
 
 class NodeReader {
@@ -158,7 +165,9 @@ class NodeReader {
                  fmt::format("the port \"{}\" must be given: expected a wire of type {}", p.name, name_of(p.type)));
     for (const Param& p : type().params) {
       if (given_.contains(p.name)) continue;
-      if (p.fallback) {
+      if (p.name == "seed" && p.type == ParamType::integer && reading_.seed) {
+        draft_.node.params.emplace(p.name, derived_seed(*reading_.seed, draft_.node.name));
+      } else if (p.fallback) {
         draft_.node.params.emplace(p.name, default_of(p, reading_.graph_folder));
       } else {
         complain(draft_.node.place,

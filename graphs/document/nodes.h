@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -53,6 +54,7 @@ struct NodeReading {
   std::map<std::string, const NodeType*, std::less<>> types;
   std::vector<std::string> type_names;
   std::filesystem::path graph_folder;  ///< absolute
+  std::optional<int64_t> seed;         ///< of the graph; nodes that give no seed derive theirs from it and their name
 };
 
 /// Reads the section, which must outlive the drafts, as must the overrides: those with a node replace what its entries

@@ -213,13 +213,15 @@ ordered_json by_name(const std::string& pattern, const std::string& definition) 
 
 std::string json_schema(const std::vector<NodeType>& types) {
   const ordered_json text_value = {{"type", "string"}};
-  const ordered_json properties = {{"$schema", text_value},
-                                   {"terrazzo", {{"const", document_migrations().size() + 1}}},
-                                   {"summary", text_value},
-                                   {"help", text_value},
-                                   {"parameters", by_name("^[A-Za-z][A-Za-z0-9_]*$", "parameter")},
-                                   {"presets", by_name("", "preset")},
-                                   {"nodes", by_name("^[A-Za-z0-9_-]+$", "node")}};
+  const ordered_json properties = {
+      {"$schema", text_value},
+      {"terrazzo", {{"const", document_migrations().size() + 1}}},
+      {"summary", text_value},
+      {"help", text_value},
+      {"parameters", by_name("^[A-Za-z][A-Za-z0-9_]*$", "parameter")},
+      {"presets", by_name("", "preset")},
+      {"seed", any_of({{{"type", "integer"}, {"minimum", 0}}, reference("reference"), reference("expression")})},
+      {"nodes", by_name("^[A-Za-z0-9_-]+$", "node")}};
   const ordered_json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                                {"title", "terrazzo graph"},
                                {"type", "object"},

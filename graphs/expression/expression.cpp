@@ -85,7 +85,7 @@ class Evaluation {
   }
 
   ExpressionValue binary(const Node& node) {
-    const ExpressionValue left = of(*node.parts[0]);
+    ExpressionValue left = of(*node.parts[0]);
     if (node.name == "&&" || node.name == "||") {
       if (truth(left, node.name) == (node.name == "||")) return left;
       const ExpressionValue right = of(*node.parts[1]);

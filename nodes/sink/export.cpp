@@ -145,11 +145,11 @@ void add_material(NodeContext& node, const Material& material, std::vector<Job>&
 
 fs::path uv_target(const NodeContext& node, const UvMap& uv, const std::string& material) {
   const char* param = param_of_uv(node.params());
-  const fs::path target = filled(param, node.text(param),
-                                 {{"map", "uv"},
-                                  {"material", material},
-                                  {"width", fmt::format("{}", uv.size().width)},
-                                  {"height", fmt::format("{}", uv.size().height)}});
+  fs::path target = filled(param, node.text(param),
+                           {{"map", "uv"},
+                            {"material", material},
+                            {"width", fmt::format("{}", uv.size().width)},
+                            {"height", fmt::format("{}", uv.size().height)}});
   if (required_format("uv_path", target) == FileFormat::jpeg)
     throw Error("uv_path", fmt::format("the uv map is exact and JPEG is not; expected .exr, .png or .tif, found \"{}\"",
                                        target.filename().string()));

@@ -27,9 +27,10 @@ std::string filled(const char* param, const std::string& pattern, const std::map
     const auto at = values.find(name);
     if (at == values.end())
       throw Error(
-          param,
-          fmt::format("unknown placeholder {{{}}} in \"{}\"; known are {{map}}, {{material}}, {{width}} and {{height}}",
-                      name, pattern));
+          param, fmt::format(
+                     "unknown placeholder {{{0}}} in \"{1}\"; known are {{map}}, {{material}}, {{width}} and {{height}}"
+                     "; a parameter of the graph is written ${0}",
+                     name, pattern));
     out += at->second;
     i = end;
   }

@@ -98,7 +98,7 @@ std::string all_words() {
   std::vector<std::string> present;
   std::error_code failure;
   for (const fs::directory_entry& e : fs::directory_iterator(folder, failure))
-    present.push_back(e.path().filename().string());
+    present.push_back(e.path().filename().string() + (e.is_directory(failure) ? "/" : ""));
   std::sort(present.begin(), present.end());
   constexpr size_t shown = 20;
   const size_t more = present.size() > shown ? present.size() - shown : 0;
@@ -106,6 +106,8 @@ std::string all_words() {
   std::string found = present.empty() ? "the folder is empty" : fmt::format("it holds {}", fmt::join(present, ", "));
   if (more) found += fmt::format(" and {} more", more);
   for (const std::string& note : recognition.notes) found += "; " + note;
+  if (!present.empty() && std::ranges::all_of(present, [](const std::string& name) { return name.ends_with('/'); }))
+    found += ", all of them folders: name one that holds the maps";
   throw Error("path",
               fmt::format("no maps recognised in {}: {}. File names say what a map is by a word at their end ({}); {}",
                           folder.string(), found, all_words(), advice_on_map_names));

@@ -70,7 +70,7 @@ std::filesystem::path Cache::default_folder() {
   return std::filesystem::path(home) / ".cache" / "terrazzo";
 }
 
-Cache::Cache(std::filesystem::path folder, uint64_t limit)
+Cache::Cache(const std::filesystem::path& folder, uint64_t limit)
     : state_(std::make_unique<State>(std::filesystem::absolute(folder), limit)) {}
 Cache::~Cache() = default;
 

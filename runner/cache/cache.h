@@ -47,7 +47,7 @@ class Cache {
   static std::filesystem::path default_folder();
 
   /// Opens or creates the folder; throws Error if that fails. `limit`: bytes, 0 = the default of 10 GiB.
-  explicit Cache(std::filesystem::path folder, uint64_t limit = 0);
+  explicit Cache(const std::filesystem::path& folder, uint64_t limit = 0);
   ~Cache();
   Cache(const Cache&) = delete;
   Cache& operator=(const Cache&) = delete;

@@ -13,6 +13,7 @@
 
 #include "core/base/suggest.h"
 #include "core/base/text.h"
+#include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
 #include "graphs/document/problem.h"
 #include "nodes/source/material_folder.h"
@@ -121,10 +122,15 @@ int with_answer_written(int code, ProgressMode mode) {
 
 void check_writable(const char* option, const std::string& path) {
   if (path.empty()) return;
+  const std::filesystem::path file = path;
   std::error_code missing;
-  const bool was_there = std::filesystem::exists(path, missing);
-  if (!std::ofstream(path, std::ios::app)) throw UsageError(fmt::format("{} {}: cannot write there", option, path));
-  if (!was_there) std::filesystem::remove(path, missing);
+  if (std::filesystem::exists(file, missing) && !std::filesystem::is_regular_file(file, missing) &&
+      !std::filesystem::is_directory(file, missing))
+    return;  // a device or a pipe
+  const std::string trouble = why_not_writable(file.parent_path(), file.filename().string());
+  if (!trouble.empty()) throw UsageError(fmt::format("{} {}: {}", option, path, trouble));
+  if (std::filesystem::exists(file, missing) && !std::ofstream(file, std::ios::app))
+    throw UsageError(fmt::format("{} {}: the file cannot be written", option, path));
 }
 
 std::string for_command_line(std::string message, const std::string& folder) {

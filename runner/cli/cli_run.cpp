@@ -104,11 +104,12 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
 int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
   Watch watched;
   const ProgressMode mode = *progress_mode_from(flags.progress);
+  Graph graph;
+  graph.file = flags.graph;
+  watched.look_at(graph);
   for (;;) {
     int code = exit_usage;
-    Graph graph;
-    graph.file = flags.graph;
-    watched.look_at(graph);
+    watched.look_again();  // if the graph cannot be loaded, its files of before are what may mend it
     try {
       graph = load();
       watched.look_at(graph);
@@ -152,6 +153,11 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
 
 int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
   if (!flags.memory.empty()) parse_bytes(flags.memory, "--memory");
+  const std::string ending = fs::path(flags.report).extension().string();
+  std::error_code missing;
+  const bool is_device = fs::exists(flags.report, missing) && !fs::is_regular_file(flags.report, missing);
+  if (!flags.report.empty() && !is_device && ending != ".html" && ending != ".htm")
+    throw UsageError(fmt::format("--report takes a file that ends in .html; \"{}\" does not", flags.report));
   check_writable("--report", flags.report);
   check_writable("--trace", flags.trace);
   const CancelOnSignal signals;
@@ -221,6 +227,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
   struct Flags : RunFlags {
     std::string folder, out, size, seed, quality, blend, join, format, tileable;
+    std::vector<std::string> set;
   };
   const auto flags = std::make_shared<Flags>();
   synth->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
@@ -247,6 +254,13 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       ->add_option("--format", flags->format,
                    "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
       ->type_name("FORMAT");
+  synth
+      ->add_option("--set", flags->set,
+                   "Sets a parameter of the graph that this stands for (graphs/material.json), or of one of its nodes, "
+                   "as for run; may be given several times")
+      ->type_name("NAME=VALUE")
+      ->take_all()
+      ->expected(1);
   synth->add_flag("--tileable{xy}", flags->tileable,
                   "The result wraps around; --tileable=x or --tileable=y in one direction only");
   add_run_flags(*synth, *flags);
@@ -266,6 +280,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       set_if_given("--tileable", "tileable", flags->tileable);
       std::vector<std::string> set;
       for (const Argument& a : arguments) set.push_back(a.override_text());
+      set.insert(set.end(), flags->set.begin(), flags->set.end());
       if (same_folder(flags->folder, flags->out))
         throw UsageError(
             fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));

@@ -31,6 +31,10 @@ void Watch::look_at(const Graph& graph) {
   }
 }
 
+void Watch::look_again() {
+  for (auto& [path, seen] : seen_) seen = look(path);
+}
+
 bool Watch::wait_for_change(const std::atomic<bool>& cancelled) {
   const auto changed = [&] {
     return std::any_of(seen_.begin(), seen_.end(), [](const auto& s) { return look(s.first) != s.second; });

@@ -13,6 +13,8 @@ class Watch {
  public:
   /// Starts to watch this graph's files.
   void look_at(const Graph& graph);
+  /// Takes the files as they are now: only what changes from here on counts.
+  void look_again();
   /// Waits until one of them changes, appears or disappears; polls twice a second. False once `cancelled` is set.
   bool wait_for_change(const std::atomic<bool>& cancelled);
   size_t count() const { return seen_.size(); }

@@ -165,3 +165,29 @@ TEST_CASE("an expression cannot ask for what is made from it, nor for what is no
   CHECK(problem(R"("a": {"type": "load_map", "path": "missing.png"}, "b": {"type": "noise", "size": "=@a.size"})")
             .find("missing.png") != std::string::npos);
 }
+
+TEST_CASE("nodes derive their seeds from the graph's and their names, whatever their order") {
+  const auto seed_of = [](const std::string& node, const std::string& nodes, const std::string& seed,
+                          const std::vector<std::string>& overrides = {}) {
+    const std::string text = R"({"terrazzo": 1, "parameters": {"s": {"type": "int", "default": 5}}, )" + seed +
+                             R"("nodes": {)" + nodes + "}}";
+    const LoadedGraph loaded = load_graph_text(text, "/project/test.json", overrides);
+    return std::get<int64_t>(loaded.graph.find(node)->params.at("seed"));
+  };
+  const std::string a = R"("a": {"type": "noise", "size": 64})", b = R"("b": {"type": "noise", "size": 64})";
+  const std::string pinned = R"("b": {"type": "noise", "size": 64, "seed": 3})";
+  const std::string graph_seed = R"("seed": "$s", )";
+  const int64_t usual = std::get<int64_t>(*find_node_type("noise")->find_param("seed")->fallback);
+  CHECK(seed_of("a", a + "," + b, "") == usual);
+  const int64_t of_a = seed_of("a", a + "," + b, graph_seed);
+  CHECK(of_a != usual);
+  CHECK(of_a != seed_of("b", a + "," + b, graph_seed));
+  CHECK(of_a == seed_of("a", b + "," + a, graph_seed));
+  CHECK(of_a == seed_of("a", a, R"("seed": 5, )"));
+  CHECK(of_a == seed_of("a", a, R"("seed": "=s", )"));
+  CHECK(of_a != seed_of("a", a, graph_seed, {"s=6"}));
+  CHECK(seed_of("b", a + "," + pinned, graph_seed) == 3);
+  CHECK(seed_of("b", a + "," + b, graph_seed, {"b.seed=9"}) == 9);
+  CHECK_THROWS_WITH(seed_of("a", a, R"("seed": -1, )"),
+                    "/project/test.json:1:77: \"seed\": expected an integer of at least 0, found the number -1");
+}

@@ -37,6 +37,17 @@ TEST_CASE("every value and name knows its line and column") {
   CHECK(v.find("b")->find("c")->place.column == 14);
 }
 
+TEST_CASE("a comma may follow the last entry, but nothing else may") {
+  CHECK(parsed("[1, 2,]").items.size() == 2);
+  CHECK(parsed("{\"a\": 1,}").members.size() == 1);
+  CHECK(parsed("{\"a\": [1, // one\n // none\n],\n}").find("a")->items.front().comment_after == "// one");
+  CHECK(parsed("[1,\n // none\n]").comments_inside.size() == 1);
+  for (const char* wrong : {"[,]", "[1,,]", "[1,,2]", "{,}", "{\"a\": 1,,}", "{\"a\",}"}) {
+    CAPTURE(std::string(wrong));
+    CHECK_FALSE(parse_json(wrong).value);
+  }
+}
+
 TEST_CASE("columns count characters, not bytes") {
   CHECK(parsed("[\"\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80\", 1]").items[1].place.column == 9);
   CHECK(parsed("\xEF\xBB\xBF[1]").items[0].place.column == 2);
@@ -93,7 +104,7 @@ TEST_CASE("nesting is limited") {
 }
 
 TEST_CASE("all duplicate names are found, and a syntax error beside them") {
-  const ParsedJson json = parse_json("{\"a\": 1, \"b\": {\"c\": 1, \"c\": 2}, \"a\": 2, }");
+  const ParsedJson json = parse_json("{\"a\": 1, \"b\": {\"c\": 1, \"c\": 2}, \"a\": 2,, }");
   REQUIRE(json.problems.size() == 3);
   CHECK_FALSE(json.value);
   CHECK(json.problems[0].place.column == 24);
