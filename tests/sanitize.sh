@@ -10,10 +10,10 @@ cd "$(dirname "$0")/.."
 
 short=
 if [ "${1:-}" = short ]; then short=yes; shift; fi
-[[ $# -le 1 && ${1:-asan} =~ ^(asan|tsan)$ ]] || { sed -n '4s/^# //p' "$0" >&2; exit 2; }
+[[ $# -le 1 && ${1:-asan} =~ ^(asan|tsan)$ ]] || { sed -n '5s/^# //p' "$0" >&2; exit 2; }
 declare -A rooms
 if [ -n "$short" ]; then
-  rooms[asan]="core/base;core/file;core/image;core/material;core/node;graphs/document;core/synthesis"
+  rooms[asan]="core/base;core/file;core/image;core/material;core/node;graphs/document;graphs/expression;core/synthesis"
   rooms[tsan]="runner/engine;runner/cache;core/synthesis"
 fi
 
