@@ -130,7 +130,8 @@ class Declaration {
   void read_condition() {
     const JsonValue* v = text_at("visible_if");
     if (v && !is_expression(v->text)) {
-      complaints_.add(v->place, fmt::format("expected an expression such as \"=quality == 'best'\", found {}", found(*v)));
+      complaints_.add(v->place,
+                      fmt::format("expected an expression such as \"=quality == 'best'\", found {}", found(*v)));
       v = nullptr;
     }
     if (v) out_.visible_if = *v;

@@ -40,7 +40,7 @@ class GraphScope : public ExpressionScope {
   /// Evaluates an expression that stands in `value`, a text, for a value with this unit (empty: any). Empty after a
   /// problem; nothing may be lacking.
   std::optional<ParamValue> evaluate(const Expression& expression, const JsonValue& value, const std::string& unit,
-                                    Diagnostics& diagnostics);
+                                     Diagnostics& diagnostics);
   /// Whether all that an expression names is there; what is not is a problem.
   bool check_names(const Expression& expression, const JsonValue& text, Diagnostics& diagnostics) const;
   /// Whether a parameter matters, as its `visible_if` says. True if that cannot be told yet.

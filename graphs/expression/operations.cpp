@@ -60,8 +60,8 @@ using Pairwise = std::function<Number(const Number&, const Number&)>;
 
 Elements pairwise(const Elements& a, const Elements& b, const Pairwise& f) {
   if (!a.is_single && !b.is_single && a.numbers.size() != b.numbers.size())
-    throw Error(fmt::format("expected lists of equal length, found {} and {} numbers", a.numbers.size(),
-                            b.numbers.size()));
+    throw Error(
+        fmt::format("expected lists of equal length, found {} and {} numbers", a.numbers.size(), b.numbers.size()));
   Elements out{{}, a.is_single && b.is_single};
   for (size_t i = 0; i < std::max(a.numbers.size(), b.numbers.size()); i++)
     out.numbers.push_back(f(a.numbers[a.is_single ? 0 : i], b.numbers[b.is_single ? 0 : i]));
@@ -174,11 +174,15 @@ struct Function {
 };
 
 const std::vector<Function>& functions() {
-  static const std::vector<Function> all = {
-      {"min", 2, 20, "min(a, b, ...)"}, {"max", 2, 20, "max(a, b, ...)"}, {"clamp", 3, 3, "clamp(value, least, most)"},
-      {"round", 1, 2, "round(value, step)"}, {"floor", 1, 2, "floor(value, step)"},
-      {"ceil", 1, 2, "ceil(value, step)"},   {"abs", 1, 1, "abs(value)"},
-      {"sqrt", 1, 1, "sqrt(value)"},         {"length", 1, 1, "length(list or text)"}};
+  static const std::vector<Function> all = {{"min", 2, 20, "min(a, b, ...)"},
+                                            {"max", 2, 20, "max(a, b, ...)"},
+                                            {"clamp", 3, 3, "clamp(value, least, most)"},
+                                            {"round", 1, 2, "round(value, step)"},
+                                            {"floor", 1, 2, "floor(value, step)"},
+                                            {"ceil", 1, 2, "ceil(value, step)"},
+                                            {"abs", 1, 1, "abs(value)"},
+                                            {"sqrt", 1, 1, "sqrt(value)"},
+                                            {"length", 1, 1, "length(list or text)"}};
   return all;
 }
 
@@ -271,7 +275,8 @@ ExpressionValue member_of(const ExpressionValue& v, const std::string& name) {
   const bool is_pair = std::holds_alternative<Size>(v.value) ||
                        (std::holds_alternative<Numbers>(v.value) && std::get<Numbers>(v.value).size() == 2);
   if (!is_pair) throw Error(fmt::format("{} has no .{}", described(v), name));
-  if (name != "x" && name != "y") throw Error(fmt::format("a size has .x, its width, and .y, its height; found .{}", name));
+  if (name != "x" && name != "y")
+    throw Error(fmt::format("a size has .x, its width, and .y, its height; found .{}", name));
   const Number n = elements_of(v, "a dot").numbers[name == "y"];
   return {value_of({{n}, true}), v.unit};
 }

@@ -153,8 +153,7 @@ class Parser {
     if (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.')) return number();
     const std::string name = word("a number, a name, 'text' or (");
     if (name == "true" || name == "false")
-      return keep(
-          Node{.kind = Node::Kind::constant, .offset = offset, .value = ParamValue(name == "true")});
+      return keep(Node{.kind = Node::Kind::constant, .offset = offset, .value = ParamValue(name == "true")});
     if (accept("(")) {
       if (const std::string wrong = unknown_function(name); !wrong.empty()) throw ExpressionError(offset, wrong);
       return several({.kind = Node::Kind::call, .offset = offset, .name = name}, ")");
@@ -188,8 +187,8 @@ class Parser {
       const size_t member = at_;
       out.member = word("size");
       if (out.member != "size")
-        throw ExpressionError(member, fmt::format("of a map only the size is known before it is made, found {}",
-                                                  out.member));
+        throw ExpressionError(member,
+                              fmt::format("of a map only the size is known before it is made, found {}", out.member));
     }
     nodes_.emplace(out.name, offset);
     return keep(std::move(out));
@@ -200,8 +199,7 @@ class Parser {
     if (end == std::string_view::npos) throw ExpressionError(offset, "expected ' at the end of the text");
     std::string value(text_.substr(at_, end - at_));
     at_ = end + 1;
-    return keep(
-        Node{.kind = Node::Kind::constant, .offset = offset, .value = ParamValue(std::move(value))});
+    return keep(Node{.kind = Node::Kind::constant, .offset = offset, .value = ParamValue(std::move(value))});
   }
 
   NodePtr number() {
@@ -219,9 +217,8 @@ class Parser {
       fail("expected an operator after the number; a unit is not written");
     }
     const bool is_whole = as_whole.ec == std::errc() && as_whole.ptr == as_number.ptr;
-    return keep(Node{.kind = Node::Kind::constant,
-                                             .offset = offset,
-                                             .value = is_whole ? ParamValue(whole) : ParamValue(number)});
+    return keep(Node{
+        .kind = Node::Kind::constant, .offset = offset, .value = is_whole ? ParamValue(whole) : ParamValue(number)});
   }
 
   std::string word(std::string_view expected) {
