@@ -215,6 +215,15 @@ ExpressionValue round_to(const std::string& how, const std::vector<ExpressionVal
   return {value_of(pairwise(elements_of(v, how), elements_of(step, how), to_step)), unit};
 }
 
+/// A value as it stands in a longer text.
+std::string plain_text(const ExpressionValue& v) {
+  if (const auto* text = std::get_if<std::string>(&v.value)) return *text;
+  if (const auto* whole = std::get_if<int64_t>(&v.value)) return fmt::format("{}", *whole);
+  if (const auto* number = std::get_if<double>(&v.value)) return fmt::format("{}", *number);
+  if (const auto* size = std::get_if<Size>(&v.value)) return fmt::format("{}x{}", size->width, size->height);
+  throw Error(fmt::format("+ joins texts, numbers and sizes, found {}", described(v)));
+}
+
 ExpressionValue extreme(const std::string& name, const ExpressionValue& a, const ExpressionValue& b) {
   const bool largest = name == "max";
   const auto choose = [&](const Number& x, const Number& y) { return below(x, y) == largest ? y : x; };
@@ -237,6 +246,8 @@ ExpressionValue negated(const ExpressionValue& v) {
 }
 
 ExpressionValue operated(const std::string& op, const ExpressionValue& a, const ExpressionValue& b) {
+  const auto is_text = [](const ExpressionValue& v) { return std::holds_alternative<std::string>(v.value); };
+  if (op == "+" && (is_text(a) || is_text(b))) return {plain_text(a) + plain_text(b)};
   const bool is_arithmetic = op.size() == 1 && std::string("+-*/%").find(op) != std::string::npos;
   return is_arithmetic ? arithmetic(op, a, b) : comparison(op, a, b);
 }

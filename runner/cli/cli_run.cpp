@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "graphs/document/override.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
+#include "runner/cli/cli_sweep.h"
 #include "runner/cli/console.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/stock_graphs.h"
@@ -71,7 +73,9 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   options.threads = flags.threads;
   options.memory = flags.memory.empty() ? 0 : parse_bytes(flags.memory, "--memory");
   options.cancelled = &cancelled;
-  if (!flags.report.empty()) options.targets.keep = nodes_for_report(graph, flags.only);
+  options.targets.keep = flags.keep;
+  if (!flags.report.empty())
+    for (std::string& name : nodes_for_report(graph, flags.only)) options.targets.keep.push_back(std::move(name));
 
   const Plan plan = [&] {
     try {
@@ -96,6 +100,7 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   }
   progress->closed(result);
   if (mode != ProgressMode::json) print_end(result, mode);
+  if (flags.after) flags.after(result);
   if (!flags.trace.empty()) write_trace(result, flags.trace);
   if (!flags.report.empty()) write_html_report(plan, result, flags.report);
   return result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
@@ -166,22 +171,55 @@ int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
   return run_once(load(), flags, cache.get(), signals.flag());
 }
 
+namespace {
+
+int run_sweep(const GraphFlags& values, const SweepFlags& asked, const RunFlags& given) {
+  Sweep sweep(asked);
+  RunFlags flags = given;
+  flags.after = [&](const RunResult& result) { sweep.report(result); };
+  return run_with_flags(
+      [&] {
+        std::set<std::string> warned;
+        Graph graph = sweep.load([&](const std::vector<std::string>& overrides) {
+          GraphFlags variation = values;
+          variation.set.insert(variation.set.end(), overrides.begin(), overrides.end());
+          LoadedGraph loaded = variation.load({.only = given.only, .look_ahead = preflight_of_nodes});
+          for (const std::string& w : loaded.warnings)
+            if (warned.insert(w).second) warn(flags, w);
+          return std::move(loaded.graph);
+        });
+        flags.keep = sweep.kept();
+        flags.only = sweep.names_of(given.only);
+        if (!flags.only.empty()) flags.only.insert(flags.only.end(), sweep.targets().begin(), sweep.targets().end());
+        return graph;
+      },
+      flags);
+}
+
+}  // namespace
+
 void add_run_command(CLI::App& app, Chosen& chosen) {
   CLI::App* run = app.add_subcommand("run", "Runs a graph: only what has changed since it last ran");
   struct Flags : RunFlags {
     GraphFlags values;
+    SweepFlags variations;
   };
   const auto flags = std::make_shared<Flags>();
   add_graph_argument(*run, flags->values);
   add_value_flags(*run, flags->values);
+  add_sweep_flags(*run, flags->variations);
   add_run_flags(*run, *flags);
   run->footer(
       "Examples:\n"
       "  terrazzo run bricks.json --set seed=7 --set size=2048x2048\n"
-      "  terrazzo run bricks.json --only layout --dry-run");
+      "  terrazzo run bricks.json --only layout --dry-run\n"
+      "  terrazzo run bricks.json --sweep seed=1..8 --set \"out=='out/' + seed\" --sheet sheet.png --best swd");
   run->callback([&chosen, flags] {
     chosen = [flags] {
       flags->graph = flags->values.graph;
+      if (flags->variations.asked()) return run_sweep(flags->values, flags->variations, *flags);
+      for (const std::string* left : {&flags->variations.sheet, &flags->variations.figures, &flags->variations.best})
+        if (!left->empty()) throw UsageError("--sheet, --figures and --best go with --sweep or --table");
       return run_with_flags(
           [&] {
             LoadedGraph loaded = flags->values.load({.only = flags->only, .look_ahead = preflight_of_nodes});

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "graphs/document/graph.h"
+#include "runner/engine/schedule.h"
 #include "runner/report/progress.h"
 
 namespace CLI {
@@ -26,6 +27,8 @@ struct RunFlags {
   std::string report;
   std::string trace;
   std::string progress = "auto";
+  std::vector<std::string> keep{};                ///< more targets, whose values are kept for `after`
+  std::function<void(const RunResult&)> after{};  ///< called with the result of each run
 };
 
 void add_run_flags(CLI::App& command, RunFlags& flags);

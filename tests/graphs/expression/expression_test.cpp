@@ -173,7 +173,10 @@ TEST_CASE("texts, numbers and truth are compared with their like") {
   CHECK(shown("wrap == true") == "true");
   CHECK(trouble("quality == 1") == "8: a comparison of the text 'best' and the number 1");
   CHECK(trouble("quality < 'x'") == "8: < compares numbers, found the text 'best'");
-  CHECK(trouble("quality + 1") == "8: + takes numbers, found the text 'best'");
+  CHECK(trouble("quality - 1") == "8: - takes numbers, found the text 'best'");
+  CHECK(shown("'out/' + quality + '-' + seed + '-' + size") == "the text 'out/best-7-512x256'");
+  CHECK(shown("0.5 + 'x'") == "the text '0.5x'");
+  CHECK(trouble("'x' + wrap") == "4: + joins texts, numbers and sizes, found true");
 }
 
 TEST_CASE("facts of nodes are what is known before they run") {

@@ -385,48 +385,6 @@ TEST_CASE("new writes a commented graph that runs") {
   CHECK(w.run({"new", "nowhere", "-o", "x.json"}).code == 2);
 }
 
-TEST_CASE("folders of reports, traces, drawings and new graphs are made") {
-  const Workplace w;
-  const ProgramRun run = w.run({"run", "soft.json", "--report", "a/b/r.html", "--trace", "c/t.json"});
-  CHECK_MESSAGE(run.code == 0, run.err);
-  CHECK(fs::exists(w.path / "a/b/r.html"));
-  CHECK(fs::exists(w.path / "c/t.json"));
-  CHECK(w.run({"draw", "soft.json", "-o", "d/e/soft.svg"}).code == 0);
-  CHECK(fs::exists(w.path / "d/e/soft.svg"));
-  CHECK(w.run({"run", "soft.json", "--report", "f/r.html", "--dry-run"}).code == 0);
-  CHECK_FALSE(fs::exists(w.path / "f"));
-}
-
-TEST_CASE("values come from presets and settings files, and a graph's own help lists them") {
-  const Workplace w;
-  write_text(w.path / "soft.presets.json", R"({"strong": {"help": "much softer", "set": {"radius": 4}}})");
-  write_text(w.path / "other.json", R"({"radius": "=2 * 4", "out": "from-file"})");
-  const ProgramRun help = w.run({"run", "soft.json", "--help"});
-  CHECK(help.code == 0);
-  CHECK(help.out.find("  radius: ") != std::string::npos);
-  CHECK(help.out.find("  strong: much softer\n      sets radius\n") != std::string::npos);
-  CHECK(help.out.find("--preset NAME") != std::string::npos);
-  CHECK(w.run({"run", "nowhere.json", "--help"}).code == 2);
-  CHECK(w.run({"run", "--help"}).code == 0);
-  const ProgramRun run = w.run({"run", "soft.json", "--preset", "strong", "--params", "other.json"});
-  CHECK_MESSAGE(run.code == 0, run.err);
-  CHECK(fs::exists(w.path / "from-file/base_color.png"));
-  CHECK(w.run({"check", "soft.json", "--preset", "stong"}).err.find("did you mean \"strong\"?") != std::string::npos);
-}
-
-TEST_CASE("watching sees a source that vanishes come back") {
-  const Workplace w;
-  StartedProgram program(w.path, {"run", "soft.json", "--watch"});
-  REQUIRE(program.says("watching 2 files"));
-  const std::string photo = read_text(w.path / "photo.png");
-  fs::remove(w.path / "photo.png");
-  REQUIRE(program.says("there is no such file"));
-  write_text(w.path / "photo.png", photo);
-  CHECK(program.says("3 stages: 3 cached, 0 run"));
-  program.signal(SIGTERM);
-  CHECK(program.wait().code == 0);
-}
-
 TEST_CASE("watching runs the graph again when a file that it reads is touched") {
   const Workplace w;
   StartedProgram program(w.path, {"run", "soft.json", "--watch"});

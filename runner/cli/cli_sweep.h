@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/node/report.h"
+#include "graphs/document/variations.h"
+#include "runner/engine/schedule.h"
+
+namespace CLI {
+class App;
+}
+
+namespace terrazzo {
+
+/// Which variations of a graph to run, and what to make of them.
+struct SweepFlags {
+  std::vector<std::string> sweeps;
+  std::string table, sheet, figures, best;
+
+  bool asked() const { return !sweeps.empty() || !table.empty(); }
+};
+
+void add_sweep_flags(CLI::App& command, SweepFlags& flags);
+
+/// Several variations of a graph, run as one: analyses and whatever else they share are made once.
+class Sweep {
+ public:
+  /// Reads sweeps and table. Throws UsageError.
+  explicit Sweep(const SweepFlags& flags);
+
+  /// Loads every variation by `load`, which gets its overrides, into one graph; adds what contact sheet and figures
+  /// need. Throws GraphError, and UsageError if the graph has nothing to show or to compare.
+  Graph load(const std::function<Graph(const std::vector<std::string>&)>& load);
+
+  /// What these nodes are called in the merged graph, in every variation; and what has to run and to be kept besides.
+  std::vector<std::string> names_of(const std::vector<std::string>& nodes) const;
+  const std::vector<std::string>& targets() const { return targets_; }
+  const std::vector<std::string>& kept() const { return kept_; }
+
+  /// After a run: prints a table of all variations, with their figures; writes what was asked for; names the best.
+  void report(const RunResult& result) const;
+
+ private:
+  void check_paths(const Graph& graph) const;
+  std::string picture_of(Graph& graph, size_t variation);
+  std::string comparison_of(Graph& graph, size_t variation);
+  void add_sheet(Graph& graph);
+  std::vector<std::string> labels() const;
+  std::vector<const Report*> reports(const RunResult& result) const;
+  void tell_best(const std::vector<const Report*>& reports) const;
+
+  const SweepFlags& flags_;
+  std::vector<Variation> variations_;
+  std::vector<std::map<std::string, std::string>> names_;
+  std::vector<Wire> pictures_;            ///< by variation; for the contact sheet
+  std::vector<std::string> comparisons_;  ///< by variation: the node that compares
+  std::vector<std::string> targets_, kept_;
+};
+
+}  // namespace terrazzo

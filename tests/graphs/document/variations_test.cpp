@@ -1,0 +1,111 @@
+#include "graphs/document/variations.h"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tests/graphs/document/fake_types.h"
+#include "tests/run_node.h"
+#include "tests/texts.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string labels(const std::vector<Variation>& all) {
+  std::vector<std::string> out;
+  for (const Variation& v : all) out.push_back(v.label());
+  return fmt::format("{}", fmt::join(out, " | "));
+}
+
+template <typename F>
+std::string trouble(const F& f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("sweeps give every combination, the last one changing fastest") {
+  CHECK(labels(swept({"seed=1..3"})) == "seed=1 | seed=2 | seed=3");
+  CHECK(labels(swept({"seed=3..1"})) == "seed=3 | seed=2 | seed=1");
+  CHECK(labels(swept({"seed=1..9:4,20"})) == "seed=1 | seed=5 | seed=9 | seed=20");
+  CHECK(labels(swept({"x=0..0.3:0.1"})) == "x=0 | x=0.1 | x=0.2 | x=0.3");
+  CHECK(labels(swept({"seed=1,2", "size=512x256,64"})) ==
+        "seed=1, size=512x256 | seed=1, size=64 | seed=2, size=512x256 | seed=2, size=64");
+  CHECK(labels(swept({R"(w={"a": 1, "b": 2},{"a": 3})"})) == R"(w={"a": 1, "b": 2} | w={"a": 3})");
+  CHECK(labels(swept({"out=../x"})) == "out=../x");
+  CHECK(swept({"layout.seed=4"}).front().overrides() == std::vector<std::string>{"layout.seed=4"});
+  CHECK(swept({}).empty());
+}
+
+TEST_CASE("sweeps that mean nothing are refused") {
+  const auto problem = [](const std::vector<std::string>& sweeps) { return trouble([&] { swept(sweeps); }); };
+  CHECK(problem({"seed"}) == "\"seed\": expected name=values, such as seed=1..8 or size=512,1024");
+  CHECK(problem({"seed="}).find("expected name=values") != std::string::npos);
+  CHECK(problem({"seed=1,,2"}) == "\"seed=1,,2\": expected a value between commas");
+  CHECK(problem({"seed=1..5:-1"}) == "\"seed=1..5:-1\": expected a step that leads from 1 to 5");
+  CHECK(problem({"seed=1..5:0"}).find("expected a step") != std::string::npos);
+  CHECK(problem({"seed=1", "seed=2"}) == "\"seed=2\": \"seed\" is swept already");
+  CHECK(problem({"seed=1..1000000000"}) == "more than 10000 variations; sweep over fewer values");
+  CHECK(problem({"a=1..1000", "b=1..1000"}) == "more than 10000 variations; sweep over fewer values");
+}
+
+TEST_CASE("tables are read from CSV and JSON") {
+  const TemporaryFolder folder;
+  const fs::path csv = folder.path() / "t.csv", json = folder.path() / "t.json";
+  write_text(csv, "seed,out,layout.note\r\n1,\"a, \"\"b\"\"\",x\r\n\r\n2,,\"two\nlines\"\r\n");
+  CHECK(labels(read_table(csv)) == "seed=1, out=a, \"b\", layout.note=x | seed=2, layout.note=two\nlines");
+  write_text(json, R"([{"seed": 1, "size": [4, 8]}, {"out": "b", "wrap": true}])");
+  CHECK(labels(read_table(json)) == "seed=1, size=[4, 8] | out=b, wrap=true");
+  CHECK(labels(combined(read_table(json), swept({"x=1,2"}))) ==
+        "seed=1, size=[4, 8], x=1 | seed=1, size=[4, 8], x=2 | out=b, wrap=true, x=1 | out=b, wrap=true, x=2");
+}
+
+TEST_CASE("what is wrong with a table is said with its line") {
+  const TemporaryFolder folder;
+  const fs::path csv = folder.path() / "t.csv", json = folder.path() / "t.json";
+  const auto problem = [&](const fs::path& file, const std::string& text) {
+    write_text(file, text);
+    const std::string out = trouble([&] { read_table(file); });
+    return out.substr(std::min(out.size(), out.find("t.") == out.npos ? 0 : out.find("t.")));
+  };
+  CHECK(problem(csv, "seed\n") == "t.csv: expected a line of names and at least one line of values");
+  CHECK(problem(csv, "seed,out\n1\n") == "t.csv:2: expected 2 cells as in the first line, found 1");
+  CHECK(problem(csv, "seed,\n1,2\n") == "t.csv:1: column 2 has no name");
+  CHECK(problem(csv, "seed\n\"1\n\n") == "t.csv:2: a quote is opened and not closed");
+  CHECK(problem(csv, "seed\n\"1\"2\n") == "t.csv:2: expected a comma or the end of the line after a cell in quotes");
+  CHECK(problem(json, "{}").find("t.json:1:1: expected a list of objects") == 0);
+  CHECK(problem(json, "[3]").find("t.json:1:2: expected a list of objects") == 0);
+  CHECK(problem(json, "[{]").find("t.json:1:3") == 0);
+  CHECK(trouble([&] { read_table(folder.path() / "none.csv"); }).find("there is no such table") != std::string::npos);
+}
+
+TEST_CASE("merged variations share what is the same, and differ where their values do") {
+  const std::string text =
+      document(R"("a": {"type": "photo", "file": "a.png"}, "b": {"type": "adjust", "image": "@a", "steps": "$n"},)"
+               R"("c": {"type": "adjust", "image": "@b"}, "d": {"type": "adjust", "image": "@a", "steps": 7})",
+               R"("n": {"type": "int", "default": 1})");
+  const std::vector<Variation> all = swept({"n=1,2,2.0"});
+  std::vector<Graph> graphs;
+  std::vector<std::string> names;
+  for (const Variation& v : all) {
+    graphs.push_back(load_fake(text, v.overrides()).graph);
+    names.push_back(v.label());
+  }
+  const MergedGraph one = merged(graphs, names);
+  std::vector<std::string> nodes;
+  for (const GraphNode& n : one.graph.nodes) nodes.push_back(n.name);
+  // The third variation is the second one, written otherwise.
+  CHECK(nodes == std::vector<std::string>{"a", "b [n=1]", "c [n=1]", "d", "b [n=2]", "c [n=2]"});
+  CHECK(one.graph.find("c [n=2]")->inputs.at("image").front().node == "b [n=2]");
+  CHECK(one.names[2].at("c") == "c [n=2]");
+  CHECK(one.names[1].at("d") == "d");
+  CHECK(merged({}, {}).graph.nodes.empty());
+}
