@@ -73,6 +73,7 @@ class Loader {
     for (const Preset& p : out.presets)
       if (std::ranges::find(options.presets, p.name) == options.presets.end())
         check_targets(p, out.parameters, types, problems_);
+    merge_members(overrides, out.parameters, types);
     set_parameters(out.parameters, overrides, types, problems_);
     GraphScope scope(out.parameters, types, problems_);
     scope.evaluate_parameters();
@@ -134,6 +135,33 @@ class Loader {
       out.emplace_back(m.name, known == reading.types.end() ? nullptr : known->second);
     }
     return out;
+  }
+
+  /// Makes "weights.height=2" the whole map, where `weights` is no node but a parameter of the graph.
+  void merge_members(std::vector<Override>& overrides, const std::vector<GraphParameter>& parameters,
+                     const NodeTypes& nodes) {
+    std::map<std::string, JsonValue> maps;
+    for (Override& o : overrides) {
+      const std::string& name = o.node.empty() ? o.name : o.node;
+      const auto p = std::ranges::find_if(parameters, [&](const GraphParameter& g) { return g.param.name == name; });
+      const bool is_node = std::ranges::find(nodes, name, &NodeTypes::value_type::first) != nodes.end();
+      if (p == parameters.end() || is_node ||
+          (p->param.type != ParamType::number_map && p->param.type != ParamType::text_map))
+        continue;
+      if (o.node.empty()) {
+        maps[name] = o.json_for(p->param);
+        continue;
+      }
+      JsonValue empty;
+      empty.kind = JsonValue::Kind::object;
+      const auto [at, is_new] = maps.try_emplace(name, p->value ? json_of(*p->value) : empty);
+      const std::optional<JsonValue> merged = with_member(at->second, o.name, o, problems_);
+      o.name = name;
+      o.node.clear();
+      if (!merged) continue;
+      at->second = *merged;
+      o.json = *merged;
+    }
   }
 
   /// The graph's own seed; empty if it has none or it is not set yet.

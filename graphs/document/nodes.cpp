@@ -73,11 +73,39 @@ class NodeReader {
     return false;
   }
 
-  static std::vector<NodeEntry> entries(const JsonValue& value, const std::vector<const Override*>& overrides) {
+  /// Of "weights.height=2" the whole map, if `weights` is one. False if it is not.
+  bool add_member(const Override& o, std::vector<NodeEntry>& entries) {
+    const size_t dot = o.name.find('.');
+    const Param* param = dot == o.name.npos ? nullptr : type().find_param(o.name.substr(0, dot));
+    if (!param || (param->type != ParamType::number_map && param->type != ParamType::text_map)) return false;
+    const auto at = std::ranges::find(entries, param->name, &NodeEntry::name);
+    JsonValue map;
+    map.kind = JsonValue::Kind::object;
+    if (at != entries.end())
+      map = given_by(*at, *param);
+    else if (param->fallback)
+      map = json_of(*param->fallback);
+    const std::optional<JsonValue> merged = with_member(std::move(map), o.name.substr(dot + 1), o, problems_);
+    if (!merged) return true;
+    const NodeEntry entry{param->name, o.place, nullptr, &o, std::make_shared<const JsonValue>(*merged)};
+    if (at == entries.end()) {
+      entries.push_back(entry);
+    } else {
+      *at = entry;
+    }
+    return true;
+  }
+
+  static JsonValue given_by(const NodeEntry& e, const Param& param) {
+    return e.merged ? *e.merged : e.by ? e.by->json_for(param) : *e.value;
+  }
+
+  std::vector<NodeEntry> entries(const JsonValue& value, const std::vector<const Override*>& overrides) {
     std::vector<NodeEntry> out;
     for (const JsonMember& m : value.members)
       if (m.name != "type") out.push_back({m.name, m.place, &m.value, nullptr});
     for (const Override* o : overrides) {
+      if (add_member(*o, out)) continue;
       const auto at = std::find_if(out.begin(), out.end(), [&](const NodeEntry& e) { return e.name == o->name; });
       if (at == out.end()) {
         out.push_back({o->name, o->place, nullptr, o});
@@ -112,7 +140,7 @@ class NodeReader {
 
   void read_parameter(const NodeEntry& e, const Param& param) {
     Diagnostics diagnostics = complaints_about(e, "parameter");
-    const JsonValue given = e.by ? e.by->json_for(param) : *e.value;
+    const JsonValue given = given_by(e, param);
     const std::optional<JsonValue> value = substitution_.expand(given, param, diagnostics);
     const Lacking lacking = substitution_.take_lacking();
     draft_.unset.insert(lacking.unset.begin(), lacking.unset.end());

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -37,6 +38,7 @@ struct NodeEntry {
   Place place;
   const JsonValue* value = nullptr;
   const Override* by = nullptr;
+  std::shared_ptr<const JsonValue> merged{};  ///< a map in which an override has set one member; instead of both
 };
 
 /// A node read and checked, but for its wires.

@@ -32,6 +32,23 @@ JsonValue Override::json_for(const Param& param) const {
   return json ? *json : read_command_line(value, param);
 }
 
+std::optional<JsonValue> with_member(JsonValue map, const std::string& member, const Override& by,
+                                     std::vector<Problem>& problems) {
+  if (!map.is_object()) {
+    by.diagnostics(problems).add(by.place, fmt::format("the value is {}, of which no single member can be set; set it "
+                                                       "as a whole",
+                                                       found(map)));
+    return std::nullopt;
+  }
+  const JsonValue value = by.json_for({.name = member, .type = ParamType::numbers});
+  if (JsonValue* old = map.find(member)) {
+    *old = value;
+  } else {
+    map.members.push_back({member, by.place, value});
+  }
+  return map;
+}
+
 std::string where_of_override(const std::string& spelled) {
   return "override " + in_quotes(spelled);
 }

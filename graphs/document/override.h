@@ -28,6 +28,11 @@ struct Override {
   JsonValue json_for(const Param& param) const;
 };
 
+/// A map with what the override says for one of its members, `member`; `map` is what it is otherwise. Empty, after a
+/// problem, if that is no object.
+std::optional<JsonValue> with_member(JsonValue map, const std::string& member, const Override& by,
+                                     std::vector<Problem>& problems);
+
 /// How problems say (as Problem::where) that they are about the override of this spelling.
 std::string where_of_override(const std::string& spelled);
 

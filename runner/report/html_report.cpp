@@ -196,7 +196,7 @@ void write_html_report(const Plan& plan, const RunResult& result, const std::fil
 }
 
 void write_report_page(const Report& report, const std::filesystem::path& path) {
-  write_whole_file(path, page_head("terrazzo: a comparison") + report_html(report, sheet_side));
+  write_whole_file(path, page_head("terrazzo: " + report.title()) + report_html(report, sheet_side));
 }
 
 }  // namespace terrazzo

@@ -191,3 +191,25 @@ TEST_CASE("nodes derive their seeds from the graph's and their names, whatever t
   CHECK_THROWS_WITH(seed_of("a", a, R"("seed": -1, )"),
                     "/project/test.json:1:77: \"seed\": expected an integer of at least 0, found the number -1");
 }
+
+TEST_CASE("one member of a map can be set by itself") {
+  const std::string node = R"("s": {"type": "gather", "images": ["@a"], "gains": {"x": 2, "y": 3}})";
+  const auto gains = [&](const std::string& nodes, const std::string& parameters,
+                         const std::vector<std::string>& overrides) {
+    const LoadedGraph loaded = load_fake(document(photo_a + ", " + nodes, parameters), overrides);
+    return std::get<NumberMap>(loaded.graph.find("s")->params.at("gains"));
+  };
+  CHECK(gains(node, "", {"s.gains.x=5"}) == NumberMap{{"x", {5}}, {"y", {3}}});
+  CHECK(gains(node, "", {"s.gains.x=5", "s.gains.z=[1, 2]"}) == NumberMap{{"x", {5}}, {"y", {3}}, {"z", {1, 2}}});
+  CHECK(gains(node, "", {R"(s.gains={"x": 1})", "s.gains.y==1 + 1"}) == NumberMap{{"x", {1}}, {"y", {2}}});
+  CHECK(gains(R"("s": {"type": "gather", "images": ["@a"]})", "", {"s.gains.x=5"}) == NumberMap{{"x", {5}}});
+  const std::string map = R"("m": {"type": "number_map", "default": {"x": 7}})";
+  const std::string of_graph = R"("s": {"type": "gather", "images": ["@a"], "gains": "$m"})";
+  CHECK(gains(of_graph, map, {"m.y=4"}) == NumberMap{{"x", {7}}, {"y", {4}}});
+  CHECK(gains(of_graph, map, {R"(m={"z": 1})", "m.z=3"}) == NumberMap{{"z", {3}}});
+  const std::string text = document(photo_a + ", " + of_graph, map);
+  CHECK(problems_of(text, {"s.gains.y=4"}).find("the value is the text \"$m\", of which no single member can be set") !=
+        std::string::npos);
+  CHECK(problems_of(text, {"n.y=4"}).find("the graph has no node \"n\"") != std::string::npos);
+  CHECK_FALSE(problems_of(text, {"m.y=word"}).empty());
+}
