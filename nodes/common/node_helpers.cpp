@@ -59,6 +59,10 @@ Port image_port(const std::string& name, const std::string& help) {
   return {.name = name, .type = ValueType::image, .help = help};
 }
 
+std::vector<std::string> semantic_choices() {
+  return {semantic_names.begin(), semantic_names.end()};
+}
+
 Port material_port(const std::string& name, const std::string& help) {
   return {.name = name, .type = ValueType::material, .help = help};
 }

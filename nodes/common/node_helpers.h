@@ -23,6 +23,9 @@ inline constexpr double largest_sample = 1e6;
 /// A parameter that is a pixel value.
 Param sample_param(const std::string& name, double fallback, const std::string& help);
 
+/// What a map may be used as, for parameters.
+std::vector<std::string> semantic_choices();
+
 Port image_port(const std::string& name, const std::string& help);
 Port material_port(const std::string& name, const std::string& help);
 

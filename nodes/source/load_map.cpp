@@ -5,14 +5,11 @@
 #include "core/image/image_ops.h"
 #include "core/node/node.h"
 #include "nodes/common/color_space.h"
+#include "nodes/common/node_helpers.h"
 
 namespace terrazzo {
 
 namespace {
-
-std::vector<std::string> semantic_choices() {
-  return {semantic_names.begin(), semantic_names.end()};
-}
 
 /// A mask painted as transparency would silently be all white or all black.
 void note_transparency(NodeContext& node, const Image& mask) {

@@ -150,9 +150,12 @@ TEST_CASE("a whole file replaces what was there, or nothing is touched") {
   CHECK(read_text(at) == "two");
   CHECK(listing(folder.path()) == std::vector<std::string>{"a.txt"});
 
-  const std::string nowhere = (folder.path() / "not there/a.txt").string();
-  CHECK_THROWS_WITH_AS(write_whole_file(nowhere, "three"),
-                       ("cannot write " + nowhere + ": No such file or directory").c_str(), FileError);
+  write_whole_file(folder.path() / "new/folder/a.txt", "three");
+  CHECK(read_text(folder.path() / "new/folder/a.txt") == "three");
+  fs::remove_all(folder.path() / "new");
+  const std::string nowhere = (at / "a.txt").string();
+  CHECK_THROWS_WITH_AS(write_whole_file(nowhere, "three"), ("cannot write " + nowhere + ": Not a directory").c_str(),
+                       FileError);
   fs::create_directories(folder.path() / "full/folder");
   write_text(folder.path() / "finished", "four");
   CHECK_THROWS_AS(publish_file(folder.path() / "finished", folder.path() / "full"), FileError);

@@ -1,0 +1,60 @@
+#include "core/image/color.h"
+#include "core/node/node.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+void compute(NodeContext& node) {
+  const Numbers& value = node.numbers("value");
+  ImageInfo info{
+      .size = node.size("size"), .channels = int(value.size()), .semantic = *semantic_from(node.text("semantic"))};
+  info.color_space = assumed_color_space(info.semantic, Depth::u16);
+  const std::vector<float> pixel(value.begin(), value.end());
+  node.output("image", Image::computed(info, node.key(), [pixel](const Rect& region, float* out) {
+                for (int64_t i = 0; i < region.area(); i++) out = std::copy(pixel.begin(), pixel.end(), out);
+              }));
+}
+
+}  // namespace
+
+NodeType solid_node() {
+  NodeType t;
+  t.name = "solid";
+  t.category = "source";
+  t.summary = "One colour or value everywhere";
+  t.help =
+      "For what a scan lacks: a constant roughness, a metallic map of zeros, a tint to blend with. Pixels are computed "
+      "on demand, so a huge one costs nothing.";
+  t.outputs = {image_port("image", "as many channels as value has numbers")};
+  t.params = {{.name = "value",
+               .type = ParamType::numbers,
+               .fallback = Numbers{0.5},
+               .help = "One number for grey, three for a colour, two or four with alpha; colours as a file would hold "
+                       "them (sRGB for base_color).",
+               .min = 0,
+               .max = 65504,
+               .min_count = 1,
+               .max_count = 4},
+              {.name = "size",
+               .type = ParamType::size,
+               .fallback = Size{512, 512},
+               .help = "Size of the image.",
+               .min = 1,
+               .max = 65536,
+               .unit = "pixels"},
+              {.name = "semantic",
+               .type = ParamType::choice,
+               .fallback = "data",
+               .help = "What the image is used as; decides how it is filtered and written.",
+               .choices = semantic_choices()}};
+  t.persist = Persist::derived;
+  t.preflight = [](const Params& params, const InputForecasts&) {
+    return Forecast{.sizes = {{"", std::get<Size>(params.at("size"))}}};
+  };
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo
