@@ -58,7 +58,7 @@ Planes blurred(const Planes& image, double sigma, Beyond beyond) {
   if (!(sigma > 0)) return image;
   const int radius = int(4 * sigma + 0.5), c = image.channels;
   const std::vector<float> weights = gaussian_kernel(sigma, radius);
-  const auto [width, height] = image.size;
+  const int width = image.size.width, height = image.size.height;
   const size_t row_values = size_t(width) * c;
   const auto column = [&](int x) { return beyond == Beyond::mirrored ? mirrored(x, width) : image.column(x); };
   const auto row = [&](int y) { return beyond == Beyond::mirrored ? mirrored(y, height) : image.row(y); };

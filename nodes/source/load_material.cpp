@@ -41,7 +41,8 @@ std::map<std::string, Source> read_sources(NodeContext& node, const fs::path& fo
   for (auto& entry : sources) entries.push_back(&entry);
   tbb::parallel_for(size_t{0}, entries.size(), [&](size_t i) {
     node.task().check();
-    auto& [file, source] = *entries[i];
+    const std::string& file = entries[i]->first;
+    Source& source = entries[i]->second;
     ImageInfo info;
     info.semantic = semantics.at(file);
     source.image = read_image(folder / file, info, [&](const std::string& w) { source.warnings.push_back(w); });

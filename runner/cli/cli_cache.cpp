@@ -46,7 +46,7 @@ void add_cache_command(CLI::App& app, Chosen& chosen) {
       "The folder is $TERRAZZO_CACHE, or terrazzo under $XDG_CACHE_HOME, or ~/.cache/terrazzo.\n"
       "Example:\n  terrazzo cache gc --limit 2G");
   const auto flags = std::make_shared<CacheFlags>();
-  const auto add = [&](const char* name, const char* help, std::function<int(const CacheFlags&)> act) {
+  const auto add = [&](const char* name, const char* help, const std::function<int(const CacheFlags&)>& act) {
     CLI::App* sub = cache->add_subcommand(name, help);
     sub->add_option("--cache", flags->folder, "The cache's folder, if not the usual one")->type_name("DIR");
     sub->callback([&chosen, flags, act] { chosen = [flags, act] { return act(*flags); }; });

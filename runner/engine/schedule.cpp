@@ -95,10 +95,10 @@ class JobGraph {
     }
   }
 
-  void take_back(JobPtr job, const LeaseWaiter::Wait& wait) {
+  void take_back(const JobPtr& job, const LeaseWaiter::Wait& wait) {
     job->span = {"wait", job->stage, first_waiting_row + wait.row, seconds_at(wait.start), seconds_at(wait.end)};
     job->resumed = true;
-    coordinate_.try_put(std::move(job));
+    coordinate_.try_put(job);
     graph_.release_wait();
   }
 
@@ -112,7 +112,7 @@ class JobGraph {
   Coordinate coordinate_{graph_, flow::serial,
                          [this](const JobPtr& job, Coordinate::output_ports_type& ports) { coordinate(job, ports); }};
   LeaseWaiter waiter_{[this](const Job& job) { return options_.cache->is_leased(plan_.stages[job.stage].known->key); },
-                      [this](JobPtr job, const LeaseWaiter::Wait& wait) { take_back(std::move(job), wait); },
+                      [this](const JobPtr& job, const LeaseWaiter::Wait& wait) { take_back(job, wait); },
                       options_.cancelled};
 };
 

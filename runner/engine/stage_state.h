@@ -59,25 +59,28 @@ struct Transition {
   Event event;
   State to;
 };
+using NameTransition = Transition<NameState, NameEvent>;
+using ValueTransition = Transition<ValueState, ValueEvent>;
 
 /// All allowed transitions. A stage whose job fails keeps its state: the run ends.
 inline constexpr std::array name_transitions = {
-    Transition{NameState::unknown, NameEvent::inputs_named, NameState::looking_up},
-    Transition{NameState::looking_up, NameEvent::found, NameState::named},
-    Transition{NameState::looking_up, NameEvent::not_found, NameState::nameless},
-    Transition{NameState::nameless, NameEvent::computed, NameState::named},
+    NameTransition{NameState::unknown, NameEvent::inputs_named, NameState::looking_up},
+    NameTransition{NameState::looking_up, NameEvent::found, NameState::named},
+    NameTransition{NameState::looking_up, NameEvent::not_found, NameState::nameless},
+    NameTransition{NameState::nameless, NameEvent::computed, NameState::named},
 };
 inline constexpr std::array value_transitions = {
-    Transition{ValueState::open, ValueEvent::rest, ValueState::resting},
-    Transition{ValueState::open, ValueEvent::compute, ValueState::awaiting},
-    Transition{ValueState::resting, ValueEvent::load, ValueState::loading},
-    Transition{ValueState::resting, ValueEvent::compute, ValueState::awaiting},  // a reader's stored values are damaged
-    Transition{ValueState::loading, ValueEvent::read, ValueState::held},
-    Transition{ValueState::loading, ValueEvent::unreadable, ValueState::awaiting},
-    Transition{ValueState::awaiting, ValueEvent::inputs_held, ValueState::computing},
-    Transition{ValueState::computing, ValueEvent::busy, ValueState::computing},
-    Transition{ValueState::computing, ValueEvent::computed, ValueState::held},
-    Transition{ValueState::held, ValueEvent::let_go, ValueState::resting},
+    ValueTransition{ValueState::open, ValueEvent::rest, ValueState::resting},
+    ValueTransition{ValueState::open, ValueEvent::compute, ValueState::awaiting},
+    ValueTransition{ValueState::resting, ValueEvent::load, ValueState::loading},
+    ValueTransition{ValueState::resting, ValueEvent::compute,
+                    ValueState::awaiting},  // a reader's stored values are damaged
+    ValueTransition{ValueState::loading, ValueEvent::read, ValueState::held},
+    ValueTransition{ValueState::loading, ValueEvent::unreadable, ValueState::awaiting},
+    ValueTransition{ValueState::awaiting, ValueEvent::inputs_held, ValueState::computing},
+    ValueTransition{ValueState::computing, ValueEvent::busy, ValueState::computing},
+    ValueTransition{ValueState::computing, ValueEvent::computed, ValueState::held},
+    ValueTransition{ValueState::held, ValueEvent::let_go, ValueState::resting},
 };
 
 /// Whether a stage in this state may still need its sources' values, so that they must stay in memory.
