@@ -205,18 +205,26 @@ class Loader {
         incomplete.insert(d.node.name);
     }
     scope.evaluate_parameters();
+    scope.set_forecasts({});
+  }
+
+  /// Whether all parameters and wires of the node have been read.
+  static bool is_complete(const NodeDraft& draft) {
+    const GraphNode& node = draft.node;
+    if (!node.type || node.params.size() < node.type->params.size()) return false;
+    return std::ranges::all_of(draft.ports, [&](const PortWires& p) {
+      const auto wires = node.inputs.find(p.port->name);
+      return wires != node.inputs.end() && wires->second.size() == p.wires.size();
+    });
   }
 
   /// Whether all is known that can be; what the node's preflight finds wrong is a problem.
   bool look_ahead(const NodeDraft& draft, Forecasts& forecasts, const std::set<std::string>& incomplete) {
     const GraphNode& node = draft.node;
-    if (!node.type || node.params.size() < node.type->params.size()) return false;
-    for (const PortWires& p : draft.ports) {
-      const auto wires = node.inputs.find(p.port->name);
-      if (wires == node.inputs.end() || wires->second.size() < p.wires.size()) return false;
-      for (const Wire& w : wires->second)
+    if (!is_complete(draft)) return false;
+    for (const auto& [port, wires] : node.inputs)
+      for (const Wire& w : wires)
         if (incomplete.contains(w.node)) return false;
-    }
     try {
       forecasts.add(node);
       return true;
@@ -267,12 +275,7 @@ class Loader {
     std::vector<GraphNode> out;
     for (const size_t i : order) {
       const GraphNode& node = drafts[i].node;
-      if (!node.type || faulty.count(node.name) || node.params.size() < node.type->params.size()) continue;
-      const auto is_wired = [&](const PortWires& p) {
-        const auto wires = node.inputs.find(p.port->name);
-        return wires != node.inputs.end() && wires->second.size() == p.wires.size();
-      };
-      if (std::all_of(drafts[i].ports.begin(), drafts[i].ports.end(), is_wired)) out.push_back(node);
+      if (!faulty.contains(node.name) && is_complete(drafts[i])) out.push_back(node);
     }
     return out;
   }

@@ -96,16 +96,9 @@ std::vector<Override> read_override_object(const JsonValue& object, const fs::pa
 }
 
 std::vector<Override> read_settings(const fs::path& file, std::vector<Problem>& problems) {
-  try {
-    const ParsedJson parsed = parse_json(read_document(file, "settings file"));
-    for (const Problem& p : parsed.problems)
-      problems.push_back({{}, fmt::format("{}:{}:{}", file.string(), p.place.line, p.place.column), p.message});
-    if (!parsed.value) return {};
-    return read_override_object(*parsed.value, fs::absolute(file).parent_path(), file.string(), false, problems);
-  } catch (const GraphError& e) {
-    for (const Problem& p : e.problems()) problems.push_back({{}, file.string(), p.message});
-    return {};
-  }
+  const std::optional<JsonValue> json = read_json_document(file, "settings file", problems);
+  if (!json) return {};
+  return read_override_object(*json, fs::absolute(file).parent_path(), file.string(), false, problems);
 }
 
 }  // namespace terrazzo

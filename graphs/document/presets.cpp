@@ -72,16 +72,9 @@ std::vector<Preset> presets_beside(const fs::path& graph, std::vector<Problem>& 
   file.replace_extension(".presets.json");
   std::error_code missing;
   if (graph.empty() || !fs::exists(file, missing)) return {};
-  try {
-    const ParsedJson parsed = parse_json(read_document(file, "file of presets"));
-    for (const Problem& p : parsed.problems)
-      problems.push_back({{}, fmt::format("{}:{}:{}", file.string(), p.place.line, p.place.column), p.message});
-    if (!parsed.value) return {};
-    return read_presets(*parsed.value, fs::absolute(file).parent_path(), file.string(), false, problems);
-  } catch (const GraphError& e) {
-    for (const Problem& p : e.problems()) problems.push_back({{}, file.string(), p.message});
-    return {};
-  }
+  const std::optional<JsonValue> json = read_json_document(file, "file of presets", problems);
+  if (!json) return {};
+  return read_presets(*json, fs::absolute(file).parent_path(), file.string(), false, problems);
 }
 
 std::vector<Override> chosen_presets(const std::vector<Preset>& presets, const std::vector<std::string>& names,

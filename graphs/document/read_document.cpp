@@ -53,4 +53,17 @@ std::string read_document(const fs::path& path, const std::string& what) {
   return text;
 }
 
+std::optional<JsonValue> read_json_document(const fs::path& path, const std::string& what,
+                                            std::vector<Problem>& problems) {
+  try {
+    ParsedJson parsed = parse_json(read_document(path, what));
+    for (const Problem& p : parsed.problems)
+      problems.push_back({{}, fmt::format("{}:{}:{}", path.string(), p.place.line, p.place.column), p.message});
+    return std::move(parsed.value);
+  } catch (const GraphError& e) {
+    for (const Problem& p : e.problems()) problems.push_back({{}, path.string(), p.message});
+    return std::nullopt;
+  }
+}
+
 }  // namespace terrazzo

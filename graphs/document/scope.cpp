@@ -22,15 +22,19 @@ std::string unit_of(const Param& param) {
 }  // namespace
 
 GraphScope::GraphScope(std::vector<GraphParameter>& parameters, const NodeTypes& nodes, std::vector<Problem>& problems)
-    : parameters_(parameters), nodes_(nodes), problems_(problems) {
-  for (const GraphParameter& p : parameters) names_.push_back(p.param.name);
+    : parameters_(parameters), problems_(problems) {
+  for (size_t i = 0; i < parameters.size(); i++) {
+    names_.push_back(parameters[i].param.name);
+    positions_.emplace(names_.back(), i);
+  }
+  for (const auto& [node, type] : nodes) node_names_.insert(node);
   check_formulas();
-  report_circles();
+  report_cycles();
 }
 
 GraphParameter* GraphScope::position(const std::string& name) const {
-  const auto at = std::ranges::find(names_, name);
-  return at == names_.end() ? nullptr : &parameters_[size_t(at - names_.begin())];
+  const auto at = positions_.find(name);
+  return at == positions_.end() ? nullptr : &parameters_[at->second];
 }
 
 const GraphParameter* GraphScope::find(const std::string& name) {
@@ -81,10 +85,9 @@ bool GraphScope::check_names(const Expression& expression, const JsonValue& text
                     fmt::format("the graph has no parameter {}{}, in {}", in_quotes(name), hint, in_quotes(text.text)));
   }
   for (const auto& [name, offset] : expression.nodes()) {
-    if (std::ranges::find(nodes_, name, &NodeTypes::value_type::first) != nodes_.end()) continue;
+    if (node_names_.contains(name)) continue;
     known = false;
-    std::vector<std::string> all;
-    for (const auto& [node, type] : nodes_) all.push_back(node);
+    const std::vector<std::string> all(node_names_.begin(), node_names_.end());
     diagnostics.add(place_in(text, offset),
                     fmt::format("@{} leads to no node{}, in {}", name, suggestion(name, all), in_quotes(text.text)));
   }
@@ -110,16 +113,6 @@ void GraphScope::check_condition(GraphParameter& p) {
   else if (condition && check_names(*condition, *p.visible_if, diagnostics))
     return;
   p.visible_if.reset();
-}
-
-bool GraphScope::is_visible(const GraphParameter& p) {
-  if (!p.visible_if) return true;
-  std::vector<Problem> ignored;
-  Diagnostics diagnostics(ignored, "");
-  const std::optional<Expression> condition = parse_expression(*p.visible_if, diagnostics);
-  if (!condition || !lacking(*condition).nothing()) return true;
-  const std::optional<ParamValue> value = evaluate(*condition, *p.visible_if, "", diagnostics);
-  return !value || !std::holds_alternative<bool>(*value) || std::get<bool>(*value);
 }
 
 std::optional<ParamValue> GraphScope::evaluate(const Expression& expression, const JsonValue& value,
@@ -170,7 +163,7 @@ void GraphScope::evaluate_parameters() {
 }
 
 /// What is made from itself, or from too many others in a row, is a problem.
-void GraphScope::report_circles() {
+void GraphScope::report_cycles() {
   constexpr int most = 100;  // keeps evaluation off the end of the stack
   constexpr int open = -1;
   std::map<std::string, int> heights;  // of the parameters in a row that each is made from

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,10 +26,10 @@ class GraphScope : public ExpressionScope {
  public:
   using Forecasts = std::function<const Forecast&(const std::string& node)>;
 
-  /// All of these must outlive the scope.
+  /// Parameters and problems must outlive the scope.
   GraphScope(std::vector<GraphParameter>& parameters, const NodeTypes& nodes, std::vector<Problem>& problems);
 
-  /// From now on nodes can be asked. It throws Error if nothing is known of the node.
+  /// From now on nodes can be asked, until this is set to nothing. It throws Error if nothing is known of the node.
   void set_forecasts(Forecasts forecasts) { forecasts_ = std::move(forecasts); }
 
   /// Null if there is none of that name. With its value, if all that it is made from is known by now.
@@ -43,14 +44,12 @@ class GraphScope : public ExpressionScope {
                                      Diagnostics& diagnostics);
   /// Whether all that an expression names is there; what is not is a problem.
   bool check_names(const Expression& expression, const JsonValue& text, Diagnostics& diagnostics) const;
-  /// Whether a parameter matters, as its `visible_if` says. True if that cannot be told yet.
-  bool is_visible(const GraphParameter& parameter);
 
   /// Evaluates every parameter that asks for no node.
   void evaluate_parameters();
 
   const std::vector<std::string>& names() const { return names_; }
-  /// Adds to some parameters those that their expressions, or those of what is visible, name.
+  /// Adds to some parameters those that their expressions name.
   void add_what_they_use(std::set<std::string>& parameters) const;
 
   ExpressionValue parameter(const std::string& name) override;
@@ -63,12 +62,13 @@ class GraphScope : public ExpressionScope {
   void evaluate(GraphParameter& parameter);
   void check_formulas();
   void check_condition(GraphParameter& parameter);
-  void report_circles();
+  void report_cycles();
 
   std::vector<GraphParameter>& parameters_;
-  const NodeTypes& nodes_;
   std::vector<Problem>& problems_;
-  std::vector<std::string> names_;
+  std::vector<std::string> names_;           ///< of the parameters, in the document's order
+  std::map<std::string, size_t> positions_;  ///< in parameters_
+  std::set<std::string> node_names_;
   Forecasts forecasts_;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"
+#include "core/image/color.h"
 #include "core/material/map_names.h"
 
 namespace terrazzo {
@@ -61,6 +62,34 @@ Port image_port(const std::string& name, const std::string& help) {
 
 std::vector<std::string> semantic_choices() {
   return {semantic_names.begin(), semantic_names.end()};
+}
+
+Param generated_size_param() {
+  return {.name = "size",
+          .type = ParamType::size,
+          .fallback = Size{512, 512},
+          .help = "Size of the image.",
+          .min = 1,
+          .max = 65536,
+          .unit = "pixels"};
+}
+
+Param generated_semantic_param(const std::string& fallback, std::vector<std::string> choices) {
+  return {.name = "semantic",
+          .type = ParamType::choice,
+          .fallback = fallback,
+          .help = "What the image is used as; decides how it is filtered and written.",
+          .choices = std::move(choices)};
+}
+
+Forecast forecast_of_generated(const Params& params, const InputForecasts&) {
+  return {.sizes = {{"", std::get<Size>(params.at("size"))}}};
+}
+
+ImageInfo generated_info(const NodeContext& node, int channels) {
+  ImageInfo info{.size = node.size("size"), .channels = channels, .semantic = *semantic_from(node.text("semantic"))};
+  info.color_space = assumed_color_space(info.semantic, Depth::u16);
+  return info;
 }
 
 Port material_port(const std::string& name, const std::string& help) {

@@ -26,6 +26,13 @@ Param sample_param(const std::string& name, double fallback, const std::string& 
 /// What a map may be used as, for parameters.
 std::vector<std::string> semantic_choices();
 
+/// Parameters "size" and "semantic" of nodes that generate an image, and their preflight, which knows the size.
+Param generated_size_param();
+Param generated_semantic_param(const std::string& fallback, std::vector<std::string> choices = semantic_choices());
+Forecast forecast_of_generated(const Params& params, const InputForecasts& inputs);
+/// The image that they describe, in the colour space of files with this semantic.
+ImageInfo generated_info(const NodeContext& node, int channels);
+
 Port image_port(const std::string& name, const std::string& help);
 Port material_port(const std::string& name, const std::string& help);
 

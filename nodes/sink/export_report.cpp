@@ -5,14 +5,10 @@
 
 namespace terrazzo {
 
-namespace {
-
-struct ShowValue {
-  std::string operator()(double v) const { return fmt::format("{}", v); }
-  std::string operator()(const std::string& v) const { return v; }
-};
-
-}  // namespace
+std::string value_text(const Report::Figure& figure) {
+  const double* number = std::get_if<double>(&figure.value);
+  return number ? fmt::format("{}", *number) : std::get<std::string>(figure.value);
+}
 
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
@@ -39,7 +35,7 @@ std::string report_as_json(const Report& report) {
 std::string report_as_csv(const Report& report) {
   std::string out = "name,value,help\n";
   for (const Report::Figure& f : report.figures())
-    out += fmt::format("{},{},{}\n", csv_field(f.name), csv_field(std::visit(ShowValue{}, f.value)), csv_field(f.help));
+    out += fmt::format("{},{},{}\n", csv_field(f.name), csv_field(value_text(f)), csv_field(f.help));
   return out;
 }
 

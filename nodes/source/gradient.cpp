@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include "core/base/portable_math.h"
-#include "core/image/color.h"
-#include "core/node/node.h"
 #include "nodes/common/node_helpers.h"
 
 namespace terrazzo {
@@ -35,9 +33,7 @@ class Progress {
 
 void compute(NodeContext& node) {
   const Numbers from = node.numbers("from"), to = node.numbers("to");
-  ImageInfo info{
-      .size = node.size("size"), .channels = int(from.size()), .semantic = *semantic_from(node.text("semantic"))};
-  info.color_space = assumed_color_space(info.semantic, Depth::u16);
+  const ImageInfo info = generated_info(node, int(from.size()));
   const Progress progress(info.size, node.text("shape") == "radial", node.number("angle"));
   node.output("image", Image::computed(info, node.key(), [=](const Rect& region, float* out) {
                 for (int y = region.y; y < region.y + region.height; y++)
@@ -92,23 +88,11 @@ NodeType gradient_node() {
                .min = -360,
                .max = 360,
                .unit = "degrees"},
-              {.name = "size",
-               .type = ParamType::size,
-               .fallback = Size{512, 512},
-               .help = "Size of the image.",
-               .min = 1,
-               .max = 65536,
-               .unit = "pixels"},
-              {.name = "semantic",
-               .type = ParamType::choice,
-               .fallback = "data",
-               .help = "What the image is used as; decides how it is filtered and written.",
-               .choices = semantic_choices()}};
+              generated_size_param(),
+              generated_semantic_param("data")};
   t.persist = Persist::derived;
   t.check = check;
-  t.preflight = [](const Params& params, const InputForecasts&) {
-    return Forecast{.sizes = {{"", std::get<Size>(params.at("size"))}}};
-  };
+  t.preflight = forecast_of_generated;
   t.compute = compute;
   return t;
 }

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "core/image/color.h"
-#include "core/node/node.h"
+#include "nodes/common/node_helpers.h"
 
 namespace terrazzo {
 
@@ -32,8 +31,7 @@ T chosen(const std::vector<std::string>& names, const std::string& name) {
 }
 
 void compute(NodeContext& node) {
-  ImageInfo info{.size = node.size("size"), .semantic = *semantic_from(node.text("semantic"))};
-  info.color_space = assumed_color_space(info.semantic, Depth::u16);
+  const ImageInfo info = generated_info(node, 1);
   NoiseSpec spec;
   spec.basis = chosen<NoiseBasis>(basis_names(), node.text("basis"));
   spec.fractal = chosen<Fractal>(fractal_names(), node.text("fractal"));
@@ -59,13 +57,7 @@ std::vector<Param> params() {
        .help = "How octaves are summed: as they are (fbm), as sharp crests (ridged), or folded at the middle "
                "(turbulence).",
        .choices = fractal_names()},
-      {.name = "size",
-       .type = ParamType::size,
-       .fallback = Size{512, 512},
-       .help = "Size of the image.",
-       .min = 1,
-       .max = 65536,
-       .unit = "pixels"},
+      generated_size_param(),
       {.name = "scale",
        .type = ParamType::number,
        .fallback = 8.0,
@@ -105,11 +97,7 @@ std::vector<Param> params() {
        .type = ParamType::boolean,
        .fallback = false,
        .help = "The noise wraps around without a seam; features per octave are rounded to whole numbers."},
-      {.name = "semantic",
-       .type = ParamType::choice,
-       .fallback = "height",
-       .help = "What the noise is used as; decides how it is filtered and written.",
-       .choices = meanings()},
+      generated_semantic_param("height", meanings()),
   };
 }
 
@@ -127,9 +115,7 @@ NodeType noise_node() {
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "one channel, 0..1"}};
   t.params = params();
   t.persist = Persist::derived;
-  t.preflight = [](const Params& params, const InputForecasts&) {
-    return Forecast{.sizes = {{"", std::get<Size>(params.at("size"))}}};
-  };
+  t.preflight = forecast_of_generated;
   t.compute = compute;
   return t;
 }

@@ -1,5 +1,3 @@
-#include "core/image/color.h"
-#include "core/node/node.h"
 #include "nodes/common/node_helpers.h"
 
 namespace terrazzo {
@@ -8,9 +6,7 @@ namespace {
 
 void compute(NodeContext& node) {
   const Numbers& value = node.numbers("value");
-  ImageInfo info{
-      .size = node.size("size"), .channels = int(value.size()), .semantic = *semantic_from(node.text("semantic"))};
-  info.color_space = assumed_color_space(info.semantic, Depth::u16);
+  const ImageInfo info = generated_info(node, int(value.size()));
   const std::vector<float> pixel(value.begin(), value.end());
   node.output("image", Image::computed(info, node.key(), [pixel](const Rect& region, float* out) {
                 for (int64_t i = 0; i < region.area(); i++) out = std::copy(pixel.begin(), pixel.end(), out);
@@ -37,22 +33,10 @@ NodeType solid_node() {
                .max = 65504,
                .min_count = 1,
                .max_count = 4},
-              {.name = "size",
-               .type = ParamType::size,
-               .fallback = Size{512, 512},
-               .help = "Size of the image.",
-               .min = 1,
-               .max = 65536,
-               .unit = "pixels"},
-              {.name = "semantic",
-               .type = ParamType::choice,
-               .fallback = "data",
-               .help = "What the image is used as; decides how it is filtered and written.",
-               .choices = semantic_choices()}};
+              generated_size_param(),
+              generated_semantic_param("data")};
   t.persist = Persist::derived;
-  t.preflight = [](const Params& params, const InputForecasts&) {
-    return Forecast{.sizes = {{"", std::get<Size>(params.at("size"))}}};
-  };
+  t.preflight = forecast_of_generated;
   t.compute = compute;
   return t;
 }

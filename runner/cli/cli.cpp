@@ -15,6 +15,7 @@
 #include "core/base/text.h"
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
+#include "core/image/image_file.h"
 #include "graphs/document/problem.h"
 #include "nodes/source/material_folder.h"
 #include "runner/cli/cli_commands.h"
@@ -131,6 +132,17 @@ void check_writable(const char* option, const std::string& path) {
   if (!trouble.empty()) throw UsageError(fmt::format("{} {}: {}", option, path, trouble));
   if (std::filesystem::exists(file, missing) && !std::ofstream(file, std::ios::app))
     throw UsageError(fmt::format("{} {}: the file cannot be written", option, path));
+}
+
+bool is_page(const std::filesystem::path& path) {
+  return path.extension() == ".html" || path.extension() == ".htm";
+}
+
+void check_sheet(const std::string& path) {
+  if (!path.empty() && !is_page(path) && !format_from(path))
+    throw UsageError(fmt::format(
+        "--sheet {}: the extension decides the format; expected .html for a page, or .png, .jpg, .tif or .exr", path));
+  if (is_page(path)) check_writable("--sheet", path);  // the plan looks at pictures
 }
 
 std::string for_command_line(std::string message, const std::string& folder) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -40,6 +41,10 @@ void add_compare_command(CLI::App& app, Chosen& chosen);
 
 /// Throws UsageError, before the run, unless the option's file can be written. Accepts an empty `path`.
 void check_writable(const char* option, const std::string& path);
+/// Whether a contact sheet's name asks for a page, not for a picture.
+bool is_page(const std::filesystem::path& path);
+/// Throws UsageError unless `--sheet` can write that: a page, or a picture in a known format. Accepts an empty `path`.
+void check_sheet(const std::string& path);
 /// Replaces advice for graph authors in a message about a material's `folder` by advice for commands without node
 /// parameters.
 std::string for_command_line(std::string message, const std::string& folder);

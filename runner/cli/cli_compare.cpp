@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/image/image_file.h"
 #include "nodes/sink/export_report.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
@@ -22,17 +21,6 @@ struct CompareFlags {
   std::string exemplar, output, uv, sheet, tileable = "auto";
   bool json = false;
 };
-
-bool is_page(const fs::path& path) {
-  return path.extension() == ".html" || path.extension() == ".htm";
-}
-
-void check_sheet(const std::string& path) {
-  if (!path.empty() && !is_page(path) && !format_from(path))
-    throw UsageError(fmt::format(
-        "--sheet {}: the extension decides the format; expected .html for a page, or .png, .jpg, .tif or .exr", path));
-  if (is_page(path)) check_writable("--sheet", path);  // the plan looks at pictures
-}
 
 Graph compare_graph(const CompareFlags& flags) {
   Graph graph;

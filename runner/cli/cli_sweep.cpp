@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
 #include "core/file/atomic_file.h"
-#include "core/image/image_file.h"
 #include "graphs/document/problem.h"
 #include "nodes/sink/export_report.h"
 #include "runner/cli/cli_commands.h"
@@ -22,14 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_page(const fs::path& path) {
-  return path.extension() == ".html" || path.extension() == ".htm";
-}
-
-const GraphNode& node_in(const Graph& graph, const std::string& name) {
-  return *graph.find(name);
-}
-
 /// The name of a figure and, behind a colon, which way is better.
 std::pair<std::string, std::string> split_figure(const std::string& text) {
   const size_t colon = text.find(':');
@@ -40,11 +33,6 @@ std::optional<double> value_in(const Report& report, const std::string& figure) 
   const auto at = std::ranges::find(report.figures(), figure, &Report::Figure::name);
   if (at == report.figures().end() || !std::holds_alternative<double>(at->value)) return std::nullopt;
   return std::get<double>(at->value);
-}
-
-std::string shown(const Report::Figure& f) {
-  return std::holds_alternative<double>(f.value) ? fmt::format("{}", std::get<double>(f.value))
-                                                 : std::get<std::string>(f.value);
 }
 
 using Table = std::vector<std::vector<std::string>>;
@@ -68,11 +56,17 @@ std::string aligned(const Table& table) {
 std::string as_csv(const Table& table) {
   std::string out;
   for (const auto& row : table) {
-    std::string line;
-    for (const std::string& cell : row) line += (line.empty() && &cell == &row.front() ? "" : ",") + csv_field(cell);
-    out += line + "\n";
+    std::vector<std::string> cells;
+    for (const std::string& cell : row) cells.push_back(csv_field(cell));
+    out += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return out;
+}
+
+/// The first node of a type, in the document's order; empty if there is none.
+std::string first_of(const std::string& type, const Graph& graph) {
+  const auto at = std::ranges::find_if(graph.nodes, [&](const GraphNode& n) { return n.type->name == type; });
+  return at == graph.nodes.end() ? "" : at->name;
 }
 
 }  // namespace
@@ -111,11 +105,7 @@ Sweep::Sweep(const SweepFlags& flags) : flags_(flags) {
   } catch (const Error& e) {
     throw UsageError(fmt::format("{}: {}", flags.table.empty() ? "--sweep" : "--sweep, --table", e.what()));
   }
-  if (!flags.sheet.empty() && !is_page(flags.sheet) && !format_from(flags.sheet))
-    throw UsageError(fmt::format(
-        "--sheet {}: the extension decides the format; expected .html for a page, or .png, .jpg, .tif or .exr",
-        flags.sheet));
-  check_writable("--sheet", flags.sheet);
+  check_sheet(flags.sheet);
   check_writable("--figures", flags.figures);
   const std::string way = split_figure(flags.best).second;
   if (!way.empty() && way != "min" && way != "max")
@@ -133,67 +123,67 @@ Graph Sweep::load(const std::function<Graph(const std::vector<std::string>&)>& l
   for (const Variation& v : variations_) graphs.push_back(load(v.overrides()));
   MergedGraph all = merged(graphs, labels());
   names_ = std::move(all.names);
-  Graph graph = std::move(all.graph);
-  check_paths(graph);
-  pictures_.clear();
-  comparisons_.clear();
+  check_paths(graphs);
   targets_.clear();
   kept_.clear();
-  if (!flags_.sheet.empty()) add_sheet(graph);
-  if (!flags_.figures.empty() || !flags_.best.empty())
-    for (size_t v = 0; v < variations_.size(); v++) comparisons_.push_back(comparison_of(graph, v));
-  kept_.insert(kept_.end(), comparisons_.begin(), comparisons_.end());
-  return graph;
+  Nodes nodes;
+  for (const GraphNode& n : all.graph.nodes) nodes.emplace(n.name, &n);
+  std::vector<GraphNode> added;
+  if (!flags_.sheet.empty()) add_sheet(graphs.front(), nodes, added);
+  if (!flags_.figures.empty() || !flags_.best.empty()) add_comparisons(graphs.front(), nodes, added);
+  std::ranges::move(added, std::back_inserter(all.graph.nodes));
+  return std::move(all.graph);
 }
 
 /// Variations must not write over one another's files. Sizes and materials in a path may tell them apart; the plan
 /// looks at those.
-void Sweep::check_paths(const Graph& graph) const {
-  std::map<std::pair<std::string, std::string>, std::pair<std::string, size_t>> writers;  // by base name and path
-  for (size_t v = 0; v < variations_.size(); v++)
-    for (const auto& [base, name] : names_[v]) {
-      const GraphNode& n = node_in(graph, name);
+void Sweep::check_paths(const std::vector<Graph>& graphs) const {
+  std::map<std::pair<std::string, std::string>, size_t> writers;  // the first variation, by node and path
+  for (size_t v = 0; v < graphs.size(); v++)
+    for (const GraphNode& n : graphs[v].nodes) {
       const auto path = n.params.find("path");
       if (!n.type->is_sink() || path == n.params.end()) continue;
       const std::string& pattern = std::get<std::string>(path->second);
-      if (pattern.find("{width}") != pattern.npos || pattern.find("{height}") != pattern.npos ||
-          pattern.find("{material}") != pattern.npos)
-        continue;
-      const auto [at, is_new] = writers.try_emplace({base, pattern}, name, v);
-      if (is_new || at->second.first == name) continue;
-      const std::string& swept = variations_[v].values.back().first;
-      throw UsageError(
-          fmt::format("node \"{}\" would write {} for {} and for {}; let its path tell them apart, as --set "
-                      "\"out=='out/' + {}\" does where the path begins with $out",
-                      base, pattern, variations_[at->second.second].label(), variations_[v].label(), swept));
+      const auto holds = [&](const char* place) { return pattern.find(place) != pattern.npos; };
+      if (holds("{width}") || holds("{height}") || holds("{material}")) continue;
+      const size_t first = writers.try_emplace({n.name, pattern}, v).first->second;
+      if (names_[first].at(n.name) == names_[v].at(n.name)) continue;  // it is the same node, and runs once
+      throw UsageError(fmt::format(
+          "node \"{}\" would write {} for {} and for {}; let its path tell them apart, as --set \"out=='out/' + {}\" "
+          "does where the path begins with $out",
+          n.name, pattern, variations_[first].label(), variations_[v].label(), variations_[v].values.back().first));
     }
 }
 
-/// Whatever the variation's first export writes: images as they are, materials lit.
-std::string Sweep::picture_of(Graph& graph, size_t variation) {
-  for (const GraphNode& n : graph.nodes) {
-    if (n.type->name != "export") continue;
-    const bool is_of_variation =
-        std::ranges::any_of(names_[variation], [&](const auto& name) { return name.second == n.name; });
-    if (!is_of_variation) continue;
-    const Wire wire = n.inputs.at("material").front();
-    if (node_in(graph, wire.node).type->find_output(wire.port)->type == ValueType::image) {
-      pictures_.push_back(wire);
-      return wire.node;
-    }
-    GraphNode lit = memory_node(fmt::format("lit [{}]", variations_[variation].label()), "preview", {});
-    lit.inputs["material"] = {wire};
-    pictures_.push_back({lit.name, "image"});
-    graph.nodes.push_back(std::move(lit));
-    return graph.nodes.back().name;
+/// What `make` makes of each variation's node `base`; once where variations share it.
+template <typename T>
+std::vector<T> Sweep::of_each(const std::string& base, const std::function<T(const std::string& node)>& make) const {
+  std::map<std::string, T> made;
+  std::vector<T> out;
+  for (const auto& names : names_) {
+    const std::string& node = names.at(base);
+    auto at = made.find(node);
+    if (at == made.end()) at = made.emplace(node, make(node)).first;
+    out.push_back(at->second);
   }
-  throw UsageError("--sheet: the graph has no export whose pictures could be shown");
+  return out;
 }
 
-void Sweep::add_sheet(Graph& graph) {
-  for (size_t v = 0; v < variations_.size(); v++) kept_.push_back(picture_of(graph, v));
-  if (is_page(flags_.sheet)) return;
-  kept_.clear();
+/// Shows whatever the variations' first export writes: images as they are, materials lit.
+void Sweep::add_sheet(const Graph& document, const Nodes& nodes, std::vector<GraphNode>& added) {
+  const std::string base = first_of("export", document);
+  if (base.empty()) throw UsageError("--sheet: the graph has no export whose pictures could be shown");
+  pictures_ = of_each<Wire>(base, [&](const std::string& node) {
+    const Wire& wire = nodes.at(node)->inputs.at("material").front();
+    if (nodes.at(wire.node)->type->find_output(wire.port)->type == ValueType::image) return wire;
+    added.push_back(memory_node("lit for " + node, "preview", {}));
+    added.back().inputs["material"] = {wire};
+    return Wire{added.back().name, "image"};
+  });
+  if (is_page(flags_.sheet)) {
+    for (const Wire& w : pictures_) kept_.push_back(w.node);
+    return;
+  }
   // A row for each value of all but the last sweep; else about as many rows as columns.
   const bool is_grid = flags_.sweeps.size() > 1;
   const double count = double(is_grid ? swept({flags_.sweeps.back()}).size() : variations_.size());
@@ -204,41 +194,36 @@ void Sweep::add_sheet(Graph& graph) {
   GraphNode file = memory_node("contact sheet file", "export", {{"path", fs::absolute(flags_.sheet).string()}});
   file.inputs["material"] = {{sheet.name, "image"}};
   targets_.push_back(file.name);
-  graph.nodes.push_back(std::move(sheet));
-  graph.nodes.push_back(std::move(file));
+  added.push_back(std::move(sheet));
+  added.push_back(std::move(file));
 }
 
-/// The variation's own comparison, or one of what is resolved with its exemplar.
-std::string Sweep::comparison_of(Graph& graph, size_t variation) {
-  const auto first_of = [&](const std::string& type) -> const GraphNode* {
-    for (const GraphNode& n : graph.nodes)
-      if (n.type->name == type &&
-          std::ranges::any_of(names_[variation], [&](const auto& name) { return name.second == n.name; }))
-        return &n;
-    return nullptr;
-  };
-  if (const GraphNode* own = first_of("compare")) return own->name;
-  const GraphNode* resolved = first_of("resolve_uv");
-  if (!resolved)
+/// The graph's own comparison, or one of what is resolved with its exemplar.
+void Sweep::add_comparisons(const Graph& document, const Nodes& nodes, std::vector<GraphNode>& added) {
+  const std::string own = first_of("compare", document), resolved = first_of("resolve_uv", document);
+  if (own.empty() && resolved.empty())
     throw UsageError(
         "--figures and --best need a compare node in the graph, or a resolve_uv whose result can be compared");
-  GraphNode figures = memory_node(fmt::format("figures [{}]", variations_[variation].label()), "compare", {});
-  figures.inputs["exemplar"] = resolved->inputs.at("material");
-  figures.inputs["output"] = {{resolved->name, "material"}};
-  figures.inputs["uv"] = resolved->inputs.at("uv");
-  graph.nodes.push_back(std::move(figures));
-  return graph.nodes.back().name;
+  comparisons_ = of_each<std::string>(own.empty() ? resolved : own, [&](const std::string& node) {
+    if (!own.empty()) return node;
+    added.push_back(memory_node("figures of " + node, "compare", {}));
+    GraphNode& figures = added.back();
+    figures.inputs["exemplar"] = nodes.at(node)->inputs.at("material");
+    figures.inputs["output"] = {{node, "material"}};
+    figures.inputs["uv"] = nodes.at(node)->inputs.at("uv");
+    return figures.name;
+  });
+  kept_.insert(kept_.end(), comparisons_.begin(), comparisons_.end());
 }
 
 std::vector<std::string> Sweep::names_of(const std::vector<std::string>& nodes) const {
-  std::vector<std::string> out;
+  std::set<std::string> out;
   for (const std::string& node : nodes)
     for (const auto& names : names_) {
       const auto at = names.find(node);
-      const std::string& name = at == names.end() ? node : at->second;
-      if (std::ranges::find(out, name) == out.end()) out.push_back(name);
+      out.insert(at == names.end() ? node : at->second);
     }
-  return out;
+  return {out.begin(), out.end()};
 }
 
 std::vector<const Report*> Sweep::reports(const RunResult& result) const {
@@ -267,7 +252,7 @@ void Sweep::report(const RunResult& result) const {
       row[size_t(std::ranges::find(table.front(), name) - table.front().begin())] = value;
     if (!figures.empty())
       for (size_t f = 0; f < figures[i]->figures().size() && values + f < row.size(); f++)
-        row[values + f] = shown(figures[i]->figures()[f]);
+        row[values + f] = value_text(figures[i]->figures()[f]);
     table.push_back(std::move(row));
   }
   if (!figures.empty()) answer("{}", aligned(table));

@@ -44,10 +44,13 @@ class Sweep {
   void report(const RunResult& result) const;
 
  private:
-  void check_paths(const Graph& graph) const;
-  std::string picture_of(Graph& graph, size_t variation);
-  std::string comparison_of(Graph& graph, size_t variation);
-  void add_sheet(Graph& graph);
+  using Nodes = std::map<std::string, const GraphNode*>;
+
+  void check_paths(const std::vector<Graph>& graphs) const;
+  template <typename T>
+  std::vector<T> of_each(const std::string& base, const std::function<T(const std::string& node)>& make) const;
+  void add_sheet(const Graph& document, const Nodes& nodes, std::vector<GraphNode>& added);
+  void add_comparisons(const Graph& document, const Nodes& nodes, std::vector<GraphNode>& added);
   std::vector<std::string> labels() const;
   std::vector<const Report*> reports(const RunResult& result) const;
   void tell_best(const std::vector<const Report*>& reports) const;

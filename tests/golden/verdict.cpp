@@ -16,6 +16,12 @@ std::string described(const Content& c) {
   return fmt::format("{} (mean {:.6g}, deviation {:.6g})", c.digest.hex().substr(0, 8), c.mean, c.deviation);
 }
 
+/// Node types that run the synthesis share its version.
+std::string place_of_version(const std::string& type) {
+  const NodeType* known = find_node_type(type);
+  return known && !known->steps.empty() ? "synthesis_version in core/synthesis/steps.h" : "in its file";
+}
+
 std::string difference(const GoldenLine& recorded, const GoldenLine& now) {
   const std::string what = fmt::format("{}: \"{}\" gives another {} than recorded: {} instead of {}. ", now.name,
                                        now.type, now.port, described(now.content), described(recorded.content));
@@ -23,10 +29,7 @@ std::string difference(const GoldenLine& recorded, const GoldenLine& now) {
   if (recorded.version != now.version)
     return what + fmt::format("Its version went from {} to {}, as it should; {}.", recorded.version, now.version, anew);
   return what + fmt::format("Its version is still {}: undo the change, or raise its version ({}) and {}.", now.version,
-                            find_node_type(now.type) && find_node_type(now.type)->steps.empty()
-                                ? "in its file"
-                                : "synthesis_version in core/synthesis/steps.h",
-                            anew);
+                            place_of_version(now.type), anew);
 }
 
 }  // namespace

@@ -114,8 +114,7 @@ double distance(const std::vector<float>& a, const std::vector<float>& b) {
 /// Whether a line differs more from the map's means, by channel, than along itself.
 bool stands_out(const std::vector<float>& line, const std::vector<double>& means) {
   const size_t channels = means.size();
-  const size_t pixels_counted = line.size() / channels;
-  const double pixels = double(pixels_counted);
+  const double pixels = double(line.size() / channels);
   double between = 0, within = 0;
   for (size_t c = 0; c < channels; c++) {
     double mean = 0;
