@@ -1,7 +1,6 @@
 #include "core/image/pull_plan.h"
 
 #include <algorithm>
-#include <ranges>
 #include <unordered_map>
 
 #include "core/base/tuning.h"
@@ -128,11 +127,12 @@ void PullPlan::demand(const Rect& region) {
     step.open_readers = step.readers;
   }
   steps_.back().parts = {region};
-  for (const Step& step : std::views::reverse(steps_))
-    for (size_t s = 0; s < step.sources.size(); s++)
-      if (step.sources[s] >= 0)
-        for (const Rect& part : step.parts)
-          for (const Rect& read : parts_read(*step.operation, s, part)) add_part(steps_[step.sources[s]].parts, read);
+  // The last comes first. (Not std::views::reverse: clang 14 refuses it with GCC 12's library.)
+  for (auto step = steps_.rbegin(); step != steps_.rend(); ++step)
+    for (size_t s = 0; s < step->sources.size(); s++)
+      if (step->sources[s] >= 0)
+        for (const Rect& part : step->parts)
+          for (const Rect& read : parts_read(*step->operation, s, part)) add_part(steps_[step->sources[s]].parts, read);
 }
 
 void PullPlan::compute(Step& step, float* out) {
