@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-examples/packages.sh doctest-dev
+examples/packages.sh doctest-dev python3-jsonschema
 cmake --preset release -DTERRAZZO_TESTS=ON
 cmake --build build
 log=build/Testing/Temporary/LastTest.log

@@ -23,19 +23,24 @@ class Writer {
   std::string out;
 
   void document(const JsonValue& v) {
-    for (const std::string& c : v.comments_before) out += c + '\n';
-    value(v, 0, 0, 0);
+    comments(v, "");
+    value(v, {0, 0}, 0, 0);
     out += '\n';
   }
 
  private:
-  /// `depth` 0 is the document, 1 its sections, 2 their entries; `behind` is what will stand after it on its line.
-  void value(const JsonValue& v, int depth, size_t used, size_t behind) {
+  struct Depth {
+    int of_graph;  ///< 0 is a graph, 1 its sections, 2 their entries
+    int indent;
+  };
+
+  /// `behind` is what will stand after it on its line.
+  void value(const JsonValue& v, Depth depth, size_t used, size_t behind) {
     if (!v.is_object() && !v.is_list()) {
       out += compact(v);
       return;
     }
-    const bool is_section = depth == 0 || (depth == 1 && v.is_object() && !v.members.empty());
+    const bool is_section = depth.of_graph <= 0 || (depth.of_graph == 1 && v.is_object() && !v.members.empty());
     if (!is_section && !contains_comments(v)) {
       const std::string line = compact(v);
       if (used + line.size() + behind <= line_width) {
@@ -46,21 +51,27 @@ class Writer {
     broken(v, depth);
   }
 
-  void broken(const JsonValue& v, int depth) {
-    const std::string indent(2 * (depth + 1), ' ');
+  void comments(const JsonValue& v, const std::string& indent) {
+    for (const std::string& c : v.comments_before) out += (c.empty() ? "" : indent + c) + '\n';
+  }
+
+  void broken(const JsonValue& v, Depth depth) {
+    const std::string indent(2 * (depth.indent + 1), ' ');
     const size_t count = v.is_object() ? v.members.size() : v.items.size();
     out += v.is_object() ? "{\n" : "[\n";
     for (size_t i = 0; i < count; i++) {
       const JsonValue& entry = v.is_object() ? v.members[i].value : v.items[i];
-      for (const std::string& c : entry.comments_before) out += indent + c + '\n';
+      comments(entry, indent);
       const std::string name = v.is_object() ? in_quotes(v.members[i].name) + ": " : "";
       out += indent + name;
-      value(entry, depth + 1, indent.size() + name.size(), 1);
+      const bool holds_graphs = depth.of_graph == 0 && v.is_object() && v.members[i].name == "graphs";
+      const int of_graph = holds_graphs ? -1 : depth.of_graph + 1;
+      value(entry, {of_graph, depth.indent + 1}, indent.size() + name.size(), 1);
       if (i + 1 < count) out += ',';
       if (!entry.comment_after.empty()) out += "  " + entry.comment_after;
       out += '\n';
     }
-    for (const std::string& c : v.comments_inside) out += indent + c + '\n';
+    for (const std::string& c : v.comments_inside) out += (c.empty() ? "" : indent + c) + '\n';
     out += indent.substr(2) + (v.is_object() ? "}" : "]");
   }
 };

@@ -29,8 +29,11 @@ struct GraphNode {
   const NodeType* type = nullptr;
   Params params;                                    ///< complete and checked; paths absolute
   std::map<std::string, std::vector<Wire>> inputs;  ///< by port; only connected ports
-  Place place;
-  std::map<std::string, Place> places;  ///< of the parameters and ports that the document gives
+  std::string comment{};                            ///< what the document says about it; for reports and drawings
+  Place place{};
+  std::map<std::string, Place> places{};  ///< of the parameters and ports that the document gives
+  std::string file{};                     ///< that the places are in; empty: the graph's own
+  bool is_open = false;  ///< it needs something that has not been set: it can be looked at, but not run
   /// Of path parameters and of ports: the graph's own parameters that say which files they, or what comes in, are from.
   std::map<std::string, std::set<std::string>> files_by{};
 
@@ -45,11 +48,19 @@ struct Graph {
   std::filesystem::path file;  ///< for messages; may be empty for graphs made in memory
   std::string summary;
   std::vector<GraphNode> nodes;  ///< in topological order: every wire comes from an earlier node
+  /// What else it was made from: subgraphs, tables, and folders that were listed.
+  std::vector<std::filesystem::path> made_from{};
   const GraphNode* find(std::string_view name) const {
     for (const GraphNode& n : nodes)
       if (n.name == name) return &n;
     return nullptr;
   }
 };
+
+/// Whether a name stands for the node: its own, that of a subgraph it is in ("walls" for "walls/layout"), or that of
+/// all rounds of a loop ("walls" for "walls[brick]").
+bool stands_for(std::string_view name, std::string_view node);
+/// The nodes that these names stand for, in the graph's order; names that stand for none are kept, for messages.
+std::vector<std::string> nodes_meant(const Graph& graph, const std::vector<std::string>& names);
 
 }  // namespace terrazzo

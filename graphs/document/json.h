@@ -24,7 +24,8 @@ struct JsonValue {
   std::vector<JsonValue> items;
   std::vector<JsonMember> members;
   Place place;
-  std::vector<std::string> comments_before;  ///< lines of comments above the value; of a member, above its name
+  /// Lines of comments above the value, an empty one for a blank line; of a member, above its name.
+  std::vector<std::string> comments_before;
   std::string comment_after;                 ///< a comment that ends the value's line
   std::vector<std::string> comments_inside;  ///< lines of comments before the closing bracket, or after the document
 

@@ -21,12 +21,12 @@ class Parser {
   JsonValue document() {
     skip_space();
     if (at_end()) fail("the file is empty; expected a graph, which begins with {");
-    std::vector<std::string> above = take_comments();
+    std::vector<std::string> above = take_comments(Blank::below);
     JsonValue value = parse_value(0, "a value");
     value.comments_before = std::move(above);
     skip_space();
     if (!at_end()) fail("expected the end of the file after the last bracket, found " + found_here());
-    for (std::string& c : take_comments()) value.comments_inside.push_back(std::move(c));
+    for (std::string& c : take_comments(Blank::above)) value.comments_inside.push_back(std::move(c));
     return value;
   }
 
@@ -63,9 +63,13 @@ class Parser {
   }
 
   void skip_space() {
+    is_blank_ = false;
     for (; !at_end(); at_++) {
       const char c = peek();
       if (c == '\n') {
+        const bool is_second = !comments_.empty() && comments_.back().text.empty();
+        if (is_blank_ && !is_second) comments_.push_back({"", line_});
+        is_blank_ = true;
         line_++;
         counted_ = at_ + 1;
         column_ = 1;
@@ -85,13 +89,19 @@ class Parser {
     std::string_view comment = text_.substr(at_, end - at_);
     while (!comment.empty() && (comment.back() == '\r' || comment.back() == ' ')) comment.remove_suffix(1);
     comments_.push_back({std::string(comment), line_});
+    is_blank_ = false;
     at_ = end - 1;
   }
 
-  std::vector<std::string> take_comments() {
+  /// Where blank lines are kept, besides between comments.
+  enum class Blank : uint8_t { above, below, both };
+
+  std::vector<std::string> take_comments(Blank blank = Blank::both) {
     std::vector<std::string> all;
     for (Comment& c : comments_) all.push_back(std::move(c.text));
     comments_.clear();
+    if (blank == Blank::below && !all.empty() && all.front().empty()) all.erase(all.begin());
+    if (blank == Blank::above && !all.empty() && all.back().empty()) all.pop_back();
     return all;
   }
   /// The comment that stands on `line`, behind what has just been read.
@@ -246,7 +256,7 @@ class Parser {
 
   /// Steps over the closing bracket.
   bool end_of(JsonValue& container) {
-    for (std::string& c : take_comments()) container.comments_inside.push_back(std::move(c));
+    for (std::string& c : take_comments(Blank::above)) container.comments_inside.push_back(std::move(c));
     at_++;
     return false;
   }
@@ -256,7 +266,7 @@ class Parser {
     at_++;
     skip_space();
     if (peek() != close) return true;
-    container.comments_inside = take_comments();
+    container.comments_inside = take_comments(Blank::above);
     at_++;
     return false;
   }
@@ -265,7 +275,7 @@ class Parser {
     list.kind = Kind::list;
     if (!open(list, ']')) return;
     do {
-      std::vector<std::string> above = take_comments();
+      std::vector<std::string> above = take_comments(list.items.empty() ? Blank::below : Blank::both);
       list.items.push_back(parse_value(depth, "a value or \"]\""));
       list.items.back().comments_before = std::move(above);
     } while (more_follow(list, list.items.back(), ']', "value"));
@@ -276,7 +286,7 @@ class Parser {
     if (!open(object, '}')) return;
     std::set<std::string> seen;
     do {
-      std::vector<std::string> above = take_comments();
+      std::vector<std::string> above = take_comments(object.members.empty() ? Blank::below : Blank::both);
       JsonMember m{.name = "", .place = place(), .value = {}};
       if (peek() != '"')
         fail(fmt::format("expected a name in double quotes (\"){}, found {}", object.members.empty() ? " or \"}\"" : "",
@@ -302,7 +312,8 @@ class Parser {
   int line_ = 1;
   int column_ = 1;  ///< of the character at counted_
   size_t counted_;
-  std::vector<Comment> comments_;
+  std::vector<Comment> comments_;  ///< not taken yet; a blank line is one without text
+  bool is_blank_ = false;          ///< nothing stands on the line so far
 };
 
 std::optional<Problem> encoding_problem(std::string_view text) {

@@ -9,7 +9,7 @@
 #include "core/base/suggest.h"
 #include "graphs/document/convert.h"
 #include "graphs/document/forecasts.h"
-#include "graphs/document/nodes.h"
+#include "graphs/document/level.h"
 #include "graphs/document/read_document.h"
 #include "graphs/document/wires.h"
 
@@ -28,13 +28,21 @@ fs::path working_folder() {
 /// A document on its way to a graph. All problems are collected; `finish` throws them.
 class Loader {
  public:
-  Loader(std::string_view text, const fs::path& path, const std::vector<Migration>& migrations)
-      : file_(path.string()), folder_((working_folder() / path).parent_path()) {
+  Loader(std::string_view text, const fs::path& path, const LoadOptions& options)
+      : file_(path.string()),
+        path_(working_folder() / path),
+        folder_(path_.parent_path()),
+        types_(options.types),
+        subgraphs_(types_, options.migrations, problems_),
+        levels_(subgraphs_, types_, problems_) {
     ParsedJson parsed = parse_json(text);
     problems_ = std::move(parsed.problems);
-    if (!parsed.value || !migrate(*parsed.value, migrations, problems_)) finish();
+    if (!parsed.value || !migrate(*parsed.value, options.migrations, problems_)) finish();
     document_ = std::move(*parsed.value);
-    check_keys();
+    for (const JsonMember& m : document_.members)
+      if (std::ranges::find(document_keys(), m.name) == document_keys().end())
+        problems_.push_back(
+            {m.place, "", fmt::format("unknown key {}{}", in_quotes(m.name), suggestion(m.name, document_keys()))});
   }
 
   void finish() {
@@ -42,10 +50,9 @@ class Loader {
   }
 
   GraphInterface interface() {
-    GraphInterface out;
-    if (const JsonValue* v = text_at("summary")) out.summary = v->text;
-    if (const JsonValue* v = text_at("help")) out.help = v->text;
-    if (const JsonValue* v = document_.find("parameters")) out.parameters = read_parameters(*v, folder_, problems_);
+    main_ = &subgraphs_.read_main(document_, path_);
+    GraphInterface out{main_->summary, main_->help, main_->parameters, {}, main_->inputs, {}};
+    for (const GraphOutput& o : main_->outputs) out.outputs.push_back(o.port);
     if (const JsonValue* v = document_.find("presets")) out.presets = read_presets(*v, folder_, "", true, problems_);
     for (Preset& p : presets_beside(file_, problems_)) out.presets.push_back(std::move(p));
     return out;
@@ -57,83 +64,63 @@ class Loader {
     out.graph.file = file_;
     out.graph.summary = std::move(head.summary);
     out.help = std::move(head.help);
-    out.parameters = std::move(head.parameters);
     out.presets = std::move(head.presets);
+    out.inputs = std::move(head.inputs);
 
-    const JsonValue& nodes = nodes_section();
-    std::vector<Override> overrides = chosen_presets(out.presets, options.presets, problems_);
-    const auto add = [&](std::vector<Override> more) {
-      overrides.insert(overrides.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-    };
-    for (const fs::path& file : options.settings) add(read_settings(file, problems_));
-    add(read_overrides(override_texts, working_folder(), problems_));
-    NodeReading reading(options.types);
-    reading.graph_folder = folder_;
-    const NodeTypes types = node_types(nodes, reading);
-    for (const Preset& p : out.presets)
-      if (std::ranges::find(options.presets, p.name) == options.presets.end())
-        check_targets(p, out.parameters, types, problems_);
-    merge_members(overrides, out.parameters, types);
-    set_parameters(out.parameters, overrides, types, problems_);
-    GraphScope scope(out.parameters, types, problems_);
-    scope.evaluate_parameters();
-    Substitution substitution(scope);
-    reading.seed = read_seed(substitution);
-    std::vector<NodeDraft> drafts = read_nodes(nodes, overrides, reading, substitution, problems_);
+    std::vector<Override> overrides = overrides_from(out.presets, override_texts, options);
+    auto owned = std::make_unique<Level>();
+    Level& root = *owned;
+    root.graph = main_;
+    root.names.parameters = std::move(head.parameters);
+    std::vector<GraphParameter>& parameters = root.names.parameters;
+    merge_members(overrides, parameters, main_->sources);
+    set_parameters(parameters, overrides, main_->sources, problems_);
+    root.names.scope = std::make_unique<GraphScope>(parameters, main_->sources, "", problems_);
+    root.names.scope->evaluate_parameters();
+    root.names.substitution = std::make_unique<Substitution>(*root.names.scope);
+    levels_.read(std::move(owned), overrides);
     std::vector<Problem> conversions;
-    connect(drafts, problems_, conversions);
+    for (const std::unique_ptr<Level>& level : levels_.all()) check_wires(*level, problems_, conversions);
+    connect(levels_, problems_);
+    Drafts& drafts = levels_.nodes();
+    for (NodeDraft& d : drafts) name_what_is_asked(d);
+    for (NodeDraft& d : levels_.others()) name_what_is_asked(d);
     const std::vector<size_t> order = execution_order(drafts, problems_);
-    read_what_waits(drafts, order, reading, scope, substitution);
+    read_what_waits(order, root);
     const std::set<std::string> wanted = wanted_nodes(drafts, options.only);
-    if (!options.allow_unset) require_set(out.parameters, drafts, wanted);
-    trace_files(drafts, order);
+    if (!options.allow_unset) require_set(parameters, out.inputs, wanted);
+    trace_files(order);
     if (!problems_.empty() && options.look_ahead)
-      for (Problem& p : options.look_ahead(faultless(drafts, order))) problems_.push_back(std::move(p));
+      for (Problem& p : options.look_ahead(faultless(order))) problems_.push_back(std::move(p));
     finish();
 
     for (const Problem& p : conversions) out.conversions.push_back(describe(file_, p));
-    for (const Problem& p : warnings_about(drafts, order, out.parameters, substitution.unused()))
-      out.warnings.push_back(describe(file_, p));
+    for (const Problem& p : warnings_about(order, root)) out.warnings.push_back(describe(file_, p));
     const bool complete = std::ranges::all_of(drafts, [](const NodeDraft& d) { return d.unset.empty(); });
     for (const size_t i : order)
-      if (complete || options.allow_unset || wanted.contains(drafts[i].node.name))
+      if (complete || options.allow_unset || wanted.contains(drafts[i].node.name)) {
+        drafts[i].node.is_open = !drafts[i].unset.empty();
         out.graph.nodes.push_back(std::move(drafts[i].node));
+      }
+    out.graph.made_from = subgraphs_.files();
+    out.graph.made_from.insert(out.graph.made_from.end(), levels_.made_from().begin(), levels_.made_from().end());
+    out.parameters = std::move(parameters);
     return out;
   }
 
  private:
-  void check_keys() {
-    static const std::vector<std::string> keys = {"terrazzo", "summary", "help",  "parameters",
-                                                  "presets",  "seed",    "nodes", "$schema"};
-    for (const JsonMember& m : document_.members)
-      if (std::find(keys.begin(), keys.end(), m.name) == keys.end())
-        problems_.push_back(
-            {m.place, "", fmt::format("unknown key {}{}", in_quotes(m.name), suggestion(m.name, keys))});
-  }
-
-  const JsonValue* text_at(std::string_view key) {
-    const JsonValue* v = document_.find(key);
-    if (!v || v->is_text()) return v;
-    problems_.push_back({v->place, fmt::format("\"{}\"", key), "expected a text, found " + found(*v)});
-    return nullptr;
-  }
-
-  const JsonValue& nodes_section() {
-    static const JsonValue none;
-    const JsonValue* nodes = document_.find("nodes");
-    if (!nodes) problems_.push_back({document_.place, "", "expected \"nodes\", an object of nodes by name"});
-    if (nodes && !nodes->is_object())
-      problems_.push_back({nodes->place, "\"nodes\"", "expected an object of nodes by name, found " + found(*nodes)});
-    return nodes ? *nodes : none;
-  }
-
-  static NodeTypes node_types(const JsonValue& nodes, const NodeReading& reading) {
-    NodeTypes out;
-    for (const JsonMember& m : nodes.members) {
-      const JsonValue* type = m.value.find("type");
-      const auto known = type ? reading.types.find(type->text) : reading.types.end();
-      out.emplace_back(m.name, known == reading.types.end() ? nullptr : known->second);
-    }
+  /// Those of the command line count most, then settings files, then presets.
+  std::vector<Override> overrides_from(const std::vector<Preset>& presets, const std::vector<std::string>& texts,
+                                       const LoadOptions& options) {
+    std::vector<Override> out = chosen_presets(presets, options.presets, problems_);
+    const auto add = [&](std::vector<Override> more) {
+      out.insert(out.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    };
+    for (const fs::path& file : options.settings) add(read_settings(file, problems_));
+    add(read_overrides(texts, working_folder(), problems_));
+    for (const Preset& p : presets)
+      if (std::ranges::find(options.presets, p.name) == options.presets.end())
+        check_targets(p, main_->parameters, main_->sources, problems_);
     return out;
   }
 
@@ -164,32 +151,58 @@ class Loader {
     }
   }
 
-  /// The graph's own seed; empty if it has none or it is not set yet.
-  std::optional<int64_t> read_seed(Substitution& substitution) {
-    const JsonValue* given = document_.find("seed");
-    if (!given) return std::nullopt;
-    const Param param{.name = "seed", .type = ParamType::integer, .min = 0};
-    Diagnostics diagnostics(problems_, "\"seed\"");
-    const std::optional<JsonValue> value = substitution.expand(*given, param, diagnostics);
-    if (!substitution.take_lacking().nodes.empty())
-      diagnostics.add(given->place, "the seed cannot be made from what nodes give: they may depend on it");
-    if (!value) return std::nullopt;
-    const std::optional<ParamValue> read = read_param(*value, param, folder_, diagnostics);
-    return read ? std::optional(std::get<int64_t>(*read)) : std::nullopt;
+  /// The level that a node stands in, by the path that begins its name, and what follows.
+  std::pair<const Level*, std::string> level_of(const std::string& path) const {
+    const auto end = path.rfind('/');
+    const std::string before = end == path.npos ? "" : path.substr(0, end + 1);
+    for (const std::unique_ptr<Level>& level : levels_.all())
+      if (level->path == before) return {level.get(), path.substr(before.size())};
+    return {nullptr, path};
+  }
+
+  /// Where the results come from that an expression asks for: through inputs and subgraphs.
+  WireSources sources_behind(const std::string& asked) const {
+    const auto [level, name] = level_of(asked);
+    std::vector<Problem> ignored;
+    Diagnostics diagnostics(ignored, "");
+    return level ? sources_of(*level, {name, "", {}, ""}, diagnostics) : WireSources{};
+  }
+
+  /// The one node whose results an expression asks for. Throws Error if that is not one.
+  std::string node_behind(const std::string& asked) const {
+    const WireSources found = sources_behind(asked);
+    if (found.wires.size() > 1) throw Error(fmt::format("\"{}\" is a loop, of {} rounds", asked, found.wires.size()));
+    if (found.wires.empty()) throw Error(fmt::format("nothing comes into \"{}\"", asked));
+    return found.wires.front().node;
+  }
+
+  /// In a node, instead of names as expressions have them, those of the nodes behind.
+  void name_what_is_asked(NodeDraft& draft) const {
+    std::set<std::string> nodes;
+    for (const std::string& name : draft.asked) {
+      WireSources found = sources_behind(name);
+      if (found.is_faulty || !found.open.empty()) nodes.emplace(never_known);
+      if (found.wires.size() == 1) nodes.insert(found.wires.front().node);
+      draft.unset.merge(found.open);
+    }
+    draft.asked = std::move(nodes);
   }
 
   /// Evaluates what is made from the forecasts of nodes: node by node, so that each can ask for earlier ones.
-  void read_what_waits(std::vector<NodeDraft>& drafts, const std::vector<size_t>& order, const NodeReading& reading,
-                       GraphScope& scope, Substitution& substitution) {
+  void read_what_waits(const std::vector<size_t>& order, Level& root) {
+    Drafts& drafts = levels_.nodes();
     std::vector<std::string> asked;
     for (const NodeDraft& d : drafts) asked.insert(asked.end(), d.asked.begin(), d.asked.end());
-    if (asked.empty()) return;
+    for (const NodeDraft& d : levels_.others()) asked.insert(asked.end(), d.asked.begin(), d.asked.end());
+    if (asked.empty() && !has_waiting()) return;
     std::map<std::string, const NodeDraft*> by_name;
     for (const NodeDraft& d : drafts) by_name[d.node.name] = &d;
     const std::set<std::string> needed = needed_nodes(drafts, asked);
-    std::set<std::string> incomplete;  // what is wrong with them, or is to be set, has been said or will be
+    std::set<std::string> incomplete = {never_known};  // what is wrong or is to be set has been said or will be
+    std::set<std::string> visited;
     Forecasts forecasts;
-    scope.set_forecasts([&](const std::string& node) -> const Forecast& {
+    levels_.set_forecasts([&](const std::string& name) -> const Forecast& {
+      const std::string node = node_behind(name);
       if (const Forecast* known = forecasts.find(node)) return *known;
       throw Error(fmt::format("what \"{}\" gives is not known before it runs", node));
     });
@@ -198,24 +211,31 @@ class Loader {
       bool complete = true;
       for (const std::string& source : d.asked) {
         complete &= !incomplete.contains(source);
-        d.unset.insert(by_name[source]->unset.begin(), by_name[source]->unset.end());
+        if (const auto at = by_name.find(source); at != by_name.end())
+          d.unset.insert(at->second->unset.begin(), at->second->unset.end());
       }
-      if (complete && !d.waiting.empty()) read_waiting(d, reading, substitution, problems_);
+      const size_t before = problems_.size();
+      if (complete) levels_.read_what_waits(*d.level, visited);
+      if (complete && !d.waiting.empty()) read_waiting(d, problems_);
+      set_file(problems_, before, d.node.file);
       if (needed.contains(d.node.name) && !(complete && look_ahead(d, forecasts, incomplete)))
         incomplete.insert(d.node.name);
+      visited.insert(d.node.name);
     }
-    scope.evaluate_parameters();
-    scope.set_forecasts({});
+    if (main_->inputs.empty()) root.names.scope->evaluate_parameters();
+    levels_.set_forecasts({});
+  }
+
+  bool has_waiting() {
+    const auto waits = [](const NodeDraft& d) { return !d.waiting.empty(); };
+    return std::ranges::any_of(levels_.nodes(), waits) || std::ranges::any_of(levels_.others(), waits);
   }
 
   /// Whether all parameters and wires of the node have been read.
   static bool is_complete(const NodeDraft& draft) {
     const GraphNode& node = draft.node;
-    if (!node.type || node.params.size() < node.type->params.size()) return false;
-    return std::ranges::all_of(draft.ports, [&](const PortWires& p) {
-      const auto wires = node.inputs.find(p.port->name);
-      return wires != node.inputs.end() && wires->second.size() == p.wires.size();
-    });
+    if (!node.type || node.params.size() < node.type->params.size() || !draft.unset.empty()) return false;
+    return std::ranges::none_of(draft.ports, [](const PortWires& p) { return p.has_faults; });
   }
 
   /// Whether all is known that can be; what the node's preflight finds wrong is a problem.
@@ -236,32 +256,55 @@ class Loader {
     return false;
   }
 
-  /// What only these nodes need; all there is if there are none or one of them is not there.
-  static std::set<std::string> wanted_nodes(const std::vector<NodeDraft>& drafts,
-                                            const std::vector<std::string>& only) {
-    std::vector<std::string> all;
-    for (const NodeDraft& d : drafts) all.push_back(d.node.name);
-    const auto is_there = [&](const std::string& name) { return std::ranges::find(all, name) != all.end(); };
-    return needed_nodes(drafts, only.empty() || !std::ranges::all_of(only, is_there) ? all : only);
+  /// What only these nodes need; all there is if there are none or one of the names stands for none.
+  static std::set<std::string> wanted_nodes(const Drafts& drafts, const std::vector<std::string>& only) {
+    std::vector<std::string> all, meant;
+    for (const NodeDraft& d : drafts) {
+      all.push_back(d.node.name);
+      if (std::ranges::any_of(only, [&](const std::string& name) { return stands_for(name, d.node.name); }))
+        meant.push_back(d.node.name);
+    }
+    const bool are_there = std::ranges::all_of(only, [&](const std::string& name) {
+      return std::ranges::any_of(all, [&](const std::string& node) { return stands_for(name, node); });
+    });
+    return needed_nodes(drafts, only.empty() || !are_there ? all : meant);
   }
 
   /// Where all nodes run, also what none of them needs: it is there to be set.
-  void require_set(const std::vector<GraphParameter>& parameters, const std::vector<NodeDraft>& drafts,
+  void require_set(const std::vector<GraphParameter>& parameters, const std::vector<Port>& inputs,
                    const std::set<std::string>& wanted) {
-    std::set<std::string> unset;
+    const Drafts& drafts = levels_.nodes();
+    std::set<std::string> unset = levels_.unset_for_loops();
     for (const NodeDraft& d : drafts)
       if (wanted.contains(d.node.name)) unset.insert(d.unset.begin(), d.unset.end());
     for (const GraphParameter& p : parameters)
       if (!p.value && !p.is_wrong && !p.formula && (wanted.size() == drafts.size() || unset.contains(p.param.name)))
         problems_.push_back({p.place, "parameter " + in_quotes(p.param.name),
                              fmt::format("has no default and must be set: --set {}=VALUE", p.param.name)});
+    for (const Port& input : inputs)
+      if (unset.contains(input.name))
+        problems_.push_back({document_.find("inputs")->place, "input " + in_quotes(input.name),
+                             "nothing comes into it: a graph with inputs runs as a node of another graph"});
+  }
+
+  /// The parameters of the document that a subgraph's parameter is made from.
+  static std::set<std::string> files_behind(const Level& level, const std::set<std::string>& names) {
+    if (!level.use) return names;
+    std::set<std::string> out;
+    for (const std::string& name : names) {
+      const auto at = level.use->node.files_by.find(name);
+      if (at != level.use->node.files_by.end()) out.merge(files_behind(*level.outer, at->second));
+    }
+    return out;
   }
 
   /// Tells every port from which of the graph's files what comes in is made.
-  static void trace_files(std::vector<NodeDraft>& drafts, const std::vector<size_t>& order) {
+  void trace_files(const std::vector<size_t>& order) {
+    Drafts& drafts = levels_.nodes();
     std::map<std::string, std::set<std::string>> files_of;  // by node
     for (const size_t i : order) {
       GraphNode& node = drafts[i].node;
+      for (auto& [given, files] : node.files_by) files = files_behind(*drafts[i].level, files);
       for (const auto& [port, wires] : node.inputs)
         for (const Wire& w : wires) node.files_by[port].merge(std::set(files_of[w.node]));
       for (const auto& [given, files] : node.files_by) files_of[node.name].insert(files.begin(), files.end());
@@ -269,7 +312,8 @@ class Loader {
   }
 
   /// The nodes that nothing has been said against, and that have all they need but for what others are to give.
-  std::vector<GraphNode> faultless(const std::vector<NodeDraft>& drafts, const std::vector<size_t>& order) const {
+  std::vector<GraphNode> faultless(const std::vector<size_t>& order) {
+    const Drafts& drafts = levels_.nodes();
     std::set<std::string> faulty;
     for (const Problem& p : problems_) faulty.insert(p.node);
     std::vector<GraphNode> out;
@@ -280,38 +324,81 @@ class Loader {
     return out;
   }
 
-  static std::vector<Problem> warnings_about(const std::vector<NodeDraft>& drafts, const std::vector<size_t>& order,
-                                             const std::vector<GraphParameter>& parameters,
-                                             const std::vector<std::string>& unused) {
+  std::vector<Problem> warnings_about(const std::vector<size_t>& order, const Level& root) {
     std::vector<Problem> out;
-    for (const GraphParameter& p : parameters)
-      if (std::ranges::find(unused, p.param.name) != unused.end())
+    for (const GraphParameter& p : root.names.parameters)
+      if (is_unused(root, p.param.name))
         out.push_back({p.place, "parameter " + in_quotes(p.param.name), "no node uses it"});
-    std::vector<std::string> sinks;
-    for (const NodeDraft& d : drafts)
-      if (d.node.type->is_sink()) sinks.push_back(d.node.name);
-    if (sinks.empty()) {
+    for (const auto& [name, place] : subgraphs_.unused())
+      out.push_back({place, "graph " + in_quotes(name), "no node is of this type"});
+    const Drafts& drafts = levels_.nodes();
+    std::vector<std::string> used;
+    bool has_sink = !main_->outputs.empty();
+    for (const NodeDraft& d : drafts) {
+      has_sink |= d.node.type->is_sink();
+      if (d.node.type->is_sink()) used.push_back(d.node.name);
+    }
+    if (!has_sink) {
       out.push_back({{}, "", "no node is a sink: a run writes nothing"});
       return out;
     }
-    const std::set<std::string> needed = needed_nodes(drafts, sinks);
-    for (const size_t i : order)
-      if (const GraphNode& node = drafts[i].node; !needed.contains(node.name))
-        out.push_back({node.place, "node " + in_quotes(node.name), "no sink reads it; it will not run"});
+    std::set<std::string> given = names_given(root);
+    const std::set<std::string> needed = needed_nodes(drafts, used);
+    for (const size_t i : order) {
+      const NodeDraft& d = drafts[i];
+      if (d.level == &root && !needed.contains(d.node.name) && !given.contains(d.local))
+        out.push_back({d.node.place, "node " + in_quotes(d.node.name), "no sink reads it; it will not run"});
+    }
     return out;
   }
 
+  static bool is_unused(const Level& level, const std::string& parameter) {
+    const auto is_in = [&](const Names& names) {
+      const std::vector<std::string> unused = names.substitution->unused();
+      return std::ranges::find(unused, parameter) != unused.end();
+    };
+    return is_in(level.names) && std::ranges::all_of(level.rounds, [&](const auto& round) { return is_in(*round); });
+  }
+
+  /// Nodes that outputs lead to, or that an expression may choose, with all that they read by name.
+  std::set<std::string> names_given(const Level& root) const {
+    std::set<std::string> out;
+    std::vector<std::string> open;
+    for (const auto& [name, wires] : root.outputs)
+      for (const WireEnd& end : wires.wires) open.push_back(end.node);
+    const auto add_named = [&](const NodeDraft& d) { open.insert(open.end(), d.named.begin(), d.named.end()); };
+    std::ranges::for_each(levels_.nodes(), add_named);
+    std::ranges::for_each(levels_.others(), add_named);
+    while (!open.empty()) {
+      const std::string name = std::move(open.back());
+      open.pop_back();
+      const std::vector<Item>* items = root.find(name);
+      if (!items || !out.insert(name).second) continue;
+      for (const Item& item : *items)
+        for (const PortWires& p : item.draft->ports)
+          for (const WireEnd& end : p.wires) open.push_back(end.node);
+    }
+    return out;
+  }
+
+  /// Stands for a node that is asked for and whose results cannot be known, for reasons that have been reported.
+  static constexpr const char* never_known = "?";
+
   std::string file_;
-  fs::path folder_;
+  fs::path path_, folder_;
   JsonValue document_;
   std::vector<Problem> problems_;
+  KnownTypes types_;
+  Subgraphs subgraphs_;
+  Levels levels_;
+  Subgraph* main_ = nullptr;
 };
 
 }  // namespace
 
 LoadedGraph load_graph_text(std::string_view text, const fs::path& path, const std::vector<std::string>& overrides,
                             const LoadOptions& options) {
-  return Loader(text, path, options.migrations).graph(overrides, options);
+  return Loader(text, path, options).graph(overrides, options);
 }
 
 LoadedGraph load_graph(const fs::path& path, const std::vector<std::string>& overrides, const LoadOptions& options) {
@@ -319,7 +406,7 @@ LoadedGraph load_graph(const fs::path& path, const std::vector<std::string>& ove
 }
 
 GraphInterface read_interface(const fs::path& path) {
-  Loader loader(read_document(path), path, document_migrations());
+  Loader loader(read_document(path), path, {});
   GraphInterface out = loader.interface();
   loader.finish();
   return out;

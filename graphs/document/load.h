@@ -40,6 +40,7 @@ struct LoadedGraph {
   std::string help;
   std::vector<GraphParameter> parameters;
   std::vector<Preset> presets;
+  std::vector<Port> inputs;  ///< of a graph that is made to be a node of others
   /// Images that become materials of one map; nodes and parameters that nothing uses. In the form of describe().
   std::vector<std::string> conversions, warnings;
 };
@@ -60,6 +61,7 @@ struct GraphInterface {
   std::string help;
   std::vector<GraphParameter> parameters;
   std::vector<Preset> presets;
+  std::vector<Port> inputs, outputs;
 };
 
 /// Reads summary and parameters; nodes are not looked at. Throws GraphError.

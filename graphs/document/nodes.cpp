@@ -12,10 +12,6 @@ namespace terrazzo {
 
 namespace {
 
-bool is_wire(const JsonValue& v) {
-  return v.is_text() && v.text.starts_with("@") && !v.text.starts_with("@@");
-}
-
 /// The order of nodes does not matter, nor do other nodes. 31 bits: every tool that shows it can hold it.
 int64_t derived_seed(int64_t graph_seed, const std::string& node) {
   const std::string hex = Hasher().add("seed of a node").add(graph_seed).add(node).digest().hex();
@@ -24,19 +20,21 @@ int64_t derived_seed(int64_t graph_seed, const std::string& node) {
 
 class NodeReader {
  public:
-  NodeReader(NodeDraft& draft, const NodeReading& reading, Substitution& substitution, std::vector<Problem>& problems)
+  NodeReader(NodeDraft& draft, std::vector<Problem>& problems)
       : draft_(draft),
-        reading_(reading),
-        substitution_(substitution),
+        reading_(*draft.reading),
+        substitution_(*draft.substitution),
         problems_(problems),
         where_("node " + in_quotes(draft.node.name)) {}
 
   void read(const JsonValue& value, const std::vector<const Override*>& overrides) {
-    const Place place = draft_.node.place;
-    if (!is_node_name(draft_.node.name)) complain(place, "expected a name of letters, digits, _ and -");
     if (!value.is_object()) {
       complain(value.place, "expected an object such as {\"type\": \"load_map\", ...}, found " + found(value));
-    } else if (find_type(value)) {
+    } else if (draft_.node.type || find_type(value)) {
+      if (const JsonValue* mute = value.find("mute")) read_mute(*mute);
+      for (const Override* o : overrides)
+        if (o->name == "mute") read_mute(o->json_for({.name = "mute", .type = ParamType::boolean}));
+      if (const JsonValue* comment = value.find("comment")) read_comment(*comment);
       for (const NodeEntry& e : entries(value, overrides)) read_entry(e);
       add_missing();
       run_check();
@@ -59,18 +57,36 @@ class NodeReader {
       complain(draft_.node.place, "expected a \"type\"; `terrazzo nodes` lists them");
       return false;
     }
-    const auto at = given->is_text() ? reading_.types.find(given->text) : reading_.types.end();
-    if (at != reading_.types.end()) {
-      draft_.node.type = at->second;
-      return true;
-    }
     if (!given->is_text()) {
       complain(given->place, "expected the name of a node type, found " + found(*given));
-    } else {
-      complain(given->place, fmt::format("unknown node type {}{}; `terrazzo nodes` lists all", in_quotes(given->text),
-                                         did_you_mean(given->text, reading_.type_names)));
+      return false;
     }
-    return false;
+    draft_.node.type = reading_.known->find(given->text);
+    std::vector<std::string> names = reading_.graph_names;
+    names.insert(names.end(), reading_.known->names.begin(), reading_.known->names.end());
+    if (!draft_.node.type)
+      complain(given->place, fmt::format("unknown node type {}{}; `terrazzo nodes` lists all", in_quotes(given->text),
+                                         did_you_mean(given->text, names)));
+    return draft_.node.type;
+  }
+
+  void read_mute(const JsonValue& mute) {
+    const Param param{.name = "mute", .type = ParamType::boolean};
+    Diagnostics diagnostics(problems_, where_ + ", \"mute\"");
+    const std::optional<JsonValue> value = substitution_.expand(mute, param, diagnostics);
+    const Lacking lacking = substitution_.take_lacking();
+    draft_.unset.insert(lacking.unset.begin(), lacking.unset.end());
+    if (!lacking.nodes.empty()) diagnostics.add(mute.place, "whether a node is muted cannot depend on what nodes give");
+    if (!value) return;
+    if (const auto read = read_param(*value, param, reading_.graph_folder, diagnostics))
+      draft_.muted = std::get<bool>(*read);
+  }
+
+  void read_comment(const JsonValue& comment) {
+    if (comment.is_text())
+      draft_.node.comment = comment.text;
+    else
+      complain(comment.place, "expected a text for \"comment\", found " + found(comment));
   }
 
   /// Of "weights.height=2" the whole map, if `weights` is one. False if it is not.
@@ -103,9 +119,10 @@ class NodeReader {
   std::vector<NodeEntry> entries(const JsonValue& value, const std::vector<const Override*>& overrides) {
     std::vector<NodeEntry> out;
     for (const JsonMember& m : value.members)
-      if (m.name != "type") out.push_back({m.name, m.place, &m.value, nullptr});
+      if (std::ranges::find(common_node_keys(), m.name) == common_node_keys().end())
+        out.push_back({m.name, m.place, &m.value, nullptr});
     for (const Override* o : overrides) {
-      if (add_member(*o, out)) continue;
+      if (o->name == "mute" || add_member(*o, out)) continue;
       const auto at = std::find_if(out.begin(), out.end(), [&](const NodeEntry& e) { return e.name == o->name; });
       if (at == out.end()) {
         out.push_back({o->name, o->place, nullptr, o});
@@ -156,34 +173,33 @@ class NodeReader {
   void read_port(const NodeEntry& e, const Port& port) {
     PortWires wires{&port, {}, complaints_about(e, "port")};
     const JsonValue given = e.by ? e.by->json_for({.name = port.name, .type = ParamType::texts}) : *e.value;
-    const std::string expected = fmt::format("a {} such as \"@node\" or \"@node.port\"{}",
-                                             port.list ? "list of wires" : "wire", port.list ? ", or one wire," : "");
-    if (is_wire(given)) {
-      add_wire(wires, given);
-    } else if (!given.is_list() || !port.list) {
-      wires.diagnostics.add(given.place,
-                            fmt::format("expected {} found {}", port.list ? expected : expected + ",", found(given)));
-    } else if (given.items.empty() && !port.optional) {
-      wires.diagnostics.add(given.place, "expected at least one wire such as \"@node\", found an empty list");
-    } else {
-      for (const JsonValue& item : given.items) {
-        if (is_wire(item)) {
-          add_wire(wires, item);
-        } else {
-          wires.diagnostics.add(item.place,
-                                "expected a wire such as \"@node\" or \"@node.port\", found " + found(item));
-        }
-      }
-    }
+    const auto expanded = expand_wires(given, substitution_, wires.diagnostics, draft_.named, draft_.unset);
+    // An expression may leave the port open.
+    if (port.optional && expanded && expanded->is_text() && expanded->text.empty() && !given.text.empty()) return;
+    if (expanded) read_wires(wires, *expanded);
     draft_.ports.push_back(std::move(wires));
   }
 
-  static void add_wire(PortWires& wires, const JsonValue& text) {
-    const std::string end = text.text.substr(1);
-    const size_t dot = end.find('.');
-    wires.wires.push_back({end.substr(0, dot), dot == end.npos ? "" : end.substr(dot + 1), text.place, text.text});
-    if (dot + 1 == end.size())
-      wires.diagnostics.add(text.place, "expected an output's name after the dot in " + in_quotes(text.text));
+  static void read_wires(PortWires& into, const JsonValue& given) {
+    const Port& port = *into.port;
+    const std::string expected = fmt::format("a {} such as \"@node\" or \"@node.port\"{}",
+                                             port.list ? "list of wires" : "wire", port.list ? ", or one wire," : "");
+    if (is_wire(given)) {
+      into.wires.push_back(wire_end(given, into.diagnostics));
+    } else if (!given.is_list() || !port.list) {
+      into.diagnostics.add(given.place,
+                           fmt::format("expected {} found {}", port.list ? expected : expected + ",", found(given)));
+    } else if (given.items.empty() && !port.optional) {
+      into.diagnostics.add(given.place, "expected at least one wire such as \"@node\", found an empty list");
+    } else {
+      for (const JsonValue& item : given.items) {
+        if (is_wire(item)) {
+          into.wires.push_back(wire_end(item, into.diagnostics));
+        } else {
+          into.diagnostics.add(item.place, "expected a wire such as \"@node\" or \"@node.port\", found " + found(item));
+        }
+      }
+    }
   }
 
   void add_missing() {
@@ -194,7 +210,7 @@ class NodeReader {
     for (const Param& p : type().params) {
       if (given_.contains(p.name)) continue;
       if (p.name == "seed" && p.type == ParamType::integer && reading_.seed) {
-        draft_.node.params.emplace(p.name, derived_seed(*reading_.seed, draft_.node.name));
+        draft_.node.params.emplace(p.name, derived_seed(*reading_.seed, reading_.seed_path + draft_.local));
       } else if (p.fallback) {
         draft_.node.params.emplace(p.name, default_of(p, reading_.graph_folder));
       } else {
@@ -225,44 +241,68 @@ class NodeReader {
 
 }  // namespace
 
-NodeReading::NodeReading(const std::vector<NodeType>& known) {
+KnownTypes::KnownTypes(const std::vector<NodeType>& known) {
   for (const NodeType& t : known) {
     types.emplace(t.name, &t);
-    type_names.push_back(t.name);
+    names.push_back(t.name);
   }
 }
 
-std::vector<NodeDraft> read_nodes(const JsonValue& section, const std::vector<Override>& overrides,
-                                  const NodeReading& reading, Substitution& substitution,
-                                  std::vector<Problem>& problems) {
-  std::map<std::string, std::vector<const Override*>> by_node;
-  std::vector<std::string> names;
-  for (const JsonMember& m : section.members) names.push_back(m.name);
-  for (const Override& o : overrides) {
-    if (o.node.empty()) continue;
-    by_node[o.node].push_back(&o);
-    if (std::find(names.begin(), names.end(), o.node) == names.end())
-      o.diagnostics(problems).add(
-          o.place, fmt::format("the graph has no node {}{}", in_quotes(o.node), suggestion(o.node, names)));
-  }
-  std::vector<NodeDraft> drafts;
-  for (const JsonMember& m : section.members) {
-    const auto its = by_node.find(m.name);
-    const size_t before = problems.size();
-    NodeDraft& draft = drafts.emplace_back();
-    draft.node.name = m.name;
-    draft.node.place = m.place;
-    NodeReader(draft, reading, substitution, problems)
-        .read(m.value, its == by_node.end() ? std::vector<const Override*>() : its->second);
-    for (size_t i = before; i < problems.size(); i++) problems[i].node = m.name;
-  }
-  return drafts;
+const NodeType* KnownTypes::find(std::string_view name) const {
+  const auto at = types.find(name);
+  return at == types.end() ? nullptr : at->second;
 }
 
-void read_waiting(NodeDraft& draft, const NodeReading& reading, Substitution& substitution,
-                  std::vector<Problem>& problems) {
+const std::vector<std::string>& common_node_keys() {
+  static const std::vector<std::string> keys = {"comment", "foreach", "mute", "type"};
+  return keys;
+}
+
+bool is_wire(const JsonValue& v) {
+  return v.is_text() && v.text.starts_with("@") && !v.text.starts_with("@@");
+}
+
+WireEnd wire_end(const JsonValue& text, Diagnostics& diagnostics) {
+  const std::string end = text.text.substr(1);
+  const size_t dot = end.find('.');
+  if (dot + 1 == end.size())
+    diagnostics.add(text.place, "expected an output's name after the dot in " + in_quotes(text.text));
+  return {end.substr(0, dot), dot == end.npos ? "" : end.substr(dot + 1), text.place, text.text};
+}
+
+std::optional<JsonValue> expand_wires(const JsonValue& given, Substitution& substitution, Diagnostics& diagnostics,
+                                      std::set<std::string>& named, std::set<std::string>& unset) {
+  if (given.is_list()) {
+    JsonValue out = given;
+    for (JsonValue& item : out.items) {
+      std::optional<JsonValue> expanded = expand_wires(item, substitution, diagnostics, named, unset);
+      if (!expanded) return std::nullopt;
+      item = std::move(*expanded);
+    }
+    return out;
+  }
+  if (!given.is_text() || !is_expression(given.text)) return given;
+  for (size_t at = given.text.find("'@"); at != std::string::npos; at = given.text.find("'@", at + 1)) {
+    const size_t end = std::min(given.text.find_first_of(".'", at + 2), given.text.size());
+    named.insert(given.text.substr(at + 2, end - at - 2));
+  }
+  std::optional<JsonValue> out = substitution.expand(given, {.name = "", .type = ParamType::texts}, diagnostics);
+  const Lacking lacking = substitution.take_lacking();
+  unset.insert(lacking.unset.begin(), lacking.unset.end());
+  if (!lacking.nodes.empty()) diagnostics.add(given.place, "a wire cannot depend on what nodes give");
+  return out;
+}
+
+void read_node(NodeDraft& draft, const JsonValue& value, const std::vector<const Override*>& overrides,
+               std::vector<Problem>& problems) {
   const size_t before = problems.size();
-  NodeReader(draft, reading, substitution, problems).read_waiting();
+  NodeReader(draft, problems).read(value, overrides);
+  for (size_t i = before; i < problems.size(); i++) problems[i].node = draft.node.name;
+}
+
+void read_waiting(NodeDraft& draft, std::vector<Problem>& problems) {
+  const size_t before = problems.size();
+  NodeReader(draft, problems).read_waiting();
   for (size_t i = before; i < problems.size(); i++) problems[i].node = draft.node.name;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -14,7 +15,7 @@
 #include "graphs/document/override.h"
 #include "graphs/document/substitution.h"
 
-/// The section `nodes`: each node by itself; wires are in wires.h.
+/// The nodes of a graph, each by itself. Wires are in wires.h, the graphs that nodes may be in level.h.
 namespace terrazzo {
 
 /// A wire as a node names it: "@node" or "@node.port".
@@ -30,6 +31,7 @@ struct PortWires {
   const Port* port = nullptr;
   std::vector<WireEnd> wires;
   Diagnostics diagnostics;
+  bool has_faults = false;  ///< not all of its wires could be read
 };
 
 /// One key of a node, from the document or, if `by` is set, from the command line.
@@ -41,32 +43,61 @@ struct NodeEntry {
   std::shared_ptr<const JsonValue> merged{};  ///< a map in which an override has set one member; instead of both
 };
 
+struct Level;
+struct NodeReading;
+
 /// A node read and checked, but for its wires.
 struct NodeDraft {
-  GraphNode node;  ///< `type` is null if it is unknown; `inputs` are still empty
+  std::string local;  ///< its name in its graph; `node.name` has the path before it
+  GraphNode node;     ///< `type` is null if it is unknown; `inputs` are still empty
   std::vector<PortWires> ports;
   std::set<std::string> unset;       ///< the graph's parameters that it needs and that have no value
-  std::set<std::string> asked;       ///< nodes whose forecasts its parameters are made from
+  std::set<std::string> asked;       ///< nodes whose forecasts its parameters are made from, with their paths
   std::vector<NodeEntry> waiting{};  ///< parameters that are made from them, not read yet
+  bool muted = false;                ///< it does not run; its input passes through
+  std::set<std::string> named{};     ///< nodes of its graph that expressions in its ports name, chosen or not
+  Level* level = nullptr;            ///< the graph, or use of a subgraph, that it stands in
+  const NodeReading* reading = nullptr;
+  Substitution* substitution = nullptr;
 };
+/// Their addresses stay.
+using Drafts = std::deque<NodeDraft>;
 
-/// Context for reading nodes.
-struct NodeReading {
-  explicit NodeReading(const std::vector<NodeType>& known);
+/// Node types by name.
+struct KnownTypes {
+  explicit KnownTypes(const std::vector<NodeType>& known);
+  const NodeType* find(std::string_view name) const;
   std::map<std::string, const NodeType*, std::less<>> types;
-  std::vector<std::string> type_names;
-  std::filesystem::path graph_folder;  ///< absolute
-  std::optional<int64_t> seed;         ///< of the graph; nodes that give no seed derive theirs from it and their name
+  std::vector<std::string> names;
 };
 
-/// Reads the section, which must outlive the drafts, as must the overrides: those with a node replace what its entries
-/// say.
-std::vector<NodeDraft> read_nodes(const JsonValue& section, const std::vector<Override>& overrides,
-                                  const NodeReading& reading, Substitution& substitution,
-                                  std::vector<Problem>& problems);
+/// Context for reading the nodes of one graph.
+struct NodeReading {
+  const KnownTypes* known = nullptr;
+  std::vector<std::string> graph_names;  ///< that are types too
+  std::filesystem::path graph_folder;    ///< absolute
+  std::optional<int64_t> seed;           ///< of the graph; nodes that give no seed derive theirs from it and their name
+  std::string seed_path;                 ///< before their names, where the seed is that of a graph further out
+};
+
+/// What every node may have, whatever its type: "comment", "foreach", "mute", "type".
+const std::vector<std::string>& common_node_keys();
+
+/// Reads a node, which must outlive the draft, as must the overrides, which replace what its entries say. The draft
+/// comes with its names, level, reading and substitution; with its type if that is a graph.
+void read_node(NodeDraft& draft, const JsonValue& value, const std::vector<const Override*>& overrides,
+               std::vector<Problem>& problems);
 
 /// Reads what waits for forecasts, once these are known.
-void read_waiting(NodeDraft& draft, const NodeReading& reading, Substitution& substitution,
-                  std::vector<Problem>& problems);
+void read_waiting(NodeDraft& draft, std::vector<Problem>& problems);
+
+/// Whether a text in a document is a wire: it begins with one "@".
+bool is_wire(const JsonValue& value);
+/// The wire that a text is. A dot without an output behind it is a problem.
+WireEnd wire_end(const JsonValue& text, Diagnostics& diagnostics);
+/// The wire, or list of wires, that `given` stands for, where it may be an expression; `named` gets the nodes it names.
+/// Empty after a problem, or if something is lacking.
+std::optional<JsonValue> expand_wires(const JsonValue& given, Substitution& substitution, Diagnostics& diagnostics,
+                                      std::set<std::string>& named, std::set<std::string>& unset);
 
 }  // namespace terrazzo

@@ -14,7 +14,7 @@ namespace {
 
 /// Splits "node.name" or "name". False if a part is missing.
 bool split_target(const std::string& target, Override& out) {
-  const size_t dot = target.find('.');
+  const size_t dot = target.find('.', target.rfind(']') == target.npos ? 0 : target.rfind(']'));
   if (dot != target.npos) out.node = target.substr(0, dot);
   out.name = dot == target.npos ? target : target.substr(dot + 1);
   return !out.name.empty() && (dot == target.npos || !out.node.empty());

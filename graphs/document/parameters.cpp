@@ -27,8 +27,8 @@ std::string hint_for(const std::string& wrong, const std::vector<std::string>& n
 
 }  // namespace
 
-Diagnostics Formula::diagnostics(std::vector<Problem>& problems, const std::string& parameter) const {
-  return by ? by->diagnostics(problems) : Diagnostics(problems, "parameter " + in_quotes(parameter));
+Diagnostics Formula::diagnostics(std::vector<Problem>& problems, const std::string& where) const {
+  return by ? by->diagnostics(problems) : Diagnostics(problems, where);
 }
 
 Place place_in(const JsonValue& text, size_t offset) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,20 @@ struct Formula {
   std::filesystem::path base;    ///< where relative paths lie
   std::optional<Override> by{};  ///< empty if the document says it
 
-  Diagnostics diagnostics(std::vector<Problem>& problems, const std::string& parameter) const;
+  Diagnostics diagnostics(std::vector<Problem>& problems, const std::string& where) const;
+};
+
+/// What a value still lacks: parameters of the graph that must be set, and nodes whose forecasts it asks for.
+struct Lacking {
+  std::set<std::string> unset;
+  std::set<std::string> nodes;  ///< with their paths: "walls/exemplar"
+  bool wrong = false;           ///< something that it is made from has a problem, which has been reported
+  bool nothing() const { return unset.empty() && nodes.empty() && !wrong; }
+  void add(const Lacking& other) {
+    unset.insert(other.unset.begin(), other.unset.end());
+    nodes.insert(other.nodes.begin(), other.nodes.end());
+    wrong |= other.wrong;
+  }
 };
 
 /// A parameter of a graph: declared like a node's.
@@ -33,6 +47,7 @@ struct GraphParameter {
   std::optional<JsonValue> visible_if{};  ///< an expression, true if it matters; always if there is none
   std::optional<ParamValue> value;        ///< paths absolute; empty if not set, invalid, or not known yet
   std::optional<Formula> formula{};       ///< what the value is made from, if it is an expression
+  std::optional<Lacking> pending{};       ///< of a subgraph's: what the value that its node gives still lacks
   bool overridden = false;
   bool is_wrong = false;   ///< a problem with its declaration or value has been reported
   std::string as_written;  ///< of a path, what the document or the override said

@@ -109,6 +109,7 @@ void check_targets(const Preset& preset, const std::vector<GraphParameter>& para
       require(o, "the graph has no parameter", o.name, parameter_names);
       continue;
     }
+    if (o.node.find_first_of("/[") != o.node.npos) continue;  // known once subgraphs and loops have been read
     require(o, "the graph has no node", o.node, node_names);
     const auto node = std::ranges::find(nodes, o.node, &NodeTypes::value_type::first);
     if (node == nodes.end() || !node->second) continue;

@@ -1,6 +1,7 @@
 #include "graphs/document/problem.h"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -10,9 +11,15 @@ namespace terrazzo {
 namespace {
 
 std::vector<Problem> in_order(std::vector<Problem> problems) {
-  const auto key = [](const Problem& p) { return std::tuple(p.place.line == 0, p.place.line, p.place.column); };
-  std::stable_sort(problems.begin(), problems.end(),
-                   [&](const Problem& a, const Problem& b) { return key(a) < key(b); });
+  const auto key = [](const Problem& p) { return std::tie(p.file, p.place.line, p.place.column); };
+  std::stable_sort(problems.begin(), problems.end(), [&](const Problem& a, const Problem& b) {
+    return std::pair(a.place.line == 0, key(a)) < std::pair(b.place.line == 0, key(b));
+  });
+  // A subgraph that is used twice has its mistakes twice.
+  std::set<std::tuple<std::string, int, int, std::string>> said;
+  std::erase_if(problems, [&](const Problem& p) {
+    return p.place.line > 0 && !said.emplace(p.file, p.place.line, p.place.column, p.message).second;
+  });
   return problems;
 }
 
@@ -36,8 +43,13 @@ std::string all_described(const std::string& file, const std::vector<Problem>& p
 
 }  // namespace
 
+void set_file(std::vector<Problem>& problems, size_t first, const std::string& file) {
+  for (size_t i = first; i < problems.size(); i++)
+    if (problems[i].file.empty() && problems[i].place.line > 0) problems[i].file = file;
+}
+
 std::string describe(const std::string& file, const Problem& problem) {
-  std::string text = file;
+  std::string text = problem.file.empty() ? file : problem.file;
   if (problem.place.line > 0) text += fmt::format(":{}:{}", problem.place.line, problem.place.column);
   if (!text.empty()) text += ": ";
   if (!problem.where.empty()) text += problem.where + ": ";
@@ -48,7 +60,7 @@ Problem problem_of(const GraphNode& node, const std::string& about, const std::s
   std::string where = fmt::format("node \"{}\" ({})", node.name, node.type->name);
   if (node.type->find_input(about)) where += fmt::format(", input \"{}\"{}", about, files(node, about, "made from "));
   if (node.type->find_param(about)) where += fmt::format(", parameter \"{}\"{}", about, files(node, about, ""));
-  return {node.place_of(about), where, message, node.name};
+  return {node.place_of(about), where, message, node.name, node.file};
 }
 
 GraphError::GraphError(const std::string& file, std::vector<Problem> problems)

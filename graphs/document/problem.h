@@ -14,7 +14,11 @@ struct Problem {
   std::string where;    ///< `node "x", parameter "y"`; may be empty
   std::string message;  ///< what was expected, what was found, the nearest valid choice
   std::string node{};   ///< the node's name, if it is about one
+  std::string file{};   ///< the file that `place` is in; empty: the document itself
 };
+
+/// Tells the problems from position `first` on that their places are in this file.
+void set_file(std::vector<Problem>& problems, size_t first, const std::string& file);
 
 /// `file:line:column: where: message`, without the parts that are not known.
 std::string describe(const std::string& file, const Problem& problem);

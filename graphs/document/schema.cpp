@@ -6,6 +6,7 @@
 #include "graphs/document/format.h"
 #include "graphs/document/migrate.h"
 #include "graphs/document/parameters.h"
+#include "graphs/document/stock_graphs.h"
 
 namespace terrazzo {
 
@@ -101,18 +102,39 @@ ordered_json param_schema(const Param& p) {
 }
 
 ordered_json port_schema(const Port& p) {
-  ordered_json out = reference("wire");
+  ordered_json out = any_of({reference("wire"), reference("expression")});
   if (p.list) {
-    ordered_json wires = list_of(reference("wire"));
+    ordered_json wires = list_of(out);
     if (!p.optional) wires["minItems"] = 1;
-    out = any_of({out, wires});
+    out["anyOf"].push_back(wires);
   }
   out["description"] = std::string(name_of(p.type)) + ": " + p.help;
   return out;
 }
 
+/// What every node may have.
+ordered_json common_keys_schema() {
+  ordered_json one_of = ordered_json::array();
+  for (const char* key : {"files", "folders", "table", "values"}) one_of.push_back({{"required", {key}}});
+  const ordered_json list_or_text = any_of({{{"type", "array"}, {"minItems", 1}}, {{"type", "string"}}});
+  return {{"comment", {{"type", "string"}, {"description", "shown in reports and drawings"}}},
+          {"mute", any_of({{{"type", "boolean"}}, reference("reference"), reference("expression")})},
+          {"foreach",
+           {{"type", "object"},
+            {"description", "one node for each of several files, folders, values, or rows of a table"},
+            {"properties",
+             {{"files", text()},
+              {"folders", text()},
+              {"table", text()},
+              {"values", list_or_text},
+              {"as", {{"type", "string"}, {"pattern", "^[A-Za-z][A-Za-z0-9_]*$"}}}}},
+            {"additionalProperties", false},
+            {"oneOf", one_of}}}};
+}
+
 ordered_json node_schema(const NodeType& t) {
   ordered_json properties = {{"type", {{"const", t.name}}}};
+  properties.update(common_keys_schema());
   ordered_json required = {"type"};
   for (const Port& p : t.inputs) {
     properties[p.name] = port_schema(p);
@@ -131,13 +153,43 @@ ordered_json node_schema(const NodeType& t) {
 
 /// A node by its "type": editors follow if-then better than oneOf.
 ordered_json any_node_schema(const std::vector<NodeType>& types) {
-  ordered_json names = ordered_json::array(), cases = ordered_json::array();
+  ordered_json cases = ordered_json::array();
   for (const NodeType& t : types) {
-    names.push_back(t.name);
     cases.push_back({{"if", {{"properties", {{"type", {{"const", t.name}}}}}, {"required", {"type"}}}},
                      {"then", reference("node_" + t.name)}});
   }
-  return {{"type", "object"}, {"properties", {{"type", {{"enum", names}}}}}, {"required", {"type"}}, {"allOf", cases}};
+  const ordered_json properties = {{"type", {{"type", "string"}, {"minLength", 1}}}};
+  return {{"type", "object"}, {"properties", properties}, {"required", {"type"}}, {"allOf", cases}};
+}
+
+/// The type of a node in a document without graphs of its own.
+ordered_json known_type_schema(const std::vector<NodeType>& types) {
+  ordered_json names = ordered_json::array();
+  for (const NodeType& t : types) names.push_back(t.name);
+  const ordered_json file = {{"type", "string"}, {"pattern", "\\.json$"}, {"description", "a graph in a file"}};
+  ordered_json stock = ordered_json::array();
+  for (const StockGraph& g : stock_graphs()) stock.push_back("stock:" + std::string(g.name));
+  return {{"properties", {{"type", any_of({{{"enum", names}}, {{"enum", stock}}, file})}}}};
+}
+
+ordered_json input_schema() {
+  const ordered_json flag = {{"type", "boolean"}};
+  return {
+      {"type", "object"},
+      {"properties",
+       {{"type", {{"enum", value_type_names}}}, {"help", {{"type", "string"}}}, {"optional", flag}, {"list", flag}}},
+      {"required", {"type"}},
+      {"additionalProperties", false}};
+}
+
+ordered_json output_schema() {
+  const ordered_json from = any_of({reference("wire"), reference("expression")});
+  const ordered_json described = {
+      {"type", "object"},
+      {"properties", {{"from", from}, {"type", {{"enum", value_type_names}}}, {"help", {{"type", "string"}}}}},
+      {"required", {"from"}},
+      {"additionalProperties", false}};
+  return any_of({reference("wire"), described});
 }
 
 /// What a graph's parameter of this type takes as its default, and which keys go with the type.
@@ -199,6 +251,8 @@ ordered_json definitions(const std::vector<NodeType>& types) {
                  {"pattern", "^@[A-Za-z0-9_-]+(\\.[A-Za-z0-9_]+)?$"}};
   out["parameter"] = parameter_schema();
   out["preset"] = preset_schema();
+  out["input"] = input_schema();
+  out["output"] = output_schema();
   out["node"] = any_node_schema(types);
   for (const NodeType& t : types) out["node_" + t.name] = node_schema(t);
   return out;
@@ -209,26 +263,42 @@ ordered_json by_name(const std::string& pattern, const std::string& definition) 
       {"type", "object"}, {"propertyNames", {{"pattern", pattern}}}, {"additionalProperties", reference(definition)}};
 }
 
+/// The sections that a document and an entry of `graphs` share.
+ordered_json graph_properties() {
+  const ordered_json text_value = {{"type", "string"}};
+  return {{"summary", text_value},
+          {"help", text_value},
+          {"parameters", by_name("^[A-Za-z][A-Za-z0-9_]*$", "parameter")},
+          {"seed", any_of({{{"type", "integer"}, {"minimum", 0}}, reference("reference"), reference("expression")})},
+          {"inputs", by_name("^[A-Za-z][A-Za-z0-9_]*$", "input")},
+          {"nodes", by_name("^[A-Za-z0-9_-]+$", "node")},
+          {"outputs", by_name("^[A-Za-z][A-Za-z0-9_]*$", "output")}};
+}
+
 }  // namespace
 
 std::string json_schema(const std::vector<NodeType>& types) {
-  const ordered_json text_value = {{"type", "string"}};
-  const ordered_json properties = {
-      {"$schema", text_value},
-      {"terrazzo", {{"const", document_migrations().size() + 1}}},
-      {"summary", text_value},
-      {"help", text_value},
-      {"parameters", by_name("^[A-Za-z][A-Za-z0-9_]*$", "parameter")},
-      {"presets", by_name("", "preset")},
-      {"seed", any_of({{{"type", "integer"}, {"minimum", 0}}, reference("reference"), reference("expression")})},
-      {"nodes", by_name("^[A-Za-z0-9_-]+$", "node")}};
+  ordered_json properties = {{"$schema", {{"type", "string"}}},
+                             {"terrazzo", {{"const", document_migrations().size() + 1}}}};
+  properties.update(graph_properties());
+  properties["presets"] = by_name("", "preset");
+  properties["graphs"] = by_name("^[A-Za-z0-9_-]+$", "graph");
+  ordered_json defs = definitions(types);
+  defs["graph"] = {{"type", "object"},
+                   {"description", "a graph that nodes of this document can be"},
+                   {"properties", graph_properties()},
+                   {"required", {"nodes"}},
+                   {"additionalProperties", false}};
+  const ordered_json known_types = {{"properties", {{"nodes", {{"additionalProperties", known_type_schema(types)}}}}}};
   const ordered_json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                                {"title", "terrazzo graph"},
                                {"type", "object"},
                                {"properties", properties},
                                {"required", {"terrazzo", "nodes"}},
                                {"additionalProperties", false},
-                               {"$defs", definitions(types)}};
+                               {"if", {{"required", {"graphs"}}}},
+                               {"else", known_types},
+                               {"$defs", defs}};
   return schema.dump(2) + '\n';
 }
 

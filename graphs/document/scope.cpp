@@ -21,8 +21,9 @@ std::string unit_of(const Param& param) {
 
 }  // namespace
 
-GraphScope::GraphScope(std::vector<GraphParameter>& parameters, const NodeTypes& nodes, std::vector<Problem>& problems)
-    : parameters_(parameters), problems_(problems) {
+GraphScope::GraphScope(std::vector<GraphParameter>& parameters, const NodeTypes& nodes, const std::string& path,
+                       std::vector<Problem>& problems)
+    : parameters_(parameters), problems_(problems), path_(path) {
   for (size_t i = 0; i < parameters.size(); i++) {
     names_.push_back(parameters[i].param.name);
     positions_.emplace(names_.back(), i);
@@ -30,6 +31,11 @@ GraphScope::GraphScope(std::vector<GraphParameter>& parameters, const NodeTypes&
   for (const auto& [node, type] : nodes) node_names_.insert(node);
   check_formulas();
   report_cycles();
+}
+
+std::string GraphScope::where(const GraphParameter& p) const {
+  const std::string node = path_.empty() ? "" : fmt::format("node {}, ", in_quotes(path_.substr(0, path_.size() - 1)));
+  return node + "parameter " + in_quotes(p.param.name);
 }
 
 GraphParameter* GraphScope::position(const std::string& name) const {
@@ -48,6 +54,8 @@ void GraphScope::collect(const std::string& parameter, std::set<std::string>& se
   if (!p || p->value || !seen.insert(parameter).second) return;
   if (p->is_wrong) {
     out.wrong = true;
+  } else if (p->pending) {
+    out.add(*p->pending);
   } else if (p->formula) {
     collect(*p->formula->expression, seen, out);
   } else {
@@ -58,7 +66,7 @@ void GraphScope::collect(const std::string& parameter, std::set<std::string>& se
 void GraphScope::collect(const Expression& expression, std::set<std::string>& seen, Lacking& out) const {
   for (const auto& [name, offset] : expression.parameters()) collect(name, seen, out);
   if (!forecasts_)
-    for (const auto& [name, offset] : expression.nodes()) out.nodes.insert(name);
+    for (const auto& [name, offset] : expression.nodes()) out.nodes.insert(path_ + name);
 }
 
 Lacking GraphScope::lacking(const std::string& parameter) const {
@@ -98,13 +106,13 @@ void GraphScope::check_formulas() {
   for (GraphParameter& p : parameters_) {
     if (p.visible_if) check_condition(p);
     if (!p.formula || p.is_wrong) continue;
-    Diagnostics diagnostics = p.formula->diagnostics(problems_, p.param.name);
+    Diagnostics diagnostics = p.formula->diagnostics(problems_, where(p));
     p.is_wrong = !check_names(*p.formula->expression, p.formula->text, diagnostics);
   }
 }
 
 void GraphScope::check_condition(GraphParameter& p) {
-  Diagnostics diagnostics(problems_, "parameter " + in_quotes(p.param.name));
+  Diagnostics diagnostics(problems_, where(p));
   const std::optional<Expression> condition = parse_expression(*p.visible_if, diagnostics);
   if (condition && !condition->nodes().empty())
     diagnostics.add(
@@ -133,8 +141,8 @@ std::optional<ParamValue> GraphScope::evaluate(const Expression& expression, con
 }
 
 void GraphScope::evaluate(GraphParameter& p) {
-  if (p.value || p.is_wrong || !p.formula || !lacking(p.param.name).nothing()) return;
-  Diagnostics diagnostics = p.formula->diagnostics(problems_, p.param.name);
+  if (p.value || p.is_wrong || p.pending || !p.formula || !lacking(p.param.name).nothing()) return;
+  Diagnostics diagnostics = p.formula->diagnostics(problems_, where(p));
   const std::optional<ParamValue> result =
       evaluate(*p.formula->expression, p.formula->text, unit_of(p.param), diagnostics);
   if (result) {
@@ -169,7 +177,7 @@ void GraphScope::report_cycles() {
   std::map<std::string, int> heights;  // of the parameters in a row that each is made from
   std::vector<std::string> path;
   const auto complain = [&](GraphParameter& p, const std::string& message) {
-    p.formula->diagnostics(problems_, p.param.name).add(p.formula->text.place, message);
+    p.formula->diagnostics(problems_, where(p)).add(p.formula->text.place, message);
     p.is_wrong = true;
     return 0;
   };
@@ -202,7 +210,7 @@ ExpressionValue GraphScope::parameter(const std::string& name) {
 
 const Forecast& GraphScope::forecast(const std::string& node) {
   if (!forecasts_) throw Error(fmt::format("nothing is known of \"{}\" yet", node));
-  return forecasts_(node);
+  return forecasts_(path_ + node);
 }
 
 }  // namespace terrazzo

@@ -13,23 +13,18 @@
 
 namespace terrazzo {
 
-/// What a value still lacks: parameters of the graph that must be set, and nodes whose forecasts it asks for.
-struct Lacking {
-  std::set<std::string> unset, nodes;
-  bool wrong = false;  ///< something that it is made from has a problem, which has been reported
-  bool nothing() const { return unset.empty() && nodes.empty() && !wrong; }
-};
-
 /// The graph's parameters as expressions see them. Parameters that are expressions themselves are evaluated when they
 /// are first asked for; the problems of each are reported once.
 class GraphScope : public ExpressionScope {
  public:
+  /// Gets the path of a node; throws Error if nothing is known of it.
   using Forecasts = std::function<const Forecast&(const std::string& node)>;
 
-  /// Parameters and problems must outlive the scope.
-  GraphScope(std::vector<GraphParameter>& parameters, const NodeTypes& nodes, std::vector<Problem>& problems);
+  /// Parameters and problems must outlive the scope. `path` begins the names of its nodes ("walls/").
+  GraphScope(std::vector<GraphParameter>& parameters, const NodeTypes& nodes, const std::string& path,
+             std::vector<Problem>& problems);
 
-  /// From now on nodes can be asked, until this is set to nothing. It throws Error if nothing is known of the node.
+  /// From now on nodes can be asked, until this is set to nothing.
   void set_forecasts(Forecasts forecasts) { forecasts_ = std::move(forecasts); }
 
   /// Null if there is none of that name. With its value, if all that it is made from is known by now.
@@ -56,6 +51,7 @@ class GraphScope : public ExpressionScope {
   const Forecast& forecast(const std::string& node) override;
 
  private:
+  std::string where(const GraphParameter& parameter) const;  ///< for messages
   GraphParameter* position(const std::string& name) const;
   void collect(const std::string& parameter, std::set<std::string>& seen, Lacking& out) const;
   void collect(const Expression& expression, std::set<std::string>& seen, Lacking& out) const;
@@ -69,6 +65,7 @@ class GraphScope : public ExpressionScope {
   std::vector<std::string> names_;           ///< of the parameters, in the document's order
   std::map<std::string, size_t> positions_;  ///< in parameters_
   std::set<std::string> node_names_;
+  std::string path_;
   Forecasts forecasts_;
 };
 

@@ -17,23 +17,6 @@ bool takes_texts(ParamType type) {
          type == ParamType::choice || type == ParamType::path;
 }
 
-/// A `$name` or `${name}` in a text.
-struct Reference {
-  std::string name;
-  size_t end = 0;
-};
-
-/// Empty if no name follows the $ at `at`.
-std::optional<Reference> reference_at(const std::string& text, size_t at) {
-  const bool is_braced = text.compare(at, 2, "${") == 0;
-  const size_t begin = at + 1 + is_braced;
-  size_t end = begin;
-  while (end < text.size() && is_word(text[end])) end++;
-  const bool is_closed = !is_braced || (end < text.size() && text[end] == '}');
-  if (end == begin || !is_closed) return std::nullopt;
-  return Reference{text.substr(begin, end - begin), end + is_braced};
-}
-
 JsonValue placed(JsonValue value, Place place) {
   value.place = place;
   for (JsonValue& item : value.items) item = placed(std::move(item), place);
@@ -59,6 +42,16 @@ std::string expression_hint(const std::string& text, const Param& param) {
 }
 
 }  // namespace
+
+std::optional<ParameterReference> reference_at(const std::string& text, size_t at) {
+  const bool is_braced = text.compare(at, 2, "${") == 0;
+  const size_t begin = at + 1 + is_braced;
+  size_t end = begin;
+  while (end < text.size() && is_word(text[end])) end++;
+  const bool is_closed = !is_braced || (end < text.size() && text[end] == '}');
+  if (end == begin || !is_closed) return std::nullopt;
+  return ParameterReference{text.substr(begin, end - begin), end + is_braced};
+}
 
 std::optional<JsonValue> Substitution::expand(const JsonValue& value, const Param& param, Diagnostics& diagnostics) {
   std::optional<JsonValue> out = expand_part(value, param, diagnostics);
@@ -88,8 +81,7 @@ std::optional<JsonValue> Substitution::expand_part(const JsonValue& value, const
 
 /// Notes what there is not yet.
 bool Substitution::has_all(const Lacking& lacking) {
-  lacking_.unset.insert(lacking.unset.begin(), lacking.unset.end());
-  lacking_.nodes.insert(lacking.nodes.begin(), lacking.nodes.end());
+  lacking_.add(lacking);
   return lacking.nothing();
 }
 
@@ -126,7 +118,7 @@ std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, const
       at += text[at] == '$' ? 2 : 1;
       continue;
     }
-    const std::optional<Reference> reference = reference_at(text, at);
+    const std::optional<ParameterReference> reference = reference_at(text, at);
     if (!reference) {
       diagnostics.add(
           value.place,
@@ -171,7 +163,7 @@ std::set<std::string> Substitution::paths_in(const JsonValue& value) {
       at++;
       continue;
     }
-    if (const std::optional<Reference> reference = reference_at(value.text, at)) add_path(reference->name);
+    if (const std::optional<ParameterReference> reference = reference_at(value.text, at)) add_path(reference->name);
   }
   return out;
 }

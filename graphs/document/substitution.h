@@ -12,6 +12,14 @@
 /// `$name` and expressions in the nodes of a graph.
 namespace terrazzo {
 
+/// A `$name` or `${name}` in a text, which ends before `end`.
+struct ParameterReference {
+  std::string name;
+  size_t end = 0;
+};
+/// Empty if no name follows the $ at `at`.
+std::optional<ParameterReference> reference_at(const std::string& text, size_t at);
+
 /// Puts values where a node says `$name` or "=expression".
 class Substitution {
  public:

@@ -12,43 +12,48 @@ namespace {
 
 using Positions = std::map<std::string, size_t, std::less<>>;
 
-Positions positions_of(const std::vector<NodeDraft>& drafts) {
+Positions positions_of(const Drafts& drafts) {
   Positions out;
   for (size_t i = 0; i < drafts.size(); i++) out.emplace(drafts[i].node.name, i);
   return out;
 }
 
-class Connector {
+/// Checks the wires of one level.
+class WireChecker {
  public:
-  Connector(std::vector<NodeDraft>& drafts, std::vector<Problem>& conversions)
-      : drafts_(drafts), conversions_(conversions), positions_(positions_of(drafts)) {}
+  WireChecker(const Level& level, std::vector<Problem>& conversions)
+      : level_(level), sources_(level.graph->sources), conversions_(conversions) {}
 
-  void connect(GraphNode& node, PortWires& into) {
-    std::vector<Wire> wires;
-    for (const WireEnd& end : into.wires) {
+  /// `reader` is the node's name in its graph.
+  void check(const std::string& reader, PortWires& into) {
+    std::erase_if(into.wires, [&](WireEnd& end) {
       const Port* output = find_output(end, into);
-      if (!output || !types_fit(node, end, *output, into)) continue;
-      wires.push_back({end.node, output->name});
+      if (!output || !types_fit(reader, end, *output, into)) {
+        into.has_faults = true;
+        return true;
+      }
+      end.port = output->name;
       if (output->type != into.port->type)
         conversions_.push_back(
-            {end.place, fmt::format("node {}, port {}", in_quotes(node.name), in_quotes(into.port->name)),
-             fmt::format("the image of {} becomes a material of one map", in_quotes(end.spelled)), node.name});
-    }
-    if (!wires.empty()) node.inputs[into.port->name] = std::move(wires);
+            {end.place, fmt::format("node {}, port {}", in_quotes(level_.path + reader), in_quotes(into.port->name)),
+             fmt::format("the image of {} becomes a material of one map", in_quotes(end.spelled)), level_.path + reader,
+             level_.graph->file});
+      return false;
+    });
   }
 
  private:
   /// Null after a problem, or if the node's type is unknown.
   const Port* find_output(const WireEnd& end, PortWires& into) const {
-    const auto at = positions_.find(end.node);
-    if (at == positions_.end()) {
+    const auto* source = level_.graph->find_source(end.node);
+    if (!source) {
       std::vector<std::string> names;
-      for (const NodeDraft& d : drafts_) names.push_back(d.node.name);
+      for (const auto& [name, type] : sources_) names.push_back(name);
       into.diagnostics.add(end.place,
                            fmt::format("{} leads to no node{}", in_quotes(end.spelled), suggestion(end.node, names)));
       return nullptr;
     }
-    const NodeType* type = drafts_[at->second].node.type;
+    const NodeType* type = source->second;
     if (!type) return nullptr;
     if (type->outputs.empty()) {
       into.diagnostics.add(end.place, fmt::format("{} leads to a node of type {}, which has no output",
@@ -66,25 +71,24 @@ class Connector {
     return output;
   }
 
-  bool types_fit(const GraphNode& reader, const WireEnd& end, const Port& output, PortWires& into) const {
+  bool types_fit(const std::string& reader, const WireEnd& end, const Port& output, PortWires& into) const {
     const ValueType wanted = into.port->type;
     if (converts(output.type, wanted)) return true;
     into.diagnostics.add(end.place, fmt::format("expected a wire of type {}, found {}, which is of type {}{}",
                                                 name_of(wanted), in_quotes(end.spelled), name_of(output.type),
-                                                fitting_outputs(wanted, end.node, reader.name)));
+                                                fitting_outputs(wanted, end.node, reader)));
     return false;
   }
 
   /// Which wires would fit: those of the node itself, if it has any, else those of all nodes.
   std::string fitting_outputs(ValueType wanted, const std::string& node, const std::string& reader) const {
     std::vector<std::string> own, all;
-    for (const NodeDraft& d : drafts_) {
-      if (!d.node.type || d.node.name == reader) continue;
-      const std::vector<Port>& outputs = d.node.type->outputs;
-      for (size_t i = 0; i < outputs.size(); i++) {
-        if (outputs[i].type != wanted) continue;
-        const std::string wire = i == 0 ? "@" + d.node.name : fmt::format("@{}.{}", d.node.name, outputs[i].name);
-        (d.node.name == node ? own : all).push_back(wire);
+    for (const auto& [name, type] : sources_) {
+      if (!type || name == reader) continue;
+      for (size_t i = 0; i < type->outputs.size(); i++) {
+        if (type->outputs[i].type != wanted) continue;
+        const std::string wire = i == 0 ? "@" + name : fmt::format("@{}.{}", name, type->outputs[i].name);
+        (name == node ? own : all).push_back(wire);
       }
     }
     const std::vector<std::string>& fitting = own.empty() ? all : own;
@@ -92,21 +96,120 @@ class Connector {
                            : fmt::format(" (would fit: {})", listed(fitting));
   }
 
-  std::vector<NodeDraft>& drafts_;
+  const Level& level_;
+  const NodeTypes& sources_;
   std::vector<Problem>& conversions_;
-  Positions positions_;
 };
+
+/// Follows a wire back to nodes that run.
+class WireFollower {
+ public:
+  explicit WireFollower(Diagnostics& asking) : asking_(asking) {}
+
+  void follow(const Level& level, const WireEnd& end) {
+    if (++steps_ > most_steps) {
+      if (!out_.is_faulty) asking_.add(end.place, "the wires of subgraphs form a cycle");
+      out_.is_faulty = true;
+    } else if (const std::vector<Item>* items = level.find(end.node)) {
+      for (const Item& item : *items) from_item(level, item, end);
+    } else {
+      from_input(level, end);
+    }
+    steps_--;
+  }
+
+  WireSources take() { return std::move(out_); }
+
+ private:
+  static constexpr int most_steps = 1000;
+
+  void from_input(const Level& level, const WireEnd& end) {
+    if (!level.use) {
+      out_.open.insert(end.node);
+      return;
+    }
+    // One that must be given and is not has been reported.
+    const Port* input = level.use->node.type->find_input(end.node);
+    out_.is_faulty |= input && !input->optional && !level.use->node.places.contains(end.node);
+    for (const PortWires& p : level.use->ports) {
+      if (p.port->name != end.node) continue;
+      out_.is_faulty |= p.has_faults;
+      if (p.wires.empty()) out_.open.insert(level.use->unset.begin(), level.use->unset.end());
+      for (const WireEnd& outer : p.wires) follow(*level.outer, outer);
+    }
+  }
+
+  void from_item(const Level& level, const Item& item, const WireEnd& end) {
+    const NodeDraft& draft = *item.draft;
+    const NodeType* type = draft.node.type;
+    const Port* output = !type || type->outputs.empty() ? nullptr
+                         : end.port.empty()             ? &type->outputs.front()
+                                                        : type->find_output(end.port);
+    if (!output) {
+      out_.is_faulty = true;
+    } else if (draft.muted) {
+      pass_through(level, draft, output->type, end);
+    } else if (type->category != graph_category) {
+      out_.wires.push_back({draft.node.name, output->name});
+    } else {
+      const PortWires* from = item.inner ? item.inner->find_output(output->name) : nullptr;
+      out_.is_faulty |= !from || from->has_faults || from->wires.empty();
+      if (from)
+        for (const WireEnd& inner : from->wires) follow(*item.inner, inner);
+    }
+  }
+
+  /// What a muted node gives: what comes into its first port of that type.
+  void pass_through(const Level& level, const NodeDraft& muted, ValueType type, const WireEnd& end) {
+    for (const Port& port : muted.node.type->inputs)
+      for (const PortWires& p : muted.ports)
+        if (p.port->name == port.name && port.type == type && !p.wires.empty()) return follow(level, p.wires.front());
+    asking_.add(end.place, fmt::format("the node {} is muted, and nothing of type {} comes into it that could pass",
+                                       in_quotes(muted.node.name), name_of(type)));
+    out_.is_faulty = true;
+  }
+
+  Diagnostics& asking_;
+  WireSources out_;
+  int steps_ = 0;
+};
+
+/// Connects one port of a node that runs.
+void connect_port(NodeDraft& draft, PortWires& port) {
+  WireFollower follower(port.diagnostics);
+  for (const WireEnd& end : port.wires) follower.follow(*draft.level, end);
+  WireSources found = follower.take();
+  port.has_faults |= found.is_faulty;
+  if (port.has_faults || port.wires.empty()) return;
+  const WireEnd& end = port.wires.front();
+  const auto refuse = [&](const std::string& message) {
+    port.diagnostics.add(end.place, message);
+    port.has_faults = true;
+  };
+  if (found.wires.size() > 1 && !port.port->list) {
+    refuse(fmt::format("the port takes one wire, and {} stands for {} (a loop)", in_quotes(end.spelled),
+                       found.wires.size()));
+  } else if (!found.wires.empty()) {
+    draft.node.inputs[port.port->name] = std::move(found.wires);
+  } else if (!port.port->optional && !found.open.empty()) {
+    draft.unset.merge(found.open);
+  } else if (!port.port->optional) {
+    const std::string use = draft.level->use ? draft.level->use->node.name : "";
+    refuse(
+        fmt::format("needs a wire, and nothing comes into {} of the node {}", in_quotes(end.spelled), in_quotes(use)));
+  }
+}
 
 /// A depth-first walk against the wires, without recursion: a chain of nodes may be long.
 class Walk {
  public:
-  Walk(const std::vector<NodeDraft>& drafts, std::vector<Problem>& problems)
+  Walk(const Drafts& drafts, std::vector<Problem>& problems)
       : drafts_(drafts), problems_(problems), sources_(drafts.size()), state_(drafts.size(), State::unseen) {
     const Positions positions = positions_of(drafts);
     for (size_t i = 0; i < drafts.size(); i++)
       for (const PortWires& p : drafts[i].ports)
-        for (const WireEnd& end : p.wires)
-          if (const auto at = positions.find(end.node); at != positions.end()) sources_[i].push_back(at->second);
+        if (const auto wires = drafts[i].node.inputs.find(p.port->name); wires != drafts[i].node.inputs.end())
+          for (const Wire& w : wires->second) sources_[i].push_back(positions.at(w.node));
     for (size_t i = 0; i < drafts.size(); i++)
       for (const std::string& asked : drafts[i].asked)
         if (const auto at = positions.find(asked); at != positions.end()) {
@@ -159,10 +262,10 @@ class Walk {
       if (path[i].node == closing) break;
     }
     const GraphNode& node = drafts_[first].node;
-    problems_.push_back({node.place, "node " + in_quotes(node.name), reads_ + names, node.name});
+    problems_.push_back({node.place, "node " + in_quotes(node.name), reads_ + names, node.name, node.file});
   }
 
-  const std::vector<NodeDraft>& drafts_;
+  const Drafts& drafts_;
   std::vector<Problem>& problems_;
   std::vector<std::vector<size_t>> sources_;
   std::string reads_ = "the wires form a cycle: ";
@@ -172,28 +275,47 @@ class Walk {
 
 }  // namespace
 
-void connect(std::vector<NodeDraft>& drafts, std::vector<Problem>& problems, std::vector<Problem>& conversions) {
-  Connector connector(drafts, conversions);
-  for (NodeDraft& d : drafts) {
+void check_wires(Level& level, std::vector<Problem>& problems, std::vector<Problem>& conversions) {
+  const size_t before = problems.size();
+  WireChecker checker(level, conversions);
+  for (const auto& [name, items] : level.items)
+    for (const Item& item : items) {
+      const size_t first = problems.size();
+      for (PortWires& p : item.draft->ports) checker.check(item.draft->local, p);
+      for (size_t i = first; i < problems.size(); i++) problems[i].node = item.draft->node.name;
+    }
+  for (auto& [name, wires] : level.outputs) checker.check("", wires);
+  set_file(problems, before, level.graph->file);
+}
+
+WireSources sources_of(const Level& level, const WireEnd& end, Diagnostics& asking) {
+  WireFollower follower(asking);
+  follower.follow(level, end);
+  return follower.take();
+}
+
+void connect(Levels& levels, std::vector<Problem>& problems) {
+  for (NodeDraft& d : levels.nodes()) {
     const size_t before = problems.size();
-    for (PortWires& p : d.ports) connector.connect(d.node, p);
+    for (PortWires& p : d.ports) connect_port(d, p);
     for (size_t i = before; i < problems.size(); i++) problems[i].node = d.node.name;
+    set_file(problems, before, d.node.file);
   }
 }
 
-std::vector<size_t> execution_order(const std::vector<NodeDraft>& drafts, std::vector<Problem>& problems) {
+std::vector<size_t> execution_order(const Drafts& drafts, std::vector<Problem>& problems) {
   return Walk(drafts, problems).order();
 }
 
-std::set<std::string> needed_nodes(const std::vector<NodeDraft>& drafts, std::vector<std::string> names) {
+std::set<std::string> needed_nodes(const Drafts& drafts, std::vector<std::string> names) {
   const Positions positions = positions_of(drafts);
   std::set<std::string> out;
   while (!names.empty()) {
     const auto at = positions.find(names.back());
     names.pop_back();
     if (at == positions.end() || !out.insert(std::string(at->first)).second) continue;
-    for (const PortWires& p : drafts[at->second].ports)
-      for (const WireEnd& w : p.wires) names.push_back(w.node);
+    for (const auto& [port, wires] : drafts[at->second].node.inputs)
+      for (const Wire& w : wires) names.push_back(w.node);
   }
   return out;
 }

@@ -11,12 +11,12 @@
 
 #include "graphs/document/load.h"
 #include "graphs/document/override.h"
+#include "graphs/document/stock_graphs.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/cli_sweep.h"
 #include "runner/cli/console.h"
 #include "runner/cli/signals.h"
-#include "runner/cli/stock_graphs.h"
 #include "runner/cli/watch.h"
 #include "runner/engine/history.h"
 #include "runner/engine/preflight.h"
@@ -67,7 +67,7 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   std::optional<History> history;
   if (cache && !graph.file.empty()) history.emplace(cache->folder(), graph.file);
   RunOptions options;
-  options.targets.only = flags.only;
+  options.targets.only = nodes_meant(graph, flags.only);
   options.cache = cache;
   options.history = history ? &*history : nullptr;
   options.threads = flags.threads;

@@ -220,8 +220,13 @@ std::vector<std::string> Sweep::names_of(const std::vector<std::string>& nodes) 
   std::set<std::string> out;
   for (const std::string& node : nodes)
     for (const auto& names : names_) {
-      const auto at = names.find(node);
-      out.insert(at == names.end() ? node : at->second);
+      bool is_there = false;
+      for (const auto& [name, merged] : names) {
+        if (!stands_for(node, name)) continue;
+        is_there = true;
+        out.insert(merged);
+      }
+      if (!is_there) out.insert(node);
     }
   return {out.begin(), out.end()};
 }

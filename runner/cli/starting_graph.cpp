@@ -10,7 +10,7 @@
 #include "graphs/document/convert.h"
 #include "graphs/document/format.h"
 #include "graphs/document/json.h"
-#include "runner/cli/stock_graphs.h"
+#include "graphs/document/stock_graphs.h"
 
 namespace terrazzo {
 

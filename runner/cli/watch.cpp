@@ -19,6 +19,7 @@ void Watch::look_at(const Graph& graph) {
   seen_.clear();
   const auto add = [&](const std::filesystem::path& path) { seen_.emplace(path, look(path)); };
   if (!graph.file.empty()) add(graph.file);
+  for (const std::filesystem::path& path : graph.made_from) add(path);
   for (const GraphNode& n : graph.nodes) {
     if (!n.type->files_read) continue;
     for (const std::filesystem::path& file : n.type->files_read(n.params)) {

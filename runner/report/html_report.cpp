@@ -170,7 +170,8 @@ std::vector<std::string> nodes_for_report(const Graph& graph, const std::vector<
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
   for (const GraphNode& n : graph.nodes) {
-    const bool target = only.empty() ? n.type->is_sink() : std::find(only.begin(), only.end(), n.name) != only.end();
+    const auto is_meant = [&](const std::string& name) { return stands_for(name, n.name); };
+    const bool target = only.empty() ? n.type->is_sink() : std::ranges::any_of(only, is_meant);
     if (!target) continue;
     if (n.type->is_sink())
       for (const auto& [port, wires] : n.inputs)

@@ -301,7 +301,7 @@ namespace {
 
 Json error_event(const std::string& file, const Problem& problem) {
   Json event = {{"event", "error"}};
-  if (!file.empty()) event["file"] = file;
+  if (!file.empty() || !problem.file.empty()) event["file"] = problem.file.empty() ? file : problem.file;
   if (problem.place.line > 0) {
     event["line"] = problem.place.line;
     event["column"] = problem.place.column;

@@ -1,0 +1,69 @@
+#include "graphs/document/grouping.h"
+
+#include <fmt/format.h>
+
+#include "core/base/suggest.h"
+#include "graphs/document/format.h"
+#include "nodes/common/registry.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A document, and what its nodes are.
+struct OpenDocument {
+  OpenDocument(std::string_view text, const fs::path& path) : file(path.string()) {
+    ParsedJson parsed = parse_json(text);
+    problems = std::move(parsed.problems);
+    if (parsed.value && migrate(*parsed.value, document_migrations(), problems)) json = std::move(*parsed.value);
+    throw_problems();
+    main = &graphs.read_main(json, fs::absolute(path));
+    throw_problems();
+  }
+
+  void throw_problems() {
+    if (!problems.empty()) throw GraphError(file, std::move(problems));
+  }
+
+  std::string file;
+  std::vector<Problem> problems;
+  JsonValue json;
+  KnownTypes types{node_types()};
+  Subgraphs graphs{types, document_migrations(), problems};
+  const Subgraph* main = nullptr;
+};
+
+}  // namespace
+
+std::string grouped(std::string_view text, const fs::path& file, const std::string& name,
+                    const std::vector<std::string>& nodes) {
+  const OpenDocument document(text, file);
+  JsonValue out = document.json;
+  detail::group(out, *document.main, name, nodes);
+  return formatted(out);
+}
+
+std::string ungrouped(std::string_view text, const fs::path& file, const std::string& node) {
+  OpenDocument document(text, file);
+  const JsonValue* use = document.json.find("nodes")->find(node);
+  if (!use) {
+    std::vector<std::string> names;
+    for (const auto& [known, type] : document.main->sources) names.push_back(known);
+    throw Error(fmt::format("the graph has no node {}{}", in_quotes(node), suggestion(node, names)));
+  }
+  const JsonValue* type = use->find("type");
+  const Subgraph* graph = type ? document.graphs.find(*type, *document.main) : nullptr;
+  document.throw_problems();
+  if (!graph)
+    throw Error(fmt::format("the node {} is of type {}, which is no graph", in_quotes(node),
+                            in_quotes(type ? type->text : "")));
+  if (graph->folder != document.main->folder)
+    throw Error(fmt::format("{} lies in another folder, which the paths in it are relative to", in_quotes(type->text)));
+  JsonValue out = document.json;
+  detail::ungroup(out, *graph, node);
+  return formatted(out);
+}
+
+}  // namespace terrazzo

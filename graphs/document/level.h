@@ -1,0 +1,113 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "graphs/document/loops.h"
+#include "graphs/document/nodes.h"
+#include "graphs/document/subgraphs.h"
+
+/// The nodes of a graph with those of its subgraphs: a tree of levels. Each level has parameters and names of its own.
+namespace terrazzo {
+
+/// Parameters as expressions see them: those of a level, or, in a round of a loop, these and the loop's variables.
+struct Names {
+  std::vector<GraphParameter> parameters;
+  std::unique_ptr<GraphScope> scope;
+  std::unique_ptr<Substitution> substitution;
+};
+
+/// What a name in a level's section `nodes` stands for; several in a loop.
+struct Item {
+  NodeDraft* draft = nullptr;
+  Level* inner = nullptr;  ///< null if it is no graph, is muted, or could not be read
+};
+
+/// A graph that is being read: the document, or one use of a subgraph.
+struct Level {
+  const Subgraph* graph = nullptr;
+  Level* outer = nullptr;
+  NodeDraft* use = nullptr;  ///< the node in `outer` that it is
+  std::string path;          ///< begins the names of its nodes: "walls/"
+  Names names;
+  std::vector<std::unique_ptr<Names>> rounds;  ///< of all its loops
+  NodeReading reading;
+  std::vector<std::pair<std::string, std::vector<Item>>> items;  ///< by name, in the document's order
+  std::map<std::string, size_t> positions;                       ///< in `items`
+  std::map<std::string, PortWires> outputs;
+
+  const PortWires* find_output(const std::string& name) const {
+    const auto at = outputs.find(name);
+    return at == outputs.end() ? nullptr : &at->second;
+  }
+  const std::vector<Item>* find(const std::string& name) const {
+    const auto at = positions.find(name);
+    return at == positions.end() ? nullptr : &items[at->second].second;
+  }
+};
+
+/// An override on its way to its node: `path` is what is left of the names of the levels, "walls/layout".
+struct RoutedOverride {
+  const Override* override = nullptr;
+  std::string path;
+};
+
+/// Reads levels. Keeps all that has been read.
+class Levels {
+ public:
+  Levels(Subgraphs& graphs, const KnownTypes& types, std::vector<Problem>& problems)
+      : graphs_(graphs), types_(types), problems_(problems) {}
+
+  /// Reads the document's nodes and those of its subgraphs. `root` has graph, parameters, scope and substitution.
+  /// Overrides must outlive this.
+  Level& read(std::unique_ptr<Level> root, const std::vector<Override>& overrides);
+
+  /// Nodes that run; muted ones and those that are graphs are not among them.
+  Drafts& nodes() { return nodes_; }
+  /// The nodes that are graphs or muted.
+  Drafts& others() { return others_; }
+  const Drafts& nodes() const { return nodes_; }
+  const Drafts& others() const { return others_; }
+  const std::vector<std::unique_ptr<Level>>& all() const { return levels_; }
+  /// Files and folders that loops were made from.
+  const std::vector<std::filesystem::path>& made_from() const { return made_from_; }
+  /// Parameters that loops need and that have no value.
+  const std::set<std::string>& unset_for_loops() const { return unset_for_loops_; }
+
+  /// Reads what the nodes of this level, and the graphs around it, wait for, as far as all they ask for is known.
+  void read_what_waits(Level& level, const std::set<std::string>& known);
+  /// Tells every scope where to ask for forecasts.
+  void set_forecasts(const GraphScope::Forecasts& forecasts);
+
+ private:
+  void read_level(Level& level, const std::vector<RoutedOverride>& overrides);
+  void read_item(Level& level, const JsonMember& member, const std::vector<RoutedOverride>& overrides);
+  void read_round(Level& level, const JsonMember& member, const std::string& local, Names& names,
+                  const std::vector<RoutedOverride>& overrides, std::vector<Item>& items);
+  Level* read_use(Level& outer, NodeDraft& use, const Subgraph& graph, const std::vector<RoutedOverride>& overrides);
+  void read_outputs(Level& level);
+  std::optional<int64_t> read_seed(Level& level);
+  Names* names_of_round(Level& level, const LoopRound& round, Diagnostics& diagnostics);
+  void refuse_unknown(const Level& level, const std::vector<RoutedOverride>& overrides);
+
+  Subgraphs& graphs_;
+  const KnownTypes& types_;
+  std::vector<Problem>& problems_;
+  std::vector<std::unique_ptr<Level>> levels_;
+  Drafts nodes_, others_;
+  std::deque<NodeType> use_types_;
+  std::deque<PortWires> ports_;
+  std::deque<Port> output_ports_;
+  std::vector<std::filesystem::path> made_from_;
+  std::set<std::string> unset_for_loops_;
+  bool is_full_ = false;
+};
+
+/// Gives the parameters of a level the values that its node says, as far as they are known.
+void bind_parameters(Level& level);
+
+}  // namespace terrazzo

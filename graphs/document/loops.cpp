@@ -1,0 +1,255 @@
+#include "graphs/document/loops.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <glob.h>
+
+#include "core/base/suggest.h"
+#include "graphs/document/convert.h"
+#include "graphs/document/format.h"
+#include "graphs/document/variations.h"
+
+namespace terrazzo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<std::string> kinds = {"files", "folders", "table", "values"};
+
+/// What a text of a table is: a number if it reads as one.
+JsonValue value_in_cell(const std::string& text) {
+  const ParsedJson parsed = parse_json(text);
+  const bool is_plain = parsed.value && (parsed.value->is_number() || parsed.value->kind == JsonValue::Kind::boolean);
+  return is_plain ? *parsed.value : JsonValue::of(text);
+}
+
+/// The one type that all values have; empty if there is none.
+std::optional<ParamType> common_type(const std::vector<JsonValue>& values) {
+  const auto all = [&](auto is) { return std::ranges::all_of(values, is); };
+  if (all([](const JsonValue& v) { return v.kind == JsonValue::Kind::integer; })) return ParamType::integer;
+  if (all([](const JsonValue& v) { return v.is_number(); })) return ParamType::number;
+  if (all([](const JsonValue& v) { return v.kind == JsonValue::Kind::boolean; })) return ParamType::boolean;
+  if (all([](const JsonValue& v) { return v.is_text(); })) return ParamType::text;
+  const auto is_size = [](const JsonValue& v) {
+    return v.is_list() && v.items.size() == 2 &&
+           std::ranges::all_of(v.items, [](const JsonValue& i) { return i.kind == JsonValue::Kind::integer; });
+  };
+  if (all(is_size)) return ParamType::size;
+  return std::nullopt;
+}
+
+/// As a part of a node's name.
+std::string label_of(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += static_cast<unsigned char>(c) < ' ' || c == '/' || c == '[' || c == ']' ? '_' : c;
+  return out;
+}
+
+class LoopReader {
+ public:
+  LoopReader(const JsonValue& loop, const fs::path& folder, Substitution& substitution, Diagnostics& diagnostics,
+             Lacking& lacking, std::vector<fs::path>& made_from)
+      : loop_(loop),
+        folder_(folder),
+        substitution_(substitution),
+        diagnostics_(diagnostics),
+        lacking_(lacking),
+        made_from_(made_from) {}
+
+  std::optional<std::vector<LoopRound>> read() {
+    const JsonMember* kind = read_keys();
+    if (!kind) return std::nullopt;
+    place_ = kind->value.place;
+    const bool is_path = kind->name != "values";
+    std::optional<JsonValue> given = substitution_.expand(
+        kind->value, {.name = kind->name, .type = is_path ? ParamType::path : ParamType::numbers}, diagnostics_);
+    const Lacking lacking = substitution_.take_lacking();
+    lacking_.add(lacking);
+    if (!lacking.nodes.empty()) complain("a loop cannot depend on what nodes give");
+    if (!given) return std::nullopt;
+    if (is_path && !given->is_text()) {
+      complain(fmt::format("expected a text for \"{}\", found {}", kind->name, found(*given)));
+      return std::nullopt;
+    }
+    if (kind->name == "table") {
+      read_table_of(folder_ / given->text);
+    } else if (is_path) {
+      find_paths((folder_ / given->text).lexically_normal(), kind->name == "folders");
+    } else {
+      read_values(*given);
+    }
+    if (failed_) return std::nullopt;
+    make_labels_unlike();
+    return std::move(rounds_);
+  }
+
+ private:
+  void complain(const std::string& message) {
+    diagnostics_.add(place_, message);
+    failed_ = true;
+  }
+
+  /// The key that says over what; null after a problem.
+  const JsonMember* read_keys() {
+    place_ = loop_.place;
+    const JsonMember* out = nullptr;
+    const std::string expected =
+        "expected an object such as {\"folders\": \"scans/*\", \"as\": \"scan\"}, with one of " + listed(kinds);
+    if (!loop_.is_object()) {
+      complain(fmt::format("{}; found {}", expected, found(loop_)));
+      return nullptr;
+    }
+    for (const JsonMember& m : loop_.members) {
+      if (m.name == "as") {
+        if (m.value.is_text() && is_parameter_name(m.value.text))
+          as_ = m.value.text;
+        else
+          diagnostics_.add(m.value.place,
+                           "expected a name of letters, digits and _ for \"as\", found " + found(m.value));
+      } else if (std::ranges::find(kinds, m.name) == kinds.end()) {
+        std::vector<std::string> keys = kinds;
+        keys.emplace_back("as");
+        diagnostics_.add(m.place, fmt::format("unknown key {}{}", in_quotes(m.name), suggestion(m.name, keys)));
+        failed_ = true;
+      } else if (out) {
+        complain(fmt::format("expected one of {}, found two", listed(kinds)));
+      } else {
+        out = &m;
+      }
+    }
+    if (!out && !failed_) complain(expected);
+    return failed_ ? nullptr : out;
+  }
+
+  void add(LoopRound& round, const std::string& name, ParamType type, const JsonValue& value) {
+    const Param param{.name = name, .type = type};
+    GraphParameter& out =
+        round.variables.emplace_back(GraphParameter{.param = param, .place = place_, .value = {}, .as_written = ""});
+    out.value = read_param(value, param, folder_, diagnostics_);
+    if (value.is_text()) out.as_written = value.text;
+  }
+
+  void add_round(const JsonValue& value, ParamType type, const std::string& name) {
+    LoopRound& round = rounds_.emplace_back(LoopRound{label_of(name), {}});
+    add(round, as_, type, value);
+    add_name(round, name);
+  }
+
+  void add_name(LoopRound& round, const std::string& name) {
+    add(round, as_ + "_name", ParamType::text, JsonValue::of(name));
+    add(round, as_ + "_index", ParamType::integer, JsonValue::of(int64_t(rounds_.size()) - 1));
+  }
+
+  void refuse_values(const JsonValue& given) {
+    complain("expected a list of values, or a range such as \"1..8\", found " + found(given));
+  }
+
+  void read_values(const JsonValue& given) {
+    std::vector<JsonValue> values = given.items;
+    if (given.is_text() && given.text.find("..") != std::string::npos) {
+      try {
+        const std::vector<Variation> range = swept({"values=" + given.text});
+        if (range.front().values.front().second == given.text) return refuse_values(given);
+        for (const Variation& v : range) values.push_back(value_in_cell(v.values.front().second));
+      } catch (const Error& e) {
+        return complain(e.what());
+      }
+    } else if (!given.is_list()) {
+      return refuse_values(given);
+    }
+    if (values.empty()) return complain("expected at least one value, found an empty list");
+    if (values.size() > most_variations)
+      return complain(fmt::format("expected at most {} values, found {}", most_variations, values.size()));
+    const std::optional<ParamType> type = common_type(values);
+    if (!type) return complain("expected values of one kind: numbers, texts, sizes, or true and false");
+    for (const JsonValue& v : values) add_round(v, *type, v.is_text() ? v.text : compact(v));
+  }
+
+  void find_paths(const fs::path& pattern, bool folders) {
+    // A new file changes the folder's time.
+    made_from_.push_back(pattern.parent_path());
+    glob_t found{};
+    const int code = ::glob(pattern.c_str(), 0, nullptr, &found);
+    std::vector<fs::path> paths;
+    for (size_t i = 0; code == 0 && i < found.gl_pathc; i++) {
+      const fs::path path = found.gl_pathv[i];
+      std::error_code failure;
+      if (folders ? fs::is_directory(path, failure) : fs::is_regular_file(path, failure)) paths.push_back(path);
+    }
+    ::globfree(&found);
+    if (paths.empty())
+      return complain(fmt::format("no {} is named like {}", folders ? "folder" : "file", pattern.string()));
+    if (paths.size() > most_variations)
+      return complain(fmt::format("expected at most {} of them, found {}", most_variations, paths.size()));
+    std::ranges::sort(paths);
+    for (const fs::path& p : paths)
+      add_round(JsonValue::of(p.string()), ParamType::path, (folders ? p.filename() : p.stem()).string());
+  }
+
+  void read_table_of(const fs::path& file) {
+    made_from_.push_back(file);
+    std::vector<Variation> rows;
+    try {
+      rows = read_table(file);
+    } catch (const Error& e) {
+      return complain(e.what());
+    }
+    const auto& columns = rows.front().values;
+    for (size_t c = 0; c < columns.size(); c++) {
+      const std::string& name = columns[c].first;
+      if (!is_parameter_name(name))
+        return complain(fmt::format("{}: expected names of letters, digits and _ for columns, found {}", file.string(),
+                                    in_quotes(name)));
+      std::vector<JsonValue> values;
+      for (size_t r = 0; r < rows.size(); r++) {
+        const auto& cells = rows[r].values;
+        const auto cell = std::ranges::find(cells, name, &std::pair<std::string, std::string>::first);
+        if (cell == cells.end() || cells.size() != columns.size())
+          return complain(fmt::format("{}: row {} has other columns than the first one; a loop needs a value in each",
+                                      file.string(), r + 1));
+        values.push_back(value_in_cell(cell->second));
+      }
+      const ParamType type = common_type(values).value_or(ParamType::text);
+      for (size_t r = 0; r < rows.size(); r++) {
+        if (c == 0) rounds_.push_back({label_of(rows[r].values.front().second), {}});
+        add(rounds_[r], name, type, type == ParamType::text ? JsonValue::of(rows[r].values[c].second) : values[r]);
+      }
+    }
+    for (size_t r = 0; r < rows.size(); r++) {
+      add(rounds_[r], as_ + "_name", ParamType::text, JsonValue::of(rows[r].values.front().second));
+      add(rounds_[r], as_ + "_index", ParamType::integer, JsonValue::of(int64_t(r)));
+    }
+  }
+
+  void make_labels_unlike() {
+    std::set<std::string> taken;
+    for (LoopRound& r : rounds_) {
+      const std::string plain = r.label;
+      for (int i = 2; !taken.insert(r.label).second; i++) r.label = fmt::format("{} {}", plain, i);
+    }
+  }
+
+  const JsonValue& loop_;
+  const fs::path& folder_;
+  Substitution& substitution_;
+  Diagnostics& diagnostics_;
+  Lacking& lacking_;
+  std::vector<fs::path>& made_from_;
+  Place place_;
+  std::string as_ = "item";
+  std::vector<LoopRound> rounds_;
+  bool failed_ = false;
+};
+
+}  // namespace
+
+std::optional<std::vector<LoopRound>> read_loop(const JsonValue& loop, const fs::path& folder,
+                                                Substitution& substitution, Diagnostics& diagnostics, Lacking& lacking,
+                                                std::vector<fs::path>& made_from) {
+  return LoopReader(loop, folder, substitution, diagnostics, lacking, made_from).read();
+}
+
+}  // namespace terrazzo
