@@ -104,6 +104,7 @@ struct Forecast {
   /// Maps that it may also have; nullopt if not known.
   std::optional<std::vector<std::string>> possible_maps{};
   std::map<std::string, Size> sizes{};  ///< of maps, where they are known; of an image under ""
+  std::optional<Semantic> semantic{};   ///< of an image
   std::vector<FutureFile> files{};      ///< of a sink
 };
 /// By connected port, one for each wire.
@@ -135,6 +136,9 @@ struct NodeType {
   /// compute would refuse (such as a missing folder), and returns what is certain about the results. Must be fast; may
   /// read files that `files_read` names.
   std::function<Forecast(const Params&, const InputForecasts&)> preflight;
+  /// What is allowed and hardly meant, for the command `check`: one message each, starting with the name of a parameter
+  /// or port in quotes if it is about one. May read files that `files_read` names; ports that are open are not there.
+  std::function<std::vector<std::string>(const Params&, const InputForecasts&)> doubts;
 
   const Port* find_input(std::string_view port) const;
   const Port* find_output(std::string_view port) const;

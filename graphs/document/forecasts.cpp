@@ -5,9 +5,9 @@ namespace terrazzo {
 const Forecast* Forecasts::add(const GraphNode& node) {
   if (!node.type->preflight) return nullptr;
   const Forecast& forecast = nodes_[node.name] = node.type->preflight(node.params, inputs_of(node));
-  // An image that becomes a material of one map is none of the material beside it.
+  // Of several outputs it is about the material.
   for (const Port& p : node.type->outputs)
-    if (p.type == ValueType::material) outputs_[{node.name, p.name}] = forecast;
+    if (p.type == ValueType::material || node.type->outputs.size() == 1) outputs_[{node.name, p.name}] = forecast;
   return &forecast;
 }
 

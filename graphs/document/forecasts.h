@@ -15,10 +15,10 @@ class Forecasts {
   const Forecast* add(const GraphNode& node);
   /// Null if nothing is known.
   const Forecast* find(const std::string& node) const;
-
- private:
+  /// What is known of all that comes into a node; empty forecasts where nothing is.
   InputForecasts inputs_of(const GraphNode& node) const;
 
+ private:
   std::map<std::string, Forecast> nodes_;
   std::map<Wire, Forecast> outputs_;
 };

@@ -85,4 +85,40 @@ std::string found(const JsonValue& value) {
   return fmt::format("the text {} and so on", in_quotes(value.text.substr(0, end)));
 }
 
+namespace {
+
+bool is_at_or_before(Place a, Place b) {
+  return a.line < b.line || (a.line == b.line && a.column <= b.column);
+}
+
+std::string escaped(const std::string& name) {
+  std::string out;
+  for (const char c : name) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return out;
+}
+
+}  // namespace
+
+std::string pointer_to(const JsonValue& document, Place place) {
+  std::string out;
+  // The last part that begins at the place or before it holds it.
+  for (const JsonValue* v = &document; v;) {
+    const JsonValue* inside = nullptr;
+    std::string step;
+    for (const JsonMember& m : v->members)
+      if (is_at_or_before(m.place, place)) {
+        inside = &m.value;
+        step = escaped(m.name);
+      }
+    for (size_t i = 0; i < v->items.size(); i++)
+      if (is_at_or_before(v->items[i].place, place)) {
+        inside = &v->items[i];
+        step = std::to_string(i);
+      }
+    if (inside) out += "/" + step;
+    v = inside;
+  }
+  return out;
+}
+
 }  // namespace terrazzo

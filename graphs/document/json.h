@@ -64,6 +64,10 @@ struct ParsedJson {
 /// 336 here, took 1.3 times as long on 20 MB, and compiled to 84 KB against 49 KB.
 ParsedJson parse_json(std::string_view text);
 
+/// The JSON pointer (RFC 6901) to what stands at a place of a document: a member (by its name or its value), an entry
+/// of a list, or, between them, what is around it.
+std::string pointer_to(const JsonValue& document, Place place);
+
 /// What a value is, for messages: `the text "abc"`, `the number 3`, `a list of 2`, ...
 std::string found(const JsonValue& value);
 /// A text as it stands in a JSON file, in quotes.

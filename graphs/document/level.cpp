@@ -130,12 +130,20 @@ void Levels::read_item(Level& level, const JsonMember& member, const std::vector
   const std::string where = "node " + in_quotes(level.path + member.name);
   if (!is_node_name(member.name))
     problems_.push_back({member.place, where, "expected a name of letters, digits, _ and -", level.path + member.name});
-  const JsonValue* loop = member.value.find("foreach");
+  std::optional<JsonValue> loop;
+  std::filesystem::path folder = level.graph->folder;
+  if (const JsonValue* given = member.value.find("foreach")) loop = *given;
+  for (const RoutedOverride& o : its)
+    if (o.path == member.name && o.override->name == "foreach" && o.override->json) {
+      loop = o.override->json;
+      folder = o.override->base;
+    }
   if (!loop) return read_round(level, member, member.name, level.names, its, items);
   Diagnostics diagnostics(problems_, where + ", \"foreach\"");
   Lacking lacking;
-  const auto rounds =
-      read_loop(*loop, level.graph->folder, *level.names.substitution, diagnostics, lacking, made_from_);
+  const size_t before = made_from_.size();
+  const auto rounds = read_loop(*loop, folder, *level.names.substitution, diagnostics, lacking, made_from_);
+  for (size_t i = before; i < made_from_.size(); i++) made_from_[i].node = level.path + member.name;
   unset_for_loops_.insert(lacking.unset.begin(), lacking.unset.end());
   if (!rounds) return;
   for (const LoopRound& round : *rounds)

@@ -74,7 +74,7 @@ class Levels {
   const Drafts& others() const { return others_; }
   const std::vector<std::unique_ptr<Level>>& all() const { return levels_; }
   /// Files and folders that loops were made from.
-  const std::vector<std::filesystem::path>& made_from() const { return made_from_; }
+  const std::vector<LoopSource>& made_from() const { return made_from_; }
   /// Parameters that loops need and that have no value.
   const std::set<std::string>& unset_for_loops() const { return unset_for_loops_; }
 
@@ -102,7 +102,7 @@ class Levels {
   std::deque<NodeType> use_types_;
   std::deque<PortWires> ports_;
   std::deque<Port> output_ports_;
-  std::vector<std::filesystem::path> made_from_;
+  std::vector<LoopSource> made_from_;
   std::set<std::string> unset_for_loops_;
   bool is_full_ = false;
 };

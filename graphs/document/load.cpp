@@ -37,7 +37,9 @@ class Loader {
         levels_(subgraphs_, types_, problems_) {
     ParsedJson parsed = parse_json(text);
     problems_ = std::move(parsed.problems);
-    if (!parsed.value || !migrate(*parsed.value, options.migrations, problems_)) finish();
+    const bool is_read = parsed.value && migrate(*parsed.value, options.migrations, problems_);
+    coded("syntax");
+    if (!is_read) finish();
     document_ = std::move(*parsed.value);
     for (const JsonMember& m : document_.members)
       if (std::ranges::find(document_keys(), m.name) == document_keys().end())
@@ -47,6 +49,12 @@ class Loader {
 
   void finish() {
     if (!problems_.empty()) throw GraphError(file_, std::move(problems_));
+  }
+
+  /// Gives all problems since the last call this code.
+  void coded(const char* code) {
+    set_code(problems_, coded_, code);
+    coded_ = problems_.size();
   }
 
   GraphInterface interface() {
@@ -67,6 +75,7 @@ class Loader {
     out.presets = std::move(head.presets);
     out.inputs = std::move(head.inputs);
 
+    coded("document");
     std::vector<Override> overrides = overrides_from(out.presets, override_texts, options);
     auto owned = std::make_unique<Level>();
     Level& root = *owned;
@@ -75,27 +84,36 @@ class Loader {
     std::vector<GraphParameter>& parameters = root.names.parameters;
     merge_members(overrides, parameters, main_->sources);
     set_parameters(parameters, overrides, main_->sources, problems_);
+    coded("override");
     root.names.scope = std::make_unique<GraphScope>(parameters, main_->sources, "", problems_);
     root.names.scope->evaluate_parameters();
+    coded("document");
     root.names.substitution = std::make_unique<Substitution>(*root.names.scope);
     levels_.read(std::move(owned), overrides);
+    coded("node");
     std::vector<Problem> conversions;
     for (const std::unique_ptr<Level>& level : levels_.all()) check_wires(*level, problems_, conversions);
     connect(levels_, problems_);
+    coded("wire");
     Drafts& drafts = levels_.nodes();
     for (NodeDraft& d : drafts) name_what_is_asked(d);
     for (NodeDraft& d : levels_.others()) name_what_is_asked(d);
     const std::vector<size_t> order = execution_order(drafts, problems_);
+    coded("cycle");
     read_what_waits(order, root);
+    coded("parameter");
     const std::set<std::string> wanted = wanted_nodes(drafts, options.only);
     if (!options.allow_unset) require_set(parameters, out.inputs, wanted);
+    coded("unset");
     trace_files(order);
     if (!problems_.empty() && options.look_ahead)
       for (Problem& p : options.look_ahead(faultless(order))) problems_.push_back(std::move(p));
+    coded("input");
     finish();
 
-    for (const Problem& p : conversions) out.conversions.push_back(describe(file_, p));
-    for (const Problem& p : warnings_about(order, root)) out.warnings.push_back(describe(file_, p));
+    set_code(conversions, 0, "conversion");
+    out.conversions = std::move(conversions);
+    out.warnings = warnings_about(order, root);
     const bool complete = std::ranges::all_of(drafts, [](const NodeDraft& d) { return d.unset.empty(); });
     for (const size_t i : order)
       if (complete || options.allow_unset || wanted.contains(drafts[i].node.name)) {
@@ -103,7 +121,10 @@ class Loader {
         out.graph.nodes.push_back(std::move(drafts[i].node));
       }
     out.graph.made_from = subgraphs_.files();
-    out.graph.made_from.insert(out.graph.made_from.end(), levels_.made_from().begin(), levels_.made_from().end());
+    // A new file changes the time of the folder it is in.
+    for (const LoopSource& l : levels_.made_from())
+      out.graph.made_from.push_back(l.kind == "table" ? l.path : l.path.parent_path());
+    out.loops = levels_.made_from();
     out.parameters = std::move(parameters);
     return out;
   }
@@ -199,11 +220,11 @@ class Loader {
     for (const NodeDraft& d : drafts) by_name[d.node.name] = &d;
     const std::set<std::string> needed = needed_nodes(drafts, asked);
     std::set<std::string> incomplete = {never_known};  // what is wrong or is to be set has been said or will be
-    std::set<std::string> visited;
+    std::set<std::string> known;
     Forecasts forecasts;
     levels_.set_forecasts([&](const std::string& name) -> const Forecast& {
       const std::string node = node_behind(name);
-      if (const Forecast* known = forecasts.find(node)) return *known;
+      if (const Forecast* found = forecasts.find(node)) return *found;
       throw Error(fmt::format("what \"{}\" gives is not known before it runs", node));
     });
     for (const size_t i : order) {
@@ -215,15 +236,29 @@ class Loader {
           d.unset.insert(at->second->unset.begin(), at->second->unset.end());
       }
       const size_t before = problems_.size();
-      if (complete) levels_.read_what_waits(*d.level, visited);
+      if (complete) levels_.read_what_waits(*d.level, known);
       if (complete && !d.waiting.empty()) read_waiting(d, problems_);
       set_file(problems_, before, d.node.file);
       if (needed.contains(d.node.name) && !(complete && look_ahead(d, forecasts, incomplete)))
         incomplete.insert(d.node.name);
-      visited.insert(d.node.name);
+      if (!incomplete.contains(d.node.name)) known.insert(d.node.name);
     }
-    if (main_->inputs.empty()) root.names.scope->evaluate_parameters();
+    evaluate_rest(root, incomplete);
     levels_.set_forecasts({});
+  }
+
+  /// The document's own parameters that no node has asked for, as far as all is known that they ask for.
+  void evaluate_rest(Level& root, const std::set<std::string>& incomplete) {
+    GraphScope& scope = *root.names.scope;
+    for (const GraphParameter& p : root.names.parameters) {
+      if (!p.formula) continue;
+      const auto is_known = [&](const std::pair<const std::string, size_t>& asked) {
+        const WireSources found = sources_behind(asked.first);
+        return !found.is_faulty && found.open.empty() && found.wires.size() == 1 &&
+               !incomplete.contains(found.wires.front().node);
+      };
+      if (std::ranges::all_of(p.formula->expression->nodes(), is_known)) scope.find(p.param.name);
+    }
   }
 
   bool has_waiting() {
@@ -328,9 +363,9 @@ class Loader {
     std::vector<Problem> out;
     for (const GraphParameter& p : root.names.parameters)
       if (is_unused(root, p.param.name))
-        out.push_back({p.place, "parameter " + in_quotes(p.param.name), "no node uses it"});
+        out.push_back({p.place, "parameter " + in_quotes(p.param.name), "no node uses it", "", "", "unused-parameter"});
     for (const auto& [name, place] : subgraphs_.unused())
-      out.push_back({place, "graph " + in_quotes(name), "no node is of this type"});
+      out.push_back({place, "graph " + in_quotes(name), "no node is of this type", "", "", "unused-graph"});
     const Drafts& drafts = levels_.nodes();
     std::vector<std::string> used;
     bool has_sink = !main_->outputs.empty();
@@ -339,7 +374,7 @@ class Loader {
       if (d.node.type->is_sink()) used.push_back(d.node.name);
     }
     if (!has_sink) {
-      out.push_back({{}, "", "no node is a sink: a run writes nothing"});
+      out.push_back({{}, "", "no node is a sink: a run writes nothing", "", "", "no-sink"});
       return out;
     }
     std::set<std::string> given = names_given(root);
@@ -347,7 +382,8 @@ class Loader {
     for (const size_t i : order) {
       const NodeDraft& d = drafts[i];
       if (d.level == &root && !needed.contains(d.node.name) && !given.contains(d.local))
-        out.push_back({d.node.place, "node " + in_quotes(d.node.name), "no sink reads it; it will not run"});
+        out.push_back({d.node.place, "node " + in_quotes(d.node.name), "no sink reads it; it will not run", d.node.name,
+                       "", "unused-node"});
     }
     return out;
   }
@@ -369,6 +405,11 @@ class Loader {
     const auto add_named = [&](const NodeDraft& d) { open.insert(open.end(), d.named.begin(), d.named.end()); };
     std::ranges::for_each(levels_.nodes(), add_named);
     std::ranges::for_each(levels_.others(), add_named);
+    // A subgraph may choose between what comes into it.
+    for (const NodeDraft& d : levels_.others())
+      if (d.level == &root)
+        for (const PortWires& p : d.ports)
+          for (const WireEnd& end : p.wires) open.push_back(end.node);
     while (!open.empty()) {
       const std::string name = std::move(open.back());
       open.pop_back();
@@ -388,6 +429,7 @@ class Loader {
   fs::path path_, folder_;
   JsonValue document_;
   std::vector<Problem> problems_;
+  size_t coded_ = 0;  ///< how many of them have their code
   KnownTypes types_;
   Subgraphs subgraphs_;
   Levels levels_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "graphs/document/graph.h"
+#include "graphs/document/loops.h"
 #include "graphs/document/migrate.h"
 #include "graphs/document/parameters.h"
 #include "graphs/document/presets.h"
@@ -41,8 +42,9 @@ struct LoadedGraph {
   std::vector<GraphParameter> parameters;
   std::vector<Preset> presets;
   std::vector<Port> inputs;  ///< of a graph that is made to be a node of others
-  /// Images that become materials of one map; nodes and parameters that nothing uses. In the form of describe().
-  std::vector<std::string> conversions, warnings;
+  std::vector<LoopSource> loops;
+  /// Images that become materials of one map; nodes and parameters that nothing uses.
+  std::vector<Problem> conversions, warnings;
 };
 
 /// Reads a document. `overrides` are `name=value` for a parameter of the graph and `node.parameter=value` (a wire into

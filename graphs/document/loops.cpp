@@ -51,7 +51,7 @@ std::string label_of(const std::string& text) {
 class LoopReader {
  public:
   LoopReader(const JsonValue& loop, const fs::path& folder, Substitution& substitution, Diagnostics& diagnostics,
-             Lacking& lacking, std::vector<fs::path>& made_from)
+             Lacking& lacking, std::vector<LoopSource>& made_from)
       : loop_(loop),
         folder_(folder),
         substitution_(substitution),
@@ -169,8 +169,7 @@ class LoopReader {
   }
 
   void find_paths(const fs::path& pattern, bool folders) {
-    // A new file changes the folder's time.
-    made_from_.push_back(pattern.parent_path());
+    made_from_.push_back({.kind = folders ? "folders" : "files", .path = pattern, .as = as_});
     glob_t found{};
     const int code = ::glob(pattern.c_str(), 0, nullptr, &found);
     std::vector<fs::path> paths;
@@ -190,7 +189,7 @@ class LoopReader {
   }
 
   void read_table_of(const fs::path& file) {
-    made_from_.push_back(file);
+    made_from_.push_back({.kind = "table", .path = file, .as = as_});
     std::vector<Variation> rows;
     try {
       rows = read_table(file);
@@ -237,7 +236,7 @@ class LoopReader {
   Substitution& substitution_;
   Diagnostics& diagnostics_;
   Lacking& lacking_;
-  std::vector<fs::path>& made_from_;
+  std::vector<LoopSource>& made_from_;
   Place place_;
   std::string as_ = "item";
   std::vector<LoopRound> rounds_;
@@ -248,7 +247,7 @@ class LoopReader {
 
 std::optional<std::vector<LoopRound>> read_loop(const JsonValue& loop, const fs::path& folder,
                                                 Substitution& substitution, Diagnostics& diagnostics, Lacking& lacking,
-                                                std::vector<fs::path>& made_from) {
+                                                std::vector<LoopSource>& made_from) {
   return LoopReader(loop, folder, substitution, diagnostics, lacking, made_from).read();
 }
 

@@ -19,10 +19,19 @@ struct LoopRound {
   std::vector<GraphParameter> variables;  ///< scan, scan_name and scan_index; of a table its columns
 };
 
+/// What a loop was made from.
+struct LoopSource {
+  std::string node{};          ///< its name, with its path
+  std::string kind;            ///< "files", "folders" or "table"
+  std::filesystem::path path;  ///< of files and folders what they are to be named like; absolute
+  std::string as;
+};
+
 /// The rounds that `loop` describes; relative paths lie in `folder`. Files that it read, and folders that it listed,
-/// are added to `made_from`. Empty after a problem, or if something is lacking, which is added to `lacking`.
+/// are added to `made_from`, without the node's name. Empty after a problem, or if something is lacking, which is added
+/// to `lacking`.
 std::optional<std::vector<LoopRound>> read_loop(const JsonValue& loop, const std::filesystem::path& folder,
                                                 Substitution& substitution, Diagnostics& diagnostics, Lacking& lacking,
-                                                std::vector<std::filesystem::path>& made_from);
+                                                std::vector<LoopSource>& made_from);
 
 }  // namespace terrazzo

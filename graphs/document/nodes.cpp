@@ -122,7 +122,8 @@ class NodeReader {
       if (std::ranges::find(common_node_keys(), m.name) == common_node_keys().end())
         out.push_back({m.name, m.place, &m.value, nullptr});
     for (const Override* o : overrides) {
-      if (o->name == "mute" || add_member(*o, out)) continue;
+      const bool is_common = o->name == "mute" || (o->name == "foreach" && o->json);
+      if (is_common || add_member(*o, out)) continue;
       const auto at = std::find_if(out.begin(), out.end(), [&](const NodeEntry& e) { return e.name == o->name; });
       if (at == out.end()) {
         out.push_back({o->name, o->place, nullptr, o});
@@ -156,6 +157,12 @@ class NodeReader {
   }
 
   void read_parameter(const NodeEntry& e, const Param& param) {
+    const size_t before = problems_.size();
+    read_value(e, param);
+    set_code(problems_, before, e.by ? "override" : "parameter");
+  }
+
+  void read_value(const NodeEntry& e, const Param& param) {
     Diagnostics diagnostics = complaints_about(e, "parameter");
     const JsonValue given = given_by(e, param);
     const std::optional<JsonValue> value = substitution_.expand(given, param, diagnostics);
@@ -171,12 +178,14 @@ class NodeReader {
   }
 
   void read_port(const NodeEntry& e, const Port& port) {
+    const size_t before = problems_.size();
     PortWires wires{&port, {}, complaints_about(e, "port")};
     const JsonValue given = e.by ? e.by->json_for({.name = port.name, .type = ParamType::texts}) : *e.value;
     const auto expanded = expand_wires(given, substitution_, wires.diagnostics, draft_.named, draft_.unset);
     // An expression may leave the port open.
     if (port.optional && expanded && expanded->is_text() && expanded->text.empty() && !given.text.empty()) return;
     if (expanded) read_wires(wires, *expanded);
+    set_code(problems_, before, "wire");
     draft_.ports.push_back(std::move(wires));
   }
 

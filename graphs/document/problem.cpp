@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -43,6 +44,34 @@ std::string all_described(const std::string& file, const std::vector<Problem>& p
 
 }  // namespace
 
+const std::vector<std::string>& problem_codes() {
+  static const std::vector<std::string> codes = {
+      "syntax",     // no JSON, a name given twice, a version that is not known
+      "document",   // a key, a section, or the declaration of a parameter, preset, input or output
+      "override",   // --set, --preset, --params
+      "node",       // its name, its type, a loop, a subgraph
+      "parameter",  // a value of a node's parameter
+      "wire",       // a wire, or a port without one
+      "cycle",      // wires or expressions that go in a circle
+      "unset",      // a parameter or an input without a value
+      "input",      // what a source would read, or another node would refuse
+      "unused-parameter",
+      "unused-graph",
+      "unused-node",
+      "no-sink",
+      "conversion",
+      "doubt",  // allowed, and hardly meant
+  };
+  return codes;
+}
+
+void set_code(std::vector<Problem>& problems, size_t first, const std::string& code) {
+  if (std::ranges::find(problem_codes(), code) == problem_codes().end())
+    throw std::logic_error("no code of problems: " + code);
+  for (size_t i = first; i < problems.size(); i++)
+    if (problems[i].code.empty()) problems[i].code = code;
+}
+
 void set_file(std::vector<Problem>& problems, size_t first, const std::string& file) {
   for (size_t i = first; i < problems.size(); i++)
     if (problems[i].file.empty() && problems[i].place.line > 0) problems[i].file = file;
@@ -60,7 +89,7 @@ Problem problem_of(const GraphNode& node, const std::string& about, const std::s
   std::string where = fmt::format("node \"{}\" ({})", node.name, node.type->name);
   if (node.type->find_input(about)) where += fmt::format(", input \"{}\"{}", about, files(node, about, "made from "));
   if (node.type->find_param(about)) where += fmt::format(", parameter \"{}\"{}", about, files(node, about, ""));
-  return {node.place_of(about), where, message, node.name, node.file};
+  return {node.place_of(about), where, message, node.name, node.file, ""};
 }
 
 GraphError::GraphError(const std::string& file, std::vector<Problem> problems)

@@ -15,7 +15,14 @@ struct Problem {
   std::string message;  ///< what was expected, what was found, the nearest valid choice
   std::string node{};   ///< the node's name, if it is about one
   std::string file{};   ///< the file that `place` is in; empty: the document itself
+  std::string code{};   ///< its kind, for programs: see problem_codes
 };
+
+/// The kinds of problems and warnings: "syntax", "wire", "parameter", ...
+const std::vector<std::string>& problem_codes();
+
+/// Gives the problems from position `first` on this code, but for those that have one. It must be one of problem_codes.
+void set_code(std::vector<Problem>& problems, size_t first, const std::string& code);
 
 /// Tells the problems from position `first` on that their places are in this file.
 void set_file(std::vector<Problem>& problems, size_t first, const std::string& file);

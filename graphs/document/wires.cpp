@@ -125,7 +125,8 @@ class WireFollower {
 
   void from_input(const Level& level, const WireEnd& end) {
     if (!level.use) {
-      out_.open.insert(end.node);
+      const auto input = std::ranges::find(level.graph->inputs, end.node, &Port::name);
+      if (input != level.graph->inputs.end() && !input->optional) out_.open.insert(end.node);
       return;
     }
     // One that must be given and is not has been reported.
@@ -191,7 +192,7 @@ void connect_port(NodeDraft& draft, PortWires& port) {
                        found.wires.size()));
   } else if (!found.wires.empty()) {
     draft.node.inputs[port.port->name] = std::move(found.wires);
-  } else if (!port.port->optional && !found.open.empty()) {
+  } else if (!found.open.empty()) {
     draft.unset.merge(found.open);
   } else if (!port.port->optional) {
     const std::string use = draft.level->use ? draft.level->use->node.name : "";

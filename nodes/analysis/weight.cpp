@@ -45,6 +45,13 @@ NodeType weight_node() {
   t.persist = Persist::digest;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
+  t.doubts = [](const Params& params, const InputForecasts&) {
+    std::vector<std::string> out;
+    for (const auto& [name, weights] : std::get<NumberMap>(params.at("weights")))
+      if (std::ranges::all_of(weights, [](double w) { return w == 0; }))
+        out.push_back(fmt::format("\"weights\": the weight of {} is 0: nothing in it is looked at", name));
+    return out;
+  };
   t.preflight = [](const Params& params, const InputForecasts& inputs) {
     std::vector<std::string> weighted;
     for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) weighted.push_back(name);

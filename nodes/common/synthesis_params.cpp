@@ -193,6 +193,14 @@ void warn_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
                         describe(options.size), consequence, advice));
 }
 
+void warn_of_less_surface(NodeContext& node, const Index& index, Size result) {
+  const Size exemplar = index.appearance()->size();
+  const bool is_one_part = index.appearance()->repeats().parts.size() < 2;
+  if (is_one_part && result.width < exemplar.width && result.height < exemplar.height)
+    node.warn(fmt::format("the result, {}, shows less surface than the exemplar, {}; give it a larger size",
+                          describe(result), describe(exemplar)));
+}
+
 void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, bool all_expected) {
   constexpr size_t most_listed = 8;
   const std::vector<LatticePart>& parts = index.appearance()->repeats().parts;

@@ -41,6 +41,9 @@ void warn_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
 /// that are not shown although there is room.
 void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, bool all_expected);
 
+/// Warns if a result shows less surface than its exemplar, which is hardly what anyone wants.
+void warn_of_less_surface(NodeContext& node, const Index& index, Size result);
+
 /// A mask of a result: white where it does not show the kept pixels.
 ImagePtr new_pixels_mask(const UvMap& result, const KeptPixels& kept);
 

@@ -62,6 +62,22 @@ void compute(NodeContext& node) {
   node.output("image", blend_values(in, BlendMode(at - mode_names.begin()), node.flag("linear"), node.key()));
 }
 
+Forecast preflight(const Params&, const InputForecasts& inputs) {
+  const auto size_of = [&](const char* port) {
+    const auto wires = inputs.find(port);
+    const auto* sizes = wires == inputs.end() ? nullptr : &wires->second.front().sizes;
+    return sizes && sizes->contains("") ? std::optional(sizes->at("")) : std::nullopt;
+  };
+  const std::optional<Size> base = size_of("base");
+  for (const char* port : {"top", "mask"})
+    if (const auto size = size_of(port); size && base && *size != *base)
+      throw Error(port, fmt::format("expected the size of base, {}, found {}; resize brings one to the other",
+                                    describe(*base), describe(*size)));
+  Forecast out = inputs.at("base").front();
+  if (!base) out.sizes.clear();
+  return out;
+}
+
 }  // namespace
 
 NodeType blend_node() {
@@ -101,6 +117,7 @@ NodeType blend_node() {
        .help = "Colours stored as srgb_texture are blended in linear light; false blends stored values, as most "
                "paint programs do."}};
   t.persist = Persist::derived;
+  t.preflight = preflight;
   t.compute = compute;
   return t;
 }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "core/image/color.h"
 #include "nodes/common/color_space.h"
 #include "nodes/common/node_helpers.h"
@@ -21,6 +23,10 @@ std::vector<std::string> check(const Params& params) {
   std::vector<std::string> problems = color_space_problems(params, "to", "", config);
   for (std::string& p : color_space_problems(params, "from", "auto", config)) problems.push_back(std::move(p));
   return problems;
+}
+
+bool is_data(Semantic semantic) {
+  return semantic != Semantic::base_color && semantic != Semantic::emission && semantic != Semantic::specular;
 }
 
 }  // namespace
@@ -49,6 +55,14 @@ NodeType convert_color_node() {
   t.persist = Persist::digest;
   t.files_read = [](const Params& params) { return color_config_files(std::get<std::string>(params.at("config"))); };
   t.check = check;
+  t.doubts = [](const Params&, const InputForecasts& inputs) {
+    const std::optional<Semantic> semantic = inputs.at("image").front().semantic;
+    return semantic && is_data(*semantic)
+               ? Texts{fmt::format(
+                     "\"image\": a {} map holds {}, not colours; another colour space makes no sense of them",
+                     name_of(*semantic), *semantic == Semantic::normal ? "directions" : "values")}
+               : Texts{};
+  };
   t.compute = compute;
   return t;
 }

@@ -1,11 +1,28 @@
+#include "core/image/color.h"
+#include "nodes/common/color_space.h"
 #include "nodes/common/node_helpers.h"
 
 namespace terrazzo {
 
 namespace {
 
+/// The same value everywhere, in place of a map that the material lacks.
+ImagePtr constant(const NodeContext& node, Size size) {
+  const Numbers& value = node.numbers("otherwise");
+  ImageInfo info{.size = size, .channels = int(value.size())};
+  info.semantic = semantic_from(node.text("map")).value_or(Semantic::data);
+  info.color_space = assumed_color_space(info.semantic, Depth::u16);
+  const std::vector<float> pixel(value.begin(), value.end());
+  return Image::computed(info, node.key(), [pixel](const Rect& region, float* out) {
+    for (int64_t i = 0; i < region.area(); i++) out = std::copy(pixel.begin(), pixel.end(), out);
+  });
+}
+
 void compute(NodeContext& node) {
-  node.output("image", require_map("map", *node.input<Material>("material"), node.text("map")));
+  const auto material = node.input<Material>("material");
+  const std::string& map = node.text("map");
+  const bool is_lacking = !node.numbers("otherwise").empty() && !material->find(map);
+  node.output("image", is_lacking ? constant(node, material->size()) : require_map("map", *material, map));
 }
 
 }  // namespace
@@ -22,11 +39,24 @@ NodeType get_map_node() {
   t.outputs = {image_port("image", "the map")};
   t.params = {{.name = "map",
                .type = ParamType::text,
-               .help = "The map's name, such as base_color, normal, height or roughness."}};
+               .help = "The map's name, such as base_color, normal, height or roughness."},
+              {.name = "otherwise",
+               .type = ParamType::numbers,
+               .fallback = Numbers{},
+               .help = "The value, or one for each channel, of a map that the material may lack: [0] for metallic. "
+                       "Empty: it must have the map.",
+               .min = 0,
+               .max = 65504,
+               .max_count = 4}};
   t.persist = Persist::digest;
   t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    preflight_maps("map", {std::get<std::string>(params.at("map"))}, inputs.at("material").front());
-    return Forecast{};
+    const std::string& map = std::get<std::string>(params.at("map"));
+    const Forecast& material = inputs.at("material").front();
+    if (std::get<Numbers>(params.at("otherwise")).empty()) preflight_maps("map", {map}, material);
+    Forecast out;
+    out.semantic = semantic_from(map);
+    if (const auto size = material.sizes.find(map); size != material.sizes.end()) out.sizes[""] = size->second;
+    return out;
   };
   t.compute = compute;
   return t;

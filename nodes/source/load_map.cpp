@@ -5,6 +5,7 @@
 #include "core/image/image_ops.h"
 #include "core/node/node.h"
 #include "nodes/common/color_space.h"
+#include "nodes/common/exemplar_doubts.h"
 #include "nodes/common/node_helpers.h"
 
 namespace terrazzo {
@@ -87,11 +88,18 @@ NodeType load_map_node() {
   t.preflight = [](const Params& p, const InputForecasts&) {
     const std::string& path = std::get<std::string>(p.at("path"));
     require_readable_image(path);
+    Forecast out;
+    out.semantic = semantic_from(std::get<std::string>(p.at("semantic")));
     try {
-      return Forecast{.sizes = {{"", read_image_info(path).size}}};
+      out.sizes[""] = read_image_info(path).size;
     } catch (const Error&) {
-      return Forecast{};  // compute reports it
+      // compute reports it
     }
+    return out;
+  };
+  t.doubts = [](const Params& p, const InputForecasts&) {
+    const bool is_colour = std::get<std::string>(p.at("semantic")) == "base_color";
+    return is_colour ? doubts_about_colour("\"path\"", std::get<std::string>(p.at("path"))) : Texts{};
   };
   t.compute = compute;
   return t;

@@ -13,6 +13,7 @@
 #include "core/material/material_maps.h"
 #include "core/node/node.h"
 #include "nodes/common/color_space.h"
+#include "nodes/common/exemplar_doubts.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/source/material_folder.h"
 
@@ -192,6 +193,14 @@ Forecast preflight(const Params& params, const InputForecasts&) {
   return out;
 }
 
+Texts doubts(const Params& params, const InputForecasts&) {
+  Texts ignored_notes;
+  for (const RecognisedMap& m : find_maps(params, ignored_notes))
+    if (m.semantic == Semantic::base_color && m.channels.empty())
+      return doubts_about_colour("\"path\": " + m.file, folder_of(params) / m.file);
+  return {};
+}
+
 }  // namespace
 
 NodeType load_material_node() {
@@ -248,6 +257,7 @@ NodeType load_material_node() {
     return bytes;
   };
   t.preflight = preflight;
+  t.doubts = doubts;
   t.check = check;
   return t;
 }

@@ -40,6 +40,7 @@ void compute(NodeContext& node) {
                           : refine(*index, coarse ? *coarse : *coarse_uv(*index, options, node.task()), options,
                                    part.region, node.task());
   tell_of_parts(node, *index, *uv, part.is_whole());
+  warn_of_less_surface(node, *index, part.surface);
   node.output("uv", uv);
 }
 

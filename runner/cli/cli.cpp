@@ -239,6 +239,8 @@ int obey(int argc, const char* const* argv, ProgressMode mode) {
   Chosen chosen;
   add_run_command(app, chosen);
   add_synth_command(app, chosen);
+  add_new_command(app, chosen);
+  add_check_command(app, chosen);
   add_document_commands(app, chosen);
   add_node_commands(app, chosen);
   add_cache_command(app, chosen);

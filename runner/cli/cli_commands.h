@@ -34,6 +34,8 @@ using Chosen = std::function<int()>;
 
 void add_run_command(CLI::App& app, Chosen& chosen);
 void add_synth_command(CLI::App& app, Chosen& chosen);
+void add_check_command(CLI::App& app, Chosen& chosen);
+void add_new_command(CLI::App& app, Chosen& chosen);
 void add_document_commands(CLI::App& app, Chosen& chosen);
 void add_node_commands(CLI::App& app, Chosen& chosen);
 void add_cache_command(CLI::App& app, Chosen& chosen);

@@ -2,14 +2,29 @@
 
 #include <CLI/CLI.hpp>
 
+#include "graphs/document/pack.h"
+#include "graphs/document/read_document.h"
 #include "graphs/document/reference.h"
+#include "runner/cache/cache.h"
 
 namespace terrazzo {
+
+namespace {
+
+/// Where packs are unpacked.
+std::filesystem::path pack_folder() {
+  return Cache::default_folder() / "packs";
+}
+
+}  // namespace
 
 LoadedGraph GraphFlags::load(LoadOptions options) const {
   options.presets = presets;
   options.settings.assign(settings.begin(), settings.end());
-  return load_graph(graph, set, options);
+  if (!is_pack(graph)) return load_graph(graph, set, options);
+  const std::filesystem::path place = unpacked(graph, pack_folder());
+  options.settings.insert(options.settings.begin(), place / "settings.json");
+  return load_graph_text(read_document(place / "graph.json"), graph, set, options);
 }
 
 void add_graph_argument(CLI::App& command, GraphFlags& flags) {
@@ -31,7 +46,8 @@ std::string help_on_graph(const CLI::App& command) {
   const CLI::Option* graph = command.get_option_no_throw("GRAPH");
   if (!graph || graph->results().empty()) return "";
   const std::string& file = graph->results().front();
-  return graph_reference(file, read_interface(file));
+  return graph_reference(
+      file, read_interface(is_pack(file) ? unpacked(file, pack_folder()) / "graph.json" : std::filesystem::path(file)));
 }
 
 }  // namespace terrazzo

@@ -118,11 +118,13 @@ int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cach
     try {
       graph = load();
       watched.look_at(graph);
-      code = run_once(graph, flags, cache, cancelled);
+      watched.until_change(cancelled,
+                           [&](const std::atomic<bool>& stop) { code = run_once(graph, flags, cache, stop); });
     } catch (const Error& e) {
       write_error(mode, std::cerr, e);
     }
-    if (cancelled) return exit_cancelled;
+    if (cancelled && code == exit_cancelled) return code;
+    if (watched.has_changed()) continue;
     write_watching(mode, std::cerr, watched.count());
     if (!watched.wait_for_change(cancelled)) return code;
   }
@@ -145,9 +147,11 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
       .add_option("--memory", flags.memory, "Memory for running nodes, such as 2G; half of the machine's if not given")
       ->type_name("SIZE");
   command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
-  command.add_flag("--watch", flags.watch,
-                   "Run again whenever the graph file or a file that it reads changes. Ctrl-C ends it, with the exit "
-                   "code of the last run, or 130 if it interrupts one");
+  command.add_flag(
+      "--watch", flags.watch,
+      "Run again whenever the graph file or a file that it reads changes; a change while it runs starts it "
+      "anew. Ctrl-C ends it, with the exit "
+      "code of the last run, or 130 if it interrupts one");
   command.add_option("--report", flags.report, "Write a report with pictures")->type_name("FILE.html");
   command.add_option("--trace", flags.trace, "Write a timeline for chrome://tracing")->type_name("FILE.json");
   command.add_option("--progress", flags.progress, "auto, bar, plain, json, or none: nothing but warnings and errors")
@@ -184,8 +188,8 @@ int run_sweep(const GraphFlags& values, const SweepFlags& asked, const RunFlags&
           GraphFlags variation = values;
           variation.set.insert(variation.set.end(), overrides.begin(), overrides.end());
           LoadedGraph loaded = variation.load({.only = given.only, .look_ahead = preflight_of_nodes});
-          for (const std::string& w : loaded.warnings)
-            if (warned.insert(w).second) warn(flags, w);
+          for (const Problem& w : loaded.warnings)
+            if (const std::string text = describe(values.graph, w); warned.insert(text).second) warn(flags, text);
           return std::move(loaded.graph);
         });
         flags.keep = sweep.kept();
@@ -223,7 +227,7 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       return run_with_flags(
           [&] {
             LoadedGraph loaded = flags->values.load({.only = flags->only, .look_ahead = preflight_of_nodes});
-            for (const std::string& w : loaded.warnings) warn(*flags, w);
+            for (const Problem& w : loaded.warnings) warn(*flags, describe(flags->graph, w));
             return std::move(loaded.graph);
           },
           *flags);
@@ -264,7 +268,7 @@ bool same_folder(const std::string& a, const std::string& b) {
 void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
   struct Flags : RunFlags {
-    std::string folder, out, size, seed, quality, blend, join, format, tileable;
+    std::string folder, out, scale, size, seed, quality, blend, join, format, tileable;
     std::vector<std::string> set;
   };
   const auto flags = std::make_shared<Flags>();
@@ -274,7 +278,11 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
                    "The folder to write to; {material}, {width}, {height} and {map} are replaced")
       ->required()
       ->type_name("DIR");
-  synth->add_option("--size", flags->size, "The size of the result")->type_name("WxH");
+  synth
+      ->add_option("--scale", flags->scale,
+                   "The size of the result: how many times the exemplar in each direction; 2 if not given")
+      ->type_name("FACTOR");
+  synth->add_option("--size", flags->size, "The size of the result in pixels")->type_name("WxH")->excludes("--scale");
   synth->add_option("--seed", flags->seed, "Another number gives another arrangement")->type_name("N");
   synth->add_option("--quality", flags->quality, "draft, normal or best: draft is quick, best takes its time")
       ->type_name("LEVEL");
@@ -309,6 +317,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       const auto set_if_given = [&](const char* name, const char* parameter, const std::string& value) {
         if (!value.empty()) arguments.push_back({name, parameter, value});
       };
+      set_if_given("--scale", "scale", flags->scale);
       set_if_given("--size", "size", flags->size);
       set_if_given("--seed", "seed", flags->seed);
       set_if_given("--quality", "quality", flags->quality);

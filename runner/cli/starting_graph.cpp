@@ -1,6 +1,8 @@
 #include "runner/cli/starting_graph.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -28,42 +30,103 @@ void put(JsonValue& object, const std::string& name, JsonValue value) {
     object.members.push_back({name, {}, std::move(value)});
 }
 
-JsonValue weights_of(const Material& exemplar) {
-  JsonValue weights;
-  weights.kind = JsonValue::Kind::object;
-  for (const Map& m : exemplar.maps())
-    weights.members.push_back({m.name, {}, json_of(default_weight(m.image->info().semantic))});
-  return weights;
+/// The parameters for a folder that graphs have, of which the first is set.
+constexpr std::array<std::string_view, 3> folder_parameters = {"material", "first", "base"};
+
+JsonValue* folder_parameter(JsonValue& graph) {
+  JsonValue* parameters = graph.find("parameters");
+  for (const std::string_view name : folder_parameters)
+    if (JsonValue* found = parameters ? parameters->find(name) : nullptr) return found;
+  return nullptr;
+}
+
+/// Whether a map has one value everywhere: there is nothing in it to compare.
+bool is_constant(const Image& image) {
+  const int channels = image.channels();
+  std::array<float, 4> least, most;
+  least.fill(std::numeric_limits<float>::max());
+  most.fill(std::numeric_limits<float>::lowest());
+  for_each_strip(image, [&](const Rect& r, const float* v) {
+    for (int64_t i = 0; i < r.area() * channels; i++) {
+      least[i % channels] = std::min(least[i % channels], v[i]);
+      most[i % channels] = std::max(most[i % channels], v[i]);
+    }
+  });
+  for (int c = 0; c < channels; c++)
+    if (most[c] - least[c] > 1.5f / 255) return false;
+  return true;
 }
 
 void comment(JsonValue& value, const std::string& text) {
   value.comments_before.push_back("// " + text);
 }
 
+void weigh(JsonValue& weighted, const Material& exemplar) {
+  comment(weighted, "How much each map counts when neighbourhoods are compared; 0 leaves a map out.");
+  JsonValue weights;
+  weights.kind = JsonValue::Kind::object;
+  for (const Map& m : exemplar.maps()) {
+    const bool is_empty = is_constant(*m.image);
+    if (is_empty) comment(weighted, m.name + " is the same everywhere and is left out.");
+    weights.members.push_back({m.name, {}, json_of(is_empty ? 0.0 : default_weight(m.image->info().semantic))});
+  }
+  const bool all_are_empty =
+      std::ranges::all_of(weights.members, [](const JsonMember& m) { return m.value.number == 0; });
+  if (!all_are_empty) put(weighted, "weights", std::move(weights));
+}
+
+void tell_of_lattice(JsonValue& lattice, const ExemplarLook& look) {
+  for (const std::string& note : look.lattice_notes) comment(lattice, note);
+  if (look.repeats) {
+    comment(lattice, "Pieces move by whole steps of it. \"off\" lets them move freely: more variety, broken joints.");
+    return;
+  }
+  comment(lattice, "So none is looked for. \"auto\" looks again, \"manual\" takes one that you give.");
+  put(lattice, "mode", JsonValue::of("off"));
+}
+
+void tell_of_layout(JsonValue& layout, const ExemplarLook& look) {
+  comment(layout, "Another seed gives another variation; nothing before this node runs again for it.");
+  comment(layout, look.repeats
+                      ? "Jitter is left to the lattice: it moves pieces by whole steps, so that joints meet."
+                      : "Jitter is chosen by the exemplar's size: without a lattice, more gives more variety.");
+  comment(layout, "Where results repeat: raise evenness. Where they look torn: lower coherence, or less jitter.");
+}
+
 }  // namespace
 
-std::string starting_graph(const Material& exemplar, const std::filesystem::path& folder,
-                           const std::vector<std::string>& notes) {
-  ParsedJson parsed = parse_json(stock_graph("material"));
+std::string ExemplarLook::nature() const {
+  return repeats ? "it repeats in a lattice" : tiles ? "no lattice; it tiles" : "no lattice; it does not tile";
+}
+
+bool takes_a_folder(std::string_view graph) {
+  ParsedJson parsed = parse_json(graph);
+  return parsed.value && !parsed.value->find("inputs") && folder_parameter(*parsed.value);
+}
+
+std::string starting_graph(const ExemplarLook& look, std::string_view stock) {
+  ParsedJson parsed = parse_json(stock);
   if (!parsed.value) throw std::logic_error("the stock graph is no JSON");
   JsonValue& graph = *parsed.value;
   // A default is taken as it is: "$" and "@" mean nothing in it.
-  put(member(member(graph, "parameters"), "material"), "default", JsonValue::of(folder.generic_string()));
+  put(*folder_parameter(graph), "default", JsonValue::of(look.folder.generic_string()));
 
   JsonValue& nodes = member(graph, "nodes");
-  JsonValue& exemplar_node = member(nodes, "exemplar");
-  comment(exemplar_node, "What was found in " + folder.generic_string() + ":");
-  for (const Map& m : exemplar.maps())
-    comment(exemplar_node, fmt::format("  {}: {}x{}, {}", m.name, m.image->width(), m.image->height(),
-                                       counted(m.image->channels(), "channel")));
-  for (const std::string& note : notes) comment(exemplar_node, "  " + note);
-
-  JsonValue& weighted = member(nodes, "weighted");
-  comment(weighted, "How much each map counts when neighbourhoods are compared; 0 leaves a map out.");
-  put(weighted, "weights", weights_of(exemplar));
-  comment(member(nodes, "guides"),
-          "Edges keep features such as joints and cracks whole. `terrazzo nodes guidance` says more.");
-  comment(member(nodes, "layout"), "Another seed gives another variation; nothing before this node runs again for it.");
+  if (nodes.members.empty()) return formatted(graph);
+  JsonValue& first = nodes.members.front().value;
+  comment(first, "What was found in " + look.folder.generic_string() + ":");
+  for (const Map& m : look.exemplar->maps())
+    comment(first, fmt::format("  {}: {}x{}, {}", m.name, m.image->width(), m.image->height(),
+                               counted(m.image->channels(), "channel")));
+  for (const std::string& note : look.notes) comment(first, "  " + note);
+  // Graphs of several exemplars compare maps that they share.
+  const bool is_of_one = nodes.find("exemplar") && !nodes.find("all");
+  if (JsonValue* weighted = nodes.find("weighted"); weighted && is_of_one) weigh(*weighted, *look.exemplar);
+  if (JsonValue* guides = nodes.find("guides"))
+    comment(*guides, "Edges keep features such as joints and cracks whole. `terrazzo nodes guidance` says more.");
+  if (JsonValue* lattice = nodes.find("lattice"); lattice && is_of_one) tell_of_lattice(*lattice, look);
+  if (JsonValue* layout = nodes.find("layout"); layout && layout->find("type")->text == "synthesize")
+    tell_of_layout(*layout, look);
   return formatted(graph);
 }
 

@@ -2,15 +2,31 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/material/material.h"
 
 namespace terrazzo {
 
-/// The stock graph for this exemplar, with comments on the maps found and what is worth changing. `folder`: of the
-/// maps, as written to the graph; `notes`: of load_material.
-std::string starting_graph(const Material& exemplar, const std::filesystem::path& folder,
-                           const std::vector<std::string>& notes);
+/// What has been found out about an exemplar.
+struct ExemplarLook {
+  MaterialPtr exemplar;
+  std::filesystem::path folder;            ///< of its maps, as a graph should name it
+  std::vector<std::string> notes;          ///< of load_material
+  std::vector<std::string> lattice_notes;  ///< of regularity
+  bool repeats = false;                    ///< a lattice was found
+  bool tiles = false;                      ///< opposite borders fit
+
+  /// A sentence on what kind of exemplar it is.
+  std::string nature() const;
+};
+
+/// Whether a graph has a parameter for the folder of an exemplar, and is none that is a node of others.
+bool takes_a_folder(std::string_view graph);
+
+/// A stock graph for this exemplar: its folder, weights, and whether a lattice is looked for, with comments on what was
+/// found, what was chosen and why, and what is worth changing.
+std::string starting_graph(const ExemplarLook& look, std::string_view stock);
 
 }  // namespace terrazzo

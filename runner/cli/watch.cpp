@@ -2,9 +2,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <thread>
 
 namespace terrazzo {
+
+namespace {
+
+constexpr std::chrono::milliseconds pause(100);  // between two looks
+
+}  // namespace
 
 Watch::Look Watch::look(const std::filesystem::path& path) {
   std::error_code missing;
@@ -36,18 +44,30 @@ void Watch::look_again() {
   for (auto& [path, seen] : seen_) seen = look(path);
 }
 
-bool Watch::wait_for_change(const std::atomic<bool>& cancelled) {
-  const auto changed = [&] {
-    return std::any_of(seen_.begin(), seen_.end(), [](const auto& s) { return look(s.first) != s.second; });
-  };
-  while (!changed()) {
-    // In short naps, so that cancelling is noticed soon.
-    for (int i = 0; i < 10; i++) {
-      if (cancelled) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
+bool Watch::has_changed() const {
+  return std::any_of(seen_.begin(), seen_.end(), [](const auto& s) { return look(s.first) != s.second; });
+}
+
+bool Watch::wait_for_change(const std::atomic<bool>& cancelled) const {
+  while (!has_changed()) {
+    if (cancelled) return false;
+    std::this_thread::sleep_for(pause);
   }
   return true;
+}
+
+void Watch::until_change(const std::atomic<bool>& cancelled,
+                         const std::function<void(const std::atomic<bool>& stop)>& work) const {
+  std::atomic<bool> stop = false;
+  const std::jthread guard([&](const std::stop_token& over) {
+    std::mutex mutex;
+    std::condition_variable_any ended;
+    std::unique_lock lock(mutex);
+    do {
+      if (cancelled || has_changed()) stop = true;
+    } while (!stop && !ended.wait_for(lock, over, pause, [&] { return over.stop_requested(); }));
+  });
+  work(stop);
 }
 
 }  // namespace terrazzo

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <map>
 
 #include "graphs/document/graph.h"
@@ -15,8 +16,13 @@ class Watch {
   void look_at(const Graph& graph);
   /// Takes the files as they are now: only what changes from here on counts.
   void look_again();
-  /// Waits until one of them changes, appears or disappears; polls twice a second. False once `cancelled` is set.
-  bool wait_for_change(const std::atomic<bool>& cancelled);
+  /// Whether one of them has changed, appeared or disappeared.
+  bool has_changed() const;
+  /// Waits until that is so; looks ten times a second. False once `cancelled` is set.
+  bool wait_for_change(const std::atomic<bool>& cancelled) const;
+  /// Runs `work` and sets the flag that it gets as soon as there is a change or `cancelled` is set.
+  void until_change(const std::atomic<bool>& cancelled,
+                    const std::function<void(const std::atomic<bool>& stop)>& work) const;
   size_t count() const { return seen_.size(); }
 
  private:

@@ -105,4 +105,27 @@ std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes) {
   return Foresight().look(all);
 }
 
+std::vector<Problem> doubts_about(const Graph& graph) {
+  std::vector<Problem> out;
+  Forecasts forecasts;
+  for (const GraphNode& node : graph.nodes) {
+    if (node.is_open) continue;
+    try {
+      forecasts.add(node);
+    } catch (const Error&) {
+      continue;  // has been reported as a problem
+    }
+    if (!node.type->doubts) continue;
+    for (const std::string& message : node.type->doubts(node.params, forecasts.inputs_of(node))) {
+      // Where the parameter or port stands that a message begins with, in quotes.
+      const size_t end = message.find('"', 1);
+      const bool is_about = message.starts_with('"') && end != message.npos;
+      out.push_back(problem_of(node, "", message));
+      out.back().place = node.place_of(is_about ? message.substr(1, end - 1) : "");
+    }
+  }
+  set_code(out, 0, "doubt");
+  return out;
+}
+
 }  // namespace terrazzo

@@ -14,4 +14,7 @@ std::vector<Problem> preflight_problems(const Plan& plan);
 /// The same for nodes of a document that cannot be planned, see LoadOptions.
 std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes);
 
+/// What is allowed in a checked graph and hardly meant (see NodeType::doubts).
+std::vector<Problem> doubts_about(const Graph& graph);
+
 }  // namespace terrazzo

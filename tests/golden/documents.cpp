@@ -49,6 +49,9 @@ std::vector<GoldenDocument> stock_documents() {
       stock("progression", {"material={in}/blend", "target={in}/ramp.png", small}),
       stock("transfer", {"material={in}/blend", "target={in}/ramp.png", small, "strength=3"}),
       stock("magnify", {wall, "analysed=0.5", "size=40x36"}),
+      stock("engine", {wall, "engine=unity_hdrp", "scale=1.2"}),
+      stock("engine", {"material={in}/photo", "make=tileable", "engine=godot"}, "tileable"),
+      stock("layered", {"base={in}/wall", "top={in}/wall2", small}),
       stock("analyse", {wall}),
       stock("from_analysis", {"analysis={in}/../out/analyse.analysis", wall, small}),
   };

@@ -16,7 +16,7 @@ void write_picture(const fs::path& path, int step, Semantic semantic, Size size)
 }
 
 Workplace::Workplace() {
-  write_picture(path / "photo.png", 5);
+  write_picture(path / "photo.png", 37);
   write_text(path / "soft.json", R"({
   "terrazzo": 1,
   "summary": "A blurred picture",

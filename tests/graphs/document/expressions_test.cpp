@@ -118,7 +118,7 @@ TEST_CASE("a parameter that only another one uses is used") {
           R"(, "w": {"type": "gather", "images": "@b"}, "f": {"type": "write", "material": "@w", "path": "x"})",
       parameters));
   REQUIRE(loaded.warnings.size() == 1);
-  CHECK(loaded.warnings.front().find("parameter \"c\": no node uses it") != std::string::npos);
+  CHECK(describe("", loaded.warnings.front()).find("parameter \"c\": no node uses it") != std::string::npos);
 }
 
 TEST_CASE("sizes of sources are known to expressions before anything runs") {

@@ -189,7 +189,7 @@ TEST_CASE("an image that becomes a material is shown") {
   const LoadedGraph loaded =
       load_fake(document(photo_a + R"(, "out": {"type": "write", "material": "@a", "path": "o"})"));
   REQUIRE(loaded.conversions.size() == 1);
-  CHECK(loaded.conversions[0] ==
+  CHECK(describe("/project/graphs/test.json", loaded.conversions[0]) ==
         "/project/graphs/test.json:1:128: node \"out\", port \"material\": the image of \"@a\" becomes a material of "
         "one map");
 }
@@ -199,11 +199,11 @@ TEST_CASE("what nothing uses is a warning") {
   const LoadedGraph loaded = load_fake(document(photo_a + R"(, "b": {"type": "adjust", "image": "@a"})" + sink,
                                                 R"("seed": {"type": "int", "default": 1})"));
   REQUIRE(loaded.warnings.size() == 2);
-  CHECK(loaded.warnings[0].ends_with("parameter \"seed\": no node uses it"));
-  CHECK(loaded.warnings[1].ends_with("node \"b\": no sink reads it; it will not run"));
+  CHECK(describe("", loaded.warnings[0]).ends_with("parameter \"seed\": no node uses it"));
+  CHECK(describe("", loaded.warnings[1]).ends_with("node \"b\": no sink reads it; it will not run"));
   const LoadedGraph idle = load_fake(document(photo_a));
   REQUIRE(idle.warnings.size() == 1);
-  CHECK(idle.warnings[0].ends_with("no node is a sink: a run writes nothing"));
+  CHECK(describe("", idle.warnings[0]).ends_with("no node is a sink: a run writes nothing"));
 }
 
 TEST_CASE("a graph can be looked at before its parameters are set") {

@@ -247,5 +247,5 @@ TEST_CASE("seeds come from the path, so that two uses of a subgraph have differe
 TEST_CASE("a graph that nothing uses is a warning") {
   const LoadedGraph loaded = load_fake(with_twice(R"("b": {"type": "adjust", "image": "@a"})" + written));
   REQUIRE(loaded.warnings.size() == 1);
-  CHECK(loaded.warnings.front().ends_with("graph \"twice\": no node is of this type"));
+  CHECK(describe("", loaded.warnings.front()).ends_with("graph \"twice\": no node is of this type"));
 }

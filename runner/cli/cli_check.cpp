@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <map>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "graphs/document/read_document.h"
+#include "runner/cli/cli_commands.h"
+#include "runner/cli/cli_graph.h"
+#include "runner/cli/console.h"
+#include "runner/engine/preflight.h"
+#include "runner/engine/schedule.h"
+
+namespace terrazzo {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CheckFlags : GraphFlags {
+  bool json = false;
+};
+
+/// What a check has found.
+struct Findings {
+  std::vector<Problem> errors, warnings, notes;
+  size_t nodes = 0, parameters = 0;
+};
+
+/// Looks ahead as far as nothing depends on a parameter, or an input, that is not set.
+void check_what_is_set(const Graph& graph) {
+  std::vector<GraphNode> complete;
+  for (const GraphNode& n : graph.nodes)
+    if (n.params.size() == n.type->params.size() && !n.is_open) complete.push_back(n);
+  if (std::vector<Problem> problems = preflight_of_nodes(complete); !problems.empty())
+    throw GraphError(graph.file.string(), std::move(problems));
+}
+
+/// Throws GraphError.
+Findings look_at(const CheckFlags& flags) {
+  Findings out;
+  LoadedGraph loaded = flags.load({.allow_unset = true, .look_ahead = preflight_of_nodes});
+  out.nodes = loaded.graph.nodes.size();
+  out.parameters = loaded.parameters.size();
+  out.warnings = std::move(loaded.warnings);
+  out.notes = std::move(loaded.conversions);
+  const auto unset = std::ranges::find_if(loaded.parameters, [](const GraphParameter& p) { return !p.value; });
+  const auto note = [&](const std::string& message) { out.notes.push_back({{}, "", message, "", "", "unset"}); };
+  if (unset != loaded.parameters.end()) {
+    check_what_is_set(loaded.graph);
+    note(fmt::format("nodes that depend on an unset parameter were not checked: --set {}=VALUE", unset->param.name));
+  } else if (!loaded.inputs.empty()) {
+    check_what_is_set(loaded.graph);
+    note("nodes that depend on the graph's inputs were checked only as far as that goes without them");
+  } else {
+    make_plan(loaded.graph, nullptr);
+  }
+  for (Problem& p : doubts_about(loaded.graph)) out.warnings.push_back(std::move(p));
+  return out;
+}
+
+/// The JSON pointers to places, in the graph file and in others.
+class Pointers {
+ public:
+  std::string to(const std::string& file, Place place) {
+    if (place.line == 0) return "";
+    const auto [at, is_new] = documents_.try_emplace(file);
+    if (is_new) {
+      try {
+        at->second = parse_json(read_document(file)).value;
+      } catch (const Error&) {
+        // a graph that comes with the program
+      }
+    }
+    return at->second ? pointer_to(*at->second, place) : "";
+  }
+
+ private:
+  std::map<std::string, std::optional<JsonValue>> documents_;
+};
+
+void add_to(Json& list, const std::vector<Problem>& problems, const char* severity, const std::string& graph,
+            Pointers& pointers) {
+  for (const Problem& p : problems) {
+    const std::string& file = p.file.empty() ? graph : p.file;
+    Json entry = {{"severity", severity}, {"code", p.code}, {"file", file}};
+    if (p.place.line > 0) {
+      entry["line"] = p.place.line;
+      entry["column"] = p.place.column;
+      entry["pointer"] = pointers.to(file, p.place);
+    }
+    if (!p.node.empty()) entry["node"] = p.node;
+    entry["message"] = p.where.empty() ? p.message : p.where + ": " + p.message;
+    list.push_back(std::move(entry));
+  }
+}
+
+void answer_json(const CheckFlags& flags, const Findings& found) {
+  Json problems = Json::array();
+  Pointers pointers;
+  add_to(problems, found.errors, "error", flags.graph, pointers);
+  add_to(problems, found.warnings, "warning", flags.graph, pointers);
+  add_to(problems, found.notes, "note", flags.graph, pointers);
+  const Json out = {{"graph", flags.graph},
+                    {"valid", found.errors.empty()},
+                    {"nodes", found.nodes},
+                    {"parameters", found.parameters},
+                    {"problems", std::move(problems)}};
+  answer("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+int check(const CheckFlags& flags) {
+  if (flags.json) {
+    Findings found;
+    try {
+      found = look_at(flags);
+    } catch (const GraphError& e) {
+      found.errors = e.problems();
+    }
+    answer_json(flags, found);
+    return found.errors.empty() ? exit_done : exit_usage;
+  }
+  const Findings found = look_at(flags);
+  for (const Problem& n : found.notes)
+    if (n.place.line > 0) answer("note: {}\n", describe(flags.graph, n));
+  for (const Problem& w : found.warnings) say("warning: {}\n", describe(flags.graph, w));
+  for (const Problem& n : found.notes)
+    if (n.place.line == 0) say("note: {}\n", n.message);
+  answer("{} is valid: {}, {}\n", flags.graph, counted(int64_t(found.nodes), "node"),
+         counted(int64_t(found.parameters), "parameter"));
+  return exit_done;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("check", "Checks a graph file without running it");
+  command->footer(
+      "Reports every mistake at once, with line and column: in the file, in the sources and maps it refers to,\n"
+      "and in the paths it would write to. Warns of what is allowed and hardly meant.\n"
+      "Examples:\n"
+      "  terrazzo check bricks.json\n"
+      "  terrazzo check bricks.json --set material=bricks/ --json");
+  const auto flags = std::make_shared<CheckFlags>();
+  add_graph_argument(*command, *flags);
+  add_value_flags(*command, *flags);
+  command->add_flag("--json", flags->json,
+                    "Print all problems as JSON: severity, code, file, line, column, JSON pointer, node, message");
+  command->callback([&chosen, flags] { chosen = [flags] { return check(*flags); }; });
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,109 @@
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "core/base/suggest.h"
+#include "core/exemplar/features.h"
+#include "core/file/atomic_file.h"
+#include "graphs/document/problem.h"
+#include "graphs/document/stock_graphs.h"
+#include "runner/cli/cli_commands.h"
+#include "runner/cli/console.h"
+#include "runner/cli/signals.h"
+#include "runner/cli/starting_graph.h"
+#include "runner/engine/memory_graph.h"
+#include "runner/engine/schedule.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewFlags {
+  std::string folder;
+  std::string out;
+  std::string like = "material";
+  bool force = false;
+};
+
+/// The folder as a graph file in `beside` should name it.
+fs::path seen_from(const fs::path& beside, const fs::path& folder) {
+  const fs::path relative =
+      fs::absolute(folder).lexically_normal().lexically_relative(fs::absolute(beside).lexically_normal());
+  return relative.empty() ? fs::absolute(folder) : relative;
+}
+
+RunResult run_on_folder(const Graph& graph, const RunOptions& options, const std::string& folder) {
+  try {
+    return run_graph(graph, options);
+  } catch (const GraphError& e) {
+    std::vector<Problem> problems;
+    for (const Problem& p : e.problems()) problems.push_back({{}, "FOLDER", for_command_line(p.message, folder)});
+    throw GraphError("", std::move(problems));
+  }
+}
+
+/// The exemplar with the search for what repeats in it.
+Graph looking_graph(const std::string& folder) {
+  Graph graph;
+  graph.nodes = {memory_node("exemplar", "load_material", {{"path", fs::absolute(folder).string()}}),
+                 memory_node("weighted", "weight", {}), memory_node("lattice", "regularity", {})};
+  graph.nodes[1].inputs["material"] = {{"exemplar", "material"}};
+  graph.nodes[2].inputs["features"] = {{"weighted", "features"}};
+  return graph;
+}
+
+void require_stock_graph(const NewFlags& flags) {
+  std::vector<std::string> names;
+  for (const StockGraph& g : stock_graphs())
+    if (takes_a_folder(g.text)) names.emplace_back(g.name);
+  if (std::ranges::find(names, flags.like) == names.end())
+    throw UsageError(fmt::format("--like {}: there is no stock graph of that name that takes a folder of maps{}",
+                                 flags.like, suggestion(flags.like, names)));
+}
+
+int make_new(const NewFlags& flags) {
+  if (!flags.force && fs::exists(flags.out))
+    throw UsageError(fmt::format("{} exists; --force overwrites it", flags.out));
+  require_stock_graph(flags);
+  const CancelOnSignal signals;
+  const Graph graph = looking_graph(flags.folder);
+  RunOptions options;
+  options.targets.keep = {"exemplar", "lattice"};
+  options.cancelled = &signals.flag();
+  const RunResult result = run_on_folder(graph, options, flags.folder);
+  for (const Failure& f : result.failures) say("error: {}\n", f.message);
+  if (!result.ok()) return result.cancelled ? exit_cancelled : exit_failed;
+  const auto features = std::get<FeaturesPtr>(result.kept.at("lattice").at("features"));
+  ExemplarLook look{.exemplar = std::get<MaterialPtr>(result.kept.at("exemplar").at("material")),
+                    .folder = seen_from(fs::absolute(flags.out).parent_path(), flags.folder),
+                    .notes = result.stages[0].notes,
+                    .lattice_notes = result.stages[2].notes,
+                    .repeats = features->repeats().lattice.rank > 0,
+                    .tiles = features->wraps()};
+  write_whole_file(flags.out, starting_graph(look, stock_graph(flags.like)));
+  say("found {}\n{}\nwrote {}\n", look.exemplar->map_names(), look.nature(), flags.out);
+  return exit_done;
+}
+
+}  // namespace
+
+void add_new_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("new", "Writes a graph to start from, for the maps found in a folder");
+  const auto flags = std::make_shared<NewFlags>();
+  command->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
+  command->add_option("-o,--out", flags->out, "The graph file to write")->required()->type_name("FILE.json");
+  command->add_option("--like", flags->like, "The stock graph (graphs/NAME.json) to begin with; material if not given")
+      ->type_name("NAME");
+  command->add_flag("--force", flags->force, "Overwrite the graph file if it exists");
+  command->footer(
+      "It looks at the maps, weights them, looks for what repeats, and says in comments what it chose and why.\n"
+      "Examples:\n"
+      "  terrazzo new bricks/ -o bricks.json && terrazzo run bricks.json\n"
+      "  terrazzo new bricks/ -o tiling.json --like make_tileable");
+  command->callback([&chosen, flags] { chosen = [flags] { return make_new(*flags); }; });
+}
+
+}  // namespace terrazzo
