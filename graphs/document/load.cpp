@@ -104,6 +104,7 @@ class Loader {
       }
     out.graph.made_from = subgraphs_.files();
     out.graph.made_from.insert(out.graph.made_from.end(), levels_.made_from().begin(), levels_.made_from().end());
+    out.graph.settings = settings_of(parameters);
     out.parameters = std::move(parameters);
     return out;
   }
