@@ -63,7 +63,7 @@ std::string json_in_script(const std::string& json) {
 
 std::string sortable_table(const std::vector<std::vector<std::string>>& rows) {
   if (rows.empty()) return "";
-  std::string out = "<div class=\"scroll\"><table class=\"sortable\">\n<thead><tr>";
+  std::string out = "<div class=\"scroll long\"><table class=\"sortable\">\n<thead><tr>";
   for (const std::string& name : rows.front()) out += fmt::format("<th>{}</th>", markup(name));
   out += "</tr></thead>\n<tbody>\n";
   for (size_t i = 1; i < rows.size(); i++) {
@@ -77,7 +77,7 @@ std::string sortable_table(const std::vector<std::vector<std::string>>& rows) {
 std::string report_html(const Report& report, PagePictures& pictures, int longest) {
   std::string out;
   if (!report.figures().empty()) {
-    out += fmt::format("<h3>{}</h3>\n<div class=\"scroll\"><table class=\"figures\">\n", markup(report.title()));
+    out += "<div class=\"scroll\"><table class=\"figures\">\n";
     for (const Report::Figure& f : report.figures()) out += figure_row(f);
     out += "</table></div>\n";
   }

@@ -30,7 +30,7 @@ std::string json_in_script(const std::string& json);
 /// A table of texts, the first row its head; a click on a head sorts by it. Rows are numbered in `data-row`.
 std::string sortable_table(const std::vector<std::vector<std::string>>& rows);
 
-/// A report's figures with bars, then its pictures.
+/// A report's figures with bars, then its pictures; its title is left to the caller.
 std::string report_html(const Report& report, PagePictures& pictures, int longest);
 
 }  // namespace terrazzo

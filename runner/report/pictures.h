@@ -41,6 +41,8 @@ class PagePictures {
   std::string add(const ImagePtr& image, int longest);
   const PagePicture& operator[](const std::string& id) const { return pictures_.at(id).picture; }
 
+  /// Whether `figure` has been called for it.
+  bool is_shown(const std::string& id) const { return pictures_.at(id).on_page; }
   /// The picture as HTML, with a caption; a click shows it at full size. If it is on the page already, a copy that the
   /// page's script fills.
   std::string figure(const std::string& id, const std::string& caption);

@@ -42,6 +42,7 @@ Json parameters_json(const GraphNode& node) {
     const Param* param = node.type->find_param(name);
     out.push_back({{"name", name},
                    {"value", json_from(value)},
+                   {"text", text_of(value)},
                    {"unit", param ? param->unit : ""},
                    {"default", is_default(node, name, value)},
                    {"help", param ? param->help : ""}});
@@ -66,7 +67,7 @@ Json node_json(const Stage& stage, const StageOutcome& outcome, const std::vecto
           {"summary", node.type->summary},
           {"comment", node.comment},
           {"state", what_it_did(stage, outcome)},
-          {"reason", stage.reason},
+          {"reason", reason_of(stage, outcome)},
           {"seconds", outcome.seconds},
           {"parameters", parameters_json(node)},
           {"inputs", inputs_json(node)},
@@ -93,6 +94,10 @@ std::string_view what_it_did(const Stage& stage, const StageOutcome& outcome) {
   if (!stage.needed) return "not needed";
   if (outcome.kind == StageOutcome::Kind::reused && stage.type().is_sink()) return "up to date";
   return names[static_cast<size_t>(outcome.kind)];
+}
+
+const std::string& reason_of(const Stage& stage, const StageOutcome& outcome) {
+  return outcome.reason.empty() ? stage.reason : outcome.reason;
 }
 
 std::string settings_text(const GraphNode& node) {

@@ -12,6 +12,9 @@ namespace terrazzo {
 /// What a stage did, in one or two words: "run", "cached", "up to date", "failed", "not run", "not needed".
 std::string_view what_it_did(const Stage& stage, const StageOutcome& outcome);
 
+/// Why, as the run found out or the plan foresaw.
+const std::string& reason_of(const Stage& stage, const StageOutcome& outcome);
+
 /// Parameters of a node that are not what they are if nobody sets them, as "size 512x512, seed 7".
 std::string settings_text(const GraphNode& node);
 

@@ -18,6 +18,7 @@ namespace {
 constexpr int material_side = 1024, other_side = 512, report_side = 1600;
 /// Of each kind; of a sweep there may be hundreds.
 constexpr size_t most_materials = 4;
+constexpr size_t most_nodes = 24;
 
 size_t image_count(const RunResult& result) {
   size_t count = 0;
@@ -94,29 +95,40 @@ std::string RunPage::warnings() const {
   for (const StageOutcome& s : result_.stages)
     for (const std::string& n : s.notes)
       if (is_warning(n)) out += fmt::format("<p class=\"failed\">{}: {}</p>\n", markup(s.node), markup(n));
+  if (left_out_ > 0)
+    out += fmt::format("<p class=\"quiet\">This page shows what the first nodes gave; that of {} is left out.</p>\n",
+                       counted(left_out_, "more node"));
   return out;
 }
 
-void RunPage::add_picture(const std::string& node, const std::string& caption, const ImagePtr& image, int longest) {
-  by_node_[node].push_back({pictures_.add(image, longest), caption});
+NamedPicture RunPage::add_picture(const std::string& node, const std::string& caption, const ImagePtr& image,
+                                  int longest) {
+  NamedPicture picture{pictures_.add(image, longest), caption};
+  std::vector<NamedPicture>& all = by_node_[node];
+  if (std::ranges::find(all, picture.id, &NamedPicture::id) == all.end()) all.push_back(picture);
+  return picture;
 }
 
 void RunPage::add_materials(const std::vector<ShownMaterial>& materials, const std::string& kind) {
   for (const ShownMaterial& shown : materials) {
-    LitMaterial lit{fmt::format("{} ({})", shown.node, kind), shown.material, {}};
+    LitMaterial lit{shown.node == kind ? kind : fmt::format("{} ({})", shown.node, kind), shown.material, {}};
     for (const Map& m : shown.material->maps()) {
-      add_picture(shown.node, m.name, m.image, side_);
-      lit.maps.try_emplace(std::string(name_of(m.image->info().semantic)), by_node_[shown.node].back().id);
+      const NamedPicture picture = add_picture(shown.node, m.name, m.image, side_);
+      lit.maps.try_emplace(std::string(name_of(m.image->info().semantic)), picture.id);
     }
     if (can_be_lit(*shown.material)) lit_.push_back(std::move(lit));
   }
 }
 
-/// What was kept besides, in the graph's order.
+/// What was kept besides, in the graph's order; of a sweep only the first.
 void RunPage::add_values() {
   for (const StageOutcome& s : result_.stages) {
     const auto kept = result_.kept.find(s.node);
     if (kept == result_.kept.end() || by_node_.contains(s.node)) continue;
+    if (by_node_.size() >= most_nodes) {
+      left_out_++;
+      continue;
+    }
     for (const auto& [port, value] : kept->second)
       add_value(s.node, kept->second.size() > 1 ? s.node + "." + port : s.node, value);
   }
@@ -125,18 +137,15 @@ void RunPage::add_values() {
 void RunPage::add_value(const std::string& node, const std::string& caption, const Value& value) {
   const int side = std::min(side_, other_side);
   if (const ImagePtr* image = std::get_if<ImagePtr>(&value)) {
-    add_picture(node, caption, *image, side);
-    others_.push_back(by_node_[node].back());
+    others_.push_back(add_picture(node, caption, *image, side));
   } else if (const MaterialPtr* material = std::get_if<MaterialPtr>(&value)) {
-    for (const Map& m : (*material)->maps()) {
-      add_picture(node, caption + ": " + m.name, m.image, side);
-      others_.push_back(by_node_[node].back());
-    }
+    for (const Map& m : (*material)->maps())
+      others_.push_back(add_picture(node, caption + ": " + m.name, m.image, side));
   } else if (const UvMapPtr* uv = std::get_if<UvMapPtr>(&value)) {
-    add_picture(node, caption, uv_in_colours(**uv, side), side);
-    uv_maps_.push_back(by_node_[node].back());
+    uv_maps_.push_back(add_picture(node, caption, uv_in_colours(**uv, side), side));
   } else if (const ReportPtr* report = std::get_if<ReportPtr>(&value)) {
     reports_.emplace_back(node, *report);
+    for (const Report::Picture& p : (*report)->pictures()) add_picture(node, p.name, p.image, report_side);
   }
 }
 
@@ -226,7 +235,8 @@ std::string RunPage::settings() const {
 
 std::string RunPage::figures() {
   std::string out;
-  for (const auto& [node, report] : reports_) out += report_html(*report, pictures_, report_side);
+  for (const auto& [node, report] : reports_)
+    out += fmt::format("<h3>{}</h3>\n{}", markup(report->title()), report_html(*report, pictures_, report_side));
   return out;
 }
 
@@ -241,10 +251,10 @@ std::string RunPage::uv_maps() {
 }
 
 std::string RunPage::other_pictures() {
-  if (others_.empty()) return "";
   std::string out;
-  for (const NamedPicture& p : others_) out += pictures_.figure(p.id, p.caption);
-  return "<div class=\"gallery\">\n" + out + "</div>\n";
+  for (const NamedPicture& p : others_)
+    if (!pictures_.is_shown(p.id)) out += pictures_.figure(p.id, p.caption);
+  return out.empty() ? "" : "<div class=\"gallery\">\n" + out + "</div>\n";
 }
 
 std::string RunPage::stages() const {
@@ -260,7 +270,7 @@ std::string RunPage::stages() const {
         "class=\"quiet\">{}</td></tr>\n",
         s.kind == StageOutcome::Kind::failed ? " class=\"failed\"" : "", markup(s.node), markup(stage.type().name),
         what_it_did(stage, s), s.kind == StageOutcome::Kind::run ? fmt::format("{:.2f}", s.seconds) : "",
-        markup(stage.reason), markup(settings_text(*stage.node)));
+        markup(reason_of(stage, s)), markup(settings_text(*stage.node)));
   }
   return out + "</tbody></table></div>\n";
 }

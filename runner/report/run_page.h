@@ -34,7 +34,7 @@ class RunPage {
   void add_materials(const std::vector<ShownMaterial>& materials, const std::string& kind);
   void add_values();
   void add_value(const std::string& node, const std::string& caption, const Value& value);
-  void add_picture(const std::string& node, const std::string& caption, const ImagePtr& image, int longest);
+  NamedPicture add_picture(const std::string& node, const std::string& caption, const ImagePtr& image, int longest);
   std::string map_picture(const ShownMaterial& shown, const std::string& map);
   std::string histogram(const std::string& map) const;
 
@@ -42,7 +42,8 @@ class RunPage {
   const RunResult& result_;
   const ShownMaterials materials_;
   PagePictures pictures_;
-  int side_ = 0;  ///< of pictures of exemplars and results
+  int left_out_ = 0;  ///< nodes whose values the page does not show
+  int side_ = 0;      ///< of pictures of exemplars and results
   std::map<std::string, std::vector<NamedPicture>> by_node_;
   std::vector<LitMaterial> lit_;
   std::vector<std::pair<std::string, ReportPtr>> reports_;

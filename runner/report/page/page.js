@@ -91,16 +91,14 @@
       show();
     });
     const button = (text, title, onclick) => element("button", {type: "button", textContent: text, title, onclick});
-    drawing.append(element("div", {className: "buttons"}, button("+", "closer", () => zoom(0.75)),
+    drawing.before(element("div", {className: "buttons"}, button("+", "closer", () => zoom(0.75)),
                            button("\u2212", "farther", () => zoom(1 / 0.75)),
                            button("all", "the whole graph", () => { view = {x: 0, y: 0, width, height}; show(); })));
   };
 
   // What is known of a node.
-  const valueText = (value) => typeof value === "string" ? value : JSON.stringify(value);
-
   const parameterRow = (p) => element("tr", {title: p.help}, element("td", {textContent: p.name}),
-    element("td", {className: p.default ? "quiet" : "given", textContent: valueText(p.value) + (p.unit && " " + p.unit)}),
+    element("td", {className: p.default ? "quiet" : "given", textContent: p.text + (p.unit && " " + p.unit)}),
     element("td", {className: "quiet", textContent: p.default ? "default" : ""}));
 
   const nodePictures = (pictures) => element("div", {className: "gallery"}, ...pictures.map((p) => {
@@ -124,8 +122,7 @@
     for (const note of node.notes) lines.push(element("p", {textContent: note}));
     if (node.parameters.length) lines.push(element("table", {className: "narrow"}, ...node.parameters.map(parameterRow)));
     for (const file of node.files) lines.push(element("p", {className: "quiet", textContent: "wrote " + file}));
-    if (node.pictures.length) lines.push(element("h3", {textContent: "Pictures"}), nodePictures(node.pictures));
-    document.getElementById("node").replaceChildren(...lines);
+    document.getElementById("node").replaceChildren(element("div", {}, ...lines), nodePictures(node.pictures));
   };
 
   document.addEventListener("click", (event) => {

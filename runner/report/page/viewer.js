@@ -106,7 +106,7 @@ class View {
     this.mesh.rotation.set(isPlane ? -s.tilt * radians : 0.2, 0, 0);
     if (isPlane) this.mesh.rotateZ(s.turn * radians);
     else this.mesh.rotateY(s.turn * radians);
-    this.camera.position.set(0, 0, isPlane ? 4 : 3.6);
+    this.camera.position.set(0, 0, 3.9);
     this.camera.lookAt(0, 0, 0);
   }
 
