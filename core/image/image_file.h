@@ -71,7 +71,7 @@ struct Clipping {
 Clipping write_image(const Image& image, const std::filesystem::path& path, const WriteOptions& options,
                      const std::function<void(double)>& progress);
 
-/// The image as an 8-bit PNG file in memory; otherwise as write_image.
-std::vector<uint8_t> png_of(const Image& image);
+/// The image as a file in memory, an 8-bit PNG unless `options` say otherwise; else as write_image.
+std::vector<uint8_t> encoded_file(const Image& image, const WriteOptions& options = {});
 
 }  // namespace terrazzo

@@ -167,12 +167,12 @@ Clipping write_image(const Image& image, const std::filesystem::path& path, cons
   return clipped;
 }
 
-std::vector<uint8_t> png_of(const Image& image) {
+std::vector<uint8_t> encoded_file(const Image& image, const WriteOptions& options) {
   WrittenBytes memory;
-  const Fail fail = [](const std::string& reason) { throw Error("cannot make a PNG: " + reason); };
-  const WriteOptions options{.format = FileFormat::png, .depth = Depth::u8};
+  const std::string format(name_of(options.format));
+  const Fail fail = [&](const std::string& reason) { throw Error(fmt::format("cannot make {}: {}", format, reason)); };
   write_through(
-      image, "picture.png", &memory, options, [](double) {}, fail);
+      image, "picture." + format, &memory, options, [](double) {}, fail);
   return std::move(memory.bytes);
 }
 

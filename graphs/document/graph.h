@@ -44,12 +44,22 @@ struct GraphNode {
   }
 };
 
+/// A parameter of the graph as it was set, for reports.
+struct GraphSetting {
+  std::string name;
+  ParamValue value;
+  std::string help{};
+  bool given = false;  ///< by the command line, a preset or a settings file; else it is the document's default
+};
+
 struct Graph {
   std::filesystem::path file;  ///< for messages; may be empty for graphs made in memory
   std::string summary;
   std::vector<GraphNode> nodes;  ///< in topological order: every wire comes from an earlier node
   /// What else it was made from: subgraphs, tables, and folders that were listed.
   std::vector<std::filesystem::path> made_from{};
+  std::vector<GraphSetting> settings{};  ///< in the document's order; only parameters that have a value
+
   const GraphNode* find(std::string_view name) const {
     for (const GraphNode& n : nodes)
       if (n.name == name) return &n;

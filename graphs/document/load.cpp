@@ -125,6 +125,7 @@ class Loader {
     for (const LoopSource& l : levels_.made_from())
       out.graph.made_from.push_back(l.kind == "table" ? l.path : l.path.parent_path());
     out.loops = levels_.made_from();
+    out.graph.settings = settings_of(parameters);
     out.parameters = std::move(parameters);
     return out;
   }

@@ -100,4 +100,11 @@ void set_parameters(std::vector<GraphParameter>& parameters, const std::vector<O
   }
 }
 
+std::vector<GraphSetting> settings_of(const std::vector<GraphParameter>& parameters) {
+  std::vector<GraphSetting> out;
+  for (const GraphParameter& p : parameters)
+    if (p.value) out.push_back({p.param.name, *p.value, p.param.help, p.overridden});
+  return out;
+}
+
 }  // namespace terrazzo

@@ -9,6 +9,7 @@
 
 #include "core/node/node.h"
 #include "graphs/document/diagnostics.h"
+#include "graphs/document/graph.h"
 #include "graphs/document/json.h"
 #include "graphs/document/override.h"
 #include "graphs/expression/expression.h"
@@ -77,5 +78,8 @@ using NodeTypes = std::vector<std::pair<std::string, const NodeType*>>;
 /// Sets what the overrides without a node say, the last of several for one parameter. `nodes` are for hints.
 void set_parameters(std::vector<GraphParameter>& parameters, const std::vector<Override>& overrides,
                     const NodeTypes& nodes, std::vector<Problem>& problems);
+
+/// The values of those that have one.
+std::vector<GraphSetting> settings_of(const std::vector<GraphParameter>& parameters);
 
 }  // namespace terrazzo

@@ -127,12 +127,28 @@ std::vector<Variation> combined(const std::vector<Variation>& rows, const std::v
   return out;
 }
 
+namespace {
+
+/// What is set alike in all of them; the others' values are in the labels.
+std::vector<GraphSetting> shared_settings(const std::vector<Graph>& graphs) {
+  std::vector<GraphSetting> out = graphs.front().settings;
+  for (const Graph& g : graphs)
+    std::erase_if(out, [&](const GraphSetting& s) {
+      const auto at = std::ranges::find(g.settings, s.name, &GraphSetting::name);
+      return at == g.settings.end() || at->value != s.value;
+    });
+  return out;
+}
+
+}  // namespace
+
 MergedGraph merged(const std::vector<Graph>& graphs, const std::vector<std::string>& labels) {
   MergedGraph out;
   out.names.resize(graphs.size());
   if (graphs.empty()) return out;
   out.graph.file = graphs.front().file;
   out.graph.summary = graphs.front().summary;
+  out.graph.settings = shared_settings(graphs);
   // Nodes that are not alike in all variations, found in the order of wires: what reads them is not alike either.
   std::map<std::string, std::set<std::string>> signatures;
   std::vector<std::map<std::string, std::string>> unlike(graphs.size());

@@ -21,6 +21,7 @@
 #include "runner/engine/history.h"
 #include "runner/engine/preflight.h"
 #include "runner/report/html_report.h"
+#include "runner/report/shown_nodes.h"
 #include "runner/report/trace.h"
 
 namespace terrazzo {
@@ -74,11 +75,12 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   options.memory = flags.memory.empty() ? 0 : parse_bytes(flags.memory, "--memory");
   options.cancelled = &cancelled;
   options.targets.keep = flags.keep;
-  if (!flags.report.empty())
-    for (std::string& name : nodes_for_report(graph, flags.only)) options.targets.keep.push_back(std::move(name));
 
   const Plan plan = [&] {
     try {
+      if (!flags.report.empty())
+        for (std::string& name : nodes_for_report(graph, flags.only, cache))
+          options.targets.keep.push_back(std::move(name));
       return make_plan(graph, cache, options.targets, options.history);
     } catch (const GraphError&) {
       throw;

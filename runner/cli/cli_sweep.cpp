@@ -271,7 +271,7 @@ void Sweep::report(const RunResult& result) const {
       const Value& picture = result.kept.at(pictures_[i].node).at(pictures_[i].port);
       pictures.push_back({variations_[i].label(), std::get<ImagePtr>(picture)});
     }
-    write_report_page(*Report::make("Variations", {}, std::move(pictures)), flags_.sheet);
+    write_variations_page(table, pictures, flags_.sheet);
     say("wrote {}\n", flags_.sheet);
   }
   if (!flags_.best.empty()) tell_best(figures);

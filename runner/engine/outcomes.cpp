@@ -22,6 +22,7 @@ void Outcomes::looked_up(int stage) {
     outcome.notes = record->notes;
     outcome.files = record->files;
   }
+  outcome.reason = s.known->must_run;
   if (!s.known->must_run.empty()) return;
   outcome.kind = record ? StageOutcome::Kind::reused : StageOutcome::Kind::idle;
   if (record && options_.history) options_.history->remember(s.node->name, s.known->ingredients, record->seconds);

@@ -57,6 +57,7 @@ struct StageOutcome {
   };
   Kind kind = Kind::idle;
   std::string node;
+  std::string reason;              ///< why it had to run, if the plan could not know yet
   double seconds = 0;              ///< computing time in this run
   std::vector<std::string> notes;  ///< from this run, or from when its result was computed
   std::vector<OutputFile> files;   ///< written by a sink, in this run or before

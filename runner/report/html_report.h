@@ -6,18 +6,20 @@
 
 #include "runner/engine/schedule.h"
 
-/// Self-contained HTML pages: what ran and why, times, notes, figures and pictures.
+/// Self-contained HTML pages, which open from the file system: about runs, reports and sweeps.
 namespace terrazzo {
 
-/// The nodes whose values a report shows: the targets (sinks, or `only`) and what sinks read. Pass them as
-/// PlanOptions::keep.
-std::vector<std::string> nodes_for_report(const Graph& graph, const std::vector<std::string>& only);
-
-/// Writes the page of a run. `plan`: the one that ran; pictures come from `result.kept`. Throws Error if the file
-/// cannot be written.
+/// Writes the page of a run: the material lit, exemplars beside results, the drawn graph, how it was run, figures, uv
+/// maps, times, and what each node did and why. `plan`: the one that ran; pictures come from `result.kept` (see
+/// nodes_for_report). Throws Error if the file cannot be written.
 void write_html_report(const Plan& plan, const RunResult& result, const std::filesystem::path& path);
 
 /// Writes the page of one report: its figures, and large pictures. Throws Error if the file cannot be written.
 void write_report_page(const Report& report, const std::filesystem::path& path);
+
+/// Writes the page of many variations of a graph: `table` holds a head and a row for each, with a picture beside it.
+/// The table sorts itself, and the pictures with it. Throws Error if the file cannot be written.
+void write_variations_page(const std::vector<std::vector<std::string>>& table,
+                           const std::vector<Report::Picture>& pictures, const std::filesystem::path& path);
 
 }  // namespace terrazzo

@@ -227,7 +227,7 @@ void png_writing(benchmark::State& state) {
   spec.type = "gravel";
   spec.size = {1024, 1024};
   const ImagePtr image = make_pattern(spec, Task())->find(Semantic::base_color);
-  for (auto _ : state) benchmark::DoNotOptimize(png_of(*image).size());
+  for (auto _ : state) benchmark::DoNotOptimize(encoded_file(*image).size());
   count_items(state, spec.size.area());
 }
 BENCHMARK(png_writing)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);

@@ -40,7 +40,7 @@ TEST_CASE("a PNG in memory has the bytes of one in a file") {
   std::ifstream file(folder.path() / "a.png", std::ios::binary);
   const std::vector<uint8_t> expected((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   CHECK(expected.size() > 100);
-  CHECK(png_of(*every_value(8)) == expected);
+  CHECK(encoded_file(*every_value(8)) == expected);
 }
 
 TEST_CASE("every 8- and 16-bit value is written back exactly") {

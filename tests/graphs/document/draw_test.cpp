@@ -55,6 +55,31 @@ TEST_CASE("texts are escaped in pictures") {
   CHECK(draw_svg(load_fake(text).graph).find("<title>a &lt; b &amp; &quot;c&quot;</title>") != std::string::npos);
 }
 
+TEST_CASE("what a run says of a node stands in its box") {
+  const Graph graph = load_fake(document(nodes)).graph;
+  std::vector<NodeMark> marks(graph.nodes.size(), NodeMark{"cached", "cached", ""});
+  marks[0] = {"run", "run, 1.25 s", "data:image/png;base64,xyz"};
+  const std::string svg = draw_svg(graph, marks);
+  CHECK(svg.find(">run, 1.25 s</text>") != svg.npos);
+  CHECK(svg.find("href=\"data:image/png;base64,xyz\"") != svg.npos);
+  CHECK(count(svg, ">cached</text>") == graph.nodes.size() - 1);
+  CHECK(count(svg, fmt::format("fill=\"{}\"", state_colour("run"))) == 2);
+}
+
+TEST_CASE("nodes of a subgraph are named by their place in it, in a frame") {
+  Graph graph = load_fake(document(nodes)).graph;
+  for (GraphNode& n : graph.nodes) {
+    if (n.name != "out") n.name = "walls/" + n.name;
+    for (auto& [port, wires] : n.inputs)
+      for (Wire& w : wires) w.node = "walls/" + w.node;
+  }
+  const std::string svg = draw_svg(graph);
+  CHECK(svg.find(">late-one</text>") != svg.npos);
+  CHECK(count(svg, ">walls/</text>") == graph.nodes.size() - 1);
+  CHECK(count(svg, "class=\"frame\"") == 1);
+  CHECK(svg.find(">walls</text>") != svg.npos);
+}
+
 TEST_CASE("an empty graph has an empty picture") {
   CHECK(draw_svg(Graph()).find("</svg>") != std::string::npos);
   CHECK(draw_dot(Graph()).find("->") == std::string::npos);

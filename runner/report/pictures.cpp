@@ -1,0 +1,160 @@
+#include "runner/report/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/text.h"
+#include "core/image/color.h"
+#include "core/image/image_file.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int small_side = 96;
+/// Of all pictures of a page together; some ten megabytes.
+constexpr double page_pixels = 14e6;
+constexpr int least_side = 128;
+/// Below this, PNG is hardly larger than JPEG, and exact.
+constexpr int64_t least_jpeg_area = 64 * 64;
+constexpr int jpeg_quality = 90;
+
+Size fitted(Size full, int longest) {
+  const double scale = std::min(1.0, static_cast<double>(longest) / std::max(full.width, full.height));
+  return {std::max(1, static_cast<int>(full.width * scale)), std::max(1, static_cast<int>(full.height * scale))};
+}
+
+struct Range {
+  float least = 0, most = 1;
+};
+
+/// Each pixel of the result is the mean of the pixels it stands for. `range` becomes that of the values.
+std::vector<float> means(const Image& image, Size size, int channels, Range& range) {
+  const int from = image.channels(), common = std::min(from, channels);
+  const auto to_small = [](int at, int all, int few) { return static_cast<int>(int64_t{at} * few / all); };
+  std::vector<double> sums(static_cast<size_t>(size.area()) * channels, 0.0);
+  std::vector<int> counts(static_cast<size_t>(size.area()), 0);
+  for_each_strip(image, [&](const Rect& region, const float* pixels) {
+    for (int y = region.y; y < region.bottom(); y++)
+      for (int x = 0; x < region.width; x++, pixels += from) {
+        const size_t at = static_cast<size_t>(to_small(y, image.height(), size.height)) * size.width +
+                          static_cast<size_t>(to_small(x, image.width(), size.width));
+        counts[at]++;
+        for (int c = 0; c < common; c++) sums[at * channels + c] += pixels[c];
+      }
+  });
+  std::vector<float> out(sums.size());
+  for (size_t i = 0; i < sums.size(); i++) {
+    out[i] = static_cast<float>(sums[i] / counts[i / channels]);
+    range = {std::min(range.least, out[i]), std::max(range.most, out[i])};
+  }
+  return out;
+}
+
+/// Shrunk, with values in [0, 1].
+ImagePtr shrunk(const Image& image, int longest) {
+  const int channels = image.channels() == 1 ? 1 : 3;
+  ImageInfo info{.size = fitted(image.size(), longest), .channels = channels, .semantic = image.info().semantic};
+  info.color_space = image.info().color_space;
+  info.normal_y = image.info().normal_y;
+  Range range;
+  std::vector<float> out = means(image, info.size, channels, range);
+  if (info.semantic != Semantic::height) range = {};
+  for (float& v : out) v = std::clamp((v - range.least) / (range.most - range.least), 0.0f, 1.0f);
+  return Image::from_floats(info, std::move(out));
+}
+
+Histogram histogram_of(const Image& image) {
+  Histogram out{};
+  const std::vector<float> pixels = image.pixels();
+  const auto channels = static_cast<size_t>(image.channels());
+  const size_t count = pixels.size() / channels;
+  for (size_t i = 0; i < count; i++) {
+    float sum = 0;
+    for (size_t c = 0; c < channels; c++) sum += pixels[i * channels + c];
+    const float mean = std::clamp(sum / static_cast<float>(channels), 0.0f, 1.0f);
+    out[std::min(out.size() - 1, static_cast<size_t>(mean * static_cast<float>(out.size())))]++;
+  }
+  for (float& v : out) v /= static_cast<float>(count);
+  return out;
+}
+
+std::string base64(const std::vector<uint8_t>& bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve(bytes.size() / 3 * 4 + 4);
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](size_t at) -> uint32_t { return at < bytes.size() ? bytes[at] : 0; };
+    const uint32_t bits = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    for (size_t d = 0; d < 4; d++) out += i + d > bytes.size() ? '=' : digits[bits >> (18 - 6 * d) & 63];
+  }
+  return out;
+}
+
+/// `image` holds values as they are shown.
+std::string uri_of(const Image& image, bool is_colour) {
+  if (is_colour && image.size().area() >= least_jpeg_area) try {
+      return "data:image/jpeg;base64," +
+             base64(encoded_file(image, {.format = FileFormat::jpeg, .jpeg_quality = jpeg_quality}));
+    } catch (const Error&) {
+      // The module that writes JPEG is missing: PNG is larger, but needs nothing.
+    }
+  return "data:image/png;base64," + base64(encoded_file(image));
+}
+
+}  // namespace
+
+PagePicture page_picture(const ImagePtr& image, int longest) {
+  const bool is_colour = image->info().color_space != "raw";
+  ImagePtr page = shrunk(*image, longest);
+  if (is_colour) page = materialized(convert_color(page, "srgb_texture"));
+  const ImagePtr small = shrunk(*page, small_side);
+  return {uri_of(*page, is_colour), uri_of(*small, is_colour), image->size(), page, histogram_of(*page)};
+}
+
+ImagePtr uv_in_colours(const UvMap& uv, int longest) {
+  ImageInfo info{.size = fitted(uv.size(), longest), .channels = 3, .semantic = Semantic::data};
+  std::vector<float> out;
+  out.reserve(static_cast<size_t>(info.size.area()) * 3);
+  const auto middle = [](int at, int few, int all) {
+    return static_cast<int>((2 * int64_t{at} + 1) * all / (2 * few));
+  };
+  const auto share = [](int at, int all) { return (static_cast<float>(at) + 0.5f) / static_cast<float>(all); };
+  for (int y = 0; y < info.size.height; y++)
+    for (int x = 0; x < info.size.width; x++) {
+      const ExemplarPixel from =
+          uv.at(middle(x, info.size.width, uv.size().width), middle(y, info.size.height, uv.size().height));
+      out.insert(out.end(), {share(from.x, uv.exemplar().width), share(from.y, uv.exemplar().height), 0.3f});
+    }
+  return Image::from_floats(info, std::move(out));
+}
+
+int side_for(size_t count, int longest) {
+  const double side = std::sqrt(page_pixels / static_cast<double>(std::max<size_t>(count, 1)));
+  return std::clamp(static_cast<int>(side), std::min(least_side, longest), longest);
+}
+
+std::string PagePictures::add(const ImagePtr& image, int longest) {
+  const auto [at, is_new] = ids_.try_emplace({image->digest().hex(), image->info().semantic});
+  if (is_new) {
+    at->second = fmt::format("picture-{}", ids_.size());
+    pictures_[at->second].picture = page_picture(image, longest);
+  }
+  return at->second;
+}
+
+std::string PagePictures::figure(const std::string& id, const std::string& caption) {
+  Shown& shown = pictures_.at(id);
+  const std::string source =
+      shown.on_page ? fmt::format("data-same=\"{}\"", id) : fmt::format("id=\"{}\" src=\"{}\"", id, shown.picture.uri);
+  shown.on_page = true;
+  const Size size = shown.picture.size;
+  return fmt::format(
+      "<figure><img class=\"picture\" {} alt=\"{}\" loading=\"lazy\" decoding=\"async\" width=\"{}\" "
+      "height=\"{}\"><figcaption>{}, {}&times;{}</figcaption></figure>\n",
+      source, markup(caption), size.width, size.height, markup(caption), size.width, size.height);
+}
+
+}  // namespace terrazzo

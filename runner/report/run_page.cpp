@@ -1,0 +1,293 @@
+#include "runner/report/run_page.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/text.h"
+#include "core/picture/render/preview.h"
+#include "graphs/document/convert.h"
+#include "graphs/document/draw.h"
+#include "runner/report/charts.h"
+#include "runner/report/page.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int material_side = 1024, other_side = 512, report_side = 1600;
+/// Of each kind; of a sweep there may be hundreds.
+constexpr size_t most_materials = 4;
+constexpr size_t most_nodes = 24;
+
+size_t image_count(const RunResult& result) {
+  size_t count = 0;
+  for (const auto& [node, ports] : result.kept)
+    for (const auto& [port, value] : ports) {
+      const MaterialPtr* material = std::get_if<MaterialPtr>(&value);
+      count += material ? (*material)->maps().size() : 1;
+    }
+  return count;
+}
+
+std::vector<ShownMaterial> first_of(std::vector<ShownMaterial> all) {
+  if (all.size() > most_materials) all.resize(most_materials);
+  return all;
+}
+
+ShownMaterials first_of(ShownMaterials all) {
+  return {first_of(std::move(all.results)), first_of(std::move(all.exemplars))};
+}
+
+/// A surface has colour, shape or both.
+bool can_be_lit(const Material& material) {
+  return material.find(Semantic::base_color) || material.find(Semantic::normal) || material.find(Semantic::height);
+}
+
+/// Names of maps of all materials, each once.
+std::vector<std::string> map_names(const ShownMaterials& materials) {
+  std::vector<std::string> out;
+  for (const auto* list : {&materials.results, &materials.exemplars})
+    for (const ShownMaterial& m : *list)
+      for (const Map& map : m.material->maps())
+        if (std::ranges::find(out, map.name) == out.end()) out.push_back(map.name);
+  return out;
+}
+
+}  // namespace
+
+RunPage::RunPage(const Plan& plan, const RunResult& result)
+    : plan_(plan), result_(result), materials_(first_of(materials_of(*plan.graph, result))) {
+  side_ = side_for(image_count(result), material_side);
+  add_materials(materials_.results, "result");
+  add_materials(materials_.exemplars, "exemplar");
+  add_values();
+}
+
+std::string RunPage::html() {
+  std::string out = head() + warnings();
+  out += section("lit", "The material, lit", lit_view());
+  out += section("maps", materials_.exemplars.empty() ? "Result" : "Exemplar and result", comparison());
+  out += section("graph", "Graph", graph_drawing());
+  out += section("settings", "How it was run", settings());
+  out += section("figures", "Figures", figures());
+  out += section("uv", "Where pixels are from", uv_maps());
+  out += section("pictures", "Other pictures", other_pictures());
+  out += section("times", "Times", times_html(result_));
+  out += section("stages", "Nodes", stages());
+  out += section("files", "Files", files());
+  out += section("notes", "Notes", notes());
+  return out + page_foot(run_as_json(plan_, result_, by_node_, lit_), !lit_.empty());
+}
+
+std::string RunPage::head() const {
+  const Graph& graph = *plan_.graph;
+  const std::string title = graph.summary.empty() ? graph.file.filename().string() : graph.summary;
+  std::string state = result_.ok() ? "" : result_.cancelled ? "Cancelled: " : "Failed: ";
+  return page_head(title, fmt::format("<p class=\"{}\">{}{}<br><span class=\"quiet\">{}, terrazzo {}</span></p>\n",
+                                      result_.ok() ? "" : "failed", state, markup(result_.summary()),
+                                      markup(graph.file.string()), TERRAZZO_VERSION));
+}
+
+std::string RunPage::warnings() const {
+  std::string out;
+  for (const Failure& f : result_.failures) out += fmt::format("<p class=\"failed\">{}</p>\n", markup(f.message));
+  for (const StageOutcome& s : result_.stages)
+    for (const std::string& n : s.notes)
+      if (is_warning(n)) out += fmt::format("<p class=\"failed\">{}: {}</p>\n", markup(s.node), markup(n));
+  if (left_out_ > 0)
+    out += fmt::format("<p class=\"quiet\">This page shows what the first nodes gave; that of {} is left out.</p>\n",
+                       counted(left_out_, "more node"));
+  return out;
+}
+
+NamedPicture RunPage::add_picture(const std::string& node, const std::string& caption, const ImagePtr& image,
+                                  int longest) {
+  NamedPicture picture{pictures_.add(image, longest), caption};
+  std::vector<NamedPicture>& all = by_node_[node];
+  if (std::ranges::find(all, picture.id, &NamedPicture::id) == all.end()) all.push_back(picture);
+  return picture;
+}
+
+void RunPage::add_materials(const std::vector<ShownMaterial>& materials, const std::string& kind) {
+  for (const ShownMaterial& shown : materials) {
+    LitMaterial lit{shown.node == kind ? kind : fmt::format("{} ({})", shown.node, kind), shown.material, {}};
+    for (const Map& m : shown.material->maps()) {
+      const NamedPicture picture = add_picture(shown.node, m.name, m.image, side_);
+      lit.maps.try_emplace(std::string(name_of(m.image->info().semantic)), picture.id);
+    }
+    if (can_be_lit(*shown.material)) lit_.push_back(std::move(lit));
+  }
+}
+
+/// What was kept besides, in the graph's order; of a sweep only the first.
+void RunPage::add_values() {
+  for (const StageOutcome& s : result_.stages) {
+    const auto kept = result_.kept.find(s.node);
+    if (kept == result_.kept.end() || by_node_.contains(s.node)) continue;
+    if (by_node_.size() >= most_nodes) {
+      left_out_++;
+      continue;
+    }
+    for (const auto& [port, value] : kept->second)
+      add_value(s.node, kept->second.size() > 1 ? s.node + "." + port : s.node, value);
+  }
+}
+
+void RunPage::add_value(const std::string& node, const std::string& caption, const Value& value) {
+  const int side = std::min(side_, other_side);
+  if (const ImagePtr* image = std::get_if<ImagePtr>(&value)) {
+    others_.push_back(add_picture(node, caption, *image, side));
+  } else if (const MaterialPtr* material = std::get_if<MaterialPtr>(&value)) {
+    for (const Map& m : (*material)->maps())
+      others_.push_back(add_picture(node, caption + ": " + m.name, m.image, side));
+  } else if (const UvMapPtr* uv = std::get_if<UvMapPtr>(&value)) {
+    uv_maps_.push_back(add_picture(node, caption, uv_in_colours(**uv, side), side));
+  } else if (const ReportPtr* report = std::get_if<ReportPtr>(&value)) {
+    reports_.emplace_back(node, *report);
+    for (const Report::Picture& p : (*report)->pictures()) add_picture(node, p.name, p.image, report_side);
+  }
+}
+
+/// The place of the viewer: before its script has run, a picture that needs none.
+std::string RunPage::lit_view() const {
+  if (lit_.empty()) return "";
+  std::vector<Map> maps;
+  for (const auto& [meaning, id] : lit_.front().maps) maps.push_back({meaning, pictures_[id].shrunk});
+  const ImagePtr still = render_preview(*Material::make("still", std::move(maps)), {}, WorksFor::task());
+  return fmt::format(
+      "<div id=\"viewer\"><img class=\"still\" src=\"{}\" alt=\"the material lit from the upper left\" width=\"512\" "
+      "height=\"512\"></div>\n<p class=\"quiet\" id=\"viewer-state\">A still picture: moving the light needs "
+      "JavaScript "
+      "and WebGL.</p>\n",
+      page_picture(still, 512).uri);
+}
+
+std::string RunPage::map_picture(const ShownMaterial& shown, const std::string& map) {
+  const ImagePtr image = shown.material->find(std::string_view(map));
+  return image ? pictures_.figure(pictures_.add(image, side_), shown.node) : "";
+}
+
+/// Of the first result against the first exemplar.
+std::string RunPage::histogram(const std::string& map) const {
+  const auto of = [&](const std::vector<ShownMaterial>& list) -> const Histogram* {
+    if (list.empty() || !list.front().material->find(std::string_view(map))) return nullptr;
+    for (const NamedPicture& p : by_node_.at(list.front().node))
+      if (p.caption == map) return &pictures_[p.id].histogram;
+    return nullptr;
+  };
+  const Histogram *exemplar = of(materials_.exemplars), *result = of(materials_.results);
+  return result ? histogram_svg(exemplar, *result) : "";
+}
+
+std::string RunPage::comparison() {
+  if (materials_.results.empty() && materials_.exemplars.empty()) return "";
+  std::string out;
+  for (const std::string& map : map_names(materials_)) {
+    out += fmt::format("<h3>{}</h3>\n<div class=\"gallery\">\n", markup(map));
+    for (const auto* list : {&materials_.exemplars, &materials_.results})
+      for (const ShownMaterial& m : *list) out += map_picture(m, map);
+    if (const std::string chart = histogram(map); !chart.empty())
+      out += fmt::format("<figure class=\"chart\">{}<figcaption>values, dark to bright{}</figcaption></figure>\n",
+                         chart, materials_.exemplars.empty() ? "" : "; filled: exemplar, line: result");
+    out += "</div>\n";
+  }
+  return out;
+}
+
+std::string RunPage::graph_drawing() const {
+  std::vector<NodeMark> marks;
+  for (size_t i = 0; i < plan_.stages.size(); i++) {
+    const StageOutcome& s = result_.stages[i];
+    NodeMark mark{std::string(what_it_did(plan_.stages[i], s)), "", ""};
+    mark.line = s.kind == StageOutcome::Kind::run ? fmt::format("{}, {:.2f} s", mark.state, s.seconds) : mark.state;
+    if (const auto at = by_node_.find(s.node); at != by_node_.end())
+      mark.picture = pictures_[at->second.front().id].small;
+    marks.push_back(std::move(mark));
+  }
+  return fmt::format(
+      "<div id=\"drawing\">{}</div>\n<div id=\"node\"></div>\n"
+      "<p class=\"quiet legend\"><b style=\"background:{}\"></b> run <b style=\"background:{}\"></b> cached or up to "
+      "date "
+      "<b style=\"background:{}\"></b> failed <b style=\"background:{}\"></b> not needed</p>\n",
+      draw_svg(*plan_.graph, marks), state_colour("run"), state_colour("cached"), state_colour("failed"),
+      state_colour(""));
+}
+
+std::string RunPage::settings() const {
+  std::string out, seeds;
+  for (const GraphSetting& s : plan_.graph->settings)
+    out += fmt::format("<tr><td>{}</td><td{}>{}</td><td class=\"quiet\">{}</td></tr>\n", markup(s.name),
+                       s.given ? " class=\"given\"" : "", markup(text_of(s.value)), markup(s.help));
+  if (!out.empty())
+    out =
+        "<p class=\"quiet\">The graph's parameters; those that were set are bold.</p>\n<div "
+        "class=\"scroll\"><table>\n" +
+        out + "</table></div>\n";
+  for (const GraphNode& n : plan_.graph->nodes)
+    if (const auto seed = n.params.find("seed"); seed != n.params.end())
+      seeds += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td></tr>\n", markup(n.name),
+                           markup(text_of(seed->second)));
+  if (!seeds.empty())
+    out += "<h3>Seeds</h3>\n<div class=\"scroll\"><table class=\"narrow\">\n" + seeds + "</table></div>\n";
+  return out;
+}
+
+std::string RunPage::figures() {
+  std::string out;
+  for (const auto& [node, report] : reports_)
+    out += fmt::format("<h3>{}</h3>\n{}", markup(report->title()), report_html(*report, pictures_, report_side));
+  return out;
+}
+
+std::string RunPage::uv_maps() {
+  if (uv_maps_.empty()) return "";
+  std::string out =
+      "<p class=\"quiet\">Of each pixel, the place in the exemplar that it shows: more red is further right, more "
+      "green "
+      "further down. Areas without an edge were copied in one piece.</p>\n<div class=\"gallery\">\n";
+  for (const NamedPicture& p : uv_maps_) out += pictures_.figure(p.id, p.caption);
+  return out + "</div>\n";
+}
+
+std::string RunPage::other_pictures() {
+  std::string out;
+  for (const NamedPicture& p : others_)
+    if (!pictures_.is_shown(p.id)) out += pictures_.figure(p.id, p.caption);
+  return out.empty() ? "" : "<div class=\"gallery\">\n" + out + "</div>\n";
+}
+
+std::string RunPage::stages() const {
+  std::string out =
+      "<div class=\"scroll\"><table class=\"sortable stages\">\n<thead><tr><th>node</th><th>type</th><th>what it "
+      "did</th>"
+      "<th>seconds</th><th>why</th><th>parameters that were set</th></tr></thead>\n<tbody>\n";
+  for (size_t i = 0; i < plan_.stages.size(); i++) {
+    const Stage& stage = plan_.stages[i];
+    const StageOutcome& s = result_.stages[i];
+    out += fmt::format(
+        "<tr{}><td>{}</td><td>{}</td><td>{}</td><td class=\"number\">{}</td><td class=\"quiet\">{}</td><td "
+        "class=\"quiet\">{}</td></tr>\n",
+        s.kind == StageOutcome::Kind::failed ? " class=\"failed\"" : "", markup(s.node), markup(stage.type().name),
+        what_it_did(stage, s), s.kind == StageOutcome::Kind::run ? fmt::format("{:.2f}", s.seconds) : "",
+        markup(reason_of(stage, s)), markup(settings_text(*stage.node)));
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string RunPage::files() const {
+  std::string out;
+  for (const StageOutcome& s : result_.stages)
+    for (const OutputFile& f : s.files) out += fmt::format("<li>{}</li>\n", markup(f.path.string()));
+  return out.empty() ? "" : "<ul>\n" + out + "</ul>\n";
+}
+
+std::string RunPage::notes() const {
+  std::string out;
+  for (const StageOutcome& s : result_.stages)
+    for (const std::string& n : s.notes)
+      out += fmt::format("<li{}>{}: {}</li>\n", is_warning(n) ? " class=\"failed\"" : "", markup(s.node), markup(n));
+  return out.empty() ? "" : "<ul>\n" + out + "</ul>\n";
+}
+
+}  // namespace terrazzo
