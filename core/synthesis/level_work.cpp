@@ -64,13 +64,20 @@ LevelWork::LevelWork(const SharedWork& shared, int level)
   const CorrectionLevel whole = correction_level(PlaneWindow::all_of(shared_.plane(level)), fixed_);
   StepContext c = context(whole, none);
   run_steps(Phase::costs, c);
+  const auto count = [&](Phase phase) {
+    return int(
+        std::ranges::count_if(synthesis_steps(), [&](const Step& s) { return s.phase == phase && s.applies(facts_); }));
+  };
+  first_steps_ = count(facts_.coarsest() ? Phase::coarsest : Phase::upsampling);
+  steps_ =
+      first_steps_ + count(Phase::after_passes) + effort_.passes * (count(Phase::before_pass) + count(Phase::pass));
 }
 
 Field LevelWork::beginning() {
   Field field;
   const CorrectionLevel level = correction_level(PlaneWindow::all_of(shared_.plane(facts_.level)), fixed_);
   StepContext c = context(level, field);
-  run_steps(Phase::coarsest, c);
+  run(Phase::coarsest, c);
   return field;
 }
 
@@ -81,7 +88,7 @@ Field LevelWork::starts(const Field& parent, const PlaneWindow& window) {
   const CorrectionLevel level = correction_level(window, fixed);
   StepContext c = context(level, starts);
   c.parent = &parent;
-  run_steps(Phase::upsampling, c);
+  run(Phase::upsampling, c);
   return starts;
 }
 
@@ -101,13 +108,22 @@ void LevelWork::correct(Field& field, const PlaneWindow& window, const Rect& wan
   const CorrectionLevel level = correction_level(window, fixed_);
   StepContext c = context(level, field);
   c.wanted = wanted;
+  done_ = std::max(done_, first_steps_);  // parts of the finest level begin with what has been made for all of it
   for (; c.pass < effort_.passes; c.pass++) {
-    run_steps(Phase::before_pass, c);
-    run_steps(Phase::pass, c);
-    // Every finer level has four times as many pixels.
-    shared_.task.progress(std::ldexp(double(c.pass + 1) / effort_.passes, -2 * (facts_.level - shared_.finest)));
+    run(Phase::before_pass, c);
+    run(Phase::pass, c);
   }
-  run_steps(Phase::after_passes, c);
+  run(Phase::after_passes, c);
+}
+
+void LevelWork::run(Phase phase, StepContext& c) {
+  run_steps(phase, c, [&] {
+    done_++;
+    // Every finer level has four times as many pixels; all coarser ones together, a third of them.
+    const double coarser = facts_.coarsest() ? 0 : 1.0 / 3, part = std::min(1.0, double(done_) / std::max(1, steps_));
+    const double here = (coarser + part) / (coarser + 1);
+    shared_.task.progress(std::ldexp(here, -2 * (facts_.level - shared_.finest)));
+  });
 }
 
 void LevelWork::find_candidates(std::initializer_list<Phase> phases) {

@@ -32,6 +32,8 @@ class LevelWork {
   int reach() const { return reach_of(effort_.passes); }
 
  private:
+  /// Runs the steps of a phase, and reports how far that is.
+  void run(Phase phase, StepContext& c);
   void find_candidates(std::initializer_list<Phase> phases);
   StepContext context(const CorrectionLevel& level, Field& field);
   CorrectionLevel correction_level(const PlaneWindow& window, const FixedPixels& fixed) const;
@@ -44,6 +46,9 @@ class LevelWork {
   FixedPixels fixed_;
   std::unique_ptr<const LevelControl> control_;
   UsagePenalty usage_;
+  int steps_ = 0;        // that run on this level, each as often as it does
+  int first_steps_ = 0;  // of them, before the corrections
+  int done_ = 0;
   std::vector<ExemplarPixel> candidates_;  // k-coherent, of every exemplar pixel; once a step needs them
 };
 

@@ -339,9 +339,12 @@ std::span<const Step> synthesis_steps() {
   return all_steps;
 }
 
-void run_steps(Phase phase, StepContext& context) {
-  for (const Step& step : all_steps)
-    if (step.phase == phase && step.applies(context.facts)) step.run(context);
+void run_steps(Phase phase, StepContext& context, const std::function<void()>& after_each) {
+  for (const Step& step : all_steps) {
+    if (step.phase != phase || !step.applies(context.facts)) continue;
+    step.run(context);
+    if (after_each) after_each();
+  }
 }
 
 }  // namespace terrazzo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -126,7 +127,7 @@ struct Step {
 /// All steps, in the order in which they run.
 std::span<const Step> synthesis_steps();
 
-/// Runs the steps of a phase that apply.
-void run_steps(Phase phase, StepContext& context);
+/// Runs the steps of a phase that apply, and calls `after_each`, if given, after each of them.
+void run_steps(Phase phase, StepContext& context, const std::function<void()>& after_each = {});
 
 }  // namespace terrazzo

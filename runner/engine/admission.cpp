@@ -3,21 +3,9 @@
 #include <algorithm>
 #include <tuple>
 
-#include "runner/engine/history.h"
-
 namespace terrazzo {
 
 namespace {
-
-constexpr double unknown_seconds = 1;
-
-double expected_seconds(const Stage& stage, const History* history) {
-  const bool computes = stage.needed && (stage.state == StageState::run || stage.state == StageState::depends);
-  if (!computes || stage.type().persist == Persist::derived) return 0;
-  if (stage.known && stage.known->record) return stage.known->record->seconds;
-  const std::optional<double> before = history ? history->seconds(stage.node->name) : std::nullopt;
-  return before.value_or(unknown_seconds);
-}
 
 /// What needs no memory comes first.
 constexpr int urgency_of_values = 2;
@@ -38,11 +26,11 @@ int urgency_of(Job::Kind kind) {
 
 }  // namespace
 
-std::vector<double> remaining_seconds(const Plan& plan, const History* history) {
+std::vector<double> remaining_seconds(const Plan& plan) {
   std::vector<double> remaining(plan.stages.size(), 0);
   for (size_t i = remaining.size(); i-- > 0;) {
     for (const int reader : plan.stages[i].readers) remaining[i] = std::max(remaining[i], remaining[reader]);
-    remaining[i] += expected_seconds(plan.stages[i], history);
+    remaining[i] += plan.stages[i].expected_seconds;
   }
   return remaining;
 }

@@ -12,7 +12,7 @@ namespace terrazzo {
 /// For each stage the expected seconds of the longest path from it to a target, itself included, for critical-path
 /// scheduling. A stage's expected time is that of its recorded result, else of its node's last run, else 1 second; 0 if
 /// the plan expects no computing, or the stage is lazy. `history` may be null.
-std::vector<double> remaining_seconds(const Plan& plan, const History* history);
+std::vector<double> remaining_seconds(const Plan& plan);
 
 /// Decides which waiting jobs start, and when. Deterministic in the order in which jobs arrive and end: uses no clock.
 /// Not thread-safe.

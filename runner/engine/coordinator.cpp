@@ -22,7 +22,7 @@ Coordinator::Coordinator(Plan& plan, const RunOptions& options, int threads, uin
     : plan_(plan),
       options_(options),
       states_(plan),
-      admission_(remaining_seconds(plan, options.history), threads, memory),
+      admission_(remaining_seconds(plan), threads, memory),
       held_(plan.stages.size()),
       outcomes_(plan, options),
       values_(plan.stages.size()) {

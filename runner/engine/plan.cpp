@@ -191,6 +191,19 @@ std::map<std::string, Digest> names_of(const NodeType& type, const Digest& key,
   return names;
 }
 
+namespace {
+
+double expected_seconds(const Stage& stage, const History* history) {
+  constexpr double unknown = 1;
+  const bool computes = stage.needed && (stage.state == StageState::run || stage.state == StageState::depends);
+  if (!computes || stage.type().persist == Persist::derived) return 0;
+  if (stage.known && stage.known->record) return stage.known->record->seconds;
+  const std::optional<double> before = history ? history->seconds(stage.node->name) : std::nullopt;
+  return before.value_or(unknown);
+}
+
+}  // namespace
+
 Resolution resolve(const Plan& plan, int index, Cache* cache, const History* history) {
   const Stage& stage = plan.stages[index];
   InputNames inputs;
@@ -230,6 +243,7 @@ Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options, con
     if (ready) s.known = resolve(plan, static_cast<int>(i), cache, history);
   }
   decide_states(plan);
+  for (Stage& s : plan.stages) s.expected_seconds = expected_seconds(s, history);
   if (std::vector<Problem> problems = preflight_problems(plan); !problems.empty())
     throw GraphError(graph.file.string(), std::move(problems));
   return plan;

@@ -43,6 +43,7 @@ struct Stage {
   std::optional<Resolution> known;        ///< missing while an input has no name
   StageState state = StageState::not_needed;
   std::string reason;
+  double expected_seconds = 0;  ///< of computing it: as earlier runs took, else a second; 0 if that is not expected
 
   const NodeType& type() const { return *node->type; }
   /// Whether a run will reuse or compute it; a lazy stage that has never run may not be needed.

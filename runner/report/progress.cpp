@@ -37,6 +37,41 @@ class Throttle {
   std::map<const Stage*, Clock::time_point> last_;
 };
 
+/// How much of the work has been done, where stages count as long as they are expected to take. Not thread-safe.
+class WorkDone {
+ public:
+  void plan(const Plan& plan) {
+    began_ = Clock::now();
+    for (const Stage& s : plan.stages)
+      if (s.needed) all_ += weight(s);
+  }
+  void progress(const Stage& s, double fraction) { done_[&s] = std::max(done_[&s], fraction); }
+  void settle(const Stage& s) { done_[&s] = 1; }
+
+  double fraction() const {
+    double done = 0;
+    for (const auto& [stage, fraction] : done_) done += weight(*stage) * fraction;
+    return all_ > 0 ? std::min(1.0, done / all_) : 1;
+  }
+
+  /// "about 12 s left"; empty while there is too little to tell by, and near the end.
+  std::string left() const {
+    const double elapsed = std::chrono::duration<double>(Clock::now() - began_).count(), done = fraction();
+    const double left = elapsed * (1 - done) / std::max(done, 1e-9);
+    if (elapsed < 2 || done < 0.05 || left < 2) return "";
+    if (left < 90) return fmt::format("about {:.0f} s left", left);
+    return fmt::format("about {:.0f} min left", left / 60);
+  }
+
+ private:
+  /// What is only looked up takes hardly any time, and is not nothing.
+  static double weight(const Stage& s) { return std::max(s.expected_seconds, 0.02); }
+
+  double all_ = 0;
+  Clock::time_point began_ = Clock::now();
+  std::map<const Stage*, double> done_;
+};
+
 /// How many of the stages that are needed have been settled: run, reused, or found to be needed by nobody. A stage
 /// whose stored result turns out damaged is computed after all, and counts once.
 class StageCount {
@@ -210,7 +245,10 @@ class BarProgress : public Progress {
  public:
   explicit BarProgress(std::ostream& out) : out_(out) {}
   ~BarProgress() override { erase(); }
-  void planned(const Plan& plan) override { count_.plan(plan); }
+  void planned(const Plan& plan) override {
+    count_.plan(plan);
+    work_.plan(plan);
+  }
   void started(const Stage& s) override {
     const std::lock_guard lock(mutex_);
     running_[&s] = 0;
@@ -220,6 +258,7 @@ class BarProgress : public Progress {
   void progressed(const Stage& s, double fraction) override {
     const std::lock_guard lock(mutex_);
     running_[&s] = fraction;
+    work_.progress(s, fraction);
     draw(false);
   }
   void noted(const Stage& s, const std::string& message) override {
@@ -251,6 +290,7 @@ class BarProgress : public Progress {
     const std::lock_guard lock(mutex_);
     running_.erase(&s);
     count_.settle(s);
+    work_.settle(s);
     draw(false);
   }
   void erase() {
@@ -259,15 +299,12 @@ class BarProgress : public Progress {
   }
   void draw(bool at_once) {
     if (!throttle_.open(nullptr) && !at_once) return;
-    double done = count_.settled();
-    std::string names;
-    for (const auto& [stage, fraction] : running_) {
-      done += fraction;
+    std::string names = work_.left();
+    for (const auto& [stage, fraction] : running_)
       names += fmt::format("{}{} {:.0f} %", names.empty() ? "" : ", ", stage->node->name, 100 * fraction);
-    }
     constexpr int width = 24;
-    const int filled = count_.all() > 0 ? std::clamp(static_cast<int>(done / count_.all() * width), 0, width) : 0;
-    constexpr size_t room = 40;  // keeps the line shorter than a terminal of 80 columns
+    const int filled = std::clamp(static_cast<int>(work_.fraction() * width), 0, width);
+    constexpr size_t room = 44;  // keeps the line shorter than a terminal of 80 columns
     if (names.size() > room) names = names.substr(0, room - 3) + "...";
     out_ << fmt::format("\r\x1b[K[{:#<{}}{:.<{}}] {}/{}  {}", "", filled, "", width - filled, count_.settled(),
                         count_.all(), names)
@@ -277,6 +314,7 @@ class BarProgress : public Progress {
   std::ostream& out_;
   std::mutex mutex_;
   StageCount count_;
+  WorkDone work_;
   bool drawn_ = false;
   std::map<const Stage*, double> running_;
   Throttle throttle_{std::chrono::milliseconds(80)};

@@ -250,7 +250,7 @@ TEST_CASE("the longest path goes by what stages took before, and counts neither 
     history.save();
   }
   const History history(folder.path(), "graph.json");
-  const Plan plan = make_plan(g, &cache, {.only = {"new", "short"}, .keep = {}});
-  CHECK(remaining_seconds(plan, &history) == std::vector<double>{6, 9, 6, 1, 1, 1, 0});
-  CHECK(remaining_seconds(plan, nullptr) == std::vector<double>{2, 5, 2, 1, 1, 1, 0});
+  const PlanOptions options{.only = {"new", "short"}, .keep = {}};
+  CHECK(remaining_seconds(make_plan(g, &cache, options, &history)) == std::vector<double>{6, 9, 6, 1, 1, 1, 0});
+  CHECK(remaining_seconds(make_plan(g, &cache, options)) == std::vector<double>{2, 5, 2, 1, 1, 1, 0});
 }
