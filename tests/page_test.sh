@@ -22,13 +22,19 @@ complain() {
   failed=1
 }
 
+# A browser that hangs is tried again once.
+browse() {
+  timeout -k 5 60 "$browser" --headless=new --no-sandbox --disable-breakpad --use-gl=angle --use-angle=swiftshader \
+    --enable-unsafe-swiftshader --virtual-time-budget=8000 --user-data-dir="$scratch/profile" --enable-logging=stderr \
+    "$@" >dom 2>log
+}
+
 # open PAGE WIDTH [OPTION...]: what the page says of itself in `body`, and messages of the console in `console`.
 open() {
   local page=$1 width=$2
   shift 2
-  timeout 120 "$browser" --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader \
-    --enable-unsafe-swiftshader --window-size="$width,900" --virtual-time-budget=8000 --user-data-dir="$scratch/profile" \
-    --enable-logging=stderr "$@" --dump-dom "file://$PWD/$page" >dom 2>log || complain "$page: the browser failed"
+  local options=(--window-size="$width,900" "$@" --dump-dom "file://$PWD/$page")
+  browse "${options[@]}" || browse "${options[@]}" || complain "$page: the browser failed"
   body=$(grep -o '<body[^>]*>' dom || true)
   console=$(grep ':CONSOLE' log || true)
 }

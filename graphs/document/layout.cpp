@@ -8,7 +8,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr double column_gap = 64, row_gap = 18, margin = 16, passage = 6;
+constexpr double column_gap = 64, row_gap = 18, margin = 20, passage = 6;
 constexpr int sweeps = 12;
 
 /// A box, or the passage of wires through a column between boxes.

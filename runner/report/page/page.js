@@ -66,7 +66,10 @@
     svg.removeAttribute("height");
     drawing.classList.add("live");
     drawing.style.height = Math.max(200, Math.min(560, height * drawing.clientWidth / width)) + "px";
-    let view = {x: 0, y: 0, width, height};
+    // All of it, but of a very large graph, such as a sweep's, the first part: still legible.
+    const least = 0.3;
+    let view = {x: 0, y: 0, width: Math.min(width, drawing.clientWidth / least),
+                height: Math.min(height, drawing.clientHeight / least)};
     const show = () => svg.setAttribute("viewBox", `${view.x} ${view.y} ${view.width} ${view.height}`);
     const zoom = (factor, x = view.x + view.width / 2, y = view.y + view.height / 2) => {
       const most = 1.5 * Math.max(width, height);
@@ -91,6 +94,7 @@
       show();
     });
     const button = (text, title, onclick) => element("button", {type: "button", textContent: text, title, onclick});
+    show();
     drawing.before(element("div", {className: "buttons"}, button("+", "closer", () => zoom(0.75)),
                            button("\u2212", "farther", () => zoom(1 / 0.75)),
                            button("all", "the whole graph", () => { view = {x: 0, y: 0, width, height}; show(); })));
@@ -143,7 +147,8 @@
       line.remove();
       state.lit = "yes";
     } catch (error) {
-      line.textContent = `A still picture: this browser has no WebGL to move the light with (${error.message}).`;
+      line.textContent = "A still picture: this browser has no WebGL to move the light with.";
+      line.title = error.message;
       state.lit = "no";
     }
   };
@@ -152,7 +157,8 @@
   const drawing = document.getElementById("drawing");
   if (drawing) makeZoomable(drawing);
   const viewer = document.getElementById("viewer");
-  if (viewer) startViewer(viewer);
+  // Once the page is there: without a graphics card, the first picture takes a while.
+  if (viewer) setTimeout(() => startViewer(viewer), 50);
   state.overflow = String(document.documentElement.scrollWidth - document.documentElement.clientWidth);
   state.ready = "yes";
 }

@@ -20,7 +20,7 @@ function surroundings(renderer) {
   lamp.position.set(-4, 10, 6);
   scene.add(lamp);
   const generator = new PMREMGenerator(renderer);
-  const texture = generator.fromScene(scene, 0.06).texture;
+  const texture = generator.fromScene(scene, 0, 0.1, 100, {size: 64}).texture;
   generator.dispose();
   return texture;
 }
@@ -87,8 +87,8 @@ class View {
     for (const texture of Object.values(this.mesh.material)) if (texture && texture.isTexture) texture.dispose();
     const [w, h] = [described.width, described.height], longer = Math.max(w, h);
     const isPlane = this.settings.shape === "plane";
-    this.mesh.geometry = isPlane ? new PlaneGeometry(2 * w / longer, 2 * h / longer, 400, 400)
-                                 : new SphereGeometry(0.85, 512, 256);
+    this.mesh.geometry = isPlane ? new PlaneGeometry(2 * w / longer, 2 * h / longer, 256, 256)
+                                 : new SphereGeometry(0.85, 384, 192);
     this.mesh.material = materialOf(described, this.sourceOf, () => this.draw());
     this.draw();
   }
