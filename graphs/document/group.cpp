@@ -195,7 +195,8 @@ class Grouping {
     if (!outputs_.empty()) {
       JsonValue outputs = object();
       // What expressions ask for comes first: they see only that.
-      std::ranges::stable_partition(outputs_in_order_, [&](const auto& end) { return facts_.contains(end.first); });
+      std::stable_partition(outputs_in_order_.begin(), outputs_in_order_.end(),
+                            [&](const auto& end) { return facts_.contains(end.first); });
       for (const auto& end : outputs_in_order_)
         add(outputs, outputs_.at(end), JsonValue::of(wire(end.first, end.second, is_first(end))));
       add(out, "outputs", std::move(outputs));

@@ -11,6 +11,7 @@
 #include "graphs/document/forecasts.h"
 #include "graphs/document/level.h"
 #include "graphs/document/read_document.h"
+#include "graphs/document/unused.h"
 #include "graphs/document/wires.h"
 
 namespace terrazzo {
@@ -113,7 +114,7 @@ class Loader {
 
     set_code(conversions, 0, "conversion");
     out.conversions = std::move(conversions);
-    out.warnings = warnings_about(order, root);
+    out.warnings = warnings_about(levels_, subgraphs_, root, order);
     const bool complete = std::ranges::all_of(drafts, [](const NodeDraft& d) { return d.unset.empty(); });
     for (const size_t i : order)
       if (complete || options.allow_unset || wanted.contains(drafts[i].node.name)) {
@@ -356,69 +357,6 @@ class Loader {
     for (const size_t i : order) {
       const GraphNode& node = drafts[i].node;
       if (!faulty.contains(node.name) && is_complete(drafts[i])) out.push_back(node);
-    }
-    return out;
-  }
-
-  std::vector<Problem> warnings_about(const std::vector<size_t>& order, const Level& root) {
-    std::vector<Problem> out;
-    for (const GraphParameter& p : root.names.parameters)
-      if (is_unused(root, p.param.name))
-        out.push_back({p.place, "parameter " + in_quotes(p.param.name), "no node uses it", "", "", "unused-parameter"});
-    for (const auto& [name, place] : subgraphs_.unused())
-      out.push_back({place, "graph " + in_quotes(name), "no node is of this type", "", "", "unused-graph"});
-    const Drafts& drafts = levels_.nodes();
-    std::vector<std::string> used;
-    bool has_sink = !main_->outputs.empty();
-    for (const NodeDraft& d : drafts) {
-      has_sink |= d.node.type->is_sink();
-      if (d.node.type->is_sink()) used.push_back(d.node.name);
-    }
-    if (!has_sink) {
-      out.push_back({{}, "", "no node is a sink: a run writes nothing", "", "", "no-sink"});
-      return out;
-    }
-    std::set<std::string> given = names_given(root);
-    const std::set<std::string> needed = needed_nodes(drafts, used);
-    for (const size_t i : order) {
-      const NodeDraft& d = drafts[i];
-      if (d.level == &root && !needed.contains(d.node.name) && !given.contains(d.local))
-        out.push_back({d.node.place, "node " + in_quotes(d.node.name), "no sink reads it; it will not run", d.node.name,
-                       "", "unused-node"});
-    }
-    return out;
-  }
-
-  static bool is_unused(const Level& level, const std::string& parameter) {
-    const auto is_in = [&](const Names& names) {
-      const std::vector<std::string> unused = names.substitution->unused();
-      return std::ranges::find(unused, parameter) != unused.end();
-    };
-    return is_in(level.names) && std::ranges::all_of(level.rounds, [&](const auto& round) { return is_in(*round); });
-  }
-
-  /// Nodes that outputs lead to, or that an expression may choose, with all that they read by name.
-  std::set<std::string> names_given(const Level& root) const {
-    std::set<std::string> out;
-    std::vector<std::string> open;
-    for (const auto& [name, wires] : root.outputs)
-      for (const WireEnd& end : wires.wires) open.push_back(end.node);
-    const auto add_named = [&](const NodeDraft& d) { open.insert(open.end(), d.named.begin(), d.named.end()); };
-    std::ranges::for_each(levels_.nodes(), add_named);
-    std::ranges::for_each(levels_.others(), add_named);
-    // A subgraph may choose between what comes into it.
-    for (const NodeDraft& d : levels_.others())
-      if (d.level == &root)
-        for (const PortWires& p : d.ports)
-          for (const WireEnd& end : p.wires) open.push_back(end.node);
-    while (!open.empty()) {
-      const std::string name = std::move(open.back());
-      open.pop_back();
-      const std::vector<Item>* items = root.find(name);
-      if (!items || !out.insert(name).second) continue;
-      for (const Item& item : *items)
-        for (const PortWires& p : item.draft->ports)
-          for (const WireEnd& end : p.wires) open.push_back(end.node);
     }
     return out;
   }

@@ -1,3 +1,7 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "core/analysis/space/weighting.h"
 #include "core/image/color.h"
 #include "core/image/image_ops.h"

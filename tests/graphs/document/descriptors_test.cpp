@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "graphs/document/convert.h"
-#include "graphs/document/reference.h"
 #include "graphs/document/nodes.h"
+#include "graphs/document/reference.h"
 #include "graphs/document/schema.h"
 #include "tests/graphs/document/fake_types.h"
 
