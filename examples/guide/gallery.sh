@@ -22,7 +22,7 @@ make() { run "graphs/$1.json" --set out="$made/$1" "${@:2}"; }
 
 # show NAME LEFT CAPTIONS [OPTION ...]: its picture.
 show() {
-  run examples/guide/gallery.json --set left="$2" --set captions="$3" --set result="$1" --set out="$pictures/$1.jpg" \
+  run examples/guide/gallery.json --set from="$made" --set left="$2" --set captions="$3" --set result="$1" --set out="$pictures/$1.jpg" \
     "${@:4}"
 }
 
@@ -91,7 +91,6 @@ fi
 if gallery_of extend; then
   make material --set material=$g/tiles --set size=192 --set out=$g/kept
   make extend --set material=$g/tiles --set kept=192 --set size=384 --set 'at=[96, 96]'
-  run examples/guide/gallery.json --only lit --set result=kept
   show extend '["tiles/preview.png", "kept/base_color.png"]' '["exemplar", "kept in the middle"]'
 fi
 if gallery_of magnify; then
