@@ -193,6 +193,19 @@ std::map<std::string, Digest> names_of(const NodeType& type, const Digest& key,
 
 namespace {
 
+/// What only the runs before can tell: what is new about lazy stages, and which stages have never run.
+void add_what_is_known(Plan& plan, const History& history) {
+  for (Stage& s : plan.stages) {
+    const std::string& node = s.node->name;
+    if (s.state == StageState::depends && !history.seconds(node)) {
+      s.reason = "never run before; " + s.reason;
+    } else if (s.state == StageState::derived && !s.known->record) {
+      const std::string difference = history.first_difference(node, s.known->ingredients);
+      if (!difference.empty()) s.reason = fmt::format("{}{}{}", difference, s.reason.empty() ? "" : "; ", s.reason);
+    }
+  }
+}
+
 double expected_seconds(const Stage& stage, const History* history) {
   constexpr double unknown = 1;
   const bool computes = stage.needed && (stage.state == StageState::run || stage.state == StageState::depends);
@@ -243,6 +256,7 @@ Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options, con
     if (ready) s.known = resolve(plan, static_cast<int>(i), cache, history);
   }
   decide_states(plan);
+  if (history) add_what_is_known(plan, *history);
   for (Stage& s : plan.stages) s.expected_seconds = expected_seconds(s, history);
   if (std::vector<Problem> problems = preflight_problems(plan); !problems.empty())
     throw GraphError(graph.file.string(), std::move(problems));
