@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the pictures of examples/guide/gallery.md: every stock graph on exemplars that terrazzo generates itself.
-# Needs a build (examples/quickstart.sh). Takes about two minutes of CPU time.
+# Needs a build (examples/quickstart.sh). Takes less than a minute of CPU time.
 # Usage: examples/guide/gallery.sh [GRAPH ...]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -22,8 +22,8 @@ make() { run "graphs/$1.json" --set out="$made/$1" "${@:2}"; }
 
 # show NAME LEFT CAPTIONS [OPTION ...]: its picture.
 show() {
-  run examples/guide/gallery.json --set from="$made" --set left="$2" --set captions="$3" --set result="$1" --set out="$pictures/$1.jpg" \
-    "${@:4}"
+  run examples/guide/gallery.json --set from="$made" --set left="$2" --set captions="$3" --set result="$1" \
+    --set out="$pictures/$1.jpg" "${@:4}"
 }
 
 gallery_of() { [[ $chosen == " all " || $chosen == *" $1 "* ]]; }
@@ -70,7 +70,8 @@ if gallery_of progression; then
 fi
 if gallery_of labels; then
   make labels --set material=$g/mossy --set labels=$g/parts.png --set target=$g/masks/layout.png --set leeway=20
-  show labels '["mossy/preview.png", "parts.png", "masks/layout.png"]' '["exemplar", "its parts", "layout"]' --set side=88
+  show labels '["mossy/preview.png", "parts.png", "masks/layout.png"]' \
+    '["exemplar", "its parts", "layout"]' --set side=88
 fi
 if gallery_of mix; then
   make mix --set first=$g/bricks --set second=$g/ochre --set mix=$g/masks/mix.png --set leeway=20
@@ -112,8 +113,9 @@ if gallery_of engine; then
     --set picture=engine/lit.png --set caption="lit from four sides"
 fi
 if gallery_of generate-exemplar; then
-  run graphs/generate-exemplar.json --set type=weave --set size=304 --set surface.palette=denim --set out=$g/generate-exemplar
-  show generate-exemplar '["generate-exemplar/base_color.png", "generate-exemplar/normal.png", "generate-exemplar/height.png"]' \
+  make generate-exemplar --set type=weave --set size=304 --set surface.palette=denim
+  maps='["generate-exemplar/base_color.png", "generate-exemplar/normal.png", "generate-exemplar/height.png"]'
+  show generate-exemplar "$maps" \
     '["base colour", "normal", "height"]' --set side=88 --set picture=generate-exemplar/preview.png \
     --set caption="lit from four sides" --set file.jpeg_quality=70
 fi
