@@ -210,3 +210,26 @@ TEST_CASE("the plan's table is aligned and says why") {
             "  no cache is used\n"
             "  space     tens  depends  -         depends on what @exemplar gives\n");
 }
+
+TEST_CASE("a plan says what changed about a lazy stage, and what has never run") {
+  const TemporaryFolder folder;
+  const FakeTypes types;
+  Cache cache(folder.path() / "cache");
+  Graph graph;
+  add(graph, "a", types.number, {{"value", 2.0}});
+  add(graph, "lazy", types.lazy_sum, {{"plus", 1.0}}, {"a"});
+  add(graph, "out", types.write, {{"path", (folder.path() / "out.txt").string()}}, {"lazy"});
+  History history(folder.path(), "graph.json");
+  RunOptions options;
+  options.cache = &cache;
+  options.history = &history;
+  REQUIRE(run_graph(graph, options).ok());
+  set(graph, "lazy", "plus", 3.0);
+  const Plan changed = make_plan(graph, &cache, {}, &history);
+  CHECK(reason(changed, "lazy") == "parameter plus changed from 1 to 3; made when @out asks for it");
+  set(graph, "a", "value", 5.0);
+  add(graph, "new", types.sum, {{"plus", 1.0}}, {"a"});
+  const Plan open = make_plan(graph, &cache, {.only = {"new", "out"}, .keep = {}}, &history);
+  CHECK(reason(open, "new") == "never run before; depends on what @a gives");
+  CHECK(reason(open, "out") == "depends on what @lazy gives");
+}
