@@ -127,12 +127,13 @@ void PullPlan::demand(const Rect& region) {
     step.open_readers = step.readers;
   }
   steps_.back().parts = {region};
-  // The last comes first. (Not std::views::reverse: clang 14 refuses it with GCC 12's library.)
-  for (auto step = steps_.rbegin(); step != steps_.rend(); ++step)
-    for (size_t s = 0; s < step->sources.size(); s++)
-      if (step->sources[s] >= 0)
-        for (const Rect& part : step->parts)
-          for (const Rect& read : parts_read(*step->operation, s, part)) add_part(steps_[step->sources[s]].parts, read);
+  for (size_t i = steps_.size(); i-- > 0;) {
+    const Step& step = steps_[i];
+    for (size_t s = 0; s < step.sources.size(); s++)
+      if (step.sources[s] >= 0)
+        for (const Rect& part : step.parts)
+          for (const Rect& read : parts_read(*step.operation, s, part)) add_part(steps_[step.sources[s]].parts, read);
+  }
 }
 
 void PullPlan::compute(Step& step, float* out) {

@@ -68,7 +68,7 @@ class Embedding {
   /// The name that the graph in a file has here.
   std::string name_of(const fs::path& file) {
     const auto [at, is_new] = names_.emplace(file, free_name(file.stem().string()));
-    const std::string name = at->second;
+    std::string name = at->second;
     if (!is_new) return name;
     JsonValue graph = document_in(file);
     std::map<std::string, std::string> own;  // the names of its own section `graphs`, here
@@ -273,7 +273,7 @@ fs::path unpacked(const fs::path& pack, const fs::path& folder) {
     if (!is_safe(e.name))
       throw Error(
           fmt::format("{}: the pack holds a file of a name that packs do not have: \"{}\"", pack.string(), e.name));
-  const fs::path place = folder / digest_of_file(pack).hex();
+  fs::path place = folder / digest_of_file(pack).hex();
   std::error_code failure;
   if (fs::exists(place / "settings.json", failure)) {
     fs::last_write_time(place, fs::file_time_type::clock::now(), failure);

@@ -134,7 +134,9 @@ std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, const
     used_.insert(reference->name);
     if (parameter && parameter->value) {
       const bool is_whole = at == 0 && reference->end == text.size();
-      if (is_whole && !takes_texts(param.type)) return placed(json_of(*parameter->value), value.place);
+      const bool is_list =
+          std::holds_alternative<Texts>(*parameter->value) || std::holds_alternative<TextMap>(*parameter->value);
+      if (is_whole && (is_list || !takes_texts(param.type))) return placed(json_of(*parameter->value), value.place);
       const bool keeps_spelling = parameter->param.type == ParamType::path && at > 0;
       out.text += keeps_spelling ? parameter->as_written : text_of(*parameter->value);
     } else {

@@ -14,6 +14,9 @@ bool is_unused(const Level& level, const std::string& parameter) {
     const std::vector<std::string> unused = names.substitution->unused();
     return std::ranges::find(unused, parameter) != unused.end();
   };
+  // One that counts only in a default is used, though an override may have taken the default's place.
+  for (const GraphParameter& p : level.graph->parameters)
+    if (p.formula && p.formula->expression->parameters().contains(parameter)) return false;
   return is_in(level.names) && std::ranges::all_of(level.rounds, [&](const auto& round) { return is_in(*round); });
 }
 

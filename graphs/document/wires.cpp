@@ -111,6 +111,7 @@ class WireFollower {
       if (!out_.is_faulty) asking_.add(end.place, "the wires of subgraphs form a cycle");
       out_.is_faulty = true;
     } else if (const std::vector<Item>* items = level.find(end.node)) {
+      out_.is_faulty |= items->empty();  // a loop that could not be read
       for (const Item& item : *items) from_item(level, item, end);
     } else {
       from_input(level, end);

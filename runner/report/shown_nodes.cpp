@@ -74,8 +74,8 @@ class Materials {
       if (n.type->is_sink() && n.type->outputs.empty())
         for (const auto& [port, wires] : n.inputs)
           for (const Wire& w : wires) add(out_.results, w);
-    for (size_t i = 0; i < out_.results.size(); i++)
-      for_each_behind(graph_, *graph_.find(out_.results[i].node), [&](const GraphNode& behind) {
+    for (const ShownMaterial& result : out_.results)
+      for_each_behind(graph_, *graph_.find(result.node), [&](const GraphNode& behind) {
         if (is_source(behind))
           for (const Port& p : behind.type->outputs) add(out_.exemplars, {behind.name, p.name});
         return true;

@@ -117,6 +117,23 @@ TEST_CASE("what is wrong about a loop") {
   CHECK(problem(R"({"values": [1], "as": "a b"})").starts_with("expected a name of letters"));
 }
 
+TEST_CASE("a list of texts passes from a parameter to a node") {
+  const LoadedGraph loaded = load_fake(
+      document(R"("p": {"type": "photo", "file": "a.png"}, "all": {"type": "gather", "images": "@p", "names": "$names"},
+                  "out": {"type": "write", "material": "@all", "path": "x"})",
+               R"("names": {"type": "texts", "default": ["b", "c"]})"));
+  CHECK(std::get<Texts>(loaded.graph.find("all")->params.at("names")) == Texts{"b", "c"});
+}
+
+TEST_CASE("a parameter that only the default of another names is used, whatever takes that one's place") {
+  const LoadedGraph loaded = load_fake(
+      document(
+          R"("p": {"type": "photo", "file": "a.png"}, "out": {"type": "write", "material": "@p", "path": "x", "quality": "$q"})",
+          R"("half": {"type": "int", "default": 40}, "q": {"type": "int", "default": "=half * 2"})"),
+      {"q=7"});
+  CHECK(loaded.warnings.empty());
+}
+
 TEST_CASE("a port for one wire takes no loop, unless it has one round") {
   const auto text = [](const std::string& values) {
     return document(R"("p": {"type": "photo", "file": "$item.png", "foreach": {"values": )" + values +
