@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -71,6 +72,28 @@ void write_file(const std::filesystem::path& path, std::string_view bytes, bool 
     bytes.remove_prefix(size_t(put));
   }
   sync ? file.sync_and_close(path) : file.close(path);
+}
+
+std::optional<Digest> content_digest(const File& file, const std::filesystem::path& path) {
+  constexpr size_t piece = size_t{1} << 20;
+  std::vector<uint8_t> buffer(piece);
+  Hasher hasher;
+  hasher.add("file");
+  uint64_t size = 0;
+  try {
+    while (const size_t got = file.read_at(size, buffer.data(), piece, path)) {
+      hasher.stream(buffer.data(), got);
+      size += got;
+    }
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
+  return hasher.add(int64_t(size)).digest();
+}
+
+std::optional<Digest> content_digest(const std::filesystem::path& path) {
+  const File file = File::open(path, O_RDONLY | O_NONBLOCK);
+  return file.ok() ? content_digest(file, path) : std::nullopt;
 }
 
 std::string system_message(int code) {

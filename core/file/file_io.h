@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/hash.h"
 
 namespace terrazzo {
 
@@ -56,6 +58,10 @@ class File {
 /// Makes the file or replaces its content, in place: it may be a device or a pipe. If `sync`, the content is on the
 /// disk afterwards. Throws FileError naming `path`.
 void write_file(const std::filesystem::path& path, std::string_view bytes, bool sync = false);
+
+/// The digest of a file's content; empty if it cannot be read. `path` is for the first form's errors only.
+std::optional<Digest> content_digest(const File& file, const std::filesystem::path& path);
+std::optional<Digest> content_digest(const std::filesystem::path& path);
 
 /// What the operating system says about an error number ("No space left on device").
 std::string system_message(int code);

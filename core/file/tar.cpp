@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -96,7 +95,7 @@ TarWriter::~TarWriter() {
 
 void TarWriter::write(std::string_view bytes) {
   out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!out_) throw FileError(fmt::format("{} cannot be written: {}", target_.string(), std::strerror(errno)), errno);
+  if (!out_) throw_system_error("write", target_, errno);
 }
 
 void TarWriter::pad(uint64_t bytes) {
@@ -145,7 +144,7 @@ void TarWriter::add(const std::string& name, std::string_view bytes) {
 
 void TarWriter::add_file(const std::string& name, const fs::path& file) {
   const File in = File::open(file, 0);
-  if (!in.ok()) throw FileError(fmt::format("{} cannot be read: {}", file.string(), std::strerror(errno)), errno);
+  if (!in.ok()) throw_system_error("read", file, errno);
   const uint64_t bytes = in.size(file);
   begin(name, bytes);
   std::vector<char> part(1 << 20);
@@ -163,7 +162,7 @@ void TarWriter::finish() {
   write({zeros.data(), block});
   write({zeros.data(), block});
   out_.close();
-  if (!out_) throw FileError(fmt::format("{} cannot be written: {}", target_.string(), std::strerror(errno)), errno);
+  if (!out_) throw_system_error("write", target_, errno);
   publish_file(std::exchange(temporary_, {}), target_);
 }
 
@@ -179,7 +178,7 @@ bool is_tar(const fs::path& file) {
 std::vector<TarEntry> tar_entries(const fs::path& archive) {
   const auto refuse = [&](const std::string& what) { return Error(fmt::format("{}: {}", archive.string(), what)); };
   const File in = File::open(archive, 0);
-  if (!in.ok()) throw FileError(fmt::format("{} cannot be read: {}", archive.string(), std::strerror(errno)), errno);
+  if (!in.ok()) throw_system_error("read", archive, errno);
   const uint64_t size = in.size(archive);
   std::vector<TarEntry> out;
   std::string long_name;
@@ -221,8 +220,7 @@ void extract(const fs::path& archive, const TarEntry& entry, const fs::path& tar
     done += read;
   }
   out.close();
-  if (!in.ok() || !out)
-    throw FileError(fmt::format("{} cannot be written: {}", target.string(), std::strerror(errno)), errno);
+  if (!in.ok() || !out) throw_system_error("write", target, errno);
 }
 
 }  // namespace terrazzo

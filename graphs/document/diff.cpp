@@ -20,11 +20,7 @@ const std::map<std::string, std::string> entry_names = {{"parameters", "paramete
                                                         {"nodes", "node"},           {"outputs", "output"}};
 
 const JsonValue& no_entries() {
-  static const JsonValue none = [] {
-    JsonValue out;
-    out.kind = JsonValue::Kind::object;
-    return out;
-  }();
+  static const JsonValue none = JsonValue::empty_object();
   return none;
 }
 
@@ -155,10 +151,7 @@ class Comparison {
       if (!entries) continue;
       for (JsonMember& m : entries->members) {
         if (std::string_view(section) == "nodes") m.name = now(m.name);
-        if (!m.value.is_object()) m.value = rewritten(m.value, change);
-        for (JsonMember& entry : m.value.members)
-          if (entry.name != "help" && entry.name != "comment" && entry.name != "type")
-            entry.value = rewritten(entry.value, change);
+        m.value = rewritten_entry(m.value, change);
       }
     }
     return out;

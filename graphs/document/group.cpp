@@ -13,21 +13,11 @@ namespace terrazzo {
 
 namespace {
 
-JsonValue object() {
-  JsonValue out;
-  out.kind = JsonValue::Kind::object;
-  return out;
-}
-
-void add(JsonValue& object, const std::string& name, JsonValue value) {
-  object.members.push_back({name, {}, std::move(value)});
-}
-
 /// The section of that name, made before `nodes` if there is none.
 JsonValue& section(JsonValue& document, const std::string& name) {
   if (JsonValue* known = document.find(name)) return *known;
   const auto nodes = std::ranges::find(document.members, "nodes", &JsonMember::name);
-  return document.members.insert(nodes, {name, {}, object()})->value;
+  return document.members.insert(nodes, {name, {}, JsonValue::empty_object()})->value;
 }
 
 class Grouping {
@@ -39,7 +29,7 @@ class Grouping {
     check();
     for (const JsonMember& m : document_.find("nodes")->members)
       if (moved_.contains(m.name)) taken_.insert(m.name);
-    JsonValue inside = object();
+    JsonValue inside = JsonValue::empty_object();
     for (const JsonMember& m : document_.find("nodes")->members)
       if (moved_.contains(m.name)) inside.members.push_back({m.name, m.place, rewritten_inside(m.value)});
     if (JsonValue* parameters = document_.find("parameters"))
@@ -56,7 +46,7 @@ class Grouping {
                       "fewer nodes, or those too that ask",
                       listed({facts_.begin(), facts_.end()})));
     put_node(*nodes);
-    add(section(document_, "graphs"), name_, graph_with(std::move(inside)));
+    section(document_, "graphs").set(name_, graph_with(std::move(inside)));
   }
 
  private:
@@ -88,7 +78,7 @@ class Grouping {
               if (declaration(name)) used_.insert(name);
               return JsonValue::of("$" + name);
             }};
-    return rewritten_node(node, change);
+    return rewritten_entry(node, change);
   }
 
   JsonValue rewritten_outside(const JsonValue& value) {
@@ -105,14 +95,7 @@ class Grouping {
               return name_;
             },
         .parameter = [&](const std::string& name) { return JsonValue::of("$" + name); }};
-    return rewritten_node(value, change);
-  }
-
-  static JsonValue rewritten_node(const JsonValue& node, const TextChange& change) {
-    JsonValue out = node;
-    for (JsonMember& m : out.members)
-      if (m.name != "type" && m.name != "comment" && m.name != "help") m.value = rewritten(m.value, change);
-    return node.is_object() ? out : rewritten(node, change);
+    return rewritten_entry(value, change);
   }
 
   const JsonValue* declaration(const std::string& parameter) const {
@@ -179,34 +162,34 @@ class Grouping {
   }
 
   JsonValue graph_with(JsonValue nodes) {
-    JsonValue out = object();
+    JsonValue out = JsonValue::empty_object();
     if (!inputs_.empty()) {
-      JsonValue inputs = object();
+      JsonValue inputs = JsonValue::empty_object();
       for (const auto& end : inputs_in_order_) {
-        JsonValue input = object();
-        add(input, "type", JsonValue::of(std::string(name_of(port_of(end.first, end.second).type))));
-        add(inputs, inputs_.at(end), std::move(input));
+        JsonValue input = JsonValue::empty_object();
+        input.set("type", JsonValue::of(std::string(name_of(port_of(end.first, end.second).type))));
+        inputs.set(inputs_.at(end), std::move(input));
       }
-      add(out, "inputs", std::move(inputs));
+      out.set("inputs", std::move(inputs));
     }
     if (JsonValue parameters = used_parameters(); !parameters.members.empty())
-      add(out, "parameters", std::move(parameters));
-    add(out, "nodes", std::move(nodes));
+      out.set("parameters", std::move(parameters));
+    out.set("nodes", std::move(nodes));
     if (!outputs_.empty()) {
-      JsonValue outputs = object();
+      JsonValue outputs = JsonValue::empty_object();
       // What expressions ask for comes first: they see only that.
       std::stable_partition(outputs_in_order_.begin(), outputs_in_order_.end(),
                             [&](const auto& end) { return facts_.contains(end.first); });
       for (const auto& end : outputs_in_order_)
-        add(outputs, outputs_.at(end), JsonValue::of(wire(end.first, end.second, is_first(end))));
-      add(out, "outputs", std::move(outputs));
+        outputs.set(outputs_.at(end), JsonValue::of(wire(end.first, end.second, is_first(end))));
+      out.set("outputs", std::move(outputs));
     }
     return out;
   }
 
   /// Declared as in the graph, but for what is made from what only the graph has.
   JsonValue used_parameters() const {
-    JsonValue out = object();
+    JsonValue out = JsonValue::empty_object();
     const JsonValue* all = document_.find("parameters");
     if (!all) return out;
     for (const JsonMember& m : all->members) {
@@ -223,13 +206,13 @@ class Grouping {
   }
 
   void put_node(JsonValue& nodes) {
-    JsonValue node = object();
-    add(node, "type", JsonValue::of(name_));
+    JsonValue node = JsonValue::empty_object();
+    node.set("type", JsonValue::of(name_));
     for (const auto& end : inputs_in_order_)
-      add(node, inputs_.at(end), JsonValue::of(wire(end.first, end.second, is_first(end))));
+      node.set(inputs_.at(end), JsonValue::of(wire(end.first, end.second, is_first(end))));
     if (const JsonValue* all = document_.find("parameters"))
       for (const JsonMember& m : all->members)
-        if (used_.contains(m.name)) add(node, m.name, JsonValue::of("$" + m.name));
+        if (used_.contains(m.name)) node.set(m.name, JsonValue::of("$" + m.name));
     const auto first =
         std::ranges::find_if(nodes.members, [&](const JsonMember& m) { return moved_.contains(m.name); });
     nodes.members.insert(first, {name_, {}, std::move(node)});

@@ -14,11 +14,7 @@ namespace fs = std::filesystem;
 
 /// A document, and what its nodes are.
 struct OpenDocument {
-  OpenDocument(std::string_view text, const fs::path& path) : file(path.string()) {
-    ParsedJson parsed = parse_json(text);
-    problems = std::move(parsed.problems);
-    if (parsed.value && migrate(*parsed.value, document_migrations(), problems)) json = std::move(*parsed.value);
-    throw_problems();
+  OpenDocument(std::string_view text, const fs::path& path) : file(path.string()), json(current_document(text, file)) {
     main = &graphs.read_main(json, fs::absolute(path));
     throw_problems();
   }
@@ -28,8 +24,8 @@ struct OpenDocument {
   }
 
   std::string file;
-  std::vector<Problem> problems;
   JsonValue json;
+  std::vector<Problem> problems;
   KnownTypes types{node_types()};
   Subgraphs graphs{types, document_migrations(), problems};
   const Subgraph* main = nullptr;

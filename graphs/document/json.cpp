@@ -15,6 +15,19 @@ JsonValue* JsonValue::find(std::string_view name) {
   return nullptr;
 }
 
+void JsonValue::set(const std::string& name, JsonValue value) {
+  if (JsonValue* there = find(name))
+    *there = std::move(value);
+  else
+    members.push_back({name, {}, std::move(value)});
+}
+
+JsonValue JsonValue::empty_object() {
+  JsonValue out;
+  out.kind = Kind::object;
+  return out;
+}
+
 JsonValue JsonValue::of(std::string text) {
   JsonValue v;
   v.kind = Kind::text;

@@ -37,7 +37,11 @@ struct JsonValue {
   const JsonValue* find(std::string_view name) const;
   JsonValue* find(std::string_view name);
 
+  /// Gives an object's member of this name a value, in its place or at the end.
+  void set(const std::string& name, JsonValue value);
+
   static JsonValue of(std::string text);
+  static JsonValue empty_object();
   static JsonValue of(int64_t integer);
 };
 

@@ -79,8 +79,9 @@ Level& Levels::read(std::unique_ptr<Level> root, const std::vector<Override>& ov
 
 void Levels::read_level(Level& level, const std::vector<RoutedOverride>& overrides) {
   const size_t before = problems_.size();
+  by_path_.emplace(level.path, &level);
   level.reading.known = &types_;
-  level.reading.graph_names = Subgraphs::names_in(*level.graph);
+  level.reading.graph_names = &level.graph->document->graph_names;
   level.reading.graph_folder = level.graph->folder;
   if (level.graph->json->find("seed")) {
     level.reading.seed = read_seed(level);
@@ -211,8 +212,8 @@ void Levels::read_round(Level& level, const JsonMember& member, const std::strin
   if (graph || !is_graph) read_node(draft, member.value, own, problems_);
   for (size_t i = before; i < problems_.size(); i++) {
     if (problems_[i].where.empty()) problems_[i].where = "node " + in_quotes(draft.node.name);
-    problems_[i].node = draft.node.name;
   }
+  set_node(problems_, before, draft.node.name);
   const bool runs = !is_graph && !draft.muted;
   NodeDraft& kept = (runs ? nodes_ : others_).emplace_back(std::move(draft));
   Level* inner = graph && !kept.muted ? read_use(level, kept, *graph, deeper) : nullptr;

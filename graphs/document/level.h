@@ -73,6 +73,11 @@ class Levels {
   const Drafts& nodes() const { return nodes_; }
   const Drafts& others() const { return others_; }
   const std::vector<std::unique_ptr<Level>>& all() const { return levels_; }
+  /// By the path that begins its nodes' names; null if there is none.
+  const Level* find(const std::string& path) const {
+    const auto at = by_path_.find(path);
+    return at == by_path_.end() ? nullptr : at->second;
+  }
   /// Files and folders that loops were made from.
   const std::vector<LoopSource>& made_from() const { return made_from_; }
   /// Parameters that loops need and that have no value.
@@ -98,9 +103,9 @@ class Levels {
   const KnownTypes& types_;
   std::vector<Problem>& problems_;
   std::vector<std::unique_ptr<Level>> levels_;
+  std::map<std::string, const Level*> by_path_;
   Drafts nodes_, others_;
   std::deque<NodeType> use_types_;
-  std::deque<PortWires> ports_;
   std::deque<Port> output_ports_;
   std::vector<LoopSource> made_from_;
   std::set<std::string> unset_for_loops_;

@@ -162,9 +162,7 @@ class Loader {
         maps[name] = o.json_for(p->param);
         continue;
       }
-      JsonValue empty;
-      empty.kind = JsonValue::Kind::object;
-      const auto [at, is_new] = maps.try_emplace(name, p->value ? json_of(*p->value) : empty);
+      const auto [at, is_new] = maps.try_emplace(name, p->value ? json_of(*p->value) : JsonValue::empty_object());
       const std::optional<JsonValue> merged = with_member(at->second, o.name, o, problems_);
       o.name = name;
       o.node.clear();
@@ -174,21 +172,13 @@ class Loader {
     }
   }
 
-  /// The level that a node stands in, by the path that begins its name, and what follows.
-  std::pair<const Level*, std::string> level_of(const std::string& path) const {
-    const auto end = path.rfind('/');
-    const std::string before = end == path.npos ? "" : path.substr(0, end + 1);
-    for (const std::unique_ptr<Level>& level : levels_.all())
-      if (level->path == before) return {level.get(), path.substr(before.size())};
-    return {nullptr, path};
-  }
-
   /// Where the results come from that an expression asks for: through inputs and subgraphs.
   WireSources sources_behind(const std::string& asked) const {
-    const auto [level, name] = level_of(asked);
+    const size_t name = asked.rfind('/') + 1;  // 0 if there is none
+    const Level* level = levels_.find(asked.substr(0, name));
     std::vector<Problem> ignored;
     Diagnostics diagnostics(ignored, "");
-    return level ? sources_of(*level, {name, "", {}, ""}, diagnostics) : WireSources{};
+    return level ? sources_of(*level, {asked.substr(name), "", {}, ""}, diagnostics) : WireSources{};
   }
 
   /// The one node whose results an expression asks for. Throws Error if that is not one.

@@ -48,10 +48,14 @@ bool migrate(JsonValue& document, const std::vector<Migration>& migrations, std:
   return true;
 }
 
-std::string upgraded(std::string_view text, const std::string& file, const std::vector<Migration>& migrations) {
+JsonValue current_document(std::string_view text, const std::string& file, const std::vector<Migration>& migrations) {
   ParsedJson parsed = parse_json(text);
-  if (parsed.problems.empty() && migrate(*parsed.value, migrations, parsed.problems)) return formatted(*parsed.value);
+  if (parsed.problems.empty() && migrate(*parsed.value, migrations, parsed.problems)) return std::move(*parsed.value);
   throw GraphError(file, std::move(parsed.problems));
+}
+
+std::string upgraded(std::string_view text, const std::string& file, const std::vector<Migration>& migrations) {
+  return formatted(current_document(text, file, migrations));
 }
 
 }  // namespace terrazzo

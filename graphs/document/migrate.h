@@ -21,6 +21,11 @@ const std::vector<Migration>& document_migrations();
 /// version, or newer than this program.
 bool migrate(JsonValue& document, const std::vector<Migration>& migrations, std::vector<Problem>& problems);
 
+/// The document in the current version. Throws GraphError, which names `file`, for syntax errors and unknown versions;
+/// nothing else is checked.
+JsonValue current_document(std::string_view text, const std::string& file,
+                           const std::vector<Migration>& migrations = document_migrations());
+
 /// The document in the current version and canonical form (see formatted). Throws GraphError, which names `file`, for
 /// syntax errors and unknown versions; nothing else is checked.
 std::string upgraded(std::string_view text, const std::string& file,

@@ -62,11 +62,12 @@ class NodeReader {
       return false;
     }
     draft_.node.type = reading_.known->find(given->text);
-    std::vector<std::string> names = reading_.graph_names;
-    names.insert(names.end(), reading_.known->names.begin(), reading_.known->names.end());
-    if (!draft_.node.type)
+    if (!draft_.node.type) {
+      std::vector<std::string> names = *reading_.graph_names;
+      names.insert(names.end(), reading_.known->names.begin(), reading_.known->names.end());
       complain(given->place, fmt::format("unknown node type {}{}; `terrazzo nodes` lists all", in_quotes(given->text),
                                          did_you_mean(given->text, names)));
+    }
     return draft_.node.type;
   }
 
@@ -95,8 +96,7 @@ class NodeReader {
     const Param* param = dot == o.name.npos ? nullptr : type().find_param(o.name.substr(0, dot));
     if (!param || (param->type != ParamType::number_map && param->type != ParamType::text_map)) return false;
     const auto at = std::ranges::find(entries, param->name, &NodeEntry::name);
-    JsonValue map;
-    map.kind = JsonValue::Kind::object;
+    JsonValue map = JsonValue::empty_object();
     if (at != entries.end())
       map = given_by(*at, *param);
     else if (param->fallback)
@@ -271,12 +271,16 @@ bool is_wire(const JsonValue& v) {
   return v.is_text() && v.text.starts_with("@") && !v.text.starts_with("@@");
 }
 
+std::pair<std::string, std::string> wire_parts(const std::string& text) {
+  const size_t dot = std::min(text.find('.'), text.size());
+  return {text.substr(1, dot - 1), text.substr(std::min(dot + 1, text.size()))};
+}
+
 WireEnd wire_end(const JsonValue& text, Diagnostics& diagnostics) {
-  const std::string end = text.text.substr(1);
-  const size_t dot = end.find('.');
-  if (dot + 1 == end.size())
+  if (text.text.ends_with('.'))
     diagnostics.add(text.place, "expected an output's name after the dot in " + in_quotes(text.text));
-  return {end.substr(0, dot), dot == end.npos ? "" : end.substr(dot + 1), text.place, text.text};
+  auto [node, port] = wire_parts(text.text);
+  return {std::move(node), std::move(port), text.place, text.text};
 }
 
 std::optional<JsonValue> expand_wires(const JsonValue& given, Substitution& substitution, Diagnostics& diagnostics,
@@ -306,13 +310,13 @@ void read_node(NodeDraft& draft, const JsonValue& value, const std::vector<const
                std::vector<Problem>& problems) {
   const size_t before = problems.size();
   NodeReader(draft, problems).read(value, overrides);
-  for (size_t i = before; i < problems.size(); i++) problems[i].node = draft.node.name;
+  set_node(problems, before, draft.node.name);
 }
 
 void read_waiting(NodeDraft& draft, std::vector<Problem>& problems) {
   const size_t before = problems.size();
   NodeReader(draft, problems).read_waiting();
-  for (size_t i = before; i < problems.size(); i++) problems[i].node = draft.node.name;
+  set_node(problems, before, draft.node.name);
 }
 
 }  // namespace terrazzo

@@ -74,10 +74,10 @@ struct KnownTypes {
 /// Context for reading the nodes of one graph.
 struct NodeReading {
   const KnownTypes* known = nullptr;
-  std::vector<std::string> graph_names;  ///< that are types too
-  std::filesystem::path graph_folder;    ///< absolute
-  std::optional<int64_t> seed;           ///< of the graph; nodes that give no seed derive theirs from it and their name
-  std::string seed_path;                 ///< before their names, where the seed is that of a graph further out
+  const std::vector<std::string>* graph_names = nullptr;  ///< that are types too
+  std::filesystem::path graph_folder;                     ///< absolute
+  std::optional<int64_t> seed;  ///< of the graph; nodes that give no seed derive theirs from it and their name
+  std::string seed_path;        ///< before their names, where the seed is that of a graph further out
 };
 
 /// What every node may have, whatever its type: "comment", "foreach", "mute", "type".
@@ -93,6 +93,8 @@ void read_waiting(NodeDraft& draft, std::vector<Problem>& problems);
 
 /// Whether a text in a document is a wire: it begins with one "@".
 bool is_wire(const JsonValue& value);
+/// The two parts of "@node.port"; the second is empty for "@node".
+std::pair<std::string, std::string> wire_parts(const std::string& text);
 /// The wire that a text is. A dot without an output behind it is a problem.
 WireEnd wire_end(const JsonValue& text, Diagnostics& diagnostics);
 /// The wire, or list of wires, that `given` stands for, where it may be an expression; `named` gets the nodes it names.

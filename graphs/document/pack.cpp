@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "core/base/hash.h"
 #include "core/file/atomic_file.h"
+#include "core/file/file_io.h"
 #include "core/file/tar.h"
 #include "graphs/document/convert.h"
 #include "graphs/document/format.h"
@@ -23,23 +22,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-JsonValue object() {
-  JsonValue out;
-  out.kind = JsonValue::Kind::object;
-  return out;
-}
-
-JsonValue& member(JsonValue& object_, const std::string& name) {
-  if (JsonValue* known = object_.find(name)) return *known;
-  object_.members.push_back({name, {}, object()});
-  return object_.members.back().value;
-}
-
-/// Throws GraphError.
-JsonValue document_in(const fs::path& file) {
-  ParsedJson parsed = parse_json(read_document(file));
-  if (parsed.problems.empty() && migrate(*parsed.value, document_migrations(), parsed.problems)) return *parsed.value;
-  throw GraphError(file.string(), std::move(parsed.problems));
+JsonValue& member(JsonValue& object, const std::string& name) {
+  if (!object.find(name)) object.set(name, JsonValue::empty_object());
+  return *object.find(name);
 }
 
 /// Takes the graphs that a document's nodes name by file into its section `graphs`.
@@ -70,7 +55,7 @@ class Embedding {
     const auto [at, is_new] = names_.emplace(file, free_name(file.stem().string()));
     std::string name = at->second;
     if (!is_new) return name;
-    JsonValue graph = document_in(file);
+    JsonValue graph = current_document(read_document(file), file.string());
     std::map<std::string, std::string> own;  // the names of its own section `graphs`, here
     std::vector<JsonMember> inner;
     if (const JsonValue* graphs = graph.find("graphs"))
@@ -116,10 +101,10 @@ bool lies_in(const fs::path& path, const fs::path& file) {
 class Packing {
  public:
   Packing(const fs::path& graph, const LoadedGraph& loaded, const fs::path& target)
-      : file_(graph), loaded_(loaded), archive_(target), settings_(object()) {}
+      : file_(graph), loaded_(loaded), archive_(target), settings_(JsonValue::empty_object()) {}
 
   PackedFiles run() {
-    JsonValue document = document_in(file_);
+    JsonValue document = current_document(read_document(file_), file_.string());
     Embedding(document).run(fs::absolute(file_).parent_path());
     add_presets(document);
     for (const GraphNode& node : loaded_.graph.nodes) pack_inputs(node);
@@ -173,7 +158,7 @@ class Packing {
       const auto is_inside = [&](const fs::path& file) { return lies_in(path, file); };
       if (path.empty() || std::ranges::none_of(files, is_inside)) continue;
       std::erase_if(rest, is_inside);
-      settings_.members.push_back({node.name + "." + param.name, {}, JsonValue::of(place_of(path, files))});
+      settings_.set(node.name + "." + param.name, JsonValue::of(place_of(path, files)));
     }
     for (const fs::path& file : rest) out_.left_out.push_back(file.string());
   }
@@ -181,7 +166,7 @@ class Packing {
   /// What a loop finds, and only its names: its nodes have their inputs by settings of their own.
   void pack_loop(const LoopSource& loop) {
     const std::string place = fmt::format("loops/{}", loops_++);
-    JsonValue given = object();
+    JsonValue given = JsonValue::empty_object();
     std::string what = place + "/" + loop.path.filename().string();
     if (loop.kind == "table") {
       add_file(what, loop.path);
@@ -195,9 +180,9 @@ class Packing {
       const std::string extension = loop.kind == "files" ? loop.path.extension().string() : "/kept";
       for (const std::string& name : names) archive_.add(place + "/" + name + extension, "");
     }
-    given.members.push_back({loop.kind, {}, JsonValue::of(what)});
-    given.members.push_back({"as", {}, JsonValue::of(loop.as)});
-    settings_.members.push_back({loop.node + ".foreach", {}, std::move(given)});
+    given.set(loop.kind, JsonValue::of(what));
+    given.set("as", JsonValue::of(loop.as));
+    settings_.set(loop.node + ".foreach", std::move(given));
   }
 
   /// A value that the graph was given becomes the default of its parameter, or, of an input, a setting.
@@ -207,13 +192,13 @@ class Packing {
     if (is_path) {
       const auto place = places_.find(fs::path(std::get<std::string>(*p.value)));
       if (place != places_.end()) {
-        settings_.members.push_back({p.param.name, {}, JsonValue::of(place->second)});
+        settings_.set(p.param.name, JsonValue::of(place->second));
         return;
       }
     }
     if (!p.overridden) return;
     JsonValue& declared = member(member(document, "parameters"), p.param.name);
-    member(declared, "default") = is_path ? JsonValue::of(p.as_written) : json_of(*p.value);
+    declared.set("default", is_path ? JsonValue::of(p.as_written) : json_of(*p.value));
   }
 
   const fs::path& file_;
@@ -233,15 +218,6 @@ bool is_safe(const std::string& name) {
   for (const fs::path& part : path) goes_up |= part == "..";
   return !name.empty() && !path.is_absolute() && !goes_up && !name.ends_with('/') &&
          (name == "graph.json" || name == "settings.json" || name.starts_with("inputs/") || name.starts_with("loops/"));
-}
-
-Digest digest_of_file(const fs::path& file) {
-  Hasher h;
-  std::ifstream in(file, std::ios::binary);
-  std::string part(1 << 20, '\0');
-  while (in.read(part.data(), std::streamsize(part.size())), in.gcount() > 0)
-    h.add(std::string_view(part).substr(0, size_t(in.gcount())));
-  return h.digest();
 }
 
 void remove_unused(const fs::path& folder) {
@@ -273,7 +249,7 @@ fs::path unpacked(const fs::path& pack, const fs::path& folder) {
     if (!is_safe(e.name))
       throw Error(
           fmt::format("{}: the pack holds a file of a name that packs do not have: \"{}\"", pack.string(), e.name));
-  fs::path place = folder / digest_of_file(pack).hex();
+  fs::path place = folder / content_digest(pack).value_or(Digest()).hex();
   std::error_code failure;
   if (fs::exists(place / "settings.json", failure)) {
     fs::last_write_time(place, fs::file_time_type::clock::now(), failure);

@@ -72,6 +72,10 @@ void set_code(std::vector<Problem>& problems, size_t first, const std::string& c
     if (problems[i].code.empty()) problems[i].code = code;
 }
 
+void set_node(std::vector<Problem>& problems, size_t first, const std::string& node) {
+  for (size_t i = first; i < problems.size(); i++) problems[i].node = node;
+}
+
 void set_file(std::vector<Problem>& problems, size_t first, const std::string& file) {
   for (size_t i = first; i < problems.size(); i++)
     if (problems[i].file.empty() && problems[i].place.line > 0) problems[i].file = file;

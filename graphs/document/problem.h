@@ -18,6 +18,9 @@ struct Problem {
   std::string code{};   ///< its kind, for programs: see problem_codes
 };
 
+/// Tells them that they are about this node.
+void set_node(std::vector<Problem>& problems, size_t first, const std::string& node);
+
 /// The kinds of problems and warnings: "syntax", "wire", "parameter", ...
 const std::vector<std::string>& problem_codes();
 

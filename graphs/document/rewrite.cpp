@@ -89,9 +89,8 @@ class Rewriter {
 
   JsonValue text(const JsonValue& v) const {
     if (is_wire(v)) {
-      const std::string end = v.text.substr(1);
-      const size_t dot = end.find('.');
-      return in_place_of(v, change_.wire(end.substr(0, dot), dot == end.npos ? "" : end.substr(dot + 1), v));
+      const auto [node, port] = wire_parts(v.text);
+      return in_place_of(v, change_.wire(node, port, v));
     }
     if (is_expression(v.text)) return in_place_of(v, JsonValue::of("=" + expression(v.text.substr(1))));
     const std::vector<Part> parts = parts_of(v.text);
@@ -165,10 +164,8 @@ class Rewriter {
   std::string literal(const std::string& text) const {
     const JsonValue inside = JsonValue::of(text.substr(1, text.size() - 2));
     if (!is_wire(inside)) return text;
-    const std::string end = inside.text.substr(1);
-    const size_t dot = end.find('.');
-    const std::string port = dot == end.npos ? "" : end.substr(dot + 1);
-    return quoted(wire_text(change_.wire(end.substr(0, dot), port, inside)));
+    const auto [node, port] = wire_parts(inside.text);
+    return quoted(wire_text(change_.wire(node, port, inside)));
   }
 
   const TextChange& change_;
@@ -195,6 +192,14 @@ std::string in_expression(const JsonValue& value) {
 
 JsonValue rewritten(const JsonValue& value, const TextChange& change) {
   return Rewriter(change).value(value);
+}
+
+JsonValue rewritten_entry(const JsonValue& entry, const TextChange& change) {
+  if (!entry.is_object()) return rewritten(entry, change);
+  JsonValue out = entry;
+  for (JsonMember& m : out.members)
+    if (m.name != "type" && m.name != "comment" && m.name != "help") m.value = rewritten(m.value, change);
+  return out;
 }
 
 }  // namespace terrazzo

@@ -22,6 +22,10 @@ struct TextChange {
 /// parameter becomes.
 JsonValue rewritten(const JsonValue& value, const TextChange& change);
 
+/// The same for an entry of a section: a node, the declaration of a parameter, an output. What stands in it for people,
+/// and its type, stay.
+JsonValue rewritten_entry(const JsonValue& entry, const TextChange& change);
+
 /// A value as it stands in an expression: 'text', other, (expression). Throws Error for a map.
 std::string in_expression(const JsonValue& value);
 

@@ -102,13 +102,6 @@ Subgraph& Subgraphs::read_main(const JsonValue& document, const fs::path& file) 
   return main;
 }
 
-std::vector<std::string> Subgraphs::names_in(const Subgraph& graph) {
-  std::vector<std::string> out;
-  if (const JsonValue* section = graph.document->json->find("graphs"))
-    for (const JsonMember& m : section->members) out.push_back(m.name);
-  return out;
-}
-
 const Subgraph* Subgraphs::find(const JsonValue& type, const Subgraph& from) {
   if (!type.is_text()) return nullptr;
   const std::string& name = type.text;
@@ -148,6 +141,7 @@ const Subgraph* Subgraphs::find(const JsonValue& type, const Subgraph& from) {
       try {
         read_text = read_document(path);
       } catch (const GraphError& e) {
+        by_key_.emplace(out.file, nullptr);
         return refuse(e.problems().front().message);
       }
       files_.push_back(path);
@@ -221,6 +215,7 @@ void Subgraphs::read_sections(Subgraph& graph) {
     if (const JsonValue* section = object_at("graphs", "an object of graphs by name"))
       for (const JsonMember& m : section->members) {
         const std::string where = "graph " + in_quotes(m.name);
+        graph.graph_names.push_back(m.name);
         if (!is_node_name(m.name)) problems_.push_back({m.place, where, "expected a name of letters, digits, _ and -"});
         if (types_.find(m.name)) problems_.push_back({m.place, where, "a node type has this name; choose another"});
         if (!m.value.is_object())
@@ -268,7 +263,11 @@ void Subgraphs::read_sources(Subgraph& graph) {
       const JsonValue* type = m.value.find("type");
       const NodeType* known = type && type->is_text() ? types_.find(type->text) : nullptr;
       if (type && !known) {
+        const size_t before = problems_.size();
         const Subgraph* inner = find(*type, graph);
+        for (size_t i = before; i < problems_.size(); i++)
+          if (problems_[i].where.empty() && problems_[i].place.line == type->place.line)
+            problems_[i].where = "node " + in_quotes(m.name);
         // One that is still being read is part of itself, which is reported where it is used.
         if (inner && !inner->is_wrong && std::ranges::find(open_, inner) == open_.end())
           known = &graph.types.emplace_back(type_of_use(*inner, {}));

@@ -28,8 +28,9 @@ struct Subgraph {
   std::string title{};  ///< as it is spelled
   std::string file{};   ///< that its text is in, for messages; empty: the main document
   std::filesystem::path folder{};
-  const JsonValue* json = nullptr;     ///< with `nodes`, `parameters`, ...
-  const Subgraph* document = nullptr;  ///< whose section `graphs` it can use
+  const JsonValue* json = nullptr;         ///< with `nodes`, `parameters`, ...
+  const Subgraph* document = nullptr;      ///< whose section `graphs` it can use
+  std::vector<std::string> graph_names{};  ///< of its section `graphs`
   std::string summary{}, help{};
   std::vector<GraphParameter> parameters{};
   std::vector<Port> inputs{};
@@ -68,8 +69,6 @@ class Subgraphs {
   const Subgraph* find(const JsonValue& type, const Subgraph& from);
   /// Whether a type is spelled as one that stands in a file or comes with the program.
   static bool is_file(std::string_view type) { return type.ends_with(".json") || type.starts_with("stock:"); }
-  /// The names of the section `graphs`.
-  static std::vector<std::string> names_in(const Subgraph& graph);
 
   /// The files that have been read, and the names of the section `graphs` that nothing uses.
   std::vector<std::filesystem::path> files() const;

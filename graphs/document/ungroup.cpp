@@ -88,7 +88,7 @@ class Ungrouping {
                   if (!outer || !is_wire(*outer))
                     throw Error(fmt::format("an expression in it asks for its input {}, which comes from no one node",
                                             in_quotes(from)));
-                  return outer->text.substr(1, outer->text.find('.') - 1);
+                  return wire_parts(outer->text).first;
                 },
             .parameter = [this](const std::string& name) { return parameter(name); }};
   }
@@ -98,13 +98,10 @@ class Ungrouping {
     // Ports that read an input which is open are open.
     std::erase_if(out.members, [&](const JsonMember& m) {
       if (!is_wire(m.value)) return false;
-      const std::string from = m.value.text.substr(1, m.value.text.find('.') - 1);
+      const std::string from = wire_parts(m.value.text).first;
       return is_input(from) && !use_.find(from);
     });
-    const TextChange change = inside();
-    for (JsonMember& m : out.members)
-      if (m.name != "type" && m.name != "comment") m.value = rewritten(m.value, change);
-    return out;
+    return rewritten_entry(out, inside());
   }
 
   /// The wire behind an output, seen from the document.
@@ -123,14 +120,10 @@ class Ungrouping {
                                   const JsonValue wire = output("");
                                   if (!is_wire(wire))
                                     throw Error("an expression outside asks for an output that an expression chooses");
-                                  return wire.text.substr(1, wire.text.find('.') - 1);
+                                  return wire_parts(wire.text).first;
                                 },
                             .parameter = [](const std::string& name) { return JsonValue::of("$" + name); }};
-    if (!value.is_object()) return rewritten(value, change);
-    JsonValue out = value;
-    for (JsonMember& m : out.members)
-      if (m.name != "type" && m.name != "comment" && m.name != "help") m.value = rewritten(m.value, change);
-    return out;
+    return rewritten_entry(value, change);
   }
 
   /// "walls/layout.quality" as "layout.quality".

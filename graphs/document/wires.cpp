@@ -284,7 +284,7 @@ void check_wires(Level& level, std::vector<Problem>& problems, std::vector<Probl
     for (const Item& item : items) {
       const size_t first = problems.size();
       for (PortWires& p : item.draft->ports) checker.check(item.draft->local, p);
-      for (size_t i = first; i < problems.size(); i++) problems[i].node = item.draft->node.name;
+      set_node(problems, first, item.draft->node.name);
     }
   for (auto& [name, wires] : level.outputs) checker.check("", wires);
   set_file(problems, before, level.graph->file);
@@ -300,7 +300,7 @@ void connect(Levels& levels, std::vector<Problem>& problems) {
   for (NodeDraft& d : levels.nodes()) {
     const size_t before = problems.size();
     for (PortWires& p : d.ports) connect_port(d, p);
-    for (size_t i = before; i < problems.size(); i++) problems[i].node = d.node.name;
+    set_node(problems, before, d.node.name);
     set_file(problems, before, d.node.file);
   }
 }

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/image/exemplar_faults.h"
 #include "core/image/image_file.h"
-#include "core/metrics/exemplar_faults.h"
 
 namespace terrazzo {
 

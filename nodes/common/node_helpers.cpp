@@ -92,6 +92,15 @@ ImageInfo generated_info(const NodeContext& node, int channels) {
   return info;
 }
 
+ImagePtr constant_image(const NodeContext& node, ImageInfo info, const Numbers& pixel) {
+  info.channels = int(pixel.size());
+  return Image::computed(info, node.key(),
+                         [values = std::vector<float>(pixel.begin(), pixel.end())](const Rect& region, float* out) {
+                           for (int64_t i = 0; i < region.area(); i++)
+                             out = std::copy(values.begin(), values.end(), out);
+                         });
+}
+
 Port material_port(const std::string& name, const std::string& help) {
   return {.name = name, .type = ValueType::material, .help = help};
 }

@@ -33,6 +33,9 @@ Forecast forecast_of_generated(const Params& params, const InputForecasts& input
 /// The image that they describe, in the colour space of files with this semantic.
 ImageInfo generated_info(const NodeContext& node, int channels);
 
+/// The same pixel everywhere, computed on demand under the node's key; `info` without channels.
+ImagePtr constant_image(const NodeContext& node, ImageInfo info, const Numbers& pixel);
+
 Port image_port(const std::string& name, const std::string& help);
 Port material_port(const std::string& name, const std::string& help);
 

@@ -8,14 +8,10 @@ namespace {
 
 /// The same value everywhere, in place of a map that the material lacks.
 ImagePtr constant(const NodeContext& node, Size size) {
-  const Numbers& value = node.numbers("otherwise");
-  ImageInfo info{.size = size, .channels = int(value.size())};
+  ImageInfo info{.size = size};
   info.semantic = semantic_from(node.text("map")).value_or(Semantic::data);
   info.color_space = assumed_color_space(info.semantic, Depth::u16);
-  const std::vector<float> pixel(value.begin(), value.end());
-  return Image::computed(info, node.key(), [pixel](const Rect& region, float* out) {
-    for (int64_t i = 0; i < region.area(); i++) out = std::copy(pixel.begin(), pixel.end(), out);
-  });
+  return constant_image(node, info, node.numbers("otherwise"));
 }
 
 void compute(NodeContext& node) {

@@ -6,11 +6,7 @@ namespace {
 
 void compute(NodeContext& node) {
   const Numbers& value = node.numbers("value");
-  const ImageInfo info = generated_info(node, int(value.size()));
-  const std::vector<float> pixel(value.begin(), value.end());
-  node.output("image", Image::computed(info, node.key(), [pixel](const Rect& region, float* out) {
-                for (int64_t i = 0; i < region.area(); i++) out = std::copy(pixel.begin(), pixel.end(), out);
-              }));
+  node.output("image", constant_image(node, generated_info(node, int(value.size())), value));
 }
 
 }  // namespace

@@ -39,30 +39,12 @@ Digest missing_digest() {
   return Hasher().add("missing file").digest();
 }
 
-/// None if the file cannot be read.
-std::optional<Digest> digest_of_content(const File& file, const std::filesystem::path& path) {
-  constexpr size_t piece = size_t{1} << 20;
-  std::vector<uint8_t> buffer(piece);
-  Hasher hasher;
-  hasher.add("file");
-  uint64_t size = 0;
-  try {
-    while (const size_t got = file.read_at(size, buffer.data(), piece, path)) {
-      hasher.stream(buffer.data(), got);
-      size += got;
-    }
-  } catch (const FileError&) {
-    return std::nullopt;
-  }
-  return hasher.add(int64_t(size)).digest();
-}
-
 }  // namespace
 
 Digest file_content_digest(const std::filesystem::path& path) {
   const File file = File::open(path, O_RDONLY | O_NONBLOCK);
   if (!stamp_of(file)) return missing_digest();
-  return digest_of_content(file, path).value_or(missing_digest());
+  return content_digest(file, path).value_or(missing_digest());
 }
 
 Digest Cache::file_digest(const std::filesystem::path& path) {
@@ -82,7 +64,7 @@ Digest Cache::file_digest(const std::filesystem::path& path) {
   const std::optional<FileStamp> before = stamp_of(file);
   if (!before) return missing_digest();
   const int64_t begun = now_ns();
-  const std::optional<Digest> content = digest_of_content(file, absolute);
+  const std::optional<Digest> content = content_digest(file, absolute);
   if (!content) return missing_digest();
   const bool settled = std::max(before->modified_ns, before->changed_ns) + unsettled_ns < begun;
   if (settled && stamp_of(file) == before) {

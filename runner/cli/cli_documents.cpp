@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include <CLI/CLI.hpp>
@@ -70,31 +71,24 @@ void compare_seeds(const DocumentFlags& flags, const std::string& before, const 
     say("note: nodes that derive their seeds from the graph's have others now, as they have other names\n");
 }
 
-int group(const DocumentFlags& flags) {
-  const std::string before = read_document(flags.graph);
-  const std::string after = grouped(before, flags.graph, flags.name, flags.nodes);
+int regroup(const DocumentFlags& flags, const std::function<std::string(const std::string&)>& rewrite) {
+  const std::string before = read_document(flags.graph), after = rewrite(before);
   compare_seeds(flags, before, after);
   write_changed(flags, after);
   return exit_done;
+}
+
+int group(const DocumentFlags& flags) {
+  return regroup(flags, [&](const std::string& text) { return grouped(text, flags.graph, flags.name, flags.nodes); });
 }
 
 int ungroup(const DocumentFlags& flags) {
-  const std::string before = read_document(flags.graph);
-  const std::string after = ungrouped(before, flags.graph, flags.name);
-  compare_seeds(flags, before, after);
-  write_changed(flags, after);
-  return exit_done;
-}
-
-/// Throws GraphError.
-JsonValue current_document(const std::string& file) {
-  ParsedJson parsed = parse_json(read_document(file));
-  if (parsed.problems.empty() && migrate(*parsed.value, document_migrations(), parsed.problems)) return *parsed.value;
-  throw GraphError(file, std::move(parsed.problems));
+  return regroup(flags, [&](const std::string& text) { return ungrouped(text, flags.graph, flags.name); });
 }
 
 int diff(const DocumentFlags& flags) {
-  const std::vector<std::string> found = differences(current_document(flags.graph), current_document(flags.name));
+  const std::vector<std::string> found = differences(current_document(read_document(flags.graph), flags.graph),
+                                                     current_document(read_document(flags.name), flags.name));
   for (const std::string& line : found) answer("{}\n", line);
   if (found.empty()) say("the graphs do not differ\n");
   return found.empty() ? exit_done : exit_failed;

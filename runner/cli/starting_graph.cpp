@@ -23,13 +23,6 @@ JsonValue& member(JsonValue& object, std::string_view name) {
   throw std::logic_error(fmt::format("the stock graph has no \"{}\"", name));
 }
 
-void put(JsonValue& object, const std::string& name, JsonValue value) {
-  if (JsonValue* there = object.find(name))
-    *there = std::move(value);
-  else
-    object.members.push_back({name, {}, std::move(value)});
-}
-
 /// The parameters for a folder that graphs have, of which the first is set.
 constexpr std::array<std::string_view, 3> folder_parameters = {"material", "first", "base"};
 
@@ -63,8 +56,7 @@ void comment(JsonValue& value, const std::string& text) {
 
 void weigh(JsonValue& weighted, const Material& exemplar) {
   comment(weighted, "How much each map counts when neighbourhoods are compared; 0 leaves a map out.");
-  JsonValue weights;
-  weights.kind = JsonValue::Kind::object;
+  JsonValue weights = JsonValue::empty_object();
   for (const Map& m : exemplar.maps()) {
     const bool is_empty = is_constant(*m.image);
     if (is_empty) comment(weighted, m.name + " is the same everywhere and is left out.");
@@ -72,7 +64,7 @@ void weigh(JsonValue& weighted, const Material& exemplar) {
   }
   const bool all_are_empty =
       std::ranges::all_of(weights.members, [](const JsonMember& m) { return m.value.number == 0; });
-  if (!all_are_empty) put(weighted, "weights", std::move(weights));
+  if (!all_are_empty) weighted.set("weights", std::move(weights));
 }
 
 void tell_of_lattice(JsonValue& lattice, const ExemplarLook& look) {
@@ -82,7 +74,7 @@ void tell_of_lattice(JsonValue& lattice, const ExemplarLook& look) {
     return;
   }
   comment(lattice, "So none is looked for. \"auto\" looks again, \"manual\" takes one that you give.");
-  put(lattice, "mode", JsonValue::of("off"));
+  lattice.set("mode", JsonValue::of("off"));
 }
 
 void tell_of_layout(JsonValue& layout, const ExemplarLook& look) {
@@ -109,7 +101,7 @@ std::string starting_graph(const ExemplarLook& look, std::string_view stock) {
   if (!parsed.value) throw std::logic_error("the stock graph is no JSON");
   JsonValue& graph = *parsed.value;
   // A default is taken as it is: "$" and "@" mean nothing in it.
-  put(*folder_parameter(graph), "default", JsonValue::of(look.folder.generic_string()));
+  folder_parameter(graph)->set("default", JsonValue::of(look.folder.generic_string()));
 
   JsonValue& nodes = member(graph, "nodes");
   if (nodes.members.empty()) return formatted(graph);

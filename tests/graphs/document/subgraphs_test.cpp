@@ -120,7 +120,7 @@ TEST_CASE("a file is a subgraph, with its own folder and places of its own") {
             "number 2 (from \"$amount\")",
             folder.path().string()));
   CHECK(problems_of(document(R"("b": {"type": "parts/blr.json"})"), {}, path) ==
-        fmt::format("{}:1:59: the graph \"parts/blr.json\": there is no such graph file (did you mean "
+        fmt::format("{}:1:59: node \"b\": the graph \"parts/blr.json\": there is no such graph file (did you mean "
                     "\"{}/parts/blur.json\"?)",
                     path, folder.path().string()));
 }

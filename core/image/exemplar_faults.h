@@ -13,6 +13,8 @@ struct ExemplarFaults {
   double unevenness = 0;   ///< of the means of blocks around that trend, likewise
   std::string_view bright_side = "left", dark_side = "right";
 
+  // The limits trade false alarms against faults that are missed: none of twelve photographed exemplars of all kinds
+  // comes near them (tests have both sides).
   bool is_mostly_one_colour() const { return one_colour > 0.5; }
   /// A trend that stands out from what the texture does itself.
   bool is_lit_from_a_side() const { return brightening > 0.25 && brightening > 3 * unevenness; }

@@ -1,4 +1,4 @@
-#include "core/metrics/exemplar_faults.h"
+#include "core/image/exemplar_faults.h"
 
 #include <algorithm>
 #include <array>
