@@ -7,7 +7,7 @@ source=$(realpath "${1:?usage: guide_test.sh SOURCE_FOLDER PROGRAM}")
 program=$(realpath "${2:?usage: guide_test.sh SOURCE_FOLDER PROGRAM}")
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/terrazzo-guide.XXXXXX")
 trap 'rm -rf "$scratch"' EXIT
-export TERRAZZO_CACHE=$scratch/cache
+export TERRAZZO_CACHE=$scratch/cache TERRAZZO_LIBRARY=$scratch/library
 failed=0
 
 complain() {

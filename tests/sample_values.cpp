@@ -19,6 +19,11 @@ ImagePtr float_image(Size size) {
   return Image::from_floats(info, std::move(pixels));
 }
 
+FingerprintPtr sample_fingerprint() {
+  const std::vector<uint8_t> rising = {0, 51, 102, 153, 204, 255};
+  return std::make_shared<Fingerprint>(Fingerprint{{3, 2}, {{"height", 0, rising}, {"normal", 1, rising}}});
+}
+
 AppearancePtr sample_appearance() {
   std::vector<AppearanceLevel> levels(2);
   for (size_t i = 0; i < levels.size(); i++) {
@@ -35,7 +40,7 @@ AppearancePtr sample_appearance() {
   }
   const Lattice tiles{2, {4, 0.5}, {0, 3}, 0.5}, courses{1, {0, 2}, {}, 0.25};
   const Repeats repeats({{{0, 0, 4, 6}, tiles, tiles, {}}, {{4, 0, 4, 6}, courses, courses, {0.5, 1.25}}});
-  return Appearance::make(std::move(levels), 2, true, repeats);
+  return Appearance::make(std::move(levels), 2, true, repeats, sample_fingerprint());
 }
 
 IndexPtr sample_index() {
@@ -53,7 +58,7 @@ IndexPtr sample_index() {
 UvMapPtr sample_uv_map() {
   std::vector<ExemplarPixel> pixels;
   for (int i = 0; i < 5 * 4; i++) pixels.push_back({uint16_t(i % 8), uint16_t(i % 6)});
-  return UvMap::make({5, 4}, {8, 6}, std::move(pixels), {.x = true, .exemplar = true});
+  return UvMap::make({5, 4}, {8, 6}, std::move(pixels), {.x = true, .exemplar = true}, sample_fingerprint());
 }
 
 struct SameContent {
@@ -74,12 +79,22 @@ struct SameContent {
     bool same = a->size() == b->size() && a->wraps() == b->wraps() && a->images().size() == b->images().size() &&
                 a->repeats() == b->repeats() && (*this)(a->mask(), b->mask());
     for (size_t i = 0; same && i < a->images().size(); i++)
-      same = a->images()[i].weights == b->images()[i].weights && (*this)(a->images()[i].image, b->images()[i].image);
+      same = a->images()[i].map == b->images()[i].map && a->images()[i].weights == b->images()[i].weights &&
+             (*this)(a->images()[i].image, b->images()[i].image);
+    return same;
+  }
+  bool operator()(const FingerprintPtr& a, const FingerprintPtr& b) const {
+    if (!a || !b) return a == b;
+    bool same = a->cells == b->cells && a->channels.size() == b->channels.size();
+    for (size_t i = 0; same && i < a->channels.size(); i++) {
+      const Fingerprint::Channel &c = a->channels[i], &d = b->channels[i];
+      same = c.map == d.map && c.channel == d.channel && c.means == d.means;
+    }
     return same;
   }
   bool operator()(const AppearancePtr& a, const AppearancePtr& b) const {
     bool same = a->wraps() == b->wraps() && a->channels() == b->channels() && a->repeats() == b->repeats() &&
-                a->levels().size() == b->levels().size();
+                a->levels().size() == b->levels().size() && (*this)(a->fingerprint(), b->fingerprint());
     for (size_t i = 0; same && i < a->levels().size(); i++) {
       const AppearanceLevel &l = a->levels()[i], &m = b->levels()[i];
       same = l.size == m.size && l.vectors == m.vectors && l.usable == m.usable && l.dimensions == m.dimensions &&
@@ -96,7 +111,7 @@ struct SameContent {
   }
   bool operator()(const UvMapPtr& a, const UvMapPtr& b) const {
     return a->size() == b->size() && a->exemplar() == b->exemplar() && a->wraps() == b->wraps() &&
-           a->pixels() == b->pixels();
+           a->pixels() == b->pixels() && (*this)(a->fingerprint(), b->fingerprint());
   }
   bool operator()(const ReportPtr& a, const ReportPtr& b) const {
     bool same = a->title() == b->title() && a->figures().size() == b->figures().size() &&
@@ -127,7 +142,7 @@ std::vector<Value> sample_values() {
   std::vector<Report::Figure> figures = {{"distance", 0.25, "lower is better"}, {"kind", std::string("brick"), ""}};
   return {color,
           Material::make("wall", {{"base_color", color}, {"height", height}}),
-          Features::make({7, 5}, {{color, {1, 0.5, 0}}, {height, {2}}}, true, {}, height),
+          Features::make({7, 5}, {{color, {1, 0.5, 0}, "base_color"}, {height, {2}}}, true, {}, height),
           sample_appearance(),
           sample_index(),
           sample_uv_map(),

@@ -5,10 +5,12 @@
 
 namespace terrazzo {
 
-AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Repeats& repeats) {
+AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Repeats& repeats,
+                               FingerprintPtr fingerprint) {
   Hasher h;
   h.add("appearance").add(channels).add(wraps).add(int64_t(levels.size()));
   repeats.add_to(h);
+  if (fingerprint) fingerprint->add_to(h);
   for (const AppearanceLevel& l : levels) {
     if (l.vectors.size() != size_t(l.size.area())) throw std::logic_error("one appearance vector per pixel");
     if (!l.usable.empty() && l.usable.size() != l.vectors.size())
@@ -26,6 +28,7 @@ AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels
   a->channels_ = channels;
   a->wraps_ = wraps;
   a->repeats_ = repeats;
+  a->fingerprint_ = std::move(fingerprint);
   a->digest_ = h.digest();
   return a;
 }

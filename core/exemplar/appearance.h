@@ -7,6 +7,7 @@
 
 #include "core/base/geometry.h"
 #include "core/base/hash.h"
+#include "core/exemplar/fingerprint.h"
 #include "core/exemplar/repeats.h"
 
 namespace terrazzo {
@@ -41,14 +42,17 @@ using AppearancePtr = std::shared_ptr<const Appearance>;
 /// finest level first, each level with a PCA of its own. Immutable.
 class Appearance {
  public:
-  static AppearancePtr make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Repeats& repeats = {});
+  /// `fingerprint`: of the exemplar's maps; null if it is not known.
+  static AppearancePtr make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Repeats& repeats = {},
+                            FingerprintPtr fingerprint = nullptr);
 
   const std::vector<AppearanceLevel>& levels() const { return levels_; }
   Size size() const { return levels_.front().size; }
-  int channels() const { return channels_; }                   ///< features and guidance channels that went in
-  bool wraps() const { return wraps_; }                        ///< the exemplar tiles in x and y
-  const Repeats& repeats() const { return repeats_; }          ///< how the exemplar repeats, if it does
-  const Lattice& lattice() const { return repeats_.lattice; }  ///< that of all of it or of most
+  int channels() const { return channels_; }                          ///< features and guidance channels that went in
+  bool wraps() const { return wraps_; }                               ///< the exemplar tiles in x and y
+  const Repeats& repeats() const { return repeats_; }                 ///< how the exemplar repeats, if it does
+  const Lattice& lattice() const { return repeats_.lattice; }         ///< that of all of it or of most
+  const FingerprintPtr& fingerprint() const { return fingerprint_; }  ///< null: not known
   const Digest& digest() const { return digest_; }
 
  private:
@@ -57,6 +61,7 @@ class Appearance {
   int channels_ = 0;
   bool wraps_ = false;
   Repeats repeats_;
+  FingerprintPtr fingerprint_;
   Digest digest_;
 };
 

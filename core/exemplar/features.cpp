@@ -15,7 +15,7 @@ FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wra
   for (const FeatureImage& f : images) {
     if (f.image->size() != size || int(f.weights.size()) != f.image->channels())
       throw std::logic_error("feature images need one size and a weight per channel");
-    h.add(f.image->digest());
+    h.add(f.map).add(f.image->digest());
     for (const double w : f.weights) {
       h.add(w);
       any |= w > 0;

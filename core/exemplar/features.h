@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/exemplar/repeats.h"
@@ -13,6 +14,7 @@ namespace terrazzo {
 struct FeatureImage {
   ImagePtr image;               ///< already in analysis space
   std::vector<double> weights;  ///< one per channel, >= 0; 0 leaves a channel out
+  std::string map{};            ///< its name in the material, if it has one
 };
 
 class Features;

@@ -5,7 +5,8 @@
 
 namespace terrazzo {
 
-UvMapPtr UvMap::make(Size size, Size exemplar, std::vector<ExemplarPixel> pixels, UvWraps wraps) {
+UvMapPtr UvMap::make(Size size, Size exemplar, std::vector<ExemplarPixel> pixels, UvWraps wraps,
+                     FingerprintPtr fingerprint) {
   if (pixels.size() != size_t(size.area())) throw std::logic_error("one exemplar pixel per output pixel");
   if (std::any_of(pixels.begin(), pixels.end(),
                   [&](ExemplarPixel p) { return p.x >= exemplar.width || p.y >= exemplar.height; }))
@@ -14,11 +15,13 @@ UvMapPtr UvMap::make(Size size, Size exemplar, std::vector<ExemplarPixel> pixels
   h.add("uv map").add(size.width).add(size.height).add(exemplar.width).add(exemplar.height);
   h.add(wraps.x).add(wraps.y).add(wraps.exemplar);
   h.bytes(pixels.data(), pixels.size() * sizeof(ExemplarPixel));
+  if (fingerprint) fingerprint->add_to(h);
   auto map = std::shared_ptr<UvMap>(new UvMap);
   map->size_ = size;
   map->exemplar_ = exemplar;
   map->wraps_ = wraps;
   map->pixels_ = std::move(pixels);
+  map->fingerprint_ = std::move(fingerprint);
   map->digest_ = h.digest();
   return map;
 }

@@ -6,6 +6,7 @@
 
 #include "core/base/geometry.h"
 #include "core/base/hash.h"
+#include "core/exemplar/fingerprint.h"
 
 namespace terrazzo {
 
@@ -32,8 +33,10 @@ using UvMapPtr = std::shared_ptr<const UvMap>;
 /// Immutable.
 class UvMap {
  public:
-  /// `pixels` row by row; all lie within `exemplar`, the size of the exemplar that was analysed.
-  static UvMapPtr make(Size size, Size exemplar, std::vector<ExemplarPixel> pixels, UvWraps wraps = {});
+  /// `pixels` row by row; all lie within `exemplar`, the size of the exemplar that was analysed. `fingerprint`: of its
+  /// maps; null if it is not known.
+  static UvMapPtr make(Size size, Size exemplar, std::vector<ExemplarPixel> pixels, UvWraps wraps = {},
+                       FingerprintPtr fingerprint = nullptr);
 
   Size size() const { return size_; }
   Size exemplar() const { return exemplar_; }
@@ -42,6 +45,7 @@ class UvMap {
   void read(const Rect& region, ExemplarPixel* out) const;
   const std::vector<ExemplarPixel>& pixels() const { return pixels_; }
   ExemplarPixel at(int x, int y) const { return pixels_[size_t(y) * size_.width + x]; }
+  const FingerprintPtr& fingerprint() const { return fingerprint_; }  ///< null: not known
   const Digest& digest() const { return digest_; }
 
  private:
@@ -50,6 +54,7 @@ class UvMap {
   Size exemplar_;
   UvWraps wraps_;
   std::vector<ExemplarPixel> pixels_;
+  FingerprintPtr fingerprint_;
   Digest digest_;
 };
 

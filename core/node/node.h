@@ -51,15 +51,24 @@ enum class ParamType : uint8_t {
 };
 std::string_view name_of(ParamType type);
 
+/// What "library:NAME" stands for as the value of a path: a part of a named analysis.
+enum class LibraryFile : uint8_t {
+  none,      ///< it is refused
+  analysis,  ///< the file
+  material,  ///< the folder of the analysed maps
+  kept,      ///< itself: it goes on to the parameter of a node
+};
+
 struct Param {
   std::string name;
   ParamType type = ParamType::number;
-  std::optional<ParamValue> fallback{};  ///< the default; a parameter without one must be given
-  std::string help{};                    ///< one or two sentences
-  std::optional<double> min{}, max{};    ///< for integer, number, and every element of size, numbers, number_map
-  std::string unit{};                    ///< "pixels", "degrees", ... or empty
-  std::vector<std::string> choices{};    ///< for choice; for number_map and text_map the allowed names, if not empty
-  int min_count = 0, max_count = 0;      ///< for numbers and texts; 0 = no limit
+  std::optional<ParamValue> fallback{};     ///< the default; a parameter without one must be given
+  std::string help{};                       ///< one or two sentences
+  std::optional<double> min{}, max{};       ///< for integer, number, and every element of size, numbers, number_map
+  std::string unit{};                       ///< "pixels", "degrees", ... or empty
+  std::vector<std::string> choices{};       ///< for choice; for number_map and text_map the allowed names, if not empty
+  int min_count = 0, max_count = 0;         ///< for numbers and texts; 0 = no limit
+  LibraryFile library = LibraryFile::none;  ///< for path
 };
 
 /// All of a node's parameters by name: defaults filled in, checked against the descriptor.

@@ -143,6 +143,7 @@ class ValueReader {
     const auto count = in_.get<uint32_t>();
     for (uint32_t i = 0; i < count; i++) {
       FeatureImage f{image(), {}};
+      f.map = in_.get_text();
       for (int c = 0; c < f.image->channels(); c++) f.weights.push_back(in_.get<double>());
       images.push_back(std::move(f));
     }
@@ -192,18 +193,35 @@ class ValueReader {
     return stream(ahead.get<uint32_t>(), StreamKind::bytes).elements / sizeof(T);
   }
 
+  FingerprintPtr fingerprint() {
+    if (in_.get_below<uint8_t>(2) == 0) return nullptr;
+    auto out = std::make_shared<Fingerprint>();
+    out->cells = size();
+    require(std::max(out->cells.width, out->cells.height) <= Fingerprint::most_cells, "a fingerprint is too large");
+    const auto count = in_.get<uint32_t>();
+    for (uint32_t i = 0; i < count; i++) {
+      Fingerprint::Channel c;
+      c.map = in_.get_text();
+      c.channel = in_.get_below<uint8_t>(4);
+      c.means = array<uint8_t>(uint64_t(out->cells.area()));
+      out->channels.push_back(std::move(c));
+    }
+    return out;
+  }
+
   AppearancePtr appearance() {
     const int channels = in_.get<int32_t>();
     require(channels > 0, "an appearance has no channels");
     const bool wraps = in_.get_below<uint8_t>(2) != 0;
     const Repeats repeated = repeats();
+    FingerprintPtr maps = fingerprint();
     const auto count = in_.get<uint32_t>();
     require(count > 0, "an appearance has no levels");
     std::vector<AppearanceLevel> levels;
     for (uint32_t i = 0; i < count; i++) levels.push_back(level());
     check_levels(levels, channels);
     check_repeats(repeated, levels.front().size);
-    return checked([&] { return Appearance::make(std::move(levels), channels, wraps, repeated); });
+    return checked([&] { return Appearance::make(std::move(levels), channels, wraps, repeated, std::move(maps)); });
   }
 
   IndexPtr index() {
@@ -225,8 +243,9 @@ class ValueReader {
     const Size s = size(), exemplar = size();
     UvWraps wraps;
     for (bool* w : {&wraps.x, &wraps.y, &wraps.exemplar}) *w = in_.get_below<uint8_t>(2) != 0;
+    FingerprintPtr maps = fingerprint();
     auto pixels = array<ExemplarPixel>(uint64_t(s.area()));
-    return checked([&] { return UvMap::make(s, exemplar, std::move(pixels), wraps); });
+    return checked([&] { return UvMap::make(s, exemplar, std::move(pixels), wraps, std::move(maps)); });
   }
 
   ReportPtr report() {

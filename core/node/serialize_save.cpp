@@ -76,6 +76,7 @@ class ValueWriter {
     out_.put(uint32_t(features->images().size()));
     for (const FeatureImage& f : features->images()) {
       (*this)(f.image);
+      out_.put_text(f.map);
       for (const double w : f.weights) out_.put(w);
     }
     out_.put(uint8_t(features->mask() != nullptr));
@@ -86,6 +87,7 @@ class ValueWriter {
     out_.put(int32_t(appearance->channels()));
     out_.put(uint8_t(appearance->wraps()));
     put(appearance->repeats());
+    put(appearance->fingerprint());
     out_.put(uint32_t(appearance->levels().size()));
     for (const AppearanceLevel& l : appearance->levels()) {
       put(l.size);
@@ -111,6 +113,7 @@ class ValueWriter {
     put(map->size());
     put(map->exemplar());
     for (const bool wraps : {map->wraps().x, map->wraps().y, map->wraps().exemplar}) out_.put(uint8_t(wraps));
+    put(map->fingerprint());
     put_array(map->pixels());
   }
 
@@ -154,6 +157,18 @@ class ValueWriter {
       put(p.lattice);
       put(p.shown);
       put(p.start);
+    }
+  }
+
+  void put(const FingerprintPtr& fingerprint) {
+    out_.put(uint8_t(fingerprint != nullptr));
+    if (!fingerprint) return;
+    put(fingerprint->cells);
+    out_.put(uint32_t(fingerprint->channels.size()));
+    for (const Fingerprint::Channel& c : fingerprint->channels) {
+      out_.put_text(c.map);
+      out_.put(uint8_t(c.channel));
+      put_array(c.means);
     }
   }
 

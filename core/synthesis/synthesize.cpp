@@ -61,7 +61,8 @@ UvMapPtr finest_uv(const SharedWork& s, std::span<const ExemplarPixel> coarse, c
   Field field = refined_field(s, coarse, region);
   return UvMap::make(field.size, appearance.size(), std::move(field.pixels),
                      {s.options.tile_x && region.width == s.options.size.width,
-                      s.options.tile_y && region.height == s.options.size.height, appearance.wraps()});
+                      s.options.tile_y && region.height == s.options.size.height, appearance.wraps()},
+                     appearance.fingerprint());
 }
 
 void require_coarse(const SharedWork& s, const UvMap& coarse) {
@@ -106,7 +107,7 @@ UvMapPtr coarse_uv(const Index& index, const SynthesisOptions& options, const Ta
   shared.finest = coarse_level(shared);
   Field field = coarse_field(shared);
   return UvMap::make(field.size, shared.exemplar(std::max(0, coarse_level(shared) - 1)).size, std::move(field.pixels),
-                     {options.tile_x, options.tile_y, index.appearance()->wraps()});
+                     {options.tile_x, options.tile_y, index.appearance()->wraps()}, index.appearance()->fingerprint());
 }
 
 UvMapPtr refine(const Index& index, const UvMap& coarse, const SynthesisOptions& options, const Rect& region,

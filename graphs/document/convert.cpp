@@ -9,6 +9,7 @@
 #include "core/base/suggest.h"
 #include "core/base/text.h"
 #include "graphs/document/format.h"
+#include "graphs/library/library.h"
 
 namespace terrazzo {
 
@@ -235,7 +236,19 @@ class Reader {
   std::optional<std::string> path(const JsonValue& v) {
     const bool may_be_empty = param_.fallback && *param_.fallback == ParamValue(std::string());
     if (!v.is_text() || (v.text.empty() && !may_be_empty)) return wrong(v);
-    return absolute(v.text);
+    return is_library_reference(v.text) ? in_library(v) : absolute(v.text);
+  }
+
+  std::optional<std::string> in_library(const JsonValue& v) {
+    if (param_.library == LibraryFile::kept) return v.text;
+    if (param_.library == LibraryFile::none)
+      return complain(v, "a path", "; only load_analysis, and load_material for its maps, take an analysis by name");
+    try {
+      return library_file(v.text, param_.library).string();
+    } catch (const Error& e) {
+      complaints_.add(v.place, e.what());
+      return std::nullopt;
+    }
   }
 
   std::string absolute(const std::string& text) const {

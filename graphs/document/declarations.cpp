@@ -81,6 +81,7 @@ class Declaration {
       return false;
     }
     out_.param.type = static_cast<ParamType>(at - names.begin());
+    if (out_.param.type == ParamType::path) out_.param.library = LibraryFile::kept;
     return true;
   }
 

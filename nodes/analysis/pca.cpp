@@ -28,7 +28,7 @@ void compute(NodeContext& node) {
 NodeType pca_node() {
   NodeType t;
   t.name = "pca";
-  t.version = 2;
+  t.version = 3;
   t.category = "analysis";
   t.summary = "Transforms features into appearance space";
   t.help =

@@ -26,7 +26,7 @@ void compute(NodeContext& node) {
 NodeType weight_node() {
   NodeType t;
   t.name = "weight";
-  t.version = 6;
+  t.version = 7;
   t.category = "analysis";
   t.summary = "Weights the maps of a material for analysis";
   t.help =

@@ -48,13 +48,16 @@ NodeType load_analysis_node() {
   t.summary = "Reads an index that save_analysis wrote";
   t.help =
       "Synthesis from the file gives the same uv map, bit for bit, as from the saved index. The exemplar's maps are "
-      "needed only by resolve_uv, and may be other maps than the analysed ones, or larger (see `scale` there): "
+      "needed only by resolve_uv, and may be more maps than the analysed ones, or larger (see `scale` there): "
       "{\"index\": {\"type\": \"load_analysis\", \"path\": \"bricks.analysis\"}, \"layout\": {\"type\": "
       "\"synthesize\", \"index\": \"@index\"}, \"exemplar\": {\"type\": \"load_material\", \"path\": \"bricks\"}, "
       "\"result\": {\"type\": \"resolve_uv\", \"uv\": \"@layout\", \"material\": \"@exemplar\"}}. Files that are "
       "damaged, truncated, of a newer version, or no analysis are refused.";
   t.outputs = {{.name = "index", .type = ValueType::index, .help = "all that synthesis needs"}};
-  t.params = {{.name = "path", .type = ParamType::path, .help = "The file."}};
+  t.params = {{.name = "path",
+               .type = ParamType::path,
+               .help = "The file, or \"library:NAME\" for a named analysis (terrazzo library).",
+               .library = LibraryFile::analysis}};
   t.persist = Persist::digest;
   t.files_read = [](const Params& params) {
     return std::vector<std::filesystem::path>{std::get<std::string>(params.at("path"))};

@@ -220,7 +220,10 @@ NodeType load_material_node() {
   t.outputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps found, named after their semantics"}};
   t.params = {
-      {.name = "path", .type = ParamType::path, .help = "The folder of the maps."},
+      {.name = "path",
+       .type = ParamType::path,
+       .help = "The folder of the maps, or \"library:NAME\" for the one that a named analysis was made of.",
+       .library = LibraryFile::material},
       {.name = "normal_y",
        .type = ParamType::choice,
        .fallback = "auto",

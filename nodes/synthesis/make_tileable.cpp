@@ -51,7 +51,7 @@ void leave(NodeContext& node, const Index& index) {
       "the exemplar already tiles and stays as it is; to replace its border anyway, set \"tiles\" to \"no\" where it "
       "is analysed, in the stock graph by --set tiles=no");
   const KeptPixels kept = interior(size, size, {0, 0});
-  const UvMapPtr uv = UvMap::make(size, size, kept.pixels, {true, true, true});
+  const UvMapPtr uv = UvMap::make(size, size, kept.pixels, {true, true, true}, index.appearance()->fingerprint());
   node.output("border", new_pixels_mask(*uv, kept));
   node.output("uv", uv);
 }

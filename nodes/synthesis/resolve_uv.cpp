@@ -1,7 +1,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/analysis/space/likeness.h"
 #include "core/node/node.h"
 #include "core/resolve/joined_heights.h"
 #include "core/resolve/resolve.h"
@@ -55,7 +57,11 @@ std::vector<Param> params() {
            .help = "How many times larger the material is than the analysed exemplar, and the result than the uv map. "
                    "0 takes it from the material.",
            .min = 0,
-           .max = largest_scale}};
+           .max = largest_scale},
+          {.name = "other_material",
+           .type = ParamType::boolean,
+           .fallback = false,
+           .help = "Also takes a material that does not look like the analysed one. By default that is an error."}};
 }
 
 std::vector<std::string> check(const Params& params) {
@@ -88,6 +94,18 @@ size_t memory_hint(const NodeContext& node) {
   return size_t(values * sizeof(float));
 }
 
+/// Throws Error about "material" if it is certainly not the one that was analysed.
+void require_analysed(const Material& material, const UvMap& uv, const Task& task) {
+  if (!uv.fingerprint()) return;
+  const std::optional<Likeness> found = likeness(*uv.fingerprint(), material, task);
+  if (!found || found->correlation >= least_likeness()) return;
+  throw Error("material",
+              fmt::format("this is not the exemplar that was analysed: its {} and the analysed one's show other things "
+                          "(correlation {:.2f}, expected {} or more); connect the maps that were analysed, in any "
+                          "size, or analyse these; to use them anyway set \"other_material\" to true",
+                          fmt::join(found->maps, ", "), found->correlation, least_likeness()));
+}
+
 void compute(NodeContext& node) {
   const Numbers& at = node.numbers("kept_at");
   const ResolveOptions options{.blend = node.number("blend"),
@@ -96,7 +114,11 @@ void compute(NodeContext& node) {
                                .kept = node.optional_input<Material>("kept"),
                                .kept_at = {int(at[0]), int(at[1])},
                                .holes = node.optional_input<Image>("holes")};
-  node.output("material", resolved(*node.input<Material>("material"), node.input<UvMap>("uv"), options, node.task()));
+  const auto material = node.input<Material>("material");
+  const auto uv = node.input<UvMap>("uv");
+  MaterialPtr result = resolved(*material, uv, options, node.task());
+  if (!node.flag("other_material")) require_analysed(*material, *uv, node.task());
+  node.output("material", std::move(result));
 }
 
 Forecast preflight(const Params& params, const InputForecasts& inputs) {
@@ -124,7 +146,9 @@ NodeType resolve_uv_node() {
       "Bhat et al. 2008). Heights stay within the exemplar's range, and normals still fit. Tiles of a larger surface "
       "that are resolved one by one fit together only without `join`, which needs the whole result. `scale` shows a "
       "larger exemplar than the analysed one: analyse and synthesize a copy reduced by `resize`, which is faster and "
-      "captures larger features, and connect the original here.";
+      "captures larger features, and connect the original here. A material that is not the analysed one is an error: "
+      "small "
+      "copies of the analysed maps go with the uv map, and maps of the same names are compared with them.";
   t.inputs = inputs();
   t.outputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps, in the uv map's size times `scale`"}};

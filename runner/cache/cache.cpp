@@ -1,14 +1,13 @@
 #include "runner/cache/cache.h"
 
 #include <cerrno>
-#include <cstdlib>
 
 #include <fmt/format.h>
-#include <pwd.h>
 #include <unistd.h>
 
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
+#include "core/file/user_folders.h"
 #include "core/node/serialize.h"
 #include "runner/cache/cache_records.h"
 #include "runner/cache/cache_state.h"
@@ -22,11 +21,6 @@ constexpr uint64_t default_limit = uint64_t{10} << 30;
 /// What is computed quicker than that need not survive a power failure: writing thousands of small entries to the disk
 /// one by one would take longer than making them again. An entry of which only a part got there fails its checksum.
 constexpr double seconds_worth_syncing = 0.05;
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value ? value : "";
-}
 
 }  // namespace
 
@@ -60,14 +54,7 @@ std::vector<std::string> Cache::State::take_warnings() {
 }
 
 std::filesystem::path Cache::default_folder() {
-  if (const std::string given = environment("TERRAZZO_CACHE"); !given.empty()) return given;
-  // A relative $XDG_CACHE_HOME is to be ignored, says its specification.
-  if (const std::string base = environment("XDG_CACHE_HOME"); base.starts_with('/'))
-    return std::filesystem::path(base) / "terrazzo";
-  std::string home = environment("HOME");
-  if (const passwd* user = home.empty() ? ::getpwuid(::getuid()) : nullptr) home = user->pw_dir;
-  if (home.empty()) throw Error("there is no home folder for the cache; set $TERRAZZO_CACHE to a folder");
-  return std::filesystem::path(home) / ".cache" / "terrazzo";
+  return user_folder("TERRAZZO_CACHE", "XDG_CACHE_HOME", ".cache");
 }
 
 Cache::Cache(const std::filesystem::path& folder, uint64_t limit)

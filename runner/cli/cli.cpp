@@ -244,6 +244,7 @@ int obey(int argc, const char* const* argv, ProgressMode mode) {
   add_document_commands(app, chosen);
   add_node_commands(app, chosen);
   add_cache_command(app, chosen);
+  add_library_command(app, chosen);
   add_compare_command(app, chosen);
   add_help_command(app, chosen, mode);
   try {

@@ -40,6 +40,7 @@ void add_document_commands(CLI::App& app, Chosen& chosen);
 void add_node_commands(CLI::App& app, Chosen& chosen);
 void add_cache_command(CLI::App& app, Chosen& chosen);
 void add_compare_command(CLI::App& app, Chosen& chosen);
+void add_library_command(CLI::App& app, Chosen& chosen);
 
 /// Throws UsageError, before the run, unless the option's file can be written. Accepts an empty `path`.
 void check_writable(const char* option, const std::string& path);

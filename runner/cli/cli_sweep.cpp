@@ -35,24 +35,6 @@ std::optional<double> value_in(const Report& report, const std::string& figure) 
   return std::get<double>(at->value);
 }
 
-using Table = std::vector<std::vector<std::string>>;
-
-std::string aligned(const Table& table) {
-  std::vector<size_t> widths;
-  for (const auto& row : table) {
-    widths.resize(std::max(widths.size(), row.size()), 0);
-    for (size_t c = 0; c < row.size(); c++) widths[c] = std::max(widths[c], row[c].size());
-  }
-  std::string out;
-  for (const auto& row : table) {
-    std::string line;
-    for (size_t c = 0; c < row.size(); c++) line += fmt::format("{:<{}}  ", row[c], widths[c]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    out += line + "\n";
-  }
-  return out;
-}
-
 std::string as_csv(const Table& table) {
   std::string out;
   for (const auto& row : table) {
@@ -271,7 +253,7 @@ void Sweep::report(const RunResult& result) const {
       const Value& picture = result.kept.at(pictures_[i].node).at(pictures_[i].port);
       pictures.push_back({variations_[i].label(), std::get<ImagePtr>(picture)});
     }
-    write_variations_page(table, pictures, flags_.sheet);
+    write_variations_page("Variations", table, pictures, flags_.sheet);
     say("wrote {}\n", flags_.sheet);
   }
   if (!flags_.best.empty()) tell_best(figures);

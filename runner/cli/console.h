@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,6 +23,10 @@ template <typename... Values>
 void answer(fmt::format_string<Values...> format, Values&&... values) {
   write_answer(fmt::format(format, std::forward<Values>(values)...));
 }
+/// Rows of texts, the first of them their head.
+using Table = std::vector<std::vector<std::string>>;
+/// The table in columns, a line for each row.
+std::string aligned(const Table& table);
 /// errno of the first failed write_answer; 0 if all output was written.
 int answer_failure();
 

@@ -22,16 +22,16 @@ void write_report_page(const Report& report, const std::filesystem::path& path) 
                              page_foot("{}", false));
 }
 
-void write_variations_page(const std::vector<std::vector<std::string>>& table,
+void write_variations_page(const std::string& title, const std::vector<std::vector<std::string>>& table,
                            const std::vector<Report::Picture>& pictures, const std::filesystem::path& path) {
   const int side = side_for(pictures.size(), variation_side);
   PagePictures shown;
   std::string gallery = "<div class=\"gallery variations\">\n";
   for (const Report::Picture& p : pictures) gallery += shown.figure(shown.add(p.image, side), p.name);
-  write_whole_file(path, page_head("Variations",
+  write_whole_file(path, page_head(title,
                                    "<p class=\"quiet\">A click on a head of the table sorts table and "
                                    "pictures by it, a click on a row shows its picture.</p>\n") +
-                             section("table", "All variations", sortable_table(table)) +
+                             section("table", "All", sortable_table(table)) +
                              section("pictures", "Pictures", gallery + "</div>\n") + page_foot("{}", false));
 }
 

@@ -61,6 +61,7 @@ class Reader {
   void operator()(const AppearancePtr& appearance) {
     hasher_.add(appearance->channels()).add(appearance->wraps()).add(int64_t(appearance->levels().size()));
     appearance->repeats().add_to(hasher_);
+    if (appearance->fingerprint()) (*this)(*appearance->fingerprint());
     for (const AppearanceLevel& l : appearance->levels()) {
       add(l.size);
       hasher_.add(l.dimensions).add(l.scale).add(l.retained);
@@ -70,6 +71,13 @@ class Reader {
       bits(l.basis);
       for (const AppearanceVector& v : l.vectors)
         for (const int16_t component : v) numbers_.push_back(component);
+    }
+  }
+  void operator()(const Fingerprint& fingerprint) {
+    add(fingerprint.cells);
+    for (const Fingerprint::Channel& c : fingerprint.channels) {
+      hasher_.add(c.map).add(c.channel);
+      numbers(c.means);
     }
   }
   void operator()(const IndexPtr& index) {
@@ -82,6 +90,7 @@ class Reader {
   void operator()(const UvMapPtr& uv) {
     add(uv->size());
     add(uv->exemplar());
+    hasher_.add(uv->fingerprint() != nullptr);
     hasher_.add(uv->wraps().x).add(uv->wraps().y).add(uv->wraps().exemplar);
     for (const ExemplarPixel& p : uv->pixels()) {
       hasher_.add(int(p.x)).add(int(p.y));

@@ -32,9 +32,11 @@ StartedProgram::StartedProgram(const std::filesystem::path& folder, const std::v
   std::vector<char*> argv;
   for (std::string& w : words) argv.push_back(w.data());
   argv.push_back(nullptr);
-  std::vector<std::string> settings = {"TERRAZZO_CACHE=" + (folder / "cache").string()};
+  std::vector<std::string> settings = {"TERRAZZO_CACHE=" + (folder / "cache").string(),
+                                       "TERRAZZO_LIBRARY=" + (folder / "library").string()};
   for (char** e = environ; *e; e++)
-    if (!std::string_view(*e).starts_with("TERRAZZO_CACHE=")) settings.push_back(*e);
+    if (const std::string_view s = *e; !s.starts_with("TERRAZZO_CACHE=") && !s.starts_with("TERRAZZO_LIBRARY="))
+      settings.push_back(*e);
   std::vector<char*> environment;
   for (std::string& s : settings) environment.push_back(s.data());
   environment.push_back(nullptr);

@@ -13,7 +13,7 @@ struct ProgramRun {
   std::string err;
 };
 
-/// Runs the program in `folder` with a cache of its own there, and waits for it.
+/// Runs the program in `folder` with a cache and a library of its own there, and waits for it.
 ProgramRun run_program(const std::filesystem::path& folder, const std::vector<std::string>& args);
 
 /// The program running by itself, its standard error in `folder`/stderr.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/analysis/space/likeness.h"
 #include "core/analysis/space/mask_pyramid.h"
 #include "core/analysis/space/planes.h"
 #include "core/base/error.h"
@@ -182,7 +183,9 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
     throw Error(fmt::format("the exemplar has {}x{} pixels; it needs at least {} and at most 65536 a side", size.width,
                             size.height, smallest_side));
   const int count = level_count(size);
-  Planes planes = weighted_planes(features, task);
+  Planes planes = unmasked_planes(features, task);
+  auto fingerprint = std::make_shared<Fingerprint>(fingerprint_of(features, planes));
+  fill_masked(planes, features);
   Planes guides = guidance_planes(features, guidance, task);
   const std::vector<uint8_t> allowed = allowed_pixels(features);
   std::vector<AppearanceLevel> levels;
@@ -197,7 +200,8 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
     // Each level has a quarter of the pixels of the one before.
     task.progress(1 - 1.0 / double(int64_t{4} << (2 * l)));
   }
-  return Appearance::make(std::move(levels), planes.channels + guides.channels, features.wraps(), features.repeats());
+  return Appearance::make(std::move(levels), planes.channels + guides.channels, features.wraps(), features.repeats(),
+                          std::move(fingerprint));
 }
 
 PixelChannels pixel_channels(const AppearanceLevel& level, int most) {

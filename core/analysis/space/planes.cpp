@@ -58,8 +58,10 @@ void add_image(const Image& image, const std::vector<double>& weights, const std
   });
 }
 
-/// Pixels that are not allowed continue the nearest that is, so that they do not show through at coarse levels.
-void fill_forbidden(Planes& planes, const std::vector<uint8_t>& allowed) {
+}  // namespace
+
+void fill_masked(Planes& planes, const Features& features) {
+  const std::vector<uint8_t> allowed = allowed_pixels(features);
   if (allowed.empty() || planes.channels == 0) return;
   const std::vector<uint32_t> nearest = nearest_set(allowed, planes.size, planes.wraps);
   const int n = planes.channels;
@@ -67,9 +69,7 @@ void fill_forbidden(Planes& planes, const std::vector<uint8_t>& allowed) {
     if (!allowed[i]) std::copy_n(&planes.values[size_t(nearest[i]) * n], n, &planes.values[i * n]);
 }
 
-}  // namespace
-
-Planes weighted_planes(const Features& features, const Task& task) {
+Planes unmasked_planes(const Features& features, const Task& task) {
   const std::vector<uint8_t> allowed = allowed_pixels(features);
   Planes planes = Planes::zeros(features.size(), features.channel_count(), features.wraps());
   int first = 0;
@@ -78,7 +78,12 @@ Planes weighted_planes(const Features& features, const Task& task) {
     add_image(*f.image, f.weights, allowed, planes, first);
     for (const double w : f.weights) first += w > 0;
   }
-  fill_forbidden(planes, allowed);
+  return planes;
+}
+
+Planes weighted_planes(const Features& features, const Task& task) {
+  Planes planes = unmasked_planes(features, task);
+  fill_masked(planes, features);
   return planes;
 }
 
@@ -100,7 +105,7 @@ Planes guidance_planes(const Features& features, const std::vector<ImagePtr>& gu
     add_image(*g, std::vector<double>(g->channels(), 1.0), allowed, planes, first);
     first += g->channels();
   }
-  fill_forbidden(planes, allowed);
+  fill_masked(planes, features);
   return planes;
 }
 

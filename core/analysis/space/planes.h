@@ -9,8 +9,14 @@
 namespace terrazzo {
 
 /// The features' weighted channels. Images are first normalised to unit total variance, so that weights are comparable,
-/// but nearly constant ones by no more than 8-bit noise allows. Masked-out pixels do not count and take the nearest
-/// allowed pixel. Throws Cancelled.
+/// but nearly constant ones by no more than 8-bit noise allows. Masked-out pixels do not count there, and keep their
+/// values. Throws Cancelled.
+Planes unmasked_planes(const Features& features, const Task& task);
+
+/// Gives masked-out pixels what the nearest allowed pixel has, so that they do not show through at coarse levels.
+void fill_masked(Planes& planes, const Features& features);
+
+/// Both.
 Planes weighted_planes(const Features& features, const Task& task);
 
 /// The same for guidance images (signed feature distances, control maps), which share one weight. Throws Error about

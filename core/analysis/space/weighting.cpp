@@ -92,7 +92,7 @@ FeaturesPtr weighted_features(const Material& material, const NumberMap& weights
     // The alpha of a colour map is coverage, not colour: it counts only if it is asked for.
     if (given == weights.end() && image->channels() == 4) channel_weights[3] = 0;
     if (std::any_of(channel_weights.begin(), channel_weights.end(), [](double w) { return w > 0; }))
-      images.push_back({image, channel_weights});
+      images.push_back({image, channel_weights, map.name});
   }
   return Features::make(material.size(), std::move(images), wraps, {},
                         mask ? nearest_at_size(mask, material.size()) : nullptr);

@@ -135,7 +135,7 @@ TEST_CASE("a page of variations has a row and a picture for each; equal pictures
     table.push_back({std::to_string(i)});
     pictures.push_back({fmt::format("seed={}", i), number_image(i % 2)});
   }
-  write_variations_page(table, pictures, folder.path() / "page.html");
+  write_variations_page("Variations", table, pictures, folder.path() / "page.html");
   const std::string page = read_text(folder.path() / "page.html");
   CHECK(count(page, "<tr data-row=") == 5);
   CHECK(count(page, "<img class=\"picture\"") == 5);

@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/file/atomic_file.h"
+#include "core/file/file_io.h"
+#include "core/image/image_file.h"
+#include "core/picture/contact_sheet.h"
+#include "graphs/document/problem.h"
+#include "graphs/library/library.h"
+#include "nodes/common/registry.h"
+#include "runner/cli/cli_commands.h"
+#include "runner/cli/console.h"
+#include "runner/cli/library_making.h"
+#include "runner/cli/signals.h"
+#include "runner/report/html_report.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct LibraryFlags {
+  std::string folder, name;
+  std::vector<std::string> names, tags;
+  std::string summary, sheet;
+  LibraryAddition addition;
+  bool force = false, json = false;
+
+  Library open() const { return folder.empty() ? Library() : Library({fs::absolute(folder).lexically_normal()}); }
+};
+
+/// A folder for files on their way into the library, on its file system.
+class WorkFolder {
+ public:
+  explicit WorkFolder(const fs::path& library) {
+    std::error_code failure;
+    fs::create_directories(library, failure);
+    if (failure) throw_system_error("create", library, failure.value());
+    path_ = temporary_beside(library / "new");
+    if (!fs::create_directory(path_, failure)) throw_system_error("create", path_, failure.value());
+  }
+  ~WorkFolder() {
+    std::error_code failure;
+    fs::remove_all(path_, failure);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+int add(const LibraryFlags& flags) {
+  const Library library = flags.open();
+  const std::string& name = flags.name;
+  require_library_name(name);
+  if (!flags.force && library.contains(name))
+    throw UsageError(fmt::format("{} is in the library {}; --force replaces it", name, library.folder().string()));
+  const WorkFolder work(library.folder());
+  const CancelOnSignal signals;
+  RunResult result;
+  std::optional<LibraryEntry> entry;
+  try {
+    entry = made_entry(flags.addition, work.path(), signals.flag(), result);
+  } catch (const GraphError& e) {
+    std::vector<Problem> problems;
+    for (const Problem& p : e.problems())
+      problems.push_back({{},
+                          p.node == "exemplar" || p.node == "index" ? "SOURCE" : p.where,
+                          for_command_line(p.message, flags.addition.source)});
+    throw GraphError("", std::move(problems));
+  }
+  for (const Failure& f : result.failures) say("error: {}\n", f.message);
+  if (!entry) return result.cancelled ? exit_cancelled : exit_failed;
+  entry->name = name;
+  entry->tags = flags.tags;
+  entry->summary = flags.summary;
+  library.add(*entry);
+  say("added \"library:{}\" to {}\n", name, library.folder().string());
+  return exit_done;
+}
+
+/// Whether an entry has all tags, and all words in its name, summary or tags.
+bool is_meant(const LibraryEntry& entry, const LibraryFlags& flags) {
+  const auto has_tag = [&](const std::string& tag) {
+    return std::ranges::any_of(entry.tags, [&](const std::string& t) { return lowercase(t) == lowercase(tag); });
+  };
+  const std::string text = lowercase(fmt::format("{}\n{}\n{}", entry.name, entry.summary, fmt::join(entry.tags, "\n")));
+  return std::ranges::all_of(flags.tags, has_tag) && std::ranges::all_of(flags.names, [&](const std::string& word) {
+           return text.find(lowercase(word)) != text.npos;
+         });
+}
+
+std::string as_json(const std::vector<LibraryEntry>& entries) {
+  Json list = Json::array();
+  for (const LibraryEntry& e : entries)
+    list.push_back({{"name", e.name},
+                    {"summary", e.summary},
+                    {"tags", e.tags},
+                    {"size", {e.size.width, e.size.height}},
+                    {"maps", e.maps},
+                    {"analysis", e.analysis.string()},
+                    {"content", e.content.hex()},
+                    {"picture", e.picture.string()},
+                    {"material", e.material.string()},
+                    {"settings", e.settings},
+                    {"added", e.added}});
+  return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Table as_table(const std::vector<LibraryEntry>& entries) {
+  Table out = {{"name", "size", "tags", "maps", "summary"}};
+  for (const LibraryEntry& e : entries)
+    out.push_back({e.name, fmt::format("{}x{}", e.size.width, e.size.height), fmt::format("{}", fmt::join(e.tags, " ")),
+                   fmt::format("{}", fmt::join(e.maps, " ")), e.summary});
+  return out;
+}
+
+void write_picture(const Image& image, const fs::path& path) {
+  const std::vector<uint8_t> bytes = encoded_file(image, {.format = *format_from(path)});
+  write_whole_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+void write_sheet(const std::vector<LibraryEntry>& entries, const fs::path& path) {
+  constexpr int columns = 6, largest = 8192;
+  std::vector<Report::Picture> pictures;
+  std::vector<std::vector<ImagePtr>> rows;
+  std::vector<std::vector<std::string>> captions;
+  const ImageInfo info{.size = {}, .semantic = Semantic::base_color, .color_space = "srgb_texture"};
+  for (const LibraryEntry& e : entries) {
+    if (e.picture.empty()) continue;
+    const ImagePtr picture = read_image(e.picture, info, [](const std::string&) {});
+    if (pictures.size() % columns == 0) {
+      rows.emplace_back();
+      captions.emplace_back();
+    }
+    rows.back().push_back(picture);
+    captions.back().push_back(e.name);
+    pictures.push_back({e.name, picture});
+  }
+  if (is_page(path))
+    write_variations_page("Library", as_table(entries), pictures, path);
+  else if (pictures.empty())
+    throw Error("--sheet: none of these has a picture");
+  else
+    write_picture(*contact_sheet(rows, largest, captions), path);
+  say("wrote {}\n", path.string());
+}
+
+int list(const LibraryFlags& flags) {
+  check_sheet(flags.sheet);
+  const Library library = flags.open();
+  std::vector<std::string> faults;
+  std::vector<LibraryEntry> entries = library.entries(faults);
+  for (const std::string& fault : faults) say("{}{}\n", warning_mark, fault);
+  std::erase_if(entries, [&](const LibraryEntry& e) { return !is_meant(e, flags); });
+  if (!flags.sheet.empty()) write_sheet(entries, flags.sheet);
+  if (flags.json)
+    write_answer(as_json(entries));
+  else if (entries.empty())
+    say("the library {} holds nothing{}\n", library.folder().string(),
+        flags.names.empty() && flags.tags.empty() ? "; terrazzo library add makes an entry" : " like that");
+  else
+    write_answer(aligned(as_table(entries)));
+  return exit_done;
+}
+
+/// Node types that would make another analysis today.
+std::vector<std::string> outdated(const LibraryEntry& entry) {
+  std::vector<std::string> out;
+  for (const auto& [type, version] : entry.versions)
+    if (const NodeType* now = find_node_type(type); now && now->version != version)
+      out.push_back(
+          fmt::format("version {} of {} made it; version {} makes another analysis", version, type, now->version));
+  return out;
+}
+
+int check(const LibraryFlags& flags) {
+  const Library library = flags.open();
+  std::vector<std::string> faults;
+  std::vector<LibraryEntry> entries;
+  if (flags.names.empty()) entries = library.entries(faults);
+  for (const std::string& name : flags.names) entries.push_back(library.find(name));
+  for (const std::string& fault : faults) answer("{}\n", fault);
+  size_t faulty = faults.size();
+  for (const LibraryEntry& e : entries) {
+    const std::vector<std::string> found = Library::faults_of(e);
+    faulty += !found.empty();
+    for (const std::string& fault : found) answer("{}: {}\n", e.name, fault);
+    for (const std::string& old : outdated(e)) answer("{}: note: {}\n", e.name, old);
+  }
+  answer("{}\n", faulty == 0 ? fmt::format("{} sound", entries.size() == 1 ? "1 analysis"
+                                                                           : fmt::format("{} analyses", entries.size()))
+                             : fmt::format("{} of {} with faults", faulty, entries.size() + faults.size()));
+  return faulty == 0 ? exit_done : exit_failed;
+}
+
+int remove(const LibraryFlags& flags) {
+  const Library library = flags.open();
+  for (const std::string& name : flags.names) {
+    library.remove(name);
+    say("removed {}\n", name);
+  }
+  return exit_done;
+}
+
+}  // namespace
+
+void add_library_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* library = app.add_subcommand("library", "Keeps named analyses, for graphs to share");
+  library->require_subcommand(1);
+  library->footer(
+      "Graphs name an analysis as \"library:brick/red\", in load_analysis, and in load_material for its maps.\n"
+      "The folder is $TERRAZZO_LIBRARY (several are separated by colons; new analyses go into the first), or\n"
+      "terrazzo/library under $XDG_DATA_HOME or ~/.local/share.\n"
+      "Examples:\n"
+      "  terrazzo library add brick/red bricks/ --tag wall --summary \"old red bricks\"\n"
+      "  terrazzo library list --tag wall --sheet walls.html");
+  const auto flags = std::make_shared<LibraryFlags>();
+  const auto sub = [&](const char* name, const char* help, int (*act)(const LibraryFlags&)) {
+    CLI::App* command = library->add_subcommand(name, help);
+    command->add_option("--library", flags->folder, "The library's folder, if not the usual one")->type_name("DIR");
+    command->callback([&chosen, flags, act] { chosen = [flags, act] { return act(*flags); }; });
+    return command;
+  };
+  const auto several = [](CLI::Option* option) { option->take_all()->expected(1); };
+
+  CLI::App* adding = sub("add", "Analyses a folder of maps, or takes an analysis, and keeps it under a name", add);
+  adding->add_option("NAME", flags->name, "Its name, such as brick/red")->required();
+  adding->add_option("SOURCE", flags->addition.source, "A folder of maps, or a file that save_analysis wrote")
+      ->required()
+      ->type_name("PATH");
+  adding->add_option("--material", flags->addition.material, "Of a file: the folder of the maps that were analysed")
+      ->type_name("DIR");
+  adding->add_flag("--other-material", flags->addition.other_material,
+                   "Take --material though it does not look like what was analysed");
+  several(
+      adding->add_option("--tag", flags->tags, "A word to find it by; may be given several times")->type_name("TAG"));
+  adding->add_option("--summary", flags->summary, "A line about it")->type_name("TEXT");
+  several(adding
+              ->add_option("--set", flags->addition.set,
+                           "Sets a parameter of a node of the stock graph analyse.json, such as "
+                           "weighted.weights.height=2; may be given several times")
+              ->type_name("NAME=VALUE"));
+  adding->add_flag("--force", flags->force, "Replace the one that has this name");
+
+  CLI::App* listing = sub("list", "Lists analyses: all, or those with these words in name, summary or tags", list);
+  listing->add_option("WORD", flags->names, "What to look for")->expected(0, -1);
+  several(listing->add_option("--tag", flags->tags, "Only those with this tag; may be given several times")
+              ->type_name("TAG"));
+  listing->add_option("--sheet", flags->sheet, "Write a sheet of their pictures, a picture or a page (.html)")
+      ->type_name("FILE");
+  listing->add_flag("--json", flags->json, "For programs");
+
+  sub("check", "Reads every file, and looks whether the maps are still those that were analysed; exit code 1 if not",
+      check)
+      ->add_option("NAME", flags->names, "Only these")
+      ->expected(0, -1);
+  sub("remove", "Removes analyses from the library", remove)
+      ->add_option("NAME", flags->names, "Their names")
+      ->required()
+      ->expected(1, -1);
+}
+
+}  // namespace terrazzo
