@@ -142,6 +142,8 @@ class NodeReader {
   void read_entry(const NodeEntry& e) {
     given_.insert(e.name);
     draft_.node.places[e.name] = e.place;
+    if (e.value)
+      for (const JsonMember& m : e.value->members) draft_.node.places[e.name + "." + m.name] = m.place;
     if (const Port* port = type().find_input(e.name)) {
       read_port(e, *port);
     } else if (const Param* param = type().find_param(e.name)) {
@@ -151,8 +153,10 @@ class NodeReader {
       for (const Port& p : type().inputs) names.push_back(p.name);
       for (const Param& p : type().params) names.push_back(p.name);
       Diagnostics diagnostics = e.by ? e.by->diagnostics(problems_) : Diagnostics(problems_, where_);
-      diagnostics.add(e.place, fmt::format("{} has no port or parameter {}{}", type().name, in_quotes(e.name),
-                                           suggestion(e.name, names)));
+      std::string hint = did_you_mean(e.name, names);
+      if (hint.empty()) hint = did_you_mean(e.name, common_node_keys());
+      if (hint.empty()) hint = suggestion(e.name, names);
+      diagnostics.add(e.place, fmt::format("{} has no port or parameter {}{}", type().name, in_quotes(e.name), hint));
     }
   }
 
