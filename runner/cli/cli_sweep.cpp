@@ -204,7 +204,7 @@ void Sweep::add_sheet(const Graph& document, const Nodes& nodes, std::vector<Gra
   pictures_ = of_each<Wire>(base, [&](const std::string& node) {
     const Wire& wire = nodes.at(node)->inputs.at("material").front();
     if (nodes.at(wire.node)->type->find_output(wire.port)->type == ValueType::image) return wire;
-    added.push_back(memory_node("lit for " + node, "preview", {}));
+    added.push_back(memory_node("lit for " + node, "preview", {{"size", Size{512, 0}}}));
     added.back().inputs["material"] = {wire};
     return Wire{added.back().name, "image"};
   });

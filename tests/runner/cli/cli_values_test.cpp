@@ -124,6 +124,8 @@ TEST_CASE("figures of variations become a table") {
   CHECK(worst.err.find("space [") == std::string::npos);
   CHECK(w.run({"run", "stones.json", "--sweep", "seed=1,2", "--sweep", "size=80,96", "--dry-run"})
             .err.find("'out/' + seed + '-' + size\"") != std::string::npos);
+  CHECK(w.run({"run", "stones.json", "--sweep", "seed=1..2", "--set", "size=96x32", "--sheet", "flat.png"}).code == 0);
+  CHECK(read_image_info(w.path / "flat.png").size == Size{8 + 2 * 264, 8 + 256 + 18 + 8});
   // Found before anything runs: no stage is told of.
   for (const auto& [figure, answer] : {std::pair("swdd", "no such figure (did you mean \"swd\"?)"),
                                        std::pair("wrap_seam_x", "which way is better? wrap_seam_x:min or")}) {
