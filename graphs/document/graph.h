@@ -31,18 +31,19 @@ struct GraphNode {
   std::map<std::string, std::vector<Wire>> inputs;  ///< by port; only connected ports
   std::string comment{};                            ///< what the document says about it; for reports and drawings
   Place place{};
-  /// Of the parameters and ports that the document gives; "weights.height" of a member of a map.
+  /// Of the parameters and ports that the document gives; "weights.height" of a member of a map, "maps.0" of an item
+  /// of a list.
   std::map<std::string, Place> places{};
   std::string file{};    ///< that the places are in; empty: the graph's own
   bool is_open = false;  ///< it needs something that has not been set: it can be looked at, but not run
   /// Of path parameters and of ports: the graph's own parameters that say which files they, or what comes in, are from.
   std::map<std::string, std::set<std::string>> files_by{};
 
-  /// Of the parameter, port or member of a map ("weights.height"), or of the nearest around it that the document gives.
+  /// Of the parameter, port or part of one, or of the nearest around it that the document gives.
   Place place_of(const std::string& about) const {
     const auto at = places.find(about);
     if (at != places.end() && at->second.line > 0) return at->second;
-    const size_t dot = about.find('.');
+    const size_t dot = about.rfind('.');
     return dot == about.npos ? place : place_of(about.substr(0, dot));
   }
 };

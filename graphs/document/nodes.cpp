@@ -142,8 +142,7 @@ class NodeReader {
   void read_entry(const NodeEntry& e) {
     given_.insert(e.name);
     draft_.node.places[e.name] = e.place;
-    if (e.value)
-      for (const JsonMember& m : e.value->members) draft_.node.places[e.name + "." + m.name] = m.place;
+    if (e.value) note_parts(e.name, *e.value);
     if (const Port* port = type().find_input(e.name)) {
       read_port(e, *port);
     } else if (const Param* param = type().find_param(e.name)) {
@@ -158,6 +157,12 @@ class NodeReader {
       if (hint.empty()) hint = suggestion(e.name, names);
       diagnostics.add(e.place, fmt::format("{} has no port or parameter {}{}", type().name, in_quotes(e.name), hint));
     }
+  }
+
+  void note_parts(const std::string& name, const JsonValue& value) {
+    std::map<std::string, Place>& places = draft_.node.places;
+    for (const JsonMember& m : value.members) places[name + "." + m.name] = m.place;
+    for (size_t i = 0; i < value.items.size(); i++) places[fmt::format("{}.{}", name, i)] = value.items[i].place;
   }
 
   void read_parameter(const NodeEntry& e, const Param& param) {

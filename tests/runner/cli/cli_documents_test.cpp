@@ -36,7 +36,7 @@ TEST_CASE("check tells programs what is wrong and where, in JSON") {
   CHECK(good["problems"].back()["code"] == "conversion");
 }
 
-TEST_CASE("a problem with a member of a map points at that member") {
+TEST_CASE("a problem with a member of a map, or an item of a list, points at it") {
   const Workplace w;
   write_text(w.path / "maps.json", R"({"terrazzo": 1, "nodes": {
  "p": {"type": "pattern", "kind": "gravel", "size": 64},
@@ -45,7 +45,9 @@ TEST_CASE("a problem with a member of a map points at that member") {
    "normals": 2,
    "rust": 3}},
  "s": {"type": "pca", "features": "@w"}, "i": {"type": "index", "appearance": "@s"},
- "a": {"type": "save_analysis", "index": "@i", "path": "a.tza"}}})");
+ "a": {"type": "save_analysis", "index": "@i", "path": "a.tza"},
+ "f": {"type": "export", "material": "@p", "path": "out/{map}.png", "maps": ["height",
+   "rust"]}}})");
   const auto pointers = [&](const std::vector<std::string>& more) {
     std::vector<std::string> args = {"check", "maps.json", "--json"}, found;
     args.insert(args.end(), more.begin(), more.end());
@@ -54,12 +56,14 @@ TEST_CASE("a problem with a member of a map points at that member") {
       found.push_back(fmt::format("{}:{}", p["line"].get<int>(), p["pointer"].get<std::string>()));
     return found;
   };
-  CHECK(pointers({}) == std::vector<std::string>{"5:/nodes/w/weights/normals", "6:/nodes/w/weights/rust"});
+  CHECK(pointers({}) ==
+        std::vector<std::string>{"5:/nodes/w/weights/normals", "6:/nodes/w/weights/rust", "10:/nodes/f/maps/1"});
   CHECK(contains(w.run({"check", "maps.json"}).err,
                  "maps.json:5:4: node \"w\" (weight), parameter \"weights\": there is no map \"normals\" (did you mean "
                  "\"normal\"?)"));
   // The value of the command line stands in no file.
-  CHECK(pointers({"--set", "w.weights.moss=1"}) == std::vector<std::string>(3, "3:/nodes/w"));
+  CHECK(pointers({"--set", "w.weights.moss=1"}) ==
+        std::vector<std::string>{"3:/nodes/w", "3:/nodes/w", "3:/nodes/w", "10:/nodes/f/maps/1"});
 }
 
 TEST_CASE("check warns of what is hardly meant") {
