@@ -51,7 +51,7 @@ std::string label_of(const std::string& text) {
 
 /// What a misspelt folder, or files taken for folders, leave a loop with.
 std::string nothing_like(const fs::path& pattern, bool folders, size_t others) {
-  const std::string message = fmt::format("no {} is named like {}", folders ? "folder" : "file", pattern.string());
+  std::string message = fmt::format("no {} is named like {}", folders ? "folder" : "file", pattern.string());
   if (others > 0)
     return fmt::format("{}; {} {}: use \"{}\"", message, counted(int64_t(others), folders ? "file" : "folder"),
                        others == 1 ? "is" : "are", folders ? "files" : "folders");
