@@ -9,8 +9,8 @@
 namespace terrazzo {
 
 /// Something a user can mend: a wrong value, an unreadable file, inputs that do not fit together. The message says what
-/// was expected and what was found; `about` names the port or parameter, if one is to blame. Whoever runs a node adds
-/// the graph file and the node's name.
+/// was expected and what was found; `about` names the port or parameter, if one is to blame, or a part of one
+/// ("weights.height", "maps.0"). Whoever runs a node adds the graph file and the node's name.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}

@@ -31,6 +31,13 @@ size_t edit_distance(std::string_view a, std::string_view b, size_t limit) {
   return above[b.size()];
 }
 
+/// Without what people leave out or put in between words.
+std::string letters_of(std::string_view name) {
+  std::string out = lowercase(name);
+  std::erase_if(out, [](char c) { return c == '_' || c == '-' || c == ' '; });
+  return out;
+}
+
 /// One is the other's beginning, as in "bool" and "boolean".
 bool is_short_form(std::string_view a, std::string_view b) {
   const size_t shared = std::min(a.size(), b.size());
@@ -42,6 +49,10 @@ bool is_short_form(std::string_view a, std::string_view b) {
 std::string nearest(std::string_view wrong, const std::vector<std::string>& names) {
   constexpr size_t longest = 64;
   if (wrong.empty() || wrong.size() > longest) return "";
+  const std::string letters = letters_of(wrong);
+  const auto same = std::ranges::find_if(
+      names, [&](const std::string& name) { return name != wrong && letters_of(name) == letters; });
+  if (same != names.end() && !letters.empty()) return *same;
   const std::string typed = lowercase(wrong);
   std::string best;
   size_t least = (typed.size() + 2) / 3 + 1;

@@ -6,8 +6,8 @@
 
 namespace terrazzo {
 
-/// The name most like `wrong` by edit distance (case counts little), or empty if none is near enough to be meant.
-/// The first of several equally near ones.
+/// The name most like `wrong`: one with the same letters, whatever their case and what joins words (- or _), else by
+/// edit distance. The first of several equally near ones; empty if none is near enough to be meant.
 std::string nearest(std::string_view wrong, const std::vector<std::string>& names);
 
 /// ` (did you mean "x"?)`, or nothing if no name is near: for messages that list the valid names themselves, or where

@@ -21,21 +21,31 @@ constexpr float ink = 0.85f;
 constexpr int64_t longest_side = 32768;
 /// Rows pulled at once, so that a huge picture never exists as a whole.
 constexpr int rows_at_once = 16;
+constexpr int most_caption_lines = 3;
 
 int columns_of(size_t pictures, const GridSpec& spec) {
   return int(std::min(pictures, size_t(spec.columns)));
 }
 
-/// Pixels per dot of the font: about thirty characters fit below a large picture.
+/// Pixels per dot of the font: about thirty characters fit below a large picture, and letters of seven pixels below
+/// small ones would be too small to read.
 int dot_size(const GridSpec& spec) {
-  return std::max(1, spec.cell.width / (30 * glyph_advance));
+  return std::max(2, spec.cell.width / (30 * glyph_advance));
 }
 
-/// A cell with its caption.
+int line_height(const GridSpec& spec) {
+  return (glyph_height + 2) * dot_size(spec);
+}
+
+std::vector<std::string> caption_lines(const std::string& caption, const GridSpec& spec) {
+  return wrapped(caption, spec.cell.width / (glyph_advance * dot_size(spec)), most_caption_lines);
+}
+
+/// A cell with its caption, and room for the longest.
 Size place_size(const GridSpec& spec) {
-  const bool captioned = std::any_of(spec.captions.begin(), spec.captions.end(), [](auto& c) { return !c.empty(); });
-  const int dot = dot_size(spec);
-  return {spec.cell.width, spec.cell.height + (captioned ? (glyph_height + 2) * dot : 0)};
+  size_t lines = 0;
+  for (const std::string& caption : spec.captions) lines = std::max(lines, caption_lines(caption, spec).size());
+  return {spec.cell.width, spec.cell.height + int(lines) * line_height(spec)};
 }
 
 Size fitted(Size size, const GridSpec& spec) {
@@ -72,9 +82,11 @@ void draw_picture(const Image& picture, int left, int top, const Task& task, She
 
 void draw_caption(const std::string& caption, int left, int top, const GridSpec& spec, SheetCanvas& sheet) {
   const int dot = dot_size(spec);
-  const std::string text = shortened(caption, spec.cell.width / (glyph_advance * dot));
-  const int indent = (spec.cell.width - character_count(text) * glyph_advance * dot) / 2;
-  for_each_dot(text, [&](int x, int y) { sheet.fill({left + indent + x * dot, top + y * dot, dot, dot}, ink); });
+  for (const std::string& line : caption_lines(caption, spec)) {
+    const int indent = (spec.cell.width - character_count(line) * glyph_advance * dot) / 2;
+    for_each_dot(line, [&](int x, int y) { sheet.fill({left + indent + x * dot, top + y * dot, dot, dot}, ink); });
+    top += line_height(spec);
+  }
 }
 
 }  // namespace

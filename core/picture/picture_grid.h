@@ -25,8 +25,9 @@ Size grid_size(size_t pictures, const GridSpec& spec);
 
 /// Pictures of any sizes and kinds row by row in cells of one size, each scaled to fit and centred, as one 8-bit sRGB
 /// image. Colours are converted from their colour space; a picture of one or two channels is shown by its first as
-/// grey, a fourth channel is left out; values are clamped to [0, 1]. Captions too long for their cell are cut. Throws
-/// Error if there is no picture, more captions than pictures, or the sheet would be wider or higher than 32768 pixels.
+/// grey, a fourth channel is left out; values are clamped to [0, 1]. Captions have up to three lines, of letters that
+/// are never too small to read; what is too long for their cell is cut. Throws Error if there is no picture, more
+/// captions than pictures, or the sheet would be wider or higher than 32768 pixels.
 ImagePtr picture_grid(const std::vector<ImagePtr>& pictures, const GridSpec& spec, const Task& task);
 
 }  // namespace terrazzo

@@ -93,6 +93,23 @@ std::string shortened(std::string_view text, int most) {
   return std::string(text.substr(0, end)) + "..";
 }
 
+std::vector<std::string> wrapped(std::string_view text, int most, int most_lines) {
+  std::vector<std::string> lines;
+  for (size_t at = text.find_first_not_of(' '); at < text.size(); at = text.find_first_not_of(' ', at)) {
+    const size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word(text.substr(at, end - at));
+    const bool fits = !lines.empty() && character_count(lines.back()) + 1 + character_count(word) <= most;
+    if (fits || int(lines.size()) == most_lines)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+    at = end;
+  }
+  for (std::string& line : lines) line = shortened(line, most);
+  std::erase(lines, "");
+  return lines;
+}
+
 void for_each_dot(std::string_view text, const std::function<void(int x, int y)>& dot) {
   int left = 0;
   for (const char c : text) {

@@ -31,16 +31,20 @@ struct GraphNode {
   std::map<std::string, std::vector<Wire>> inputs;  ///< by port; only connected ports
   std::string comment{};                            ///< what the document says about it; for reports and drawings
   Place place{};
-  std::map<std::string, Place> places{};  ///< of the parameters and ports that the document gives
-  std::string file{};                     ///< that the places are in; empty: the graph's own
+  /// Of the parameters and ports that the document gives; "weights.height" of a member of a map, "maps.0" of an item
+  /// of a list.
+  std::map<std::string, Place> places{};
+  std::string file{};    ///< that the places are in; empty: the graph's own
   bool is_open = false;  ///< it needs something that has not been set: it can be looked at, but not run
   /// Of path parameters and of ports: the graph's own parameters that say which files they, or what comes in, are from.
   std::map<std::string, std::set<std::string>> files_by{};
 
-  /// Of the parameter or port if the document gives it, else of the node.
+  /// Of the parameter, port or part of one, or of the nearest around it that the document gives.
   Place place_of(const std::string& about) const {
     const auto at = places.find(about);
-    return at == places.end() || at->second.line == 0 ? place : at->second;
+    if (at != places.end() && at->second.line > 0) return at->second;
+    const size_t dot = about.rfind('.');
+    return dot == about.npos ? place : place_of(about.substr(0, dot));
   }
 };
 

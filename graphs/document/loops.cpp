@@ -7,6 +7,7 @@
 #include <glob.h>
 
 #include "core/base/suggest.h"
+#include "core/base/text.h"
 #include "graphs/document/convert.h"
 #include "graphs/document/format.h"
 #include "graphs/document/variations.h"
@@ -46,6 +47,22 @@ std::string label_of(const std::string& text) {
   std::string out;
   for (const char c : text) out += static_cast<unsigned char>(c) < ' ' || c == '/' || c == '[' || c == ']' ? '_' : c;
   return out;
+}
+
+/// What a misspelt folder, or files taken for folders, leave a loop with.
+std::string nothing_like(const fs::path& pattern, bool folders, size_t others) {
+  std::string message = fmt::format("no {} is named like {}", folders ? "folder" : "file", pattern.string());
+  if (others > 0)
+    return fmt::format("{}; {} {}: use \"{}\"", message, counted(int64_t(others), folders ? "file" : "folder"),
+                       others == 1 ? "is" : "are", folders ? "files" : "folders");
+  fs::path folder;
+  for (const fs::path& part : pattern.parent_path()) {
+    if (part.string().find_first_of("*?[") != std::string::npos) break;
+    folder /= part;
+    std::error_code failure;
+    if (!fs::is_directory(folder, failure)) return fmt::format("{}; there is no folder {}", message, folder.string());
+  }
+  return message;
 }
 
 class LoopReader {
@@ -160,7 +177,10 @@ class LoopReader {
     } else if (!given.is_list()) {
       return refuse_values(given);
     }
-    if (values.empty()) return complain("expected at least one value, found an empty list");
+    if (values.empty())
+      return complain(
+          "expected at least one value, found an empty list; no wire could come from a node without rounds: give a "
+          "value, or take the node out");
     if (values.size() > most_variations)
       return complain(fmt::format("expected at most {} values, found {}", most_variations, values.size()));
     const std::optional<ParamType> type = common_type(values);
@@ -173,14 +193,17 @@ class LoopReader {
     glob_t found{};
     const int code = ::glob(pattern.c_str(), 0, nullptr, &found);
     std::vector<fs::path> paths;
+    size_t others = 0;
     for (size_t i = 0; code == 0 && i < found.gl_pathc; i++) {
       const fs::path path = found.gl_pathv[i];
       std::error_code failure;
-      if (folders ? fs::is_directory(path, failure) : fs::is_regular_file(path, failure)) paths.push_back(path);
+      if (folders ? fs::is_directory(path, failure) : fs::is_regular_file(path, failure))
+        paths.push_back(path);
+      else
+        others += folders ? fs::is_regular_file(path, failure) : fs::is_directory(path, failure);
     }
     ::globfree(&found);
-    if (paths.empty())
-      return complain(fmt::format("no {} is named like {}", folders ? "folder" : "file", pattern.string()));
+    if (paths.empty()) return complain(nothing_like(pattern, folders, others));
     if (paths.size() > most_variations)
       return complain(fmt::format("expected at most {} of them, found {}", most_variations, paths.size()));
     std::ranges::sort(paths);

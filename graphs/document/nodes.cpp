@@ -142,6 +142,7 @@ class NodeReader {
   void read_entry(const NodeEntry& e) {
     given_.insert(e.name);
     draft_.node.places[e.name] = e.place;
+    if (e.value) note_parts(e.name, *e.value);
     if (const Port* port = type().find_input(e.name)) {
       read_port(e, *port);
     } else if (const Param* param = type().find_param(e.name)) {
@@ -151,9 +152,17 @@ class NodeReader {
       for (const Port& p : type().inputs) names.push_back(p.name);
       for (const Param& p : type().params) names.push_back(p.name);
       Diagnostics diagnostics = e.by ? e.by->diagnostics(problems_) : Diagnostics(problems_, where_);
-      diagnostics.add(e.place, fmt::format("{} has no port or parameter {}{}", type().name, in_quotes(e.name),
-                                           suggestion(e.name, names)));
+      std::string hint = did_you_mean(e.name, names);
+      if (hint.empty()) hint = did_you_mean(e.name, common_node_keys());
+      if (hint.empty()) hint = suggestion(e.name, names);
+      diagnostics.add(e.place, fmt::format("{} has no port or parameter {}{}", type().name, in_quotes(e.name), hint));
     }
+  }
+
+  void note_parts(const std::string& name, const JsonValue& value) {
+    std::map<std::string, Place>& places = draft_.node.places;
+    for (const JsonMember& m : value.members) places[name + "." + m.name] = m.place;
+    for (size_t i = 0; i < value.items.size(); i++) places[fmt::format("{}.{}", name, i)] = value.items[i].place;
   }
 
   void read_parameter(const NodeEntry& e, const Param& param) {

@@ -92,7 +92,8 @@ std::string describe(const std::string& file, const Problem& problem) {
 Problem problem_of(const GraphNode& node, const std::string& about, const std::string& message) {
   std::string where = fmt::format("node \"{}\" ({})", node.name, node.type->name);
   if (node.type->find_input(about)) where += fmt::format(", input \"{}\"{}", about, files(node, about, "made from "));
-  if (node.type->find_param(about)) where += fmt::format(", parameter \"{}\"{}", about, files(node, about, ""));
+  const std::string param = about.substr(0, about.find('.'));
+  if (node.type->find_param(param)) where += fmt::format(", parameter \"{}\"{}", param, files(node, param, ""));
   return {node.place_of(about), where, message, node.name, node.file, ""};
 }
 

@@ -33,7 +33,8 @@ void set_file(std::vector<Problem>& problems, size_t first, const std::string& f
 /// `file:line:column: where: message`, without the parts that are not known.
 std::string describe(const std::string& file, const Problem& problem);
 
-/// A problem of a checked graph's node; `about` names the port or parameter that is to blame, or is empty.
+/// A problem of a checked graph's node; `about` names the port, the parameter or the part of one ("weights.height",
+/// "maps.0") that is to blame, or is empty.
 Problem problem_of(const GraphNode& node, const std::string& about, const std::string& message);
 
 /// All problems of one document, in the order of their places; what() has one line for each.

@@ -53,13 +53,22 @@ NodeType weight_node() {
     std::vector<std::string> out;
     for (const auto& [name, weights] : std::get<NumberMap>(params.at("weights")))
       if (std::ranges::all_of(weights, [](double w) { return w == 0; }))
-        out.push_back(fmt::format("\"weights\": the weight of {} is 0: nothing in it is looked at", name));
+        out.push_back(fmt::format("\"weights.{0}\": the weight of {0} is 0: nothing in it is looked at", name));
     return out;
   };
   t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    std::vector<std::string> weighted;
-    for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) weighted.push_back(name);
-    return preflight_analysis("weights", weighted, inputs);
+    check_all(
+        [&] {
+          std::vector<Error> missing;
+          for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) try {
+              preflight_maps("weights." + name, {name}, inputs.at("material").front());
+            } catch (const Error& e) {
+              missing.push_back(e);
+            }
+          if (!missing.empty()) throw Errors(missing);
+        },
+        [&] { preflight_one_shape("material", inputs); });
+    return Forecast{};
   };
   return t;
 }

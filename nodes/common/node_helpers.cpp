@@ -115,12 +115,16 @@ std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const
 void preflight_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
                     const std::string& whose) {
   if (!material.possible_maps) return;
-  std::vector<std::string> certainly_missing = wanted;
-  std::erase_if(certainly_missing, [&](const std::string& name) {
-    return std::find(material.possible_maps->begin(), material.possible_maps->end(), name) !=
-           material.possible_maps->end();
-  });
-  require_maps(param, certainly_missing, material.maps, whose);
+  std::vector<Error> certainly_missing;
+  for (size_t i = 0; i < wanted.size(); i++) {
+    if (std::ranges::find(*material.possible_maps, wanted[i]) != material.possible_maps->end()) continue;
+    try {
+      require_maps(fmt::format("{}.{}", param, i), {wanted[i]}, material.maps, whose);
+    } catch (const Error& e) {
+      certainly_missing.push_back(e);
+    }
+  }
+  if (!certainly_missing.empty()) throw Errors(std::move(certainly_missing));
 }
 
 void preflight_one_shape(const std::string& port, const InputForecasts& inputs) {

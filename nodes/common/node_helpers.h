@@ -42,7 +42,7 @@ Port material_port(const std::string& name, const std::string& help);
 /// The preflight of nodes whose material has the maps of the (first) one at `port`, see NodeType.
 std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const std::string& port);
 
-/// For preflights: throws Error about `param` if it names maps that the material certainly lacks.
+/// For preflights: throws Errors if `param`, a list, names maps that the material certainly lacks, each about its item.
 void preflight_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
                     const std::string& whose = "the material");
 /// For preflights: throws Error about `port` if its material's maps certainly differ in aspect ratio.

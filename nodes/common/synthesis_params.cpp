@@ -59,8 +59,8 @@ const std::vector<Param>& shared_params() {
       {.name = "jitter_shape",
        .type = ParamType::choice,
        .fallback = "automatic",
-       .help = "How \"jitter\" is spread over the levels. automatic and list use it as given; if it is empty, "
-               "automatic chooses. The others take one number: constant at every level, peak as a Gaussian around "
+       .help = "How \"jitter\" is spread over the levels. automatic and list are the same: as given, and none if it is "
+               "empty. The others take one number: constant at every level, peak as a Gaussian around "
                "\"jitter_peak\", rising only up to the peak, falling only from it on.",
        .choices = shape_names},
       {.name = "jitter_peak",

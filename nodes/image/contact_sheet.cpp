@@ -21,7 +21,7 @@ void compute(NodeContext& node) {
 NodeType contact_sheet_node() {
   NodeType t;
   t.name = "contact_sheet";
-  t.version = 2;
+  t.version = 3;
   t.category = "image";
   t.summary = "Lays pictures out in rows, with captions";
   t.help =
@@ -30,35 +30,36 @@ NodeType contact_sheet_node() {
       "put \"normalize\" before images of other ranges. Materials go through \"preview\" first, which lights them.";
   t.inputs = {{.name = "images", .type = ValueType::image, .help = "the pictures, in reading order", .list = true}};
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "8-bit colour picture"}};
-  t.params = {{.name = "columns",
-               .type = ParamType::integer,
-               .fallback = int64_t{4},
-               .help = "Pictures in a row, at most.",
-               .min = 1,
-               .max = 256},
-              {.name = "cell",
-               .type = ParamType::size,
-               .fallback = Size{256, 256},
-               .help = "Size of each cell.",
-               .min = 8,
-               .max = 8192,
-               .unit = "pixels"},
-              {.name = "gap",
-               .type = ParamType::integer,
-               .fallback = int64_t{8},
-               .help = "Space around the cells.",
-               .min = 0,
-               .max = 256,
-               .unit = "pixels"},
-              {.name = "enlarge",
-               .type = ParamType::boolean,
-               .fallback = false,
-               .help = "Scales up pictures smaller than their cell. false keeps their size, so that exemplar and "
-                       "result appear at one scale."},
-              {.name = "captions",
-               .type = ParamType::texts,
-               .fallback = Texts{},
-               .help = "Texts below the pictures, in their order, set in capitals; \"\" for none."}};
+  t.params = {
+      {.name = "columns",
+       .type = ParamType::integer,
+       .fallback = int64_t{4},
+       .help = "Pictures in a row, at most.",
+       .min = 1,
+       .max = 256},
+      {.name = "cell",
+       .type = ParamType::size,
+       .fallback = Size{256, 256},
+       .help = "Size of each cell.",
+       .min = 8,
+       .max = 8192,
+       .unit = "pixels"},
+      {.name = "gap",
+       .type = ParamType::integer,
+       .fallback = int64_t{8},
+       .help = "Space around the cells.",
+       .min = 0,
+       .max = 256,
+       .unit = "pixels"},
+      {.name = "enlarge",
+       .type = ParamType::boolean,
+       .fallback = false,
+       .help = "Scales up pictures smaller than their cell. false keeps their size, so that exemplar and "
+               "result appear at one scale."},
+      {.name = "captions",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "Texts below the pictures, in their order, set in capitals, in up to three lines; \"\" for none."}};
   t.persist = Persist::payload;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.memory_hint = [](const NodeContext& node) {

@@ -26,10 +26,18 @@ void note_other_shape(NodeContext& node, const PreviewSpec& spec, Size material)
                   describe(Size{spec.size.width, whole})));
 }
 
+PreviewShape shape_of(const NodeContext& node) {
+  return node.text("shape") == "sphere" ? PreviewShape::sphere : PreviewShape::plane;
+}
+
+Size size_of(const NodeContext& node) {
+  return completed(node.size("size"), shape_of(node), node.input<Material>("material")->size());
+}
+
 void compute(NodeContext& node) {
   PreviewSpec s;
-  s.shape = node.text("shape") == "sphere" ? PreviewShape::sphere : PreviewShape::plane;
-  s.size = node.size("size");
+  s.shape = shape_of(node);
+  s.size = size_of(node);
   s.lights = node.numbers("lights");
   if (s.lights.empty()) s.lights = {node.number("azimuth")};
   s.elevation = node.number("elevation");
@@ -67,9 +75,10 @@ std::vector<Param> params() {
        .type = ParamType::size,
        .fallback = Size{512, 512},
        .help = "Size of the picture; with several lights, of each one. On a plane the material fills the width, and "
-               "repeats or is cut off below if aspect ratios differ; a note says so.",
-       .min = 1,
-       .max = 8192,
+               "repeats or is cut off below if aspect ratios differ; a note says so. 0 for one side takes the "
+               "material's proportions: [512, 0].",
+       .min = 0,
+       .max = largest_preview,
        .unit = "pixels"},
       number("azimuth", 135, -360, 360, "degrees",
              "Direction the light comes from: 0 right, 90 top, 180 left, 270 bottom."),
@@ -121,9 +130,13 @@ NodeType preview_node() {
   t.files_read = [](const Params&) { return color_config_files(); };
   t.memory_hint = [](const NodeContext& node) {
     // The pictures and their sheet, and at most four texels per pixel of one picture, of 13 channels.
-    const size_t area = size_t(node.size("size").area());
+    const size_t area = size_t(size_of(node).area());
     return area * std::max<size_t>(1, node.numbers("lights").size()) * 6 * sizeof(float) +
            area * 4 * 13 * sizeof(float);
+  };
+  t.check = [](const Params& params) {
+    const bool is_nothing = std::get<Size>(params.at("size")) == Size{0, 0};
+    return is_nothing ? Texts{"\"size\": expected at most one side of 0, found two"} : Texts{};
   };
   t.compute = compute;
   return t;

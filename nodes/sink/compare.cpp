@@ -1,3 +1,5 @@
+#include "nodes/sink/compare.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -138,6 +140,21 @@ size_t memory_hint(const NodeContext& node) {
 }
 
 }  // namespace
+
+std::vector<ComparedFigure> compared_figures(const Params& params, bool has_uv) {
+  using Better = ComparedFigure::Better;
+  std::vector<ComparedFigure> out;
+  for (const char* name : {"swd", "cooccurrence", "coherence", "completeness", "broken", "acf", "verbatim", "repeat"})
+    out.push_back({name});
+  if (has_uv)
+    for (const char* name : {"largest_copy", "usage_entropy", "seam_share", "seam_difference", "seam_energy"})
+      out.push_back({name, std::string_view(name) == "usage_entropy" ? Better::higher : Better::lower});
+  const std::string& tileable = std::get<std::string>(params.at("tileable"));
+  for (const char* axis : {"x", "y"})
+    if (tileable == axis || tileable == "xy" || (tileable == "auto" && has_uv))
+      out.push_back({fmt::format("wrap_seam_{}", axis), Better::neither});
+  return out;
+}
 
 NodeType compare_node() {
   NodeType t;

@@ -57,13 +57,13 @@ void require_given_map(const fs::path& folder, const std::string& map, const std
 
 /// Says at once all that is wrong with the files that the parameter `maps` gives.
 void require_given_maps(const Params& params) {
-  std::string troubles;
+  std::vector<Error> troubles;
   for (const auto& [map, text] : std::get<TextMap>(params.at("maps"))) try {
       if (!text.empty()) require_given_map(folder_of(params), map, text);
     } catch (const Error& e) {
-      troubles += fmt::format("{}{}", troubles.empty() ? "" : "; ", e.what());
+      troubles.emplace_back("maps." + map, e.what());
     }
-  if (!troubles.empty()) throw Error("maps", troubles);
+  if (!troubles.empty()) throw Errors(std::move(troubles));
 }
 
 void require_folder(const fs::path& folder) {

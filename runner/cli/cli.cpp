@@ -79,10 +79,14 @@ std::string direction_hint(const CLI::App* command, const std::string& arg) {
 }
 
 /// Arguments that nothing takes, each with the nearest thing that exists; empty if there are none. What follows an
-/// unknown command would be that command's.
+/// unknown command would be that command's; what follows an unknown option may be its value, or be left over because
+/// its value has been taken for an argument.
 std::string unknown_arguments(const CLI::App* command) {
   std::string out;
+  bool is_after_option = false;
   for (const std::string& arg : command->remaining()) {
+    if (!arg.starts_with("-") && is_after_option) continue;
+    is_after_option |= arg.starts_with("-");
     const std::vector<std::string> commands = command_names(command);
     const std::string line =
         arg.starts_with("-")

@@ -11,6 +11,7 @@
 #include "core/base/suggest.h"
 #include "core/file/atomic_file.h"
 #include "graphs/document/problem.h"
+#include "nodes/sink/compare.h"
 #include "nodes/sink/export_report.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
@@ -130,11 +131,38 @@ void Sweep::check_paths(const std::vector<Graph>& graphs) const {
       if (holds("{width}") || holds("{height}") || holds("{material}")) continue;
       const size_t first = writers.try_emplace({n.name, pattern}, v).first->second;
       if (names_[first].at(n.name) == names_[v].at(n.name)) continue;  // it is the same node, and runs once
-      throw UsageError(fmt::format(
-          "node \"{}\" would write {} for {} and for {}; let its path tell them apart, as --set \"out=='out/' + {}\" "
-          "does where the path begins with $out",
-          n.name, pattern, variations_[first].label(), variations_[v].label(), variations_[v].values.back().first));
+      throw UsageError(fmt::format("node \"{}\" would write {} for {} and for {}; {}", n.name, pattern,
+                                   variations_[first].label(), variations_[v].label(), way_apart(graphs[v])));
     }
+}
+
+/// How a path can tell all variations apart.
+std::string Sweep::way_apart(const Graph& graph) const {
+  std::string sum, unnamed;
+  for (const std::string& name : names_that_vary()) {
+    const bool is_parameter = std::ranges::find(graph.settings, name, &GraphSetting::name) != graph.settings.end();
+    std::string& list = is_parameter ? sum : unnamed;
+    list += list.empty() ? "" : is_parameter ? " + '-' + " : ", ";
+    list += is_parameter ? name : fmt::format("\"{}\"", name);
+  }
+  if (!unnamed.empty())
+    return fmt::format("a path can tell them apart only by parameters of the graph: declare one for {}", unnamed);
+  return fmt::format("let its path tell them apart, as --set \"out=='out/' + {}\" does where the path begins with $out",
+                     sum);
+}
+
+/// Of what is set, in its order, that which has several values.
+std::vector<std::string> Sweep::names_that_vary() const {
+  std::vector<std::string> names;
+  std::map<std::string, std::set<std::string>> values;
+  std::map<std::string, size_t> times;
+  for (const Variation& v : variations_)
+    for (const auto& [name, value] : v.values) {
+      if (times[name]++ == 0) names.push_back(name);
+      values[name].insert(value);
+    }
+  std::erase_if(names, [&](const std::string& n) { return values[n].size() == 1 && times[n] == variations_.size(); });
+  return names;
 }
 
 /// What `make` makes of each variation's node `base`; once where variations share it.
@@ -158,7 +186,7 @@ void Sweep::add_sheet(const Graph& document, const Nodes& nodes, std::vector<Gra
   pictures_ = of_each<Wire>(base, [&](const std::string& node) {
     const Wire& wire = nodes.at(node)->inputs.at("material").front();
     if (nodes.at(wire.node)->type->find_output(wire.port)->type == ValueType::image) return wire;
-    added.push_back(memory_node("lit for " + node, "preview", {}));
+    added.push_back(memory_node("lit for " + node, "preview", {{"size", Size{512, 0}}}));
     added.back().inputs["material"] = {wire};
     return Wire{added.back().name, "image"};
   });
@@ -196,6 +224,27 @@ void Sweep::add_comparisons(const Graph& document, const Nodes& nodes, std::vect
     return figures.name;
   });
   kept_.insert(kept_.end(), comparisons_.begin(), comparisons_.end());
+  if (!flags_.best.empty()) check_best(nodes, added);
+}
+
+/// A misspelt figure is better found now than after hours of work.
+void Sweep::check_best(const Nodes& nodes, const std::vector<GraphNode>& added) {
+  using Better = ComparedFigure::Better;
+  const auto [name, way] = split_figure(flags_.best);
+  std::vector<std::string> known;
+  std::optional<Better> better;
+  for (const std::string& comparison : comparisons_) {
+    const auto own = nodes.find(comparison);
+    const GraphNode& node = own != nodes.end() ? *own->second : *std::ranges::find(added, comparison, &GraphNode::name);
+    for (const ComparedFigure& f : compared_figures(node.params, node.inputs.contains("uv"))) {
+      if (f.name == name) better = f.better;
+      if (std::ranges::find(known, f.name) == known.end()) known.push_back(f.name);
+    }
+  }
+  if (!better) throw UsageError(fmt::format("--best {}: there is no such figure{}", name, suggestion(name, known)));
+  if (way.empty() && *better == Better::neither)
+    throw UsageError(fmt::format("--best {0}: which way is better? {0}:min or {0}:max", name));
+  higher_is_better_ = way.empty() ? *better == Better::higher : way == "max";
 }
 
 std::vector<std::string> Sweep::names_of(const std::vector<std::string>& nodes) const {
@@ -260,28 +309,18 @@ void Sweep::report(const RunResult& result) const {
 }
 
 void Sweep::tell_best(const std::vector<const Report*>& reports) const {
-  const auto [name, way] = split_figure(flags_.best);
-  std::vector<std::string> known;
-  bool higher = way == "max";
-  for (const Report::Figure& f : reports.front()->figures()) {
-    known.push_back(f.name);
-    if (f.name != name || !way.empty()) continue;
-    higher = f.help.find("higher is better") != f.help.npos;
-    if (!higher && f.help.find("lower is better") == f.help.npos)
-      throw UsageError(fmt::format("--best {0}: which way is better? {0}:min or {0}:max", name));
-  }
+  const std::string name = split_figure(flags_.best).first;
   size_t best = reports.size();
   double value = 0;
   for (size_t i = 0; i < reports.size(); i++) {
     const std::optional<double> here = value_in(*reports[i], name);
     if (!here) continue;
-    if (best == reports.size() || (higher ? *here > value : *here < value)) {
+    if (best == reports.size() || (higher_is_better_ ? *here > value : *here < value)) {
       best = i;
       value = *here;
     }
   }
-  if (best == reports.size())
-    throw UsageError(fmt::format("--best {}: there is no such figure{}", name, suggestion(name, known)));
+  if (best == reports.size()) throw UsageError(fmt::format("--best {}: no variation has this figure", name));
   answer("best by {}: {} ({})\n", name, variations_[best].label(), value);
 }
 

@@ -47,12 +47,15 @@ class Sweep {
   using Nodes = std::map<std::string, const GraphNode*>;
 
   void check_paths(const std::vector<Graph>& graphs) const;
+  std::string way_apart(const Graph& graph) const;
+  std::vector<std::string> names_that_vary() const;
   template <typename T>
   std::vector<T> of_each(const std::string& base, const std::function<T(const std::string& node)>& make) const;
   void add_sheet(const Graph& document, const Nodes& nodes, std::vector<GraphNode>& added);
   void add_comparisons(const Graph& document, const Nodes& nodes, std::vector<GraphNode>& added);
   std::vector<std::string> labels() const;
   std::vector<const Report*> reports(const RunResult& result) const;
+  void check_best(const Nodes& nodes, const std::vector<GraphNode>& added);
   void tell_best(const std::vector<const Report*>& reports) const;
 
   const SweepFlags& flags_;
@@ -61,6 +64,7 @@ class Sweep {
   std::vector<Wire> pictures_;            ///< by variation; for the contact sheet
   std::vector<std::string> comparisons_;  ///< by variation: the node that compares
   std::vector<std::string> targets_, kept_;
+  bool higher_is_better_ = false;  ///< of the figure that decides
 };
 
 }  // namespace terrazzo

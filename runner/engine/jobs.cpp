@@ -176,7 +176,7 @@ void perform(Job& job, const Plan& plan, const RunOptions& options) {
   const GraphNode& node = *plan.stages[job.stage].node;
   const auto fail = [&](const std::string& about, const std::string& reason) {
     const std::string message = job.context ? of_targets(*job.context, reason) : reason;
-    if (!about.empty() && !node.type->find_param(about)) job.blames_input = message;
+    if (node.type->find_input(about)) job.blames_input = message;
     job.failure = describe(plan.graph->file.string(), problem_of(node, about, message));
   };
   try {

@@ -154,13 +154,17 @@ std::string RunPage::lit_view() const {
   if (lit_.empty()) return "";
   std::vector<Map> maps;
   for (const auto& [meaning, id] : lit_.front().maps) maps.push_back({meaning, pictures_[id].shrunk});
-  const ImagePtr still = render_preview(*Material::make("still", std::move(maps)), {}, WorksFor::task());
+  const MaterialPtr material = Material::make("still", std::move(maps));
+  PreviewSpec spec;
+  const Size shape = material->size();
+  spec.size = completed(shape.width < shape.height ? Size{0, 512} : Size{512, 0}, spec.shape, shape);
+  const ImagePtr still = render_preview(*material, spec, WorksFor::task());
   return fmt::format(
-      "<div id=\"viewer\"><img class=\"still\" src=\"{}\" alt=\"the material lit from the upper left\" width=\"512\" "
-      "height=\"512\"></div>\n<p class=\"quiet\" id=\"viewer-state\">A still picture: moving the light needs "
+      "<div id=\"viewer\"><img class=\"still\" src=\"{}\" alt=\"the material lit from the upper left\" width=\"{}\" "
+      "height=\"{}\"></div>\n<p class=\"quiet\" id=\"viewer-state\">A still picture: moving the light needs "
       "JavaScript "
       "and WebGL.</p>\n",
-      page_picture(still, 512).uri);
+      page_picture(still, 512).uri, spec.size.width, spec.size.height);
 }
 
 std::string RunPage::map_picture(const ShownMaterial& shown, const std::string& map) {

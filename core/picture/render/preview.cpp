@@ -1,6 +1,7 @@
 #include "core/picture/render/preview.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -158,6 +159,16 @@ ImagePtr sheet_of(const std::vector<ImagePtr>& pictures) {
 }
 
 }  // namespace
+
+Size completed(Size size, PreviewShape shape, Size material) {
+  if (shape == PreviewShape::sphere) material = {1, 1};
+  const auto other = [](int side, int of, int to) {
+    return std::clamp(int(std::lround(double(side) * to / of)), 1, largest_preview);
+  };
+  if (size.height == 0) size.height = other(size.width, material.width, material.height);
+  if (size.width == 0) size.width = other(size.height, material.height, material.width);
+  return size;
+}
 
 ImagePtr render_preview(const Material& material, const PreviewSpec& spec, const Task& task) {
   const Textures textures =

@@ -14,7 +14,7 @@ enum class PreviewShape : uint8_t { plane, sphere };
 
 struct PreviewSpec {
   PreviewShape shape = PreviewShape::plane;
-  Size size{512, 512};              ///< of the picture of one light
+  Size size{512, 512};              ///< of the picture of one light; both sides above 0
   std::vector<double> lights{135};  ///< azimuths in degrees, counter-clockwise from the right; one picture each
   double elevation = 45;            ///< of the light above the picture plane, degrees, 0..90
   double intensity = 1;             ///< a facing white surface under light 1 is white
@@ -26,6 +26,11 @@ struct PreviewSpec {
   double distance = 4;              ///< sphere only: of the camera from the centre, in radii, above 1
   double background[3] = {0.12, 0.12, 0.13};  ///< sRGB, 0..1
 };
+
+/// `size` with a side of 0 replaced by the length that shows a material of this size in its own proportions, once on a
+/// plane; around a ball the picture is square. At most `largest_preview`.
+Size completed(Size size, PreviewShape shape, Size material);
+inline constexpr int largest_preview = 8192;
 
 /// Renders the material under a directional light and even surroundings: GGX, normal mapping in either convention,
 /// occlusion, metals, emission, parallax and shadows from the height map. Several lights give a sheet of pictures, row

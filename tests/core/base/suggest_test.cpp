@@ -14,6 +14,12 @@ TEST_CASE("the nearest name is the one that was most likely meant") {
   CHECK(nearest("synth", names) == "synthesize");
 }
 
+TEST_CASE("what joins words, and their case, do not make another name") {
+  CHECK(nearest("for_each", {"format", "foreach"}) == "foreach");
+  CHECK(nearest("A-O-Map", {"a_omal", "ao_map"}) == "ao_map");
+  CHECK(nearest("ao", {"ao", "a_o"}) == "a_o");
+}
+
 TEST_CASE("no name is suggested that is nothing like what was written") {
   CHECK(nearest("quantum", {"blur", "pca"}) == "");
   CHECK(nearest("x", {"y", "z"}) == "");

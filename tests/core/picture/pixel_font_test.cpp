@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -51,4 +52,15 @@ TEST_CASE("long texts end in two dots, and no character is cut in half") {
   CHECK(shortened("\xc3\xa4\xc3\xb6\xc3\xbc\xc3\x9f", 3) == "\xc3\xa4..");
   CHECK(shortened("weights", 2) == "..");
   CHECK(shortened("weights", 1).empty());
+}
+
+TEST_CASE("captions break at spaces, and what does not fit is shortened") {
+  using Lines = std::vector<std::string>;
+  CHECK(wrapped("seed=3, size=512", 20, 3) == Lines{"seed=3, size=512"});
+  CHECK(wrapped("seed=3, size=512", 9, 3) == Lines{"seed=3,", "size=512"});
+  CHECK(wrapped(" one  two three four", 5, 2) == Lines{"one", "two.."});
+  CHECK(wrapped("incomprehensible word", 6, 3) == Lines{"inco..", "word"});
+  CHECK(wrapped("", 6, 3).empty());
+  CHECK(wrapped("  ", 6, 3).empty());
+  CHECK(wrapped("no room", 1, 3).empty());
 }

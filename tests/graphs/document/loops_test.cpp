@@ -107,7 +107,9 @@ TEST_CASE("what is wrong about a loop") {
   CHECK(problem("3").starts_with("expected an object such as {\"folders\": \"scans/*\", \"as\": \"scan\"}"));
   CHECK(problem(R"({"valus": [1]})").starts_with("unknown key \"valus\" (did you mean \"values\"?)"));
   CHECK(problem(R"({"values": [1], "files": "x"})").starts_with("expected one of"));
-  CHECK(problem(R"({"values": []})").starts_with("expected at least one value"));
+  CHECK(problem(R"({"values": []})")
+            .ends_with("found an empty list; no wire could come from a node without rounds: "
+                       "give a value, or take the node out"));
   CHECK(problem(R"({"values": [1, "a"]})").starts_with("expected values of one kind"));
   CHECK(problem(R"({"values": "1..x"})").starts_with("expected a list of values, or a range"));
   CHECK(problem(R"({"values": "1..99999"})").starts_with("more than 10000 variations"));
@@ -115,6 +117,19 @@ TEST_CASE("what is wrong about a loop") {
   CHECK(problem(R"({"folders": "/nowhere/*"})").starts_with("no folder is named like /nowhere/*"));
   CHECK(problem(R"({"table": "/nowhere.csv"})").find("there is no such table") != std::string::npos);
   CHECK(problem(R"({"values": [1], "as": "a b"})").starts_with("expected a name of letters"));
+}
+
+TEST_CASE("a pattern that finds nothing is told with the reason, where there is one") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "scans/a");
+  write_text(folder.path() / "one.png", "x");
+  const auto asked = [&](const std::string& kind, const std::string& pattern) {
+    return problem(fmt::format(R"({{"{}": "{}/{}"}})", kind, folder.path().string(), pattern));
+  };
+  CHECK(asked("folders", "*.png").ends_with("*.png; 1 file is: use \"files\""));
+  CHECK(asked("files", "scans/*").ends_with("scans/*; 1 folder is: use \"folders\""));
+  CHECK(asked("files", "scan/*/x*.png").ends_with("*.png; there is no folder " + (folder.path() / "scan").string()));
+  CHECK(asked("files", "scans/*.png").ends_with("/scans/*.png"));
 }
 
 TEST_CASE("a list of texts passes from a parameter to a node") {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "nodes/common/registry.h"
 #include "tests/run_node.h"
 
 using namespace terrazzo;
@@ -171,4 +172,24 @@ TEST_CASE("a picture from above of another shape than the material is a note tha
   CHECK(notes({{"size", Size{30, 30}}, {"repeats", 2.0}}).empty());
   CHECK(notes({{"size", Size{30, 30}}, {"tilt", 30.0}}).empty());
   CHECK(notes({{"size", Size{30, 30}}, {"shape", "sphere"}}).empty());
+}
+
+TEST_CASE("a side of 0 takes the proportions of the material, which is never stretched") {
+  const ImagePtr halves = make_image(
+      {60, 30}, 3, [](int x, int y, int) { return x < 30 && y < 15 ? 0.8f : 0.2f; }, Semantic::base_color,
+      "srgb_texture");
+  const auto lit = [&](Size size, const std::string& shape = "plane") {
+    return preview(Material::of(halves), {{"size", size}, {"shape", shape}, {"elevation", 90.0}});
+  };
+  for (const ImagePtr& picture : {lit({40, 0}), lit({0, 20})}) {
+    CHECK(picture->size() == Size{40, 20});
+    CHECK(at(picture, 16, 6) > at(picture, 24, 6) + 0.3);
+    CHECK(at(picture, 16, 6) > at(picture, 16, 14) + 0.3);
+  }
+  // Where the picture has other proportions, the material repeats.
+  const ImagePtr square = lit({40, 40});
+  CHECK(square->read({0, 0, 40, 20}) == square->read({0, 20, 40, 20}));
+  CHECK(lit({0, 24}, "sphere")->size() == Size{24, 24});
+  CHECK(run_node("preview", {{"size", Size{40, 0}}}, {{"material", {Material::of(halves)}}}).notes.empty());
+  CHECK(find_node_type("preview")->check({{"size", Size{0, 0}}}).size() == 1);
 }

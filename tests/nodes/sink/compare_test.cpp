@@ -1,3 +1,7 @@
+#include "nodes/sink/compare.h"
+
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include "core/base/error.h"
@@ -22,6 +26,22 @@ std::map<std::string, double> figures(const NodeRun& run) {
     out[f.name] = std::get<double>(f.value);
   }
   return out;
+}
+
+/// The figures that a node with these parameters and these inputs gives are those that were foretold, with what is
+/// said about them.
+void check_foretold(const Params& params, const std::map<std::string, std::vector<Value>>& inputs) {
+  using Better = ComparedFigure::Better;
+  const NodeRun run = run_node("compare", params, inputs);
+  const std::vector<ComparedFigure> known = compared_figures(
+      {{"tileable", params.contains("tileable") ? params.at("tileable") : ParamValue("auto")}}, inputs.contains("uv"));
+  size_t at = 0;
+  for (const Report::Figure& f : run.get<Report>("report")->figures()) {
+    while (at < known.size() && known[at].name != f.name) at++;
+    REQUIRE_MESSAGE(at < known.size(), f.name);
+    const bool higher = f.help.find("higher is better") != f.help.npos, lower = f.help.find("lower is") != f.help.npos;
+    CHECK_MESSAGE(known[at].better == (higher ? Better::higher : lower ? Better::lower : Better::neither), f.name);
+  }
 }
 
 std::string error(const std::vector<Value>& exemplar, const std::vector<Value>& output, const Params& params = {}) {
@@ -58,6 +78,10 @@ TEST_CASE("compare reports figures and a sheet, and figures of the layout when i
   CHECK(with.at("seam_share") > 0);
   CHECK(figures(run_node("compare", {{"wraps", true}}, with_uv)).at("seam_share") == 0);
   with_uv["uv"] = {UvMap::make({48, 64}, {32, 32}, pixels, {true, false, false})};
+  check_foretold({}, with_uv);
+  check_foretold({{"tileable", "xy"}}, with_uv);
+  check_foretold({}, inputs);
+  check_foretold({{"tileable", "y"}}, inputs);
   CHECK(figures(run_node("compare", {}, with_uv)).count("wrap_seam_x") == 1);
   CHECK(figures(run_node("compare", {}, with_uv)).count("wrap_seam_y") == 0);
   CHECK(figures(run_node("compare", {{"tileable", "none"}}, with_uv)).count("wrap_seam_x") == 0);

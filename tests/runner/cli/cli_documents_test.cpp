@@ -1,6 +1,7 @@
 #include <filesystem>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/image/image_file.h"
@@ -35,6 +36,36 @@ TEST_CASE("check tells programs what is wrong and where, in JSON") {
   CHECK(good["problems"].back()["code"] == "conversion");
 }
 
+TEST_CASE("a problem with a member of a map, or an item of a list, points at it") {
+  const Workplace w;
+  write_text(w.path / "maps.json", R"({"terrazzo": 1, "nodes": {
+ "p": {"type": "pattern", "kind": "gravel", "size": 64},
+ "w": {"type": "weight", "material": "@p", "weights": {
+   "height": 1,
+   "normals": 2,
+   "rust": 3}},
+ "s": {"type": "pca", "features": "@w"}, "i": {"type": "index", "appearance": "@s"},
+ "a": {"type": "save_analysis", "index": "@i", "path": "a.tza"},
+ "f": {"type": "export", "material": "@p", "path": "out/{map}.png", "maps": ["height",
+   "rust"]}}})");
+  const auto pointers = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> args = {"check", "maps.json", "--json"}, found;
+    args.insert(args.end(), more.begin(), more.end());
+    const json report = json::parse(w.run(args).out);
+    for (const json& p : report["problems"])
+      found.push_back(fmt::format("{}:{}", p["line"].get<int>(), p["pointer"].get<std::string>()));
+    return found;
+  };
+  CHECK(pointers({}) ==
+        std::vector<std::string>{"5:/nodes/w/weights/normals", "6:/nodes/w/weights/rust", "10:/nodes/f/maps/1"});
+  CHECK(contains(w.run({"check", "maps.json"}).err,
+                 "maps.json:5:4: node \"w\" (weight), parameter \"weights\": there is no map \"normals\" (did you mean "
+                 "\"normal\"?)"));
+  // The value of the command line stands in no file.
+  CHECK(pointers({"--set", "w.weights.moss=1"}) ==
+        std::vector<std::string>{"3:/nodes/w", "3:/nodes/w", "3:/nodes/w", "10:/nodes/f/maps/1"});
+}
+
 TEST_CASE("check warns of what is hardly meant") {
   const Workplace w;
   write_text(w.path / "odd.json", R"({"terrazzo": 1, "nodes": {
@@ -47,6 +78,7 @@ TEST_CASE("check warns of what is hardly meant") {
   CHECK(run.code == 0);
   CHECK(contains(run.err, "warning: odd.json:2:"));
   CHECK(contains(run.err, "a normal map holds directions, not colours"));
+  CHECK(contains(run.err, "warning: odd.json:4:56: "));
   CHECK(contains(run.err, "the weight of height is 0"));
 }
 

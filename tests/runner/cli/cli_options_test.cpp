@@ -86,6 +86,18 @@ TEST_CASE("one mistake is said once: what follows an unknown command is that com
           "error: photo.png: expected a graph file, found an image; graphs load images by their nodes\n");
 }
 
+TEST_CASE("what is left over behind an unknown option is not a mistake of its own") {
+  const Workplace w;
+  CHECK(w.run({"synth", "--qualty", "draft", "stone", "-o", "out"}).err ==
+        "error: unknown option --qualty (did you mean \"--quality\"?)\n`terrazzo synth --help` says what it takes.\n");
+  const ProgramRun two = w.run({"synth", "stone", "more", "--qualty", "draft", "--sied=3", "-o", "out"});
+  CHECK_MESSAGE(two.err ==
+                    "error: unexpected argument more\nunknown option --qualty (did you mean \"--quality\"?)\n"
+                    "unknown option --sied=3 (did you mean \"--seed\"?)\n"
+                    "`terrazzo synth --help` says what it takes.\n",
+                two.err);
+}
+
 TEST_CASE("progress counts the stages that the summary of a failed run counts") {
   const Workplace w;
   write_text(w.path / "fails.json", R"({"terrazzo": 1, "nodes": {

@@ -141,6 +141,14 @@ TEST_CASE("formats go by all their names, in upper and lower case, and a wrong o
   CHECK_FALSE(fs::exists(w.path / "x"));
 }
 
+TEST_CASE("synth tells of a missing folder and of a wrong value in one go") {
+  const Workplace w;
+  const ProgramRun r = w.run({"synth", "missing", "-o", "x", "--quality", "fast"});
+  CHECK(r.code == 2);
+  CHECK_MESSAGE(contains(r.err, "error: FOLDER: there is no folder "), r.err);
+  CHECK_MESSAGE(contains(r.err, "error: --quality fast: expected \"draft\", \"normal\" or \"best\""), r.err);
+}
+
 TEST_CASE("synth names the option, and what it takes, of a seed or size that no node would take") {
   const Workplace w;
   write_picture(w.path / "stone/base_color.png", 5);

@@ -66,6 +66,10 @@ TEST_CASE("a sweep runs all variations, shares what is the same, and picks the b
   CHECK_MESSAGE(twice.err.find("/out/{map}.png for radius=1 and for radius=2; let its path tell them apart, as --set "
                                "\"out=='out/' + radius\" does") != std::string::npos,
                 twice.err);
+  CHECK(
+      w.run({"run", "soft.json", "--sweep", "photo.semantic=height,mask"})
+          .err.find("a path can tell them apart only by parameters of the graph: declare one for \"photo.semantic\"") !=
+      std::string::npos);
   const std::vector<std::string> sweep = {"run",         "soft.json", "--sweep",
                                           "radius=1..3", "--set",     "out=='out/' + radius"};
   const auto with = [&](const std::vector<std::string>& more) {
@@ -89,13 +93,14 @@ TEST_CASE("a sweep runs all variations, shares what is the same, and picks the b
 TEST_CASE("figures of variations become a table") {
   const Workplace w;
   write_text(w.path / "stones.json", R"({"terrazzo": 1,
-  "parameters": {"seed": {"type": "int", "default": 1}},
+  "parameters": {"seed": {"type": "int", "default": 1}, "size": {"type": "size", "default": 96}},
   "nodes": {
     "exemplar": {"type": "pattern", "kind": "gravel", "size": 64},
     "weighted": {"type": "weight", "material": "@exemplar"},
     "space": {"type": "pca", "features": "@weighted"},
     "index": {"type": "index", "appearance": "@space"},
-    "layout": {"type": "synthesize", "index": "@index", "size": 96, "seed": "$seed", "quality": "draft"},
+    "layout": {"type": "synthesize", "index": "@index", "size": "$size", "seed": "$seed",
+               "quality": "draft"},
     "result": {"type": "resolve_uv", "uv": "@layout", "material": "@exemplar"},
     "files": {"type": "export", "material": "@result", "path": "='stones-' + seed + '/{map}.png'"}}})");
   const ProgramRun run =
@@ -117,8 +122,20 @@ TEST_CASE("figures of variations become a table") {
   CHECK(worst.out.find(fmt::format("best by swd: seed={} (", most + 1)) != std::string::npos);
   // One analysis serves all.
   CHECK(worst.err.find("space [") == std::string::npos);
-  CHECK(w.run({"run", "stones.json", "--sweep", "seed=1,2", "--best", "swdd"}).err.find("did you mean \"swd\"?") !=
-        std::string::npos);
+  CHECK(w.run({"run", "stones.json", "--sweep", "seed=1,2", "--sweep", "size=80,96", "--dry-run"})
+            .err.find("'out/' + seed + '-' + size\"") != std::string::npos);
+  CHECK(w.run({"run", "stones.json", "--sweep", "seed=1..2", "--set", "size=96x32", "--sheet", "flat.png"}).code == 0);
+  CHECK(read_image_info(w.path / "flat.png").size == Size{8 + 2 * 264, 8 + 256 + 18 + 8});
+  // Found before anything runs: no stage is told of.
+  for (const auto& [figure, answer] : {std::pair("swdd", "no such figure (did you mean \"swd\"?)"),
+                                       std::pair("wrap_seam_x", "which way is better? wrap_seam_x:min or")}) {
+    const ProgramRun wrong = w.run({"run", "stones.json", "--sweep", "seed=11,12", "--best", figure});
+    CHECK(wrong.code == 2);
+    CHECK_MESSAGE(wrong.err.find(answer) != std::string::npos, wrong.err);
+    CHECK(std::ranges::count(wrong.err, '\n') == 1);
+  }
+  const ProgramRun even = w.run({"run", "stones.json", "--sweep", "seed=1..3", "--best", "usage_entropy"});
+  CHECK(even.out.find("best by usage_entropy: ") != std::string::npos);
   write_text(w.path / "t.csv", "seed\n5\n6\n");
   CHECK(w.run({"run", "stones.json", "--table", "t.csv", "--only", "layout"}).code == 0);
   CHECK(w.run({"run", "stones.json", "--table", "none.csv"}).code == 2);

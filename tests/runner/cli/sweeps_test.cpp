@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/image/image_file.h"
+#include "graphs/document/load.h"
 #include "test_paths.h"
 #include "tests/runner/fakes.h"
 #include "tests/runner/program.h"
@@ -36,10 +37,11 @@ TEST_CASE("a sweep makes a contact sheet of its variants out of one folder of ma
 TEST_CASE("every picture of a sweep has a caption") {
   int sheets = 0;
   for (const auto& file : fs::directory_iterator(root + "examples/sweeps")) {
-    const nlohmann::json graph = nlohmann::json::parse(read_text(file.path()));
-    for (const auto& node : graph["nodes"]) {
-      if (node["type"] != "contact_sheet") continue;
-      CHECK_MESSAGE(node["images"].size() == node["captions"].size(), file.path().string());
+    const LoadedGraph loaded = load_graph(file.path(), {"material=" + root + "examples"});
+    for (const GraphNode& node : loaded.graph.nodes) {
+      if (node.type->name != "contact_sheet") continue;
+      CHECK_MESSAGE(node.inputs.at("images").size() == std::get<Texts>(node.params.at("captions")).size(),
+                    file.path().string());
       sheets++;
     }
   }
