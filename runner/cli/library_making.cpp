@@ -59,7 +59,7 @@ const GraphNode* find_node(const Graph& graph, const std::string& name) {
 
 /// The whole exemplar, lit, in a picture of its proportions.
 GraphNode picture_node() {
-  GraphNode node = memory_node("picture", "preview", {{"size", Size{picture_side, picture_side}}});
+  GraphNode node = memory_node("picture", "preview", {{"size", Size{picture_side, 0}}});
   node.inputs["material"] = {{"exemplar", "material"}};
   return node;
 }
