@@ -22,7 +22,7 @@ bool looks_like_image(const std::filesystem::path& path) {
 }
 
 std::string_view name_of(FileFormat format) {
-  constexpr std::array<std::string_view, 4> names = {"PNG", "TIFF", "EXR", "JPEG"};
+  constexpr std::array<std::string_view, 5> names = {"PNG", "TIFF", "EXR", "JPEG", "TGA"};
   return names[static_cast<size_t>(format)];
 }
 
@@ -35,6 +35,7 @@ bool holds(FileFormat format, Depth depth) {
     case FileFormat::exr:
       return depth == Depth::f16 || depth == Depth::f32;
     case FileFormat::jpeg:
+    case FileFormat::tga:
       return depth == Depth::u8;
   }
   return false;
@@ -46,6 +47,7 @@ std::optional<FileFormat> format_from(const std::filesystem::path& path) {
   if (e == ".tif" || e == ".tiff") return FileFormat::tiff;
   if (e == ".exr") return FileFormat::exr;
   if (e == ".jpg" || e == ".jpeg") return FileFormat::jpeg;
+  if (e == ".tga") return FileFormat::tga;
   return std::nullopt;
 }
 

@@ -13,7 +13,7 @@
 namespace terrazzo {
 
 /// The formats that can be written.
-enum class FileFormat : uint8_t { png, tiff, exr, jpeg };
+enum class FileFormat : uint8_t { png, tiff, exr, jpeg, tga };
 
 /// What a file says of itself without its pixels being read.
 struct FileInfo {

@@ -6,20 +6,22 @@
 
 namespace terrazzo {
 
-Material::Material(std::string name, std::vector<Map> maps) : name_(std::move(name)), maps_(std::move(maps)) {
+Material::Material(std::string name, std::vector<Map> maps, PhysicalSize metres)
+    : name_(std::move(name)), maps_(std::move(maps)), metres_(metres) {
   Hasher h;
   h.add("material").add(name_).add(int64_t(maps_.size()));
   for (const Map& m : maps_) h.add(m.name).add(m.image->digest());
+  if (metres_.is_known()) h.add(metres_.width).add(metres_.height);
   digest_ = h.digest();
 }
 
-MaterialPtr Material::make(std::string name, std::vector<Map> maps) {
+MaterialPtr Material::make(std::string name, std::vector<Map> maps, PhysicalSize metres) {
   if (maps.empty()) throw Error("a material needs at least one map");
   for (size_t i = 0; i < maps.size(); i++)
     for (size_t j = 0; j < i; j++)
       if (maps[i].name == maps[j].name)
         throw Error(fmt::format("the material has two maps named \"{}\"", maps[i].name));
-  return MaterialPtr(new Material(std::move(name), std::move(maps)));
+  return MaterialPtr(new Material(std::move(name), std::move(maps), metres));
 }
 
 MaterialPtr Material::of(const ImagePtr& image) {

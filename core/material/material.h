@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +16,17 @@ struct Map {
   ImagePtr image;
 };
 
+/// How large a surface is in the world, in metres.
+inline constexpr double largest_extent = 1e6;  ///< metres
+struct PhysicalSize {
+  double width = 0;  ///< 0: not known
+  double height = 0;
+
+  bool is_known() const { return width > 0 && height > 0; }
+  PhysicalSize operator*(std::array<double, 2> factor) const { return {width * factor[0], height * factor[1]}; }
+  bool operator==(const PhysicalSize&) const = default;
+};
+
 class Material;
 using MaterialPtr = std::shared_ptr<const Material>;
 
@@ -23,12 +35,13 @@ using MaterialPtr = std::shared_ptr<const Material>;
 class Material {
  public:
   /// Throws Error if there is no map, or if two maps have the same name.
-  static MaterialPtr make(std::string name, std::vector<Map> maps);
+  static MaterialPtr make(std::string name, std::vector<Map> maps, PhysicalSize metres = {});
   /// A material of one map, named after the image's semantic.
   static MaterialPtr of(const ImagePtr& image);
 
   const std::string& name() const { return name_; }
   const std::vector<Map>& maps() const { return maps_; }
+  PhysicalSize metres() const { return metres_; }  ///< of the surface that the maps show
   /// Null if there is no such map.
   ImagePtr find(std::string_view map) const;
   /// The first map of that semantic; null if there is none.
@@ -40,9 +53,10 @@ class Material {
   const Digest& digest() const { return digest_; }
 
  private:
-  Material(std::string name, std::vector<Map> maps);
+  Material(std::string name, std::vector<Map> maps, PhysicalSize metres);
   std::string name_;
   std::vector<Map> maps_;
+  PhysicalSize metres_;
   Digest digest_;
 };
 

@@ -103,7 +103,10 @@ class ValueReader {
       std::string map = in_.get_text();
       maps.push_back({std::move(map), image()});
     }
-    return checked([&] { return Material::make(std::move(name), std::move(maps)); });
+    const auto width = in_.get<double>(), height = in_.get<double>();
+    require(width >= 0 && width <= largest_extent && height >= 0 && height <= largest_extent,
+            "a surface has an impossible size");
+    return checked([&] { return Material::make(std::move(name), std::move(maps), {width, height}); });
   }
 
   double component() {

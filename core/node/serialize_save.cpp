@@ -67,6 +67,8 @@ class ValueWriter {
       out_.put_text(m.name);
       (*this)(m.image);
     }
+    out_.put(material->metres().width);
+    out_.put(material->metres().height);
   }
 
   void operator()(const FeaturesPtr& features) {

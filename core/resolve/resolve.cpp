@@ -250,7 +250,9 @@ MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const Resolve
                        ? joined_heights(map.image, exact, reach, kept_heights(options, map.name, *exact), task)
                        : resolved_map(map.image, can_blend(info.semantic) ? blended : exact)});
   }
-  return Material::make(exemplar.name(), std::move(maps));
+  return Material::make(exemplar.name(), std::move(maps),
+                        exemplar.metres() * std::array{double(uv->size().width) / analysed.width,
+                                                       double(uv->size().height) / analysed.height});
 }
 
 }  // namespace terrazzo

@@ -62,4 +62,21 @@ std::string ungrouped(std::string_view text, const fs::path& file, const std::st
   return formatted(out);
 }
 
+GraphInFile moved_to_file(std::string_view text, const std::string& file, const std::string& name,
+                          const std::string& type) {
+  JsonValue document = current_document(text, file);
+  JsonValue& graphs = *document.find("graphs");
+  JsonValue graph = JsonValue::empty_object();
+  graph.members.push_back(document.members.front());  // the format version
+  for (JsonMember& m : graphs.find(name)->members) graph.members.push_back(std::move(m));
+  std::erase_if(graphs.members, [&](const JsonMember& m) { return m.name == name; });
+  if (graphs.members.empty()) std::erase_if(document.members, [](const JsonMember& m) { return m.name == "graphs"; });
+  const auto rename = [&](JsonValue& nodes) {
+    for (JsonMember& m : nodes.members)
+      if (JsonValue* t = m.value.find("type"); t && t->text == name) t->text = type;
+  };
+  rename(*document.find("nodes"));
+  return {formatted(document), formatted(graph)};
+}
+
 }  // namespace terrazzo

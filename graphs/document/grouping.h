@@ -21,6 +21,14 @@ std::string grouped(std::string_view text, const std::filesystem::path& file, co
 /// node is of that type. Throws as grouped does.
 std::string ungrouped(std::string_view text, const std::filesystem::path& file, const std::string& node);
 
+/// A document whose graph `name` lies in a file of its own, and that file's text. `type`: how the document's nodes name
+/// the file.
+struct GraphInFile {
+  std::string document, graph;
+};
+GraphInFile moved_to_file(std::string_view text, const std::string& file, const std::string& name,
+                          const std::string& type);
+
 namespace detail {
 void group(JsonValue& document, const Subgraph& main, const std::string& name, const std::vector<std::string>& nodes);
 void ungroup(JsonValue& document, const Subgraph& graph, const std::string& node);

@@ -1,27 +1,49 @@
 #include "graphs/document/problem.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <stdexcept>
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace terrazzo {
 
 namespace {
+
+/// "all[sand]" of the node "all[sand]/weighted"; empty if it is in no loop.
+std::string round_of(const std::string& node) {
+  const size_t end = node.rfind(']');
+  return end == node.npos ? "" : node.substr(0, end + 1);
+}
+
+std::string listed_with_and(std::vector<std::string> names) {
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  const std::string last = names.back();
+  names.pop_back();
+  return names.empty() ? last : fmt::format("{} and {}", fmt::join(names, ", "), last);
+}
 
 std::vector<Problem> in_order(std::vector<Problem> problems) {
   const auto key = [](const Problem& p) { return std::tie(p.file, p.place.line, p.place.column); };
   std::stable_sort(problems.begin(), problems.end(), [&](const Problem& a, const Problem& b) {
     return std::pair(a.place.line == 0, key(a)) < std::pair(b.place.line == 0, key(b));
   });
-  // A subgraph that is used twice has its mistakes twice.
-  std::set<std::tuple<std::string, int, int, std::string>> said;
-  std::erase_if(problems, [&](const Problem& p) {
-    return p.place.line > 0 && !said.emplace(p.file, p.place.line, p.place.column, p.message).second;
-  });
-  return problems;
+  // A subgraph that is used twice has its mistakes twice; of a loop, every round that has one is named.
+  std::map<std::tuple<std::string, int, int, std::string>, size_t> said;
+  std::vector<Problem> out;
+  std::map<size_t, std::vector<std::string>> more_rounds;
+  for (Problem& p : problems) {
+    const auto [at, is_new] = said.emplace(std::tuple(p.file, p.place.line, p.place.column, p.message), out.size());
+    if (is_new || p.place.line == 0)
+      out.push_back(std::move(p));
+    else if (const std::string round = round_of(p.node); !round.empty() && round != round_of(out[at->second].node))
+      more_rounds[at->second].push_back(round);
+  }
+  for (const auto& [first, rounds] : more_rounds)
+    out[first].message += fmt::format("; the same in {}", listed_with_and(rounds));
+  return out;
 }
 
 /// Where in the command line to look for the files that a port or parameter is about.

@@ -111,8 +111,10 @@ fs::path library_file(std::string_view reference, LibraryFile what) {
   const LibraryEntry entry = Library().find(name);
   const std::string digest(at == asked.npos ? "" : asked.substr(at + 1));
   if (at != asked.npos && (digest.empty() || !entry.content.hex().starts_with(lowercase(digest))))
-    throw Error(fmt::format("the analysis {} is another one by now: its digest is {}, expected one that begins with {}",
-                            name, entry.content.hex(), digest.empty() ? "some digits" : digest));
+    throw Error(
+        fmt::format("the analysis {} has the digest {}, not one that begins with {}; it has been replaced, or the "
+                    "digest is misspelt",
+                    name, entry.content.hex(), digest.empty() ? "some digits" : digest));
   if (what == LibraryFile::analysis) return entry.analysis;
   if (entry.material.empty())
     throw Error(

@@ -13,12 +13,22 @@ namespace terrazzo {
 
 namespace {
 
+/// Graphs are used with materials that have more maps or fewer. A name that no map has by itself is a mistake.
+bool may_be_absent(const std::string& map) {
+  return semantic_from(map).has_value();
+}
+
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
   require_one_shape("material", *material);
   const bool wraps = exemplar_tiles(node, *material);
-  node.output("features",
-              weighted_features(*material, node.number_map("weights"), wraps, node.optional_input<Image>("mask")));
+  NumberMap weights = node.number_map("weights");
+  for (auto at = weights.begin(); at != weights.end();) {
+    const bool is_idle = !material->find(at->first) && may_be_absent(at->first);
+    if (is_idle) node.note(fmt::format("weights: the material has no {}; its weight does nothing", at->first));
+    at = is_idle ? weights.erase(at) : std::next(at);
+  }
+  node.output("features", weighted_features(*material, weights, wraps, node.optional_input<Image>("mask")));
 }
 
 }  // namespace
@@ -41,7 +51,9 @@ NodeType weight_node() {
        .type = ParamType::number_map,
        .fallback = NumberMap{},
        .help = "By map name, one weight or one per channel: {\"normal\": 2, \"base_color\": [1, 0.5, 0.5]}. Features "
-               "of a map with more weight are better preserved; 0 leaves a map out.",
+               "of a map with more weight are better preserved; 0 leaves a map out. Weights of usual maps that the "
+               "material "
+               "lacks do nothing.",
        .min = 0,
        .max = 100},
       tiles_param(),
@@ -60,11 +72,14 @@ NodeType weight_node() {
     check_all(
         [&] {
           std::vector<Error> missing;
-          for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) try {
+          for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) {
+            if (may_be_absent(name)) continue;
+            try {
               preflight_maps("weights." + name, {name}, inputs.at("material").front());
             } catch (const Error& e) {
               missing.push_back(e);
             }
+          }
           if (!missing.empty()) throw Errors(missing);
         },
         [&] { preflight_one_shape("material", inputs); });

@@ -176,7 +176,7 @@ MaterialPtr with_maps_changed(const MaterialPtr& material, const Texts& maps,
   std::vector<Map> changed = material->maps();
   for (Map& m : changed)
     if (maps.empty() || std::find(maps.begin(), maps.end(), m.name) != maps.end()) m.image = change(m);
-  return Material::make(material->name(), std::move(changed));
+  return Material::make(material->name(), std::move(changed), material->metres());
 }
 
 std::vector<double> per_channel(const NodeContext& node, const std::string& param, int channels) {

@@ -58,7 +58,9 @@ void compute(NodeContext& node) {
   const MaterialPtr material = node.input<Material>("material");
   const Size size = material->size();
   const Rect rect = asked_rect(node, size);
-  node.output("material", with_maps_changed(material, {}, [&](const Map& m) { return cropped(node, m, rect, size); }));
+  const MaterialPtr part = with_maps_changed(material, {}, [&](const Map& m) { return cropped(node, m, rect, size); });
+  const std::array share = {double(rect.width) / size.width, double(rect.height) / size.height};
+  node.output("material", Material::make(part->name(), part->maps(), part->metres() * share));
 }
 
 }  // namespace

@@ -72,7 +72,8 @@ void compute(NodeContext& node) {
       same->image = m.image;
   }
   const std::string& name = node.text("name");
-  const MaterialPtr material = Material::make(name.empty() && base ? base->name() : name, std::move(maps));
+  const MaterialPtr material = Material::make(name.empty() && base ? base->name() : name, std::move(maps),
+                                              base ? base->metres() : PhysicalSize());
   warn_of_smaller_maps(node, *material, base.get());
   node.output("material", material);
 }

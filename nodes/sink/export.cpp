@@ -1,13 +1,8 @@
 #include <algorithm>
 #include <filesystem>
-#include <map>
-#include <mutex>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <tbb/parallel_for.h>
 
-#include "core/base/paths.h"
 #include "core/exemplar/uv_image.h"
 #include "core/file/file_io.h"
 #include "core/image/color.h"
@@ -18,62 +13,13 @@
 #include "nodes/common/color_space.h"
 #include "nodes/sink/export_paths.h"
 #include "nodes/sink/export_report.h"
+#include "nodes/sink/map_files.h"
 
 namespace terrazzo {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// One file to write.
-struct Job {
-  std::string name;  ///< for notes
-  ImagePtr image;
-  fs::path target;
-  fs::path temporary;
-  WriteOptions options{};
-  Clipping clipped{};
-};
-
-std::optional<Depth> depth_from(const std::string& name) {
-  for (const Depth d : {Depth::u8, Depth::u16, Depth::f16, Depth::f32})
-    if (name == name_of(d)) return d;
-  return std::nullopt;
-}
-
-std::string depths_of(FileFormat format) {
-  std::vector<std::string_view> names;
-  for (const Depth d : {Depth::u8, Depth::u16, Depth::f16, Depth::f32})
-    if (holds(format, d)) names.push_back(name_of(d));
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-void require_depth(FileFormat format, const std::string& depth) {
-  const std::optional<Depth> wanted = depth_from(depth);
-  if (wanted && !holds(format, *wanted))
-    throw Error("depth", fmt::format("{} files hold {}, not {}; TIFF holds all depths", name_of(format),
-                                     depths_of(format), depth));
-}
-
-/// The format's depth nearest to the map's, lossless if there is one.
-Depth nearest_depth(FileFormat format, Depth have) {
-  if (holds(format, have)) return have;
-  switch (format) {
-    case FileFormat::png:
-      return Depth::u16;
-    case FileFormat::jpeg:
-      return Depth::u8;
-    case FileFormat::exr:
-      return have == Depth::u8 ? Depth::f16 : Depth::f32;
-    case FileFormat::tiff:
-      break;
-  }
-  return have;
-}
-
-bool loses(Depth have, Depth written) {
-  return have != written && !(have == Depth::u8) && written != Depth::f32;
-}
 
 ImagePtr with_normals(const ImagePtr& image, const std::string& wish) {
   ImageInfo info = image->info();
@@ -109,24 +55,18 @@ ImagePtr with_colors(const ImagePtr& image, const std::string& wish, Depth writt
 }
 
 /// The image as it goes to the file, with the depth it gets there.
-Job job_for(NodeContext& node, const std::string& name, const ImagePtr& image, const fs::path& target) {
-  Job job{.name = name, .image = with_normals(image, node.text("normal_y")), .target = target, .temporary = {}};
+MapFileJob job_for(NodeContext& node, const std::string& name, const ImagePtr& image, const fs::path& target) {
+  MapFileJob job{.name = name, .image = with_normals(image, node.text("normal_y")), .target = target};
   job.options.format = required_format("path", target);
   require_depth(job.options.format, node.text("depth"));
   job.options.jpeg_quality = int(node.integer("jpeg_quality"));
-  const Depth have = image->info().depth;
-  const std::optional<Depth> wanted = depth_from(node.text("depth"));
-  job.options.depth = wanted ? *wanted : nearest_depth(job.options.format, have);
+  job.options.depth = written_depth(job.options.format, node.text("depth"), image->info().depth);
   job.image = with_colors(job.image, node.text("color_space"), job.options.depth);
-  if (loses(have, job.options.depth))
-    node.note(fmt::format("{}: {} values are written as {}{}", name, name_of(have), name_of(job.options.depth),
-                          wanted ? "" : fmt::format(", the nearest that {} holds", name_of(job.options.format))));
-  if (job.options.format == FileFormat::jpeg && image->channels() % 2 == 0)
-    node.note(fmt::format("{}: alpha is left out, as JPEG has no alpha channel", name));
+  tell_of_losses(node, job, node.text("depth") != "keep");
   return job;
 }
 
-void add_material(NodeContext& node, const Material& material, std::vector<Job>& jobs) {
+void add_material(NodeContext& node, const Material& material, std::vector<MapFileJob>& jobs) {
   const std::string& pattern = node.text("path");
   const std::vector<Map> maps = chosen_maps(node, material);
   const auto target_of = [&](const Map& m) {
@@ -156,8 +96,8 @@ fs::path uv_target(const NodeContext& node, const UvMap& uv, const std::string& 
   return target;
 }
 
-void add_uv(NodeContext& node, const UvMapPtr& uv, const std::string& material, std::vector<Job>& jobs) {
-  Job job{.name = "uv", .image = nullptr, .target = uv_target(node, *uv, material), .temporary = {}};
+void add_uv(NodeContext& node, const UvMapPtr& uv, const std::string& material, std::vector<MapFileJob>& jobs) {
+  MapFileJob job{.name = "uv", .image = nullptr, .target = uv_target(node, *uv, material)};
   job.options.format = *format_from(job.target);
   const bool fractions = job.options.format == FileFormat::exr;
   job.image = fractions ? uv_as_fractions(uv) : uv_as_integers(uv);
@@ -169,58 +109,12 @@ void add_uv(NodeContext& node, const UvMapPtr& uv, const std::string& material, 
   jobs.push_back(std::move(job));
 }
 
-void add_pictures(const Report& report, const fs::path& path, std::vector<Job>& jobs) {
+void add_pictures(const Report& report, const fs::path& path, std::vector<MapFileJob>& jobs) {
   for (const Report::Picture& p : report.pictures()) {
-    Job job{.name = p.name, .image = p.image, .target = path, .temporary = {}};
+    MapFileJob job{.name = p.name, .image = p.image, .target = path};
     job.target.replace_filename(fmt::format("{}_{}.png", path.stem().string(), p.name));
     jobs.push_back(std::move(job));
   }
-}
-
-/// No two files may have the same name.
-void require_distinct(const std::vector<Job>& jobs) {
-  std::map<fs::path, std::string> names;
-  for (const Job& job : jobs) {
-    const auto [at, is_new] = names.emplace(place_of_file(job.target), job.name);
-    if (!is_new)
-      throw Error("path",
-                  fmt::format("{} and {} would both be written to {}", at->second, job.name, job.target.string()));
-  }
-}
-
-/// A warning, or a note if it is no more than filter overshoot.
-void tell_of_clipping(NodeContext& node, const Job& job) {
-  constexpr float overshoot = 0.01f;
-  const Clipping& c = job.clipped;
-  if (c.values == 0) return;
-  const std::string what = fmt::format(
-      "{}: {:.3g} % of its values lie outside 0..1 (from {:.4g} to {:.4g}) and were "
-      "clipped by {}",
-      job.name, 100.0 * double(c.values) / double(c.all), c.least, c.most, name_of(job.options.depth));
-  if (c.least >= -overshoot && c.most <= 1 + overshoot)
-    node.note(what);
-  else
-    node.warn(what +
-              "; write it as .exr, which keeps them, or bring them into 0..1 before, with \"normalize\" or "
-              "\"levels\"");
-}
-
-/// Writes all files, several at once; progress is their mean.
-void write_all(NodeContext& node, std::vector<Job>& jobs) {
-  std::mutex mutex;
-  std::vector<double> done(jobs.size());
-  tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
-    jobs[i].clipped = write_image(*jobs[i].image, jobs[i].temporary, jobs[i].options, [&](double fraction) {
-      double sum = 0;
-      {
-        const std::lock_guard lock(mutex);
-        done[i] = fraction;
-        for (const double d : done) sum += d;
-      }
-      node.task().progress(sum / double(jobs.size()));
-    });
-  });
-  for (const Job& job : jobs) tell_of_clipping(node, job);
 }
 
 void compute(NodeContext& node) {
@@ -228,7 +122,7 @@ void compute(NodeContext& node) {
   const auto uv = node.optional_input<UvMap>("uv");
   const auto report = node.optional_input<Report>("report");
   require_some_input(material || uv || report);
-  std::vector<Job> jobs;
+  std::vector<MapFileJob> jobs;
   if (material) add_material(node, *material, jobs);
   if (uv) add_uv(node, uv, material ? material->name() : "", jobs);
   const fs::path report_path = node.text("report_path");
@@ -237,7 +131,7 @@ void compute(NodeContext& node) {
     add_pictures(*report, report_path, jobs);
   }
   require_distinct(jobs);
-  for (Job& job : jobs) job.temporary = node.stage(job.target);
+  for (MapFileJob& job : jobs) job.temporary = node.stage(job.target);
   if (report)
     write_file(node.stage(report_path), is_csv(report_path) ? report_as_csv(*report) : report_as_json(*report));
   write_all(node, jobs);
@@ -273,14 +167,11 @@ std::vector<Param> params() {
       {.name = "path",
        .type = ParamType::path,
        .fallback = "",
-       .help = "File name pattern for the maps, with {map} for the map's name, and optionally {material}, {width} and "
-               "{height}. The extension decides the format: png, tif or tiff, exr, jpg or jpeg. Needed if a material "
-               "is connected."},
-      {.name = "depth",
-       .type = ParamType::choice,
-       .fallback = "keep",
-       .help = "Bit depth. \"keep\": each map's own, or the nearest that the format holds.",
-       .choices = {"keep", "uint8", "uint16", "half", "float"}},
+       .help =
+           "File name pattern for the maps, with {map} for the map's name, and optionally {material}, {width} and "
+           "{height}. The extension decides the format: png, tif or tiff, exr, jpg or jpeg, tga. Needed if a material "
+           "is connected."},
+      depth_param(),
       {.name = "color_space",
        .type = ParamType::text,
        .fallback = "keep",
@@ -320,7 +211,8 @@ NodeType export_node() {
   t.category = "sink";
   t.summary = "Writes maps, a uv map and a report to files";
   t.help =
-      "Writes PNG (8 and 16 bit), TIFF, EXR (half and float) and JPEG, strip by strip, so that results need not fit in "
+      "Writes PNG (8 and 16 bit), TIFF, EXR (half and float), JPEG and TGA, strip by strip, so that results need not "
+      "fit in "
       "memory. Every map keeps its depth, colour space and normal convention unless the parameters change them; values "
       "at the depth they were read are written back exactly. Files appear complete or not at all. At least one input "
       "must be connected.";

@@ -41,9 +41,9 @@ FileFormat required_format(const char* param, const fs::path& path) {
   if (const auto format = format_from(path)) return *format;
   const std::string extension = path.extension().string();
   throw Error(param, fmt::format("the extension decides the file format, and \"{}\" ends in {}; expected .png, .tif, "
-                                 ".tiff, .exr, .jpg or .jpeg{}",
+                                 ".tiff, .exr, .jpg, .jpeg or .tga{}",
                                  path.filename().string(), extension.empty() ? "no extension" : "\"" + extension + "\"",
-                                 did_you_mean(extension, {".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg"})));
+                                 did_you_mean(extension, {".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".tga"})));
 }
 
 void require_pattern_for(const std::string& pattern, const std::vector<std::string>& maps) {

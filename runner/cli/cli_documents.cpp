@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DocumentFlags : GraphFlags {
-  std::string out, name;
+  std::string out, name, to;
   std::vector<std::string> nodes;
   bool check = false;
 };
@@ -78,7 +78,25 @@ int regroup(const DocumentFlags& flags, const std::function<std::string(const st
   return exit_done;
 }
 
+/// The new graph goes into a file of its own, for other graphs to use.
+int group_to_file(const DocumentFlags& flags) {
+  if (fs::exists(flags.to)) throw UsageError(fmt::format("--to {}: the file exists; name another", flags.to));
+  if (!flags.to.ends_with(".json"))
+    throw UsageError(fmt::format("--to {}: expected a name that ends in .json", flags.to));
+  const fs::path folder = fs::absolute(flags.out.empty() ? flags.graph : flags.out).lexically_normal().parent_path();
+  const fs::path type = fs::absolute(flags.to).lexically_normal().lexically_relative(folder);
+  const std::string before = read_document(flags.graph);
+  const GraphInFile moved = moved_to_file(grouped(before, flags.graph, flags.name, flags.nodes), flags.graph,
+                                          flags.name, type.generic_string());
+  write_whole_file(flags.to, moved.graph);
+  say("wrote {}\n", flags.to);
+  write_changed(flags, moved.document);
+  compare_seeds(flags, before, moved.document);
+  return exit_done;
+}
+
 int group(const DocumentFlags& flags) {
+  if (!flags.to.empty()) return group_to_file(flags);
   return regroup(flags, [&](const std::string& text) { return grouped(text, flags.graph, flags.name, flags.nodes); });
 }
 
@@ -144,10 +162,15 @@ void add_document_commands(CLI::App& app, Chosen& chosen) {
   const auto [group_command, group_flags] =
       add("group", "Turns nodes of a graph into a subgraph",
           "Their wires, and the graph's parameters that they use, become those of the subgraph.\n"
-          "Example:\n  terrazzo group bricks.json export maps picture lit",
+          "Examples:\n  terrazzo group bricks.json export maps picture lit\n"
+          "  terrazzo group bricks.json save files --to parts/save.json",
           group);
   group_command->add_option("NAME", group_flags->name, "The name of the subgraph, and of the node")->required();
   group_command->add_option("NODE", group_flags->nodes, "The nodes to move into it")->required()->expected(-1);
+  group_command
+      ->add_option("--to", group_flags->to,
+                   "Put the subgraph into a file of its own, which other graphs use as \"type\": \"FILE.json\"")
+      ->type_name("FILE.json");
   add_out(group_command, *group_flags);
   const auto [ungroup_command, ungroup_flags] = add("ungroup", "Turns a subgraph of a graph back into nodes",
                                                     "Example:\n  terrazzo ungroup bricks.json export", ungroup);

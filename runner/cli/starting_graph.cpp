@@ -88,7 +88,7 @@ void tell_of_layout(JsonValue& layout, const ExemplarLook& look) {
 }  // namespace
 
 std::string ExemplarLook::nature() const {
-  return repeats ? "it repeats in a lattice" : tiles ? "no lattice; it tiles" : "no lattice; it does not tile";
+  return repeats ? "it repeats" : tiles ? "no lattice; it tiles" : "no lattice; it does not tile";
 }
 
 bool takes_a_folder(std::string_view graph) {

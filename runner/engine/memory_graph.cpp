@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "core/material/material_files.h"
 #include "graphs/document/convert.h"
 #include "nodes/common/registry.h"
 
@@ -25,7 +26,10 @@ GraphNode memory_node(const std::string& name, const std::string& type, const Pa
 
 GraphNode reading_node(const std::string& name, const fs::path& path) {
   const fs::path absolute = fs::absolute(path).lexically_normal();
-  return memory_node(name, fs::is_directory(absolute) ? "load_material" : "load_map", {{"path", absolute.string()}});
+  if (fs::is_directory(absolute)) return memory_node(name, "load_material", {{"path", absolute.string()}});
+  const std::vector<RecognisedMap> maps = recognise_map({.name = absolute.filename().string(), .size = {}});
+  const Semantic semantic = maps.size() == 1 ? maps.front().semantic : Semantic::base_color;
+  return memory_node(name, "load_map", {{"path", absolute.string()}, {"semantic", std::string(name_of(semantic))}});
 }
 
 }  // namespace terrazzo

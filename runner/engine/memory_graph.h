@@ -10,7 +10,8 @@ namespace terrazzo {
 /// such type, or a parameter without a default is missing.
 GraphNode memory_node(const std::string& name, const std::string& type, const Params& given);
 
-/// A node that reads a material from a folder of maps, or one map from an image file.
+/// A node that reads a material from a folder of maps, or one map from an image file, whose
+/// name may say which.
 GraphNode reading_node(const std::string& name, const std::filesystem::path& path);
 
 }  // namespace terrazzo

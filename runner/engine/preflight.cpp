@@ -15,6 +15,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A node's name without the rounds of loops: "all/files" of "all[sand]/files".
+std::string without_rounds(const std::string& node) {
+  std::string out;
+  int depth = 0;
+  for (const char c : node) {
+    depth += c == '[';
+    if (depth == 0) out += c;
+    depth -= c == ']';
+  }
+  return out;
+}
+
+/// Whether two nodes are the same in different rounds of a loop.
+bool are_rounds(const std::string& a, const std::string& b) {
+  return a != b && without_rounds(a) == without_rounds(b);
+}
+
 class Foresight {
  public:
   /// Nodes in the order of their wires, each with whether it is going to write.
@@ -69,10 +86,14 @@ class Foresight {
         const auto [at, is_new] = writers_.emplace(place_of_file(path), Writer{node.name, f.what, path});
         const Writer& writer = at->second;
         if (!is_new)
-          trouble = fmt::format("{} would be written twice, {}{}", path.string(),
+          trouble = fmt::format("{} would be written twice, {}{}{}", path.string(),
                                 writer.node != node.name ? fmt::format("here and by the node \"{}\"", writer.node)
                                                          : fmt::format("for {} and for {}", writer.what, f.what),
-                                writer.path != path ? fmt::format(" ({} is the same file)", writer.path.string()) : "");
+                                writer.path != path ? fmt::format(" ({} is the same file)", writer.path.string()) : "",
+                                are_rounds(node.name, writer.node)
+                                    ? "; let the path tell the rounds of the loop apart, by its variable, as "
+                                      "\"$out/$scan_name\" does in a loop \"as\": \"scan\""
+                                    : "");
       }
       if (!trouble.empty() && said.insert(trouble).second) problems_.push_back(problem_of(node, f.param, trouble));
     }

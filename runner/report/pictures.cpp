@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/base64.h"
 #include "core/base/text.h"
 #include "core/image/color.h"
 #include "core/image/image_file.h"
@@ -78,18 +79,6 @@ Histogram histogram_of(const Image& image) {
     out[std::min(out.size() - 1, static_cast<size_t>(mean * static_cast<float>(out.size())))]++;
   }
   for (float& v : out) v /= static_cast<float>(count);
-  return out;
-}
-
-std::string base64(const std::vector<uint8_t>& bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve(bytes.size() / 3 * 4 + 4);
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](size_t at) -> uint32_t { return at < bytes.size() ? bytes[at] : 0; };
-    const uint32_t bits = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-    for (size_t d = 0; d < 4; d++) out += i + d > bytes.size() ? '=' : digits[bits >> (18 - 6 * d) & 63];
-  }
   return out;
 }
 

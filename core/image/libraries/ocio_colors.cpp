@@ -1,3 +1,5 @@
+#include <mutex>
+
 #include <OpenColorIO/OpenColorIO.h>
 
 #include "core/base/error.h"
@@ -83,6 +85,9 @@ class OcioColors final : public ColorConfiguration {
     return space ? space->getName() : "";
   }
   Conversion conversion(const std::string& from, const std::string& to) const override {
+    // Making a processor asks for environment variables, which the library (2.1) reads into one static string.
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
     try {
       // Lossless: without the approximations of pow that would shift 16-bit values.
       const OCIO::ConstCPUProcessorRcPtr processor =

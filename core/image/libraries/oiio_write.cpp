@@ -54,6 +54,9 @@ OIIO::ImageSpec make_spec(const EncodedImage& image) {
       spec.attribute("Compression", "jpeg:" + std::to_string(options.jpeg_quality));
       spec.attribute("jpeg:subsampling", "4:4:4");
       break;
+    case FileFormat::tga:
+      spec.attribute("compression", "rle");
+      break;
   }
   return spec;
 }
@@ -84,7 +87,7 @@ class SinkProxy final : public OIIO::Filesystem::IOProxy {
 class OiioEncoder final : public ImageEncoder {
  public:
   OiioEncoder(const std::string& name, const EncodedImage& image, ByteSink* sink) : spec_(make_spec(image)) {
-    constexpr std::array<const char*, 4> formats = {"png", "tiff", "openexr", "jpeg"};
+    constexpr std::array<const char*, 5> formats = {"png", "tiff", "openexr", "jpeg", "targa"};
     out_ = OIIO::ImageOutput::create(formats[static_cast<size_t>(image.options.format)]);
     if (!out_) throw Error(OIIO::geterror());
     out_->threads(1);

@@ -97,6 +97,25 @@ TEST_CASE("synth makes twice the exemplar unless it is told otherwise, and warns
   CHECK(w.run({"synth", "stone", "-o", "x", "--scale", "2", "--size", "9"}).code == 2);
 }
 
+TEST_CASE("group --to puts the subgraph into a file that another graph can use") {
+  const Workplace w;
+  CHECK(w.run({"run", "soft.json"}).code == 0);
+  const std::string picture = read_text(w.path / "out/base_color.png");
+  const ProgramRun run =
+      w.run({"group", "soft.json", "blurred", "soft", "--to", "parts/blurred.json", "-o", "new.json"});
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(contains(read_text(w.path / "new.json"), "\"type\": \"parts/blurred.json\""));
+  CHECK_FALSE(contains(read_text(w.path / "new.json"), "\"graphs\""));
+  fs::remove_all(w.path / "out");
+  CHECK(w.run({"run", "new.json"}).code == 0);
+  CHECK(read_text(w.path / "out/base_color.png") == picture);
+  CHECK(w.run({"check", "parts/blurred.json"}).code == 0);
+  const ProgramRun again = w.run({"group", "soft.json", "blurred", "soft", "--to", "parts/blurred.json"});
+  CHECK(again.code == 2);
+  CHECK(contains(again.err, "the file exists"));
+}
+
 TEST_CASE("group, ungroup, format and diff on files") {
   const Workplace w;
   const std::string before = read_text(w.path / "soft.json");

@@ -1,0 +1,290 @@
+#include "nodes/exchange/export_preset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/text.h"
+#include "core/file/file_io.h"
+#include "core/image/color.h"
+#include "core/node/node.h"
+#include "nodes/exchange/scene.h"
+#include "nodes/sink/export_paths.h"
+#include "nodes/sink/map_files.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double width_if_unknown = 1;  // metres
+
+const ExportPreset& preset_of(const Params& params) {
+  return *find_export_preset(std::get<std::string>(params.at("preset")));
+}
+
+bool is_gltf(const ExportPreset& preset) {
+  return preset.document == PresetDocument::gltf || preset.document == PresetDocument::glb;
+}
+
+bool has_document(const ExportPreset& preset) {
+  return preset.document != PresetDocument::none;
+}
+
+/// Formats that readers of the documents must know.
+Texts formats_of(PresetDocument document) {
+  switch (document) {
+    case PresetDocument::gltf:
+    case PresetDocument::glb:
+      return {"png", "jpg"};
+    case PresetDocument::usd:
+      return {"png", "jpg", "exr"};
+    default:
+      return {"png", "tif", "exr", "jpg", "tga"};
+  }
+}
+
+/// What files are named after.
+std::string name_of_files(const std::string& given, const Material& material) {
+  std::string out;
+  for (const char c : given.empty() ? material.name() : given) out += is_word(c) || c == '-' ? c : '_';
+  return out.empty() ? "material" : out;
+}
+
+/// The surface's size: as the parameter says, else as the material knows it; not known if neither does.
+PhysicalSize metres_of(const NodeContext& node, const Material& material) {
+  const Numbers& given = node.numbers("metres");
+  if (given.empty()) return material.metres();
+  const Size size = material.size();
+  return {given[0], given.size() > 1 ? given[1] : given[0] * size.height / size.width};
+}
+
+fs::path folder_for(const NodeContext& node, const Material& material) {
+  const Size size = material.size();
+  return filled("path", node.text("path"),
+                {{"material", material.name()},
+                 {"width", fmt::format("{}", size.width)},
+                 {"height", fmt::format("{}", size.height)}});
+}
+
+MapFileJob job_for(NodeContext& node, FileContent& content, const fs::path& folder) {
+  const std::string& extension = node.text("format");
+  MapFileJob job{.name = content.name, .image = content.image, .target = folder / (content.name + "." + extension)};
+  job.options.format = *format_from(job.target);
+  job.options.jpeg_quality = int(node.integer("jpeg_quality"));
+  const bool needs_alpha = job.image->channels() == 4;
+  if (needs_alpha && job.options.format == FileFormat::jpeg)
+    throw Error("format", fmt::format("{} needs an alpha channel ({}), which JPEG does not have; take png",
+                                      content.name, described(content)));
+  job.options.depth = written_depth(job.options.format, node.text("depth"), job.image->info().depth);
+  // Float files hold linear colours, whoever reads them.
+  if (is_color(job.image->info().semantic))
+    job.image = convert_color(job.image, assumed_color_space(job.image->info().semantic, job.options.depth));
+  content.image = job.image;
+  tell_of_losses(node, job, node.text("depth") != "keep");
+  return job;
+}
+
+/// A file that is written as it is.
+struct TextFile {
+  std::string name;
+  std::string bytes;
+};
+
+TextFile document_for(const ExportPreset& preset, const MaterialScene& scene) {
+  switch (preset.document) {
+    case PresetDocument::gltf:
+      return {scene.name + ".gltf", gltf_text(scene)};
+    case PresetDocument::glb: {
+      std::vector<std::string> images;
+      for (const SceneFile& f : scene.files) {
+        const std::vector<uint8_t> bytes = encoded_file(*f.content->image, {.format = *format_from(f.name)});
+        images.emplace_back(bytes.begin(), bytes.end());
+      }
+      return {scene.name + ".glb", glb_bytes(scene, images)};
+    }
+    case PresetDocument::materialx_standard_surface:
+      return {scene.name + ".mtlx", materialx_text(scene, false)};
+    case PresetDocument::materialx_open_pbr:
+      return {scene.name + ".mtlx", materialx_text(scene, true)};
+    case PresetDocument::usd:
+      return {scene.name + ".usda", usd_text(scene)};
+    case PresetDocument::blender:
+      return {scene.name + ".py", blender_script(scene)};
+    case PresetDocument::none:
+      break;
+  }
+  return {};
+}
+
+MaterialScene scene_of(NodeContext& node, const std::string& name, PhysicalSize metres, const Material& material) {
+  MaterialScene scene{.name = name, .metres = metres};
+  const Numbers& repeats = node.numbers("repeats");
+  scene.repeats = {repeats[0], repeats.back()};
+  scene.relief = node.number("relief");
+  if (!metres.is_known()) {
+    const Size size = material.size();
+    scene.metres = {width_if_unknown, width_if_unknown * size.height / size.width};
+    node.note(
+        fmt::format("the physical size is not known: {:g} m in width is assumed; set \"metres\"", width_if_unknown));
+  }
+  return scene;
+}
+
+/// Of one binary file, only what is not in it is written beside it.
+void leave_rest(const MaterialScene& scene, std::vector<MapFileJob>& jobs,
+                std::vector<std::pair<std::string, const FileContent*>>& listed) {
+  const auto is_inside = [&](const std::string& file) {
+    return std::ranges::find(scene.files, file, &SceneFile::name) != scene.files.end();
+  };
+  std::erase_if(jobs, [&](const MapFileJob& job) { return is_inside(job.target.filename().string()); });
+  std::erase_if(listed, [&](const auto& entry) { return is_inside(entry.first); });
+}
+
+void compute(NodeContext& node) {
+  const auto material = node.input<Material>("material");
+  const ExportPreset& preset = preset_of(node.params());
+  const std::string name = name_of_files(node.text("name"), *material);
+  const PhysicalSize metres = metres_of(node, *material);
+  const fs::path folder = folder_for(node, *material);
+  std::vector<std::string> notes;
+  std::vector<FileContent> contents = preset_files(preset, *material, name, notes);
+  MaterialScene scene = has_document(preset) ? scene_of(node, name, metres, *material) : MaterialScene();
+  std::vector<MapFileJob> jobs;
+  for (FileContent& c : contents) jobs.push_back(job_for(node, c, folder));
+  require_distinct(jobs);
+  std::vector<std::pair<std::string, const FileContent*>> listed;
+  for (size_t i = 0; i < jobs.size(); i++) {
+    jobs[i].options.description = metadata_line(contents[i], metres);
+    const std::string file = jobs[i].target.filename().string();
+    node.note(fmt::format("{}: {}", file, described(contents[i])));
+    listed.emplace_back(file, &contents[i]);
+    if (!is_gltf(preset) || gltf_takes(contents[i])) scene.files.push_back({file, &contents[i]});
+  }
+  for (std::string& n : notes) node.note(std::move(n));
+  if (has_document(preset)) {
+    const TextFile document = document_for(preset, scene);
+    write_file(node.stage(folder / document.name), document.bytes);
+  }
+  if (preset.document == PresetDocument::glb) leave_rest(scene, jobs, listed);
+  if (jobs.empty()) return;
+  write_file(node.stage(folder / sidecar_name), sidecar_text(preset, name, metres, listed));
+  for (MapFileJob& job : jobs) job.temporary = node.stage(job.target);
+  write_all(node, jobs);
+}
+
+Texts check(const Params& params) {
+  Texts problems;
+  const auto numbers = [&](const char* name) -> const Numbers& { return std::get<Numbers>(params.at(name)); };
+  const std::string& format = std::get<std::string>(params.at("format"));
+  const ExportPreset& preset = preset_of(params);
+  const Texts formats = formats_of(preset.document);
+  if (std::ranges::find(formats, format) == formats.end())
+    problems.push_back(
+        fmt::format("\"format\": {} takes {}, found \"{}\"", preset.name, fmt::join(formats, " or "), format));
+  else
+    try {
+      require_depth(*format_from("x." + format), std::get<std::string>(params.at("depth")));
+    } catch (const Error& e) {
+      problems.push_back(fmt::format("\"depth\": {}", e.what()));
+    }
+  if (numbers("repeats").empty()) problems.emplace_back("\"repeats\": expected one number or two");
+  return problems;
+}
+
+Forecast preflight(const Params& params, const InputForecasts&) {
+  const std::string& path = std::get<std::string>(params.at("path"));
+  const fs::path folder = path.substr(0, path.find('{'));
+  const bool is_known = folder == path;
+  return {.files = {{"path", is_known ? folder : folder.parent_path(), "", "the maps"}}};
+}
+
+std::vector<Param> params() {
+  Texts presets;
+  std::string help = "Whose files, channels and conventions:";
+  for (const ExportPreset& p : export_presets()) {
+    presets.emplace_back(p.name);
+    help += fmt::format(" {}: {}.", p.name, p.summary);
+  }
+  return {
+      {.name = "preset", .type = ParamType::choice, .fallback = "maps", .help = help, .choices = presets},
+      {.name = "path",
+       .type = ParamType::path,
+       .help = "The folder to write to; {material}, {width} and {height} are replaced."},
+      {.name = "name",
+       .type = ParamType::text,
+       .fallback = "",
+       .help = "What files and materials are named after; empty: the material's name."},
+      {.name = "format",
+       .type = ParamType::choice,
+       .fallback = "png",
+       .help = "File format of the maps. glTF takes png and jpg, USD exr too.",
+       .choices = {"png", "tif", "exr", "jpg", "tga"}},
+      depth_param(),
+      {.name = "jpeg_quality",
+       .type = ParamType::integer,
+       .fallback = int64_t{95},
+       .help = "Quality of JPEG files; lower makes smaller files with more artefacts.",
+       .min = 1,
+       .max = 100},
+      {.name = "metres",
+       .type = ParamType::numbers,
+       .fallback = Numbers{},
+       .help = "Physical size of the surface that the maps show: width and height, or the width alone. Empty: as the "
+               "material knows it.",
+       .min = 0.000001,
+       .max = largest_extent,
+       .unit = "metres",
+       .max_count = 2},
+      {.name = "repeats",
+       .type = ParamType::numbers,
+       .fallback = Numbers{1},
+       .help = "How often the plane in glTF, USD and Blender shows the maps, along x and y; for maps that tile.",
+       .min = 0.001,
+       .max = 1000,
+       .max_count = 2},
+      {.name = "relief",
+       .type = ParamType::number,
+       .fallback = 0.0,
+       .help = "Height of the surface from 0 to 1 of the height map, for displacement in MaterialX, USD and Blender; 0 "
+               "leaves displacement out, which some readers do not know.",
+       .min = 0,
+       .max = 1000,
+       .unit = "metres"},
+  };
+}
+
+}  // namespace
+
+NodeType export_preset_node() {
+  NodeType t;
+  t.name = "export_preset";
+  t.category = "sink";
+  t.summary = "Writes a material as an engine or a renderer takes it";
+  t.help =
+      "Writes maps with the names, channels, colour spaces and normals of the preset, and the document that ties them "
+      "together: glTF, MaterialX, USD, or a script for Blender. What the material lacks is a constant; what the "
+      "preset does not take is written as a file of its own. Every file's convention is noted, stored in its metadata, "
+      "and in terrazzo-material.json beside the files, from which load_material reads them right again. Heights have "
+      "at least 16 bits, since 8 show as steps.";
+  t.inputs = {{.name = "material", .type = ValueType::material, .help = "the maps to write"}};
+  t.params = params();
+  t.persist = Persist::digest;
+  t.files_read = [](const Params&) { return color_config_files(); };
+  t.memory_hint = [](const NodeContext& node) {
+    const auto material = node.input<Material>("material");
+    constexpr size_t per_file = size_t{12} << 20;  // a strip as floats, and as the file's values
+    const bool in_memory = preset_of(node.params()).document == PresetDocument::glb;
+    return per_file * (1 + material->maps().size()) + (in_memory ? size_t(material->size().area()) * 16 : 0);
+  };
+  t.check = check;
+  t.compute = compute;
+  t.preflight = preflight;
+  return t;
+}
+
+}  // namespace terrazzo
