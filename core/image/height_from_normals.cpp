@@ -12,6 +12,8 @@ namespace terrazzo {
 namespace {
 
 constexpr float steepest = 256;
+/// Of multigrid. Each leaves less than half of the error (screened_poisson_test.cpp); after 12, 1e-5 of the relief of
+/// 4096x4096 pixels is left.
 constexpr int cycles = 12;
 /// How much the longest wave of a surface loses, at the most, to the screening that keeps the equation regular.
 constexpr double longest_loses = 1e-5;

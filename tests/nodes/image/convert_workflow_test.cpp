@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/image/srgb.h"
+#include "nodes/common/registry.h"
 #include "tests/nodes/image/image_checks.h"
 
 using namespace terrazzo;
@@ -89,4 +90,13 @@ TEST_CASE("what is lacking, or of other primaries, is said") {
                            {"specular", flat_image({1, 1}, {0, 0, 0}, Semantic::specular, "srgb_texture")}});
   CHECK(test::error_of("convert_workflow", {}, {{"material", {odd}}}).find("found acescg and srgb_texture") !=
         std::string::npos);
+}
+
+TEST_CASE("the maps of the result are known before anything runs, and what is certainly lacking is refused") {
+  const NodeType* type = find_node_type("convert_workflow");
+  const Forecast material{.maps = {"base_color", "specular", "height"}, .possible_maps = Texts{}};
+  const Forecast made = type->preflight({{"to", "metallic"}}, {{"material", {material}}});
+  CHECK(made.maps == Texts{"base_color", "height", "metallic"});
+  CHECK_THROWS_AS(type->preflight({{"to", "specular"}}, {{"material", {material}}}), Error);
+  CHECK_NOTHROW(type->preflight({{"to", "specular"}}, {{"material", {Forecast{}}}}));
 }

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "nodes/common/registry.h"
 #include "tests/nodes/image/image_checks.h"
 
 using namespace terrazzo;
@@ -118,4 +119,10 @@ TEST_CASE("make_height is the same on any number of threads") {
 TEST_CASE("make_height wants normals") {
   CHECK(error_of("make_height", {}, {{"normal", flat_image({4, 2}, {0}, Semantic::height)}}, "normal")
             .find("expected a normal map of 3 channels, found a height map") != std::string::npos);
+}
+
+TEST_CASE("a height_scale of 0 is refused before anything runs") {
+  const NodeType* type = find_node_type("make_height");
+  CHECK(type->check({{"height_scale", 1.0}}).empty());
+  CHECK(type->check({{"height_scale", 0.0}}).size() == 1);
 }
