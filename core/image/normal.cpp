@@ -31,12 +31,37 @@ void renormalize(float* pixels, int channels, int64_t count) {
   }
 }
 
+namespace {
+
+/// 1 - v; of a step of a file with `steps` steps exactly the opposite step.
+float opposite(float v, float steps) {
+  const float step = std::floor(v * steps + 0.5f);
+  return step / steps == v ? (steps - step) / steps : 1 - v;
+}
+
+}  // namespace
+
+void flip_green(float* pixels, int channels, int64_t count, Depth depth) {
+  const float steps = depth == Depth::u8 ? 255 : 65535;
+  for (int64_t i = 0; i < count; i++) {
+    float& green = pixels[i * channels + 1];
+    green = depth <= Depth::u16 ? opposite(green, steps) : 1 - green;
+  }
+}
+
 Vector3f reoriented(const Vector3f& base, const Vector3f& detail) {
   const Vector3f t = base + Vector3f{0, 0, 1};
   if (t.z() < 1e-6f) return detail;
   const Vector3f u{-detail.x(), -detail.y(), detail.z()};
   const float along = (t.x() * u.x() + t.y() * u.y() + t.z() * u.z()) / t.z();
   return normalized(t * along - u);
+}
+
+std::optional<SlopeFilter> slope_filter_from(std::string_view name) {
+  if (name == "sobel") return SlopeFilter::sobel;
+  if (name == "scharr") return SlopeFilter::scharr;
+  if (name == "central") return SlopeFilter::central;
+  return std::nullopt;
 }
 
 void normals_from_height(const PixelView& height, const Rect& region, double height_scale, SlopeFilter filter,

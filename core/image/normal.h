@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "core/image/image.h"
 #include "core/numeric/eigen.h"
@@ -22,6 +24,10 @@ void encode_normal(const Vector3f& normal, NormalY normal_y, float* pixel);
 /// Makes encoded normals unit length in place: the first three of each pixel's `channels` values.
 void renormalize(float* pixels, int channels, int64_t count);
 
+/// Reverses the green channel of encoded normals in place: from up to down, or from down to up. What comes from 8- and
+/// 16-bit files gets the value of another step of that file, so that doing it twice gives the same bits.
+void flip_green(float* pixels, int channels, int64_t count, Depth depth);
+
 /// `detail` laid over `base` by rotating it into the base's tangent frame: reoriented normal mapping (Barre-Brisebois
 /// and Hill, Blending in Detail, 2012). A flat detail leaves the base, a flat base gives the detail.
 Vector3f reoriented(const Vector3f& base, const Vector3f& detail);
@@ -29,6 +35,7 @@ Vector3f reoriented(const Vector3f& base, const Vector3f& detail);
 /// How slopes are estimated from a 3x3 neighbourhood: smoothing across by 1 2 1 (Sobel), by 3 10 3 (Scharr 2000, the
 /// most even over directions), or not at all.
 enum class SlopeFilter : uint8_t { sobel, scharr, central };
+std::optional<SlopeFilter> slope_filter_from(std::string_view name);
 
 /// How many pixels around a region count for its normals.
 inline constexpr int slope_reach = 1;

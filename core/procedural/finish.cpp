@@ -77,10 +77,10 @@ MaterialPtr finished_material(const std::string& name, const Surface& surface, c
   });
   round_all(normal, 255);
   task.progress(0.8);
-  const OcclusionOptions options{
+  const HorizonOptions options{
       .height_scale = finish.relief, .radius = std::max(1, int(finish.reach)), .outside = outside};
   std::vector<float> occlusion = computed(finish.size, 1, task, [&](const Rect& region, float* out) {
-    occlusion_from_height(*height, region, options, out);
+    occlusion_from_height(*height, region, options, 1, out);
   });
   for (size_t i = 0; i < occlusion.size(); i++) {
     const double shade = 1 - finish.cavity * (1 - double(occlusion[i]));

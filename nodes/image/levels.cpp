@@ -103,10 +103,11 @@ NodeType levels_node() {
   t.name = "levels";
   t.version = 2;
   t.category = "image";
-  t.summary = "Black point, white point and gamma";
+  t.summary = "Black point, white point and gamma; inverts, as gloss to roughness";
   t.help =
-      "Maps [in_black, in_white] through a gamma to [out_black, out_white]; swap black and white to invert. Works on "
-      "stored values and leaves alpha as it is. The auto modes find in_black and in_white from the image.";
+      "Maps [in_black, in_white] through a gamma to [out_black, out_white]. Works on stored values and leaves alpha as "
+      "it is. The auto modes find in_black and in_white from the image. To invert a map, as gloss (smoothness) to "
+      "roughness and back, set out_black to [1] and out_white to [0]: 8- and 16-bit values come back exactly.";
   t.inputs = {image_port("image", "the image; not a normal map")};
   t.outputs = {image_port("image", "the image with its levels changed")};
   Param gamma = level_param("gamma", 1, "Above 1 lightens the midtones, below 1 darkens them.");

@@ -6,10 +6,6 @@ namespace terrazzo {
 
 namespace {
 
-SlopeFilter slope_filter(const std::string& name) {
-  return name == "sobel" ? SlopeFilter::sobel : name == "scharr" ? SlopeFilter::scharr : SlopeFilter::central;
-}
-
 void compute(NodeContext& node) {
   const ImagePtr height = node.input<Image>("height");
   require_one_channel("height", *height);
@@ -19,7 +15,7 @@ void compute(NodeContext& node) {
   info.color_space = "raw";
   info.normal_y = normal_y_of(node);
   const double scale = node.number("height_scale");
-  const SlopeFilter filter = slope_filter(node.text("filter"));
+  const SlopeFilter filter = *slope_filter_from(node.text("filter"));
   const Outside outside = edges_of(node);
   Operation operation{.sources = {height}, .compute = {}, .work = 10};
   operation.reads = [=, size = info.size](size_t, const Rect& region) {

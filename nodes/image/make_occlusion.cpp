@@ -1,5 +1,6 @@
 #include "core/image/image_ops.h"
 #include "core/image/occlusion.h"
+#include "nodes/common/horizon_params.h"
 #include "nodes/common/node_helpers.h"
 
 namespace terrazzo {
@@ -12,16 +13,10 @@ void compute(NodeContext& node) {
   ImageInfo info = height->info();
   info.semantic = Semantic::ambient_occlusion;
   info.color_space = "raw";
-  const OcclusionOptions options{.height_scale = node.number("height_scale"),
-                                 .radius = int(node.integer("radius")),
-                                 .strength = node.number("strength"),
-                                 .outside = edges_of(node)};
-  Operation operation{.sources = {height}, .compute = {}, .work = 16.0 * options.radius};
-  operation.reads = [=, size = info.size](size_t, const Rect& region) {
-    return padded_parts(size, grown(region, options.radius), options.outside);
-  };
-  operation.compute = [=](std::span<const PixelView> in, const Rect& region, float* out) {
-    occlusion_from_height(in[0], region, options, out);
+  const HorizonOptions options = horizon_options_of(node);
+  Operation operation = horizon_operation(height, options);
+  operation.compute = [=, strength = node.number("strength")](auto in, const Rect& region, float* out) {
+    occlusion_from_height(in[0], region, options, strength, out);
   };
   const ImagePtr occlusion = Image::computed(info, node.key(), std::move(operation));
   node.output("occlusion", materialized(occlusion, node.task()));
@@ -40,23 +35,15 @@ NodeType make_occlusion_node() {
       "surface use the height_scale of \"make_normal\" for the same surface.";
   t.inputs = {image_port("height", "the height map, 1 channel")};
   t.outputs = {image_port("occlusion", "1 where the whole sky is visible, 0 where none is")};
-  t.params = {
-      height_scale_param(),
-      {.name = "radius",
-       .type = ParamType::integer,
-       .fallback = int64_t{32},
-       .help =
-           "How far away occluders count; their effect fades with distance. More darkens wider areas and takes longer.",
-       .min = 1,
-       .max = 512,
-       .unit = "pixels"},
-      {.name = "strength",
-       .type = ParamType::number,
-       .fallback = 1.0,
-       .help = "Factor on the darkening; 1 is as computed, more is darker.",
-       .min = 0,
-       .max = 4},
-      edges_param()};
+  t.params = {height_scale_param(),
+              horizon_radius_param(),
+              {.name = "strength",
+               .type = ParamType::number,
+               .fallback = 1.0,
+               .help = "Factor on the darkening; 1 is as computed, more is darker.",
+               .min = 0,
+               .max = 4},
+              edges_param()};
   t.persist = Persist::payload;
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Image>("height")->size().area()) * sizeof(float);

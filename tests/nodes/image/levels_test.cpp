@@ -28,6 +28,22 @@ TEST_CASE("levels map black, white and the middle") {
   for (int i = 0; i < 5; i++) CHECK(p[i] == doctest::Approx(expected[i]));
 }
 
+TEST_CASE("levels invert: gloss becomes roughness and comes back exactly, at every step of 8 and 16 bits") {
+  const Params inverting{{"out_black", Numbers{1.0}}, {"out_white", Numbers{0.0}}};
+  for (const int steps : {255, 65535}) {
+    const ImagePtr gloss =
+        with_depth(make_image({steps + 1, 1}, 1, [&](int x, int, int) { return float(x) / float(steps); }),
+                   steps == 255 ? Depth::u8 : Depth::u16);
+    const ImagePtr roughness = run_image("levels", inverting, {{"image", gloss}});
+    const std::vector<float> inverted = roughness->pixels(),
+                             back = run_image("levels", inverting, {{"image", roughness}})->pixels();
+    for (int i = 0; i <= steps; i++) {
+      REQUIRE(std::lround(double(inverted[size_t(i)]) * steps) == steps - i);
+      REQUIRE(std::lround(double(back[size_t(i)]) * steps) == i);
+    }
+  }
+}
+
 TEST_CASE("levels per channel leave coverage alone") {
   const ImagePtr image = flat_image({2, 2}, {0.5f, 0.5f, 0.5f, 0.25f}, Semantic::base_color, "srgb_texture");
   const std::vector<float> p =

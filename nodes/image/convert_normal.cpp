@@ -1,0 +1,56 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/image/image_ops.h"
+#include "core/image/normal.h"
+#include "core/image/pixel_space.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+void compute(NodeContext& node) {
+  const ImagePtr normal = node.input<Image>("normal");
+  ImageInfo info = normal->info();
+  if (info.semantic != Semantic::normal || info.channels < 3)
+    throw Error("normal", fmt::format("expected a normal map of 3 channels, found {}", describe(*normal)));
+  const bool flips = info.normal_y != normal_y_of(node), renormalizes = node.flag("renormalize");
+  info.normal_y = normal_y_of(node);
+  if (!flips && !renormalizes) {
+    node.output("normal", normal);
+    return;
+  }
+  node.output("normal", pixel_by_pixel(info, node.key(), {normal}, [=](auto in, float* out, int64_t count) {
+                std::copy_n(in[0], count * info.channels, out);
+                if (flips) flip_green(out, info.channels, count, info.depth);
+                if (renormalizes) to_stored(info, out, count);
+              }));
+}
+
+}  // namespace
+
+NodeType convert_normal_node() {
+  NodeType t;
+  t.name = "convert_normal";
+  t.category = "image";
+  t.summary = "Converts a normal map between OpenGL and DirectX";
+  t.help =
+      "Reverses the green channel where the map has the other convention, and leaves a map alone that has this one "
+      "already. Values of 8- and 16-bit maps come back exactly. If a map was loaded under the wrong convention, set "
+      "\"normal_y\" where it is loaded instead; \"export\" converts by itself.";
+  t.inputs = {image_port("normal", "the normal map, 3 channels or more")};
+  t.outputs = {image_port("normal", "the same normals in that convention")};
+  t.params = {normal_y_param(),
+              {.name = "renormalize",
+               .type = ParamType::boolean,
+               .fallback = false,
+               .help = "Makes every vector unit length as well, as \"normalize\" does."}};
+  t.persist = Persist::digest;
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/image/height_from_normals.h"
+#include "core/image/image_ops.h"
+#include "nodes/common/node_helpers.h"
+
+namespace terrazzo {
+
+namespace {
+
+void require_normals(const Image& image) {
+  if (image.info().semantic != Semantic::normal || image.channels() < 3)
+    throw Error("normal", fmt::format("expected a normal map of 3 channels, found {}", describe(image)));
+}
+
+/// A surface in pixels as values of a height map, in place.
+void to_range(NodeContext& node, std::vector<float>& heights) {
+  const double scale = node.number("height_scale");
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  const double lowest = *low, highest = *high, rise = highest - lowest;
+  const std::string& range = node.text("range");
+  node.note(fmt::format("the surface is {:.4g} pixels tall{}", rise,
+                        range == "normalized" ? ", which is the height_scale of this map" : ""));
+  double unit = scale, zero = -scale / 2;
+  if (range == "normalized") {
+    unit = std::copysign(rise > 0 ? rise : 1, scale);
+    zero = scale > 0 ? lowest : highest;
+  } else if (range == "from_zero") {
+    zero = scale > 0 ? lowest : highest;
+  }
+  for (float& h : heights) h = float((h - zero) / unit);
+}
+
+/// Maps of 8 and 16 bit hold 0..1.
+void clip(NodeContext& node, std::vector<float>& heights) {
+  const auto lies_outside = [](float h) { return h < 0 || h > 1; };
+  const auto clipped = std::count_if(heights.begin(), heights.end(), lies_outside);
+  for (float& h : heights) h = std::clamp(h, 0.0f, 1.0f);
+  if (clipped > 0)
+    node.warn(
+        fmt::format("{:.2g} % of the surface lies outside 0..1 and is cut off; raise \"height_scale\", or set "
+                    "\"range\" to normalized",
+                    100 * double(clipped) / double(heights.size())));
+}
+
+void compute(NodeContext& node) {
+  const ImagePtr normal = node.input<Image>("normal");
+  require_normals(*normal);
+  const IntegrationOptions options{
+      .filter = slope_filter_from(node.text("filter")), .outside = edges_of(node), .flatten = node.number("flatten")};
+  std::vector<float> heights = heights_from_normals(*normal, options, node.task());
+  to_range(node, heights);
+  ImageInfo info = normal->info();
+  info.channels = 1;
+  info.semantic = Semantic::height;
+  info.normal_y = NormalY::up;
+  if (info.depth == Depth::u8) info.depth = Depth::u16;  // 256 steps would show as terraces
+  if (info.depth == Depth::u16) clip(node, heights);
+  node.output("height", Image::from_floats(info, std::move(heights)));
+}
+
+std::vector<std::string> check(const Params& params) {
+  if (std::get<double>(params.at("height_scale")) != 0) return {};
+  return {"\"height_scale\": expected a number other than 0, found 0; any surface would be flat"};
+}
+
+}  // namespace
+
+NodeType make_height_node() {
+  NodeType t;
+  t.name = "make_height";
+  t.category = "image";
+  t.summary = "Makes a height map from a normal map";
+  t.help =
+      "Finds the surface whose slopes come nearest to the normals', by least squares: a Poisson equation, solved by "
+      "multigrid (Simchony, Chellappa and Shao 1990). It is the way back from \"make_normal\": with the same "
+      "height_scale, filter and edges it gives the height map again, but for a constant. Normals say nothing of height "
+      "itself, and little of what is much wider than their relief: \"flatten\" levels out slow bends that come from "
+      "rounded normals. Results have at least 16 bits.";
+  t.inputs = {image_port("normal", "the normal map, 3 channels")};
+  t.outputs = {image_port("height", "the height map, 1 channel")};
+  Param edges = edges_param();
+  edges.help = "Whether the map tiles: wrap makes opposite borders meet, clamp lets each end where it will.";
+  t.params = {height_scale_param(),
+              {.name = "range",
+               .type = ParamType::choice,
+               .fallback = "centered",
+               .help = "Where heights lie: centered around 0.5, from_zero upwards from 0, both in units of "
+                       "height_scale; or normalized, stretched from 0 to 1, with a note of the height_scale that this "
+                       "is.",
+               .choices = {"centered", "from_zero", "normalized"}},
+              {.name = "filter",
+               .type = ParamType::choice,
+               .fallback = "scharr",
+               .help = "How the normals were measured: with that filter of make_normal, or exact at every pixel, as "
+                       "they are baked from geometry.",
+               .choices = {"scharr", "sobel", "central", "exact"}},
+              {.name = "flatten",
+               .type = ParamType::number,
+               .fallback = 0.0,
+               .help = "Levels out what is much wider than this; less is flatter, 0 keeps everything.",
+               .min = 0,
+               .max = 100000,
+               .unit = "pixels"},
+              edges};
+  t.persist = Persist::payload;
+  t.memory_hint = [](const NodeContext& node) {
+    return size_t(node.input<Image>("normal")->size().area()) * 5 * sizeof(float);
+  };
+  t.check = check;
+  t.compute = compute;
+  return t;
+}
+
+}  // namespace terrazzo
