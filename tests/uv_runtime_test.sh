@@ -21,7 +21,6 @@ complain() {
 
 # The page in the repository has the code as it stands; the embedded maps may be older.
 "$program" run "$source/graphs/generate-exemplar.json" --set type=gravel --set size=128x128 --set out=gravel --progress none
-rm gravel/preview.png
 OUT=made SIZE=512x512 QUALITY=draft TERRAZZO=$program "$source/examples/uv-runtime/make.sh" gravel >told
 code() { grep -vE '^(<img hidden data-map=|<script type="text/plain" id="uv-file">)' "$1"; }
 cmp -s <(code made/uv-runtime.html) <(code "$source/examples/uv-runtime/uv-runtime.html") ||

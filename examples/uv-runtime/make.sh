@@ -18,7 +18,6 @@ maps=${1:-}
 if [ -z "$maps" ]; then
   maps=$scratch/bricks
   "$program" run "$root/graphs/generate-exemplar.json" --set type=bricks --set size=256x256 --set "out=$maps" --progress none
-  rm "$maps/preview.png"
 fi
 rm -rf "$files/exemplar"
 "$program" run "$here/uv-runtime.json" --set "material=$(realpath "$maps")" --set "out=$(realpath "$files")" \
