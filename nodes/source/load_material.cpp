@@ -142,7 +142,8 @@ void compute(NodeContext& node) {
   const fs::path folder = folder_of(node.params());
   const std::string given_space = node.text("color_space") == "auto" ? "" : color_space_of(node, "color_space");
   std::vector<std::string> notes;
-  const std::vector<RecognisedMap> found = find_maps(node.params(), notes);
+  const FoundMaterial material_found = find_maps(node.params(), notes);
+  const std::vector<RecognisedMap>& found = material_found.maps;
   for (std::string& n : notes) node.note(std::move(n));
   notes.clear();
   const std::map<std::string, Source> sources = read_sources(node, folder, found);
@@ -157,7 +158,7 @@ void compute(NodeContext& node) {
   for (const RecognisedMap& m : found) add_alpha(m, sources.at(m.file).image, maps, notes);
   for (std::string& n : notes) node.note(std::move(n));
   settle_conventions(node, found, maps);
-  const MaterialPtr material = Material::make(folder.filename().string(), std::move(maps));
+  const MaterialPtr material = Material::make(material_found.name, std::move(maps));
   warn_of_smaller_maps(node, *material);
   node.output("material", material);
 }
@@ -178,7 +179,7 @@ Forecast preflight(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
   Forecast out{.possible_maps = Texts{}};
   std::set<std::string> troubles;
-  for (const RecognisedMap& m : find_maps(params, ignored_notes)) {
+  for (const RecognisedMap& m : find_maps(params, ignored_notes).maps) {
     out.maps.push_back(m.map);
     try {
       require_readable_image(folder_of(params) / m.file);
@@ -195,7 +196,7 @@ Forecast preflight(const Params& params, const InputForecasts&) {
 
 Texts doubts(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
-  for (const RecognisedMap& m : find_maps(params, ignored_notes))
+  for (const RecognisedMap& m : find_maps(params, ignored_notes).maps)
     if (m.semantic == Semantic::base_color && m.channels.empty())
       return doubts_about_colour("\"path\": " + m.file, folder_of(params) / m.file);
   return {};
@@ -206,7 +207,7 @@ Texts doubts(const Params& params, const InputForecasts&) {
 NodeType load_material_node() {
   NodeType t;
   t.name = "load_material";
-  t.version = 5;
+  t.version = 6;
   t.category = "source";
   t.summary = "Reads a folder of maps as one material";
   t.help =
@@ -215,7 +216,9 @@ NodeType load_material_node() {
       "metallicRoughness, MaskMap, MetallicSmoothness, AlbedoTransparency) are split into their channels, gloss and "
       "smoothness maps are inverted into roughness, grey maps stored in colour are reduced to one channel, and a base "
       "colour's alpha becomes the opacity map. If several files hold one map, OpenGL normals, larger and lossless "
-      "files are preferred. Maps may differ in size as long as they show the same area; a warning names those smaller "
+      "files are preferred. A folder of several materials is refused unless `name` picks one; UDIM tiles count as "
+      "materials. ID maps (*_ID) are kept as labels. Maps may differ in size as long as they show the same area; a "
+      "warning names those smaller "
       "than the largest, which will be scaled up. Notes say what was recognised and what was left out.";
   t.outputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps found, named after their semantics"}};
@@ -224,6 +227,12 @@ NodeType load_material_node() {
        .type = ParamType::path,
        .help = "The folder of the maps, or \"library:NAME\" for the one that a named analysis was made of.",
        .library = LibraryFile::material},
+      {.name = "name",
+       .type = ParamType::text,
+       .fallback = "",
+       .help = "Which material of a folder that holds several: what the names of its files begin with, such as "
+               "Bricks075, or the name of one of its files. Case, resolutions and formats do not count. * and ? stand "
+               "for any characters: \"*\" takes all files as one material."},
       {.name = "normal_y",
        .type = ParamType::choice,
        .fallback = "auto",
@@ -240,6 +249,12 @@ NodeType load_material_node() {
        .type = ParamType::texts,
        .fallback = Texts{},
        .help = "File names to leave out; * and ? stand for any characters."},
+      {.name = "data",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "Files to keep although their names say no map: each becomes a data map named after the rest of its "
+               "name, such as data_translucency. Data is never blended or filtered. * and ? stand for any characters; "
+               "[\"*\"] keeps all."},
       {.name = "color_space",
        .type = ParamType::text,
        .fallback = "auto",

@@ -140,6 +140,49 @@ std::vector<MapFile> files_to_recognise(const Params& params, const std::set<std
   return files;
 }
 
+std::string listed(const std::vector<FolderMaterial>& materials) {
+  constexpr size_t shown = 20;
+  std::string all;
+  for (size_t i = 0; i < std::min(shown, materials.size()); i++)
+    all += fmt::format("{}{} ({})", i ? "; " : "", materials[i].name.empty() ? "without a name" : materials[i].name,
+                       fmt::join(materials[i].maps, ", "));
+  if (materials.size() > shown) all += fmt::format("; and {} more", materials.size() - shown);
+  return all;
+}
+
+/// Mixing two materials would look like a result.
+void require_one_material(const fs::path& folder, const std::string& wanted, const Recognition& found) {
+  if (!found.maps.empty() || found.materials.empty()) return;
+  if (wanted.empty())
+    throw Error("path", fmt::format("{} holds {} materials: {}. {}", folder.string(), found.materials.size(),
+                                    listed(found.materials), advice_on_several_materials));
+  std::vector<std::string> names;
+  for (const FolderMaterial& m : found.materials) names.push_back(m.name);
+  throw Error("name", fmt::format("there is no material \"{}\" in {}{}; it holds {}", wanted, folder.string(),
+                                  did_you_mean(wanted, names), listed(found.materials)));
+}
+
+/// What was left out because `wanted` names another.
+void note_other_materials(const Recognition& found, Texts& notes) {
+  if (found.name.empty() || found.materials.size() < 2) return;
+  Texts others;
+  for (const FolderMaterial& m : found.materials)
+    if (m.name != found.name) others.push_back(m.name.empty() ? fmt::format("{}", fmt::join(m.maps, ", ")) : m.name);
+  notes.push_back(fmt::format("left out, other materials: {}", fmt::join(others, ", ")));
+}
+
+/// A pattern of `data` that keeps nothing is probably misspelt.
+void note_unused_patterns(const Params& params, const Recognition& found, Texts& notes) {
+  for (const std::string& pattern : std::get<Texts>(params.at("data")))
+    if (std::none_of(found.maps.begin(), found.maps.end(), [&](const RecognisedMap& m) {
+          return m.map.starts_with("data_") && matches_pattern(m.file, pattern);
+        }))
+      notes.push_back(
+          fmt::format("the pattern \"{}\" of the parameter `data` keeps no file: none of that name is left "
+                      "whose name says no map",
+                      pattern));
+}
+
 }  // namespace
 
 fs::path folder_of(const Params& params) {
@@ -168,11 +211,12 @@ std::vector<std::string> problems_with_map_names(const Params& params) {
   return problems;
 }
 
-std::vector<RecognisedMap> find_maps(const Params& params, Texts& notes) {
+FoundMaterial find_maps(const Params& params, Texts& notes) {
   const fs::path folder = folder_of(params);
   require_folder(folder);
   require_given_maps(params);
   const TextMap& given = std::get<TextMap>(params.at("maps"));
+  const std::string& wanted = std::get<std::string>(params.at("name"));
   std::vector<RecognisedMap> maps;
   std::set<std::string> taken;
   for (const auto& [map, text] : given) {
@@ -180,7 +224,9 @@ std::vector<RecognisedMap> find_maps(const Params& params, Texts& notes) {
     maps.push_back(given_map(map, text));
     if (maps.back().channels.empty()) taken.insert(maps.back().file);
   }
-  const Recognition recognition = recognise_maps(files_to_recognise(params, taken, notes));
+  const Recognition recognition = recognise_maps(files_to_recognise(params, taken, notes),
+                                                 {.name = wanted, .data = std::get<Texts>(params.at("data"))});
+  require_one_material(folder, wanted, recognition);
   for (const RecognisedMap& m : recognition.maps)
     if (!given.count(m.map)) maps.push_back(m);
   if (maps.empty()) fail_nothing_recognised(folder, recognition);
@@ -192,10 +238,14 @@ std::vector<RecognisedMap> find_maps(const Params& params, Texts& notes) {
     notes.push_back(fmt::format("{}: {}", m.map, from));
   }
   notes.insert(notes.end(), recognition.notes.begin(), recognition.notes.end());
+  note_other_materials(recognition, notes);
+  note_unused_patterns(params, recognition, notes);
   if (!recognition.ignored.empty())
-    notes.push_back(fmt::format("ignored, the name says no map: {}. Known words are {}",
-                                fmt::join(recognition.ignored, ", "), all_words()));
-  return maps;
+    notes.push_back(
+        fmt::format("ignored, the name says no map: {}. `data` keeps them as they are, `maps` says what "
+                    "they are. Known words are {}",
+                    fmt::join(recognition.ignored, ", "), all_words()));
+  return {.maps = std::move(maps), .name = recognition.name.empty() ? folder.filename().string() : recognition.name};
 }
 
 std::vector<fs::path> files_of_material(const Params& params) {
