@@ -9,6 +9,8 @@
 
 #include "core/base/text.h"
 #include "core/material/file_words.h"
+#include "core/material/map_description.h"
+#include "core/material/map_names.h"
 #include "core/material/map_words.h"
 
 namespace terrazzo {
@@ -151,9 +153,7 @@ std::vector<Candidate> candidates_among(const std::vector<MapFile>& files, Recog
   return found;
 }
 
-}  // namespace
-
-std::vector<RecognisedMap> recognise_map(const MapFile& file, Stem* stem) {
+std::vector<RecognisedMap> recognise_name(const MapFile& file, Stem* stem) {
   const std::vector<NameWord> words = without_workflow(words_of_file(file.name), file.channels);
   const Telling t = find_telling(words, file.channels);
   if (!t.word) return {};
@@ -172,6 +172,30 @@ std::vector<RecognisedMap> recognise_map(const MapFile& file, Stem* stem) {
     m.inverted = part.inverted;
     if (part.semantic == Semantic::normal) m.normal_y = t.normal_y ? t.normal_y : convention_beside(words, t);
     maps.push_back(std::move(m));
+  }
+  return maps;
+}
+
+}  // namespace
+
+std::vector<RecognisedMap> recognise_map(const MapFile& file, Stem* stem) {
+  std::vector<RecognisedMap> maps = recognise_name(file, stem);
+  const std::optional<DescribedMap> described = described_map(file.description);
+  if (!described || maps.size() > 1) return maps;  // a description is of one map; packed files are known by name
+  if (maps.empty() || maps.front().semantic != described->semantic) {
+    // mask_moss.png is that map; of other names all that counts is which material they mean.
+    const std::string whole = lowercase(file.name.substr(0, file.name.rfind('.')));
+    const bool is_map_name = semantic_of_map(whole) == described->semantic;
+    if (stem && maps.empty()) *stem = is_map_name ? Stem() : stem_in(whole);
+    maps = {{.map = is_map_name ? whole : std::string(name_of(described->semantic)),
+             .semantic = described->semantic,
+             .file = file.name,
+             .channels = ""}};
+  }
+  for (RecognisedMap& m : maps) {
+    m.said_by = "its description";
+    m.color_space = described->color_space;
+    if (m.semantic == Semantic::normal && described->normal_y) m.normal_y = described->normal_y;
   }
   return maps;
 }

@@ -13,9 +13,10 @@ namespace terrazzo {
 
 /// A file to recognise.
 struct MapFile {
-  std::string name;  ///< with extension, without folder
-  Size size;         ///< in pixels; 0x0 if not known
-  int channels = 0;  ///< 0 if not known
+  std::string name;           ///< with extension, without folder
+  Size size;                  ///< in pixels; 0x0 if not known
+  int channels = 0;           ///< 0 if not known
+  std::string description{};  ///< what the file says of itself
 };
 
 /// A map and its source.
@@ -25,7 +26,9 @@ struct RecognisedMap {
   std::string file;
   std::string channels;               ///< "rgb", "r", "a" ...: the channels of the file that hold the map; empty: all
   bool inverted = false;              ///< a gloss or smoothness map: roughness is 1 - value
-  std::optional<NormalY> normal_y{};  ///< if the name says it
+  std::optional<NormalY> normal_y{};  ///< if the name, or whoever describes the file, says it
+  std::string color_space{};          ///< if the file is described; empty: as is usual for the map
+  std::string said_by{};              ///< who describes the file; empty: only its name
 };
 
 struct Recognition {

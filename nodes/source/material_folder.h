@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,16 +29,18 @@ std::vector<std::string> problems_with_map_names(const Params& params);
 
 /// What a folder holds of a material.
 struct FoundMaterial {
-  std::vector<RecognisedMap> maps;
-  std::string name;  ///< the folder's, or that of the material that was picked
+  std::vector<RecognisedMap> maps{};
+  std::string name{};                             ///< the folder's, or that of the material that was picked
+  std::optional<std::array<double, 2>> metres{};  ///< that the maps show, if a sidecar says it
 };
 
-/// Recognises the maps of the folder. Throws Error about the parameter if the folder or files named in `maps` are
-/// missing, nothing is recognised, or it is not clear which of several materials is meant. Adds what the user should
-/// know to `notes`.
+/// Finds the maps of the folder: by its sidecar if it has one, else by what the files say of themselves and their
+/// names. Throws Error about the parameter if the folder or files named in `maps` are missing, nothing is recognised,
+/// or it is not clear which of several materials is meant. Adds what the user should know to `notes`.
 FoundMaterial find_maps(const Params& params, Texts& notes);
 
-/// All files that the material depends on, sorted: the folder's images and those named in `maps`.
+/// All files that the material depends on, sorted: the folder's images, those named in
+/// `maps`, and the sidecar.
 std::vector<std::filesystem::path> files_of_material(const Params& params);
 
 }  // namespace terrazzo

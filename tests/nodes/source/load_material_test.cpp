@@ -89,6 +89,24 @@ TEST_CASE("packed files are split, smoothness is inverted") {
   CHECK(run.says("roughness is wall_Smoothness.png, inverted"));
 }
 
+TEST_CASE("a packed file of equal channels is a warning that says how to read it as one map") {
+  const TemporaryFolder folder;
+  write(folder.path() / "wall_ORM.png", 3, [](int x, int y, int) { return ramp(x, y, 0); });
+  const std::string path = folder.path().string();
+  CHECK(run_node("load_material", {{"path", path}})
+            .says("warning: wall_ORM.png: roughness, metallic, ambient_occlusion are read from its channels, but these "
+                  "are the same: it is a grey picture, not a packed one. If it is one map, say which, and leave the "
+                  "others out: `maps` {\"roughness\": \"wall_ORM.png:r\", \"metallic\": \"\", "
+                  "\"ambient_occlusion\": \"\"}"));
+  const NodeRun one =
+      run_node("load_material",
+               {{"path", path},
+                {"maps", TextMap{{"roughness", "wall_ORM.png:r"}, {"metallic", ""}, {"ambient_occlusion", ""}}}});
+  CHECK_FALSE(one.says("warning"));
+  write(folder.path() / "wall_ORM.png", 3, ramp);
+  CHECK_FALSE(run_node("load_material", {{"path", path}}).says("warning"));
+}
+
 TEST_CASE("grey maps stored in colour are reduced, with a note if the channels differ") {
   const TemporaryFolder folder;
   write(folder.path() / "height.png", 3, [](int x, int y, int) { return ramp(x, y, 0); });
