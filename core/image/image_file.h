@@ -20,6 +20,7 @@ struct FileInfo {
   Size size;
   int channels = 0;
   Depth depth = Depth::u8;
+  std::string description{};  ///< of PNG, TIFF and EXR files, as write_image stores it
 };
 
 /// Whether the name ends like an image file that can be read.

@@ -24,11 +24,12 @@ struct StoredImage {
   int slices = 1;
   int orientation = 1;  ///< as in EXIF
   std::vector<std::string> channels;
-  Depth depth = Depth::u8;  ///< the smallest that holds every value
-  std::string type;         ///< of the stored values; "mixed depth" if channels differ
-  bool exact = true;        ///< the stored values are of just that depth
-  bool deep = false;        ///< several samples per pixel
-  bool inks = false;        ///< the colours are printing inks
+  Depth depth = Depth::u8;    ///< the smallest that holds every value
+  std::string type;           ///< of the stored values; "mixed depth" if channels differ
+  bool exact = true;          ///< the stored values are of just that depth
+  bool deep = false;          ///< several samples per pixel
+  bool inks = false;          ///< the colours are printing inks
+  std::string description{};  ///< as write_image stores it; empty if there is none
 };
 
 /// An open image file.

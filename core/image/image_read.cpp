@@ -266,9 +266,9 @@ FileInfo read_image_info(const fs::path& path) {
   // Such a file needs no decoder to be known.
   const JpegFacts jpeg = read_jpeg_facts(path);
   if ((jpeg.components == 1 || jpeg.components == 3) && jpeg.bits == 8 && jpeg.size.area() > 0 && !jpeg.has_exif)
-    return {jpeg.size, jpeg.components, Depth::u8};
+    return {jpeg.size, jpeg.components, Depth::u8, ""};
   const OpenFile file = open(path);
-  return {file.upright(), file.channels(), file.header().depth};
+  return {file.upright(), file.channels(), file.header().depth, file.header().description};
 }
 
 ImagePtr read_image(const fs::path& path, const ImageInfo& info, const Warn& warn) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/tuning.h"
 #include "core/numeric/moments.h"
@@ -74,13 +75,61 @@ void add(double a, double b, Moments<2>& to) {
   to.add(Vector2d{a, b}.data());
 }
 
+Size common_grid(const Image& a, const Image& b) {
+  const int largest = tuning->largest_grid;
+  return {std::min({a.width(), b.width(), largest}), std::min({a.height(), b.height(), largest})};
+}
+
+/// Correlations of the channels of normals with slopes.
+struct SlopeFit {
+  double red_x = 0, red_y = 0, green_x = 0, green_y = 0;
+};
+
+/// Where in the height map the surface point is that a turned or mirrored normal map shows at (x, y).
+std::pair<int, int> source_of(NormalMisfit::Kind kind, Size size, int x, int y) {
+  using enum NormalMisfit::Kind;
+  const int right = size.width - 1, bottom = size.height - 1;
+  switch (kind) {
+    case turned_90:
+      return {y, right - x};
+    case turned_180:
+      return {right - x, bottom - y};
+    case turned_270:
+      return {bottom - y, x};
+    case mirrored_x:
+      return {right - x, y};
+    case mirrored_y:
+      return {x, bottom - y};
+    case none:
+    case channels_swapped:
+      break;
+  }
+  return {x, y};
+}
+
+SlopeFit fit_of(const Grid& n, const Grid& h, NormalMisfit::Kind kind) {
+  Moments<2> red_x, red_y, green_x, green_y;
+  for (int y = 1; y + 1 < n.size.height; y++)
+    for (int x = 1; x + 1 < n.size.width; x++) {
+      const auto [u, v] = source_of(kind, n.size, x, y);
+      const double along_x = h.at(0, u - 1, v) - h.at(0, u + 1, v), along_y = h.at(0, u, v + 1) - h.at(0, u, v - 1);
+      add(n.at(0, x, y), along_x, red_x);
+      add(n.at(0, x, y), along_y, red_y);
+      add(n.at(1, x, y), along_x, green_x);
+      add(n.at(1, x, y), along_y, green_y);
+    }
+  return {correlation(red_x), correlation(red_y), correlation(green_x), correlation(green_y)};
+}
+
+double fitness(const NormalMisfit& m) {
+  return std::min(std::abs(m.along_x), std::abs(m.along_y));
+}
+
 }  // namespace
 
 ConventionEvidence convention_from_height(const Image& normal, const Image& height) {
   ConventionEvidence out;
-  const int largest_grid = tuning->largest_grid;
-  const Size size{std::min({normal.width(), height.width(), largest_grid}),
-                  std::min({normal.height(), height.height(), largest_grid})};
+  const Size size = common_grid(normal, height);
   if (size.width < 3 || size.height < 3 || normal.channels() < 2) return out;
   const Grid n = averaged(normal, size), h = averaged(height, size);
   Moments<2> along_x, along_y;
@@ -101,6 +150,37 @@ ConventionEvidence convention_from_height(const Image& normal, const Image& heig
   out.height_inverted = out.along_x < 0;
   out.normal_y = (out.along_x > 0) == (out.along_y > 0) ? NormalY::up : NormalY::down;
   return out;
+}
+
+NormalMisfit misfit_with_height(const Image& normal, const Image& height) {
+  using enum NormalMisfit::Kind;
+  const Size size = common_grid(normal, height);
+  if (size.width < 3 || size.height < 3 || normal.channels() < 2) return {};
+  const Grid n = averaged(normal, size), h = averaged(height, size);
+  const double strong = tuning->strong;
+  NormalMisfit best;
+  for (const NormalMisfit::Kind kind : {none, turned_90, turned_180, turned_270, mirrored_x, mirrored_y}) {
+    if ((kind == turned_90 || kind == turned_270) && normal.width() != normal.height()) continue;
+    const SlopeFit fit = fit_of(n, h, kind);
+    const double straight = std::min(std::abs(fit.red_x), std::abs(fit.green_y));
+    const double crossed = std::min(std::abs(fit.red_y), std::abs(fit.green_x));
+    // As it is, or along grooves of one way only.
+    if (kind == none && std::max(std::abs(fit.red_x), std::abs(fit.green_y)) >= strong) return {};
+    if (kind != none && straight >= strong && straight > fitness(best)) best = {kind, fit.red_x, fit.green_y};
+    if (crossed >= strong && crossed > fitness(best))
+      best = {kind == none ? channels_swapped : kind, fit.red_y, fit.green_x};
+    if (kind == none && best.kind != none) return best;
+  }
+  return best;
+}
+
+double mean_blue(const Image& normal) {
+  if (normal.channels() < 3) return 1;
+  double sum = 0;
+  for_each_strip(normal, [&](const Rect& r, const float* p) {
+    for (int64_t i = 0; i < r.area(); i++) sum += p[i * normal.channels() + 2];
+  });
+  return sum / double(normal.size().area());
 }
 
 ConventionEvidence convention_from_curl(const Image& normal) {

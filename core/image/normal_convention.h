@@ -14,6 +14,21 @@ struct ConventionEvidence {
   bool height_inverted = false;     ///< the height map seems to be dark where the surface is high
 };
 
+/// How a normal map that does not fit its height would fit.
+struct NormalMisfit {
+  enum class Kind : uint8_t { none, channels_swapped, turned_90, turned_180, turned_270, mirrored_x, mirrored_y };
+  Kind kind = Kind::none;
+  double along_x = 0, along_y = 0;  ///< correlations of red and green with the slopes that they follow then
+};
+
+/// Looks for the way in which normals fit the slopes of a height map, where they do not as they are: red following the
+/// slope along y and green that along x, or one of the two pictures turned (clockwise) or mirrored. Found only if both
+/// correlations are beyond 0.5. Quarter turns are looked for in square maps.
+NormalMisfit misfit_with_height(const Image& normal, const Image& height);
+
+/// The mean of the blue channel; below 0.5 normals point into the surface. 1 if there is none.
+double mean_blue(const Image& normal);
+
 /// Compares the normals with the slopes of a height map (any size). Clear if both correlations are beyond 0.1, or
 /// green's alone is beyond 0.5. Deterministic; looks at no more than 512x512 averaged points.
 ConventionEvidence convention_from_height(const Image& normal, const Image& height);

@@ -51,6 +51,12 @@ class PngDecoder final : public ImageDecoder {
     header_.stored = whole(header_.size);
     header_.channels.resize(png_get_channels(png_, info_));
     header_.depth = png_get_bit_depth(png_, info_) == 16 ? Depth::u16 : Depth::u8;
+    png_textp texts = nullptr;
+    int count = 0;
+    png_get_text(png_, info_, &texts, &count);
+    for (int i = 0; i < count; i++)
+      if (const std::string_view key = texts[i].key; key == "Description" || key == "ImageDescription")
+        header_.description = texts[i].text;
   }
   bool may_be_turned() const { return png_get_valid(png_, info_, PNG_INFO_eXIf) != 0; }
   const StoredImage& header() const override { return header_; }

@@ -8,67 +8,14 @@
 #include <fmt/format.h>
 
 #include "core/base/text.h"
+#include "core/material/file_words.h"
+#include "core/material/map_description.h"
+#include "core/material/map_names.h"
 #include "core/material/map_words.h"
 
 namespace terrazzo {
 
 namespace {
-
-bool is_upper(char c) {
-  return c >= 'A' && c <= 'Z';
-}
-bool is_lower(char c) {
-  return c >= 'a' && c <= 'z';
-}
-
-std::string extension_of(const std::string& name) {
-  const size_t dot = name.rfind('.');
-  return dot == std::string::npos ? "" : lowercase(name.substr(dot + 1));
-}
-
-/// The words of a name in lower case: cut at everything that is no letter or digit, and where camel case begins a word
-/// (NormalGL -> normal, gl; AOMap -> ao, map).
-std::vector<std::string> words_of(const std::string& name) {
-  const std::string stem = name.substr(0, name.rfind('.'));
-  std::vector<std::string> words(1);
-  for (size_t i = 0; i < stem.size(); i++) {
-    const char c = stem[i], before = i ? stem[i - 1] : '_', after = i + 1 < stem.size() ? stem[i + 1] : '_';
-    const bool part_of_word = is_digit(c) || is_upper(c) || is_lower(c) || static_cast<unsigned char>(c) >= 128;
-    const bool camel = is_upper(c) && (is_lower(before) || (is_upper(before) && is_lower(after)) ||
-                                       (is_digit(before) && is_lower(after)));
-    if (!part_of_word || camel)
-      if (!words.back().empty()) words.emplace_back();
-    if (part_of_word) words.back() += c;
-  }
-  if (words.back().empty()) words.pop_back();
-  for (std::string& w : words) w = lowercase(w);
-  return words;
-}
-
-std::optional<NormalY> convention(std::string_view word) {
-  if (word == "gl" || word == "ogl" || word == "opengl") return NormalY::up;
-  if (word == "dx" || word == "directx" || word == "d3d") return NormalY::down;
-  return std::nullopt;
-}
-
-/// Words that say nothing about which map it is: sizes, versions, formats, colour spaces, normal conventions.
-bool is_neutral(const std::string& word) {
-  static const std::set<std::string> known = {
-      "jpg", "jpeg", "png", "tif",   "tiff",   "exr",      "tga",    "map",      "tex", "texture", "image",
-      "img", "srgb", "raw", "lin",   "linear", "rec709",   "acescg", "utility",  "var", "open",    "direct",
-      "x",   "u",    "v",   "final", "copy",   "seamless", "tile",   "tileable", "sml", "lod0"};
-  if (is_digit(word[0]) || known.count(word) || convention(word)) return true;
-  // u1, v1, var2, v02
-  const size_t digits = word.find_first_of("0123456789");
-  return digits != std::string::npos && digits <= 3 && known.count(word.substr(0, digits));
-}
-
-std::string without_digits(const std::string& word) {
-  size_t begin = 0, end = word.size();
-  while (begin < end && is_digit(word[begin])) begin++;
-  while (end > begin && is_digit(word[end - 1])) end--;
-  return word.substr(begin, end - begin);
-}
 
 /// A telling phrase: words [first, last) of the name.
 struct Telling {
@@ -104,14 +51,14 @@ const MapWord* find_word(const Phrase& phrase, bool is_last, bool is_first, bool
   return nullptr;
 }
 
-Telling find_telling(const std::vector<std::string>& words, int channels) {
+Telling find_telling(const std::vector<NameWord>& words, int channels) {
   constexpr size_t longest_phrase = 4;
   size_t end_of_name = words.size();  // neutral words at the end aside
-  while (end_of_name > 0 && is_neutral(words[end_of_name - 1])) end_of_name--;
+  while (end_of_name > 0 && is_neutral(words[end_of_name - 1].text)) end_of_name--;
   for (size_t last = words.size(); last > 0; last--)
     for (size_t first = last > longest_phrase ? last - longest_phrase : 0; first < last; first++) {
       std::string phrase;
-      for (size_t i = first; i < last; i++) phrase += words[i];
+      for (size_t i = first; i < last; i++) phrase += words[i].text;
       const std::string bare = without_digits(phrase);
       for (const Phrase& reading : readings(bare)) {
         const bool whole_name = first == 0 && last >= end_of_name;
@@ -124,21 +71,30 @@ Telling find_telling(const std::vector<std::string>& words, int channels) {
   return {};
 }
 
+/// Poliigon ends names with the workflow that a map is for: COL_2K_METALNESS is no metallic map.
+std::vector<NameWord> without_workflow(std::vector<NameWord> words, int channels) {
+  if (words.size() < 3 || !is_resolution(words[words.size() - 2].text)) return words;
+  if (words.back().text != "metalness" && words.back().text != "specular") return words;
+  const std::vector<NameWord> before(words.begin(), words.end() - 2);
+  if (find_telling(before, channels).last == before.size()) words.pop_back();
+  return words;
+}
+
 /// The convention may stand beside the word for normal: normal_gl, nor_dx, gl_normal, normal_2k_directx.
-std::optional<NormalY> convention_beside(const std::vector<std::string>& words, const Telling& t) {
+std::optional<NormalY> convention_beside(const std::vector<NameWord>& words, const Telling& t) {
   for (size_t i = t.last; i < words.size(); i++) {
-    if (const auto found = convention(words[i])) return found;
+    if (const auto found = convention(words[i].text)) return found;
     if (i + 1 < words.size())
-      if (const auto found = convention(words[i] + words[i + 1])) return found;
+      if (const auto found = convention(words[i].text + words[i + 1].text)) return found;
   }
-  if (t.first > 0) return convention(words[t.first - 1]);
+  if (t.first > 0) return convention(words[t.first - 1].text);
   return std::nullopt;
 }
 
 /// A recognised map with what decides between it and others of the same name; smaller is better.
 struct Candidate {
   RecognisedMap map;
-  std::string prefix;
+  Stem stem;
   int stand_in = 0;  ///< 0 the map itself, 1 packed, 2 inverted or a bump map
   int64_t area = 0;
   int lossiness = 0;
@@ -153,8 +109,8 @@ int lossiness_of(const std::string& file) {
 }
 
 bool is_bump(const std::string& file) {
-  const std::vector<std::string> words = words_of(file);
-  return std::any_of(words.begin(), words.end(), [](const std::string& w) { return without_digits(w) == "bump"; });
+  const std::vector<NameWord> words = words_of_file(file);
+  return std::any_of(words.begin(), words.end(), [](const NameWord& w) { return without_digits(w.text) == "bump"; });
 }
 
 std::string described(const RecognisedMap& m) {
@@ -186,28 +142,25 @@ std::vector<Candidate> candidates_among(const std::vector<MapFile>& files, Recog
       out.notes.push_back(fmt::format("{} left out: {}", f.name, reason));
       continue;
     }
-    std::string prefix;
-    const std::vector<RecognisedMap> maps = recognise_map(f, &prefix);
+    Stem stem;
+    const std::vector<RecognisedMap> maps = recognise_map(f, &stem);
     if (maps.empty()) out.ignored.push_back(f.name);
     for (const RecognisedMap& m : maps) {
       const bool stands_in = m.inverted || (m.semantic == Semantic::height && is_bump(m.file));
-      found.push_back({m, prefix, stands_in ? 2 : m.channels.empty() ? 0 : 1, f.size.area(), lossiness_of(f.name)});
+      found.push_back({m, stem, stands_in ? 2 : m.channels.empty() ? 0 : 1, f.size.area(), lossiness_of(f.name)});
     }
   }
   return found;
 }
 
-}  // namespace
-
-std::vector<RecognisedMap> recognise_map(const MapFile& file, std::string* prefix) {
-  const std::vector<std::string> words = words_of(file.name);
+std::vector<RecognisedMap> recognise_name(const MapFile& file, Stem* stem) {
+  const std::vector<NameWord> words = without_workflow(words_of_file(file.name), file.channels);
   const Telling t = find_telling(words, file.channels);
   if (!t.word) return {};
-  if (prefix) {
-    prefix->clear();
-    for (size_t i = 0; i < t.first; i++)
-      if (!is_neutral(words[i])) *prefix += words[i] + "_";
-  }
+  size_t first = t.first, last = t.last;  // numbers around the word belong to the material: wall_01_color
+  while (first + 1 < last && is_digit(words[first].text[0])) first++;
+  while (first + 1 < last && is_digit(words[last - 1].text[0])) last--;
+  if (stem) *stem = stem_of(file.name, words, first, last);
   std::vector<RecognisedMap> maps;
   for (int i = 0; i < t.word->part_count; i++) {
     const WordPart& part = t.word->parts[i];
@@ -223,24 +176,98 @@ std::vector<RecognisedMap> recognise_map(const MapFile& file, std::string* prefi
   return maps;
 }
 
+}  // namespace
+
+std::vector<RecognisedMap> recognise_map(const MapFile& file, Stem* stem) {
+  std::vector<RecognisedMap> maps = recognise_name(file, stem);
+  const std::optional<DescribedMap> described = described_map(file.description);
+  if (!described || maps.size() > 1) return maps;  // a description is of one map; packed files are known by name
+  if (maps.empty() || maps.front().semantic != described->semantic) {
+    // mask_moss.png is that map; of other names all that counts is which material they mean.
+    const std::string whole = lowercase(file.name.substr(0, file.name.rfind('.')));
+    const bool is_map_name = semantic_of_map(whole) == described->semantic;
+    if (stem && maps.empty()) *stem = is_map_name ? Stem() : stem_in(whole);
+    maps = {{.map = is_map_name ? whole : std::string(name_of(described->semantic)),
+             .semantic = described->semantic,
+             .file = file.name,
+             .channels = ""}};
+  }
+  for (RecognisedMap& m : maps) {
+    m.said_by = "its description";
+    m.color_space = described->color_space;
+    if (m.semantic == Semantic::normal && described->normal_y) m.normal_y = described->normal_y;
+  }
+  return maps;
+}
+
 std::string reason_to_skip(const std::string& name) {
   static const std::set<std::string> pictures = {"preview", "thumb",     "thumbnail", "sphere",      "render",
                                                  "icon",    "billboard", "swatch",    "contactsheet"};
-  for (const std::string& w : words_of(name)) {
+  std::string glued;
+  for (const NameWord& word : words_of_file(name)) {
+    const std::string& w = word.text;
     if (pictures.count(without_digits(w))) return "a picture of the material, not a map";
     if (w.starts_with("lod") && w.size() > 3 && is_digit(w[3]) && w != "lod0") return "a lower level of detail";
+    glued += w;
   }
+  for (const std::string_view other : {"worldspacenormal", "objectspacenormal", "bentnormal"})
+    if (glued.find(other) != std::string::npos) return "its normals are not those of the surface in tangent space";
   return "";
 }
 
-Recognition recognise_maps(std::vector<MapFile> files) {
+namespace {
+
+/// Leaves out the candidates of other materials than the one that is meant. False if it is not clear which that is.
+bool keep_one_material(std::vector<Candidate>& candidates, const std::string& name, Recognition& out,
+                       std::vector<FolderMaterial>& meant) {
+  std::vector<StemmedMap> maps;
+  for (const Candidate& c : candidates) maps.push_back({c.stem, c.map.map, c.map.semantic == Semantic::base_color});
+  out.materials = materials_among(maps);
+  meant = out.materials;
+  if (name.empty()) return out.materials.size() <= 1;
+  Stem of_file;
+  recognise_map({.name = name + ".", .size = {}}, &of_file);
+  meant = materials_named(out.materials, name, of_file);
+  std::set<std::string> stems;
+  for (const FolderMaterial& m : meant) stems.insert(m.stems.begin(), m.stems.end());
+  std::erase_if(candidates, [&](const Candidate& c) { return !stems.count(c.stem.key()); });
+  if (meant.size() == 1) out.name = meant.front().name;
+  return !meant.empty();
+}
+
+/// Keeps files whose names say no map, of the materials that are meant, as data maps named after the rest of the name.
+void keep_as_data(const std::vector<std::string>& patterns, const std::vector<FolderMaterial>& meant,
+                  const std::vector<MapFile>& files, std::vector<Candidate>& candidates, Recognition& out) {
+  const auto is_wanted = [&](const std::string& file) {
+    return std::any_of(patterns.begin(), patterns.end(),
+                       [&](const std::string& p) { return matches_pattern(file, p); }) &&
+           (meant.empty() || meant.size() == out.materials.size() ||
+            std::any_of(meant.begin(), meant.end(), [&](const FolderMaterial& m) { return may_belong_to(file, m); }));
+  };
+  for (const MapFile& f : files) {
+    if (std::find(out.ignored.begin(), out.ignored.end(), f.name) == out.ignored.end() || !is_wanted(f.name)) continue;
+    std::erase(out.ignored, f.name);
+    RecognisedMap m{.map = "data_" + rest_of_name(f.name, out.materials),
+                    .semantic = Semantic::data,
+                    .file = f.name,
+                    .channels = ""};
+    candidates.push_back({std::move(m), {}, 0, f.size.area(), lossiness_of(f.name)});
+  }
+}
+
+}  // namespace
+
+Recognition recognise_maps(std::vector<MapFile> files, const MapWishes& wishes) {
   std::sort(files.begin(), files.end(), [](const MapFile& a, const MapFile& b) { return a.name < b.name; });
   Recognition out;
   std::vector<Candidate> found = candidates_among(files, out);
-  std::map<std::string, int> prefix_count;
-  for (const Candidate& c : found) prefix_count[c.prefix]++;
+  std::vector<FolderMaterial> meant;
+  if (!keep_one_material(found, wishes.name, out, meant)) return out;
+  keep_as_data(wishes.data, meant, files, found, out);
+  std::map<std::string, int> stem_count;
+  for (const Candidate& c : found) stem_count[c.stem.key()]++;
   const auto rank = [&](const Candidate& c) {
-    return std::tuple(c.map.semantic, c.map.map, -prefix_count[c.prefix], c.stand_in,
+    return std::tuple(c.map.semantic, c.map.map, -stem_count[c.stem.key()], c.stand_in,
                       c.map.normal_y == NormalY::up ? 0 : 1, -c.area, c.lossiness, c.map.file);
   };
   std::sort(found.begin(), found.end(), [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); });
@@ -265,22 +292,6 @@ std::string known_words(Semantic semantic) {
         (w.strength == WordStrength::full || w.word.size() > 2))
       words += (words.empty() ? "" : ", ") + std::string(w.word);
   return words;
-}
-
-namespace {
-
-/// Both in lower case.
-bool matches(std::string_view name, std::string_view pattern) {
-  if (pattern.empty()) return name.empty();
-  if (pattern[0] == '*') return matches(name, pattern.substr(1)) || (!name.empty() && matches(name.substr(1), pattern));
-  if (name.empty()) return false;
-  return (pattern[0] == '?' || pattern[0] == name[0]) && matches(name.substr(1), pattern.substr(1));
-}
-
-}  // namespace
-
-bool matches_pattern(std::string_view name, std::string_view pattern) {
-  return matches(lowercase(name), lowercase(pattern));
 }
 
 }  // namespace terrazzo

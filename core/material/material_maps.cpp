@@ -93,6 +93,13 @@ ImagePtr map_of_file(const RecognisedMap& source, const ImagePtr& file, const st
   return channels_of(file, info, channels_for(source, *file, notes), source.inverted);
 }
 
+bool is_grey(const Image& image) {
+  if (image.channels() < 3) return false;
+  const auto noise = float(tuning->compression_noise);
+  const auto first = [](const float* p) { return p[0]; };
+  return channel_is(image, 1, noise, first) && channel_is(image, 2, noise, first);
+}
+
 ImagePtr opacity_of(const ImagePtr& file) {
   if (file->channels() % 2 != 0) return nullptr;
   const int alpha = file->channels() - 1;

@@ -18,6 +18,9 @@ void require_channels(const RecognisedMap& source, int file_channels);
 ImagePtr map_of_file(const RecognisedMap& source, const ImagePtr& file, const std::string& color_space,
                      std::vector<std::string>& notes);
 
+/// Whether the first three channels are the same, but for compression noise; false if there are fewer.
+bool is_grey(const Image& image);
+
 /// An opacity map out of a file's alpha channel; null if there is none or it is 1 everywhere.
 ImagePtr opacity_of(const ImagePtr& file);
 

@@ -9,13 +9,13 @@
 
 #include "core/image/color.h"
 #include "core/image/image_file.h"
-#include "core/image/normal_convention.h"
 #include "core/material/material_maps.h"
 #include "core/node/node.h"
 #include "nodes/common/color_space.h"
 #include "nodes/common/exemplar_doubts.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/source/material_folder.h"
+#include "nodes/source/normal_checks.h"
 
 namespace terrazzo {
 
@@ -67,82 +67,38 @@ void add_alpha(const RecognisedMap& m, const ImagePtr& file, std::vector<Map>& m
   notes.push_back(fmt::format("opacity: {} (alpha channel)", m.file));
 }
 
-std::string_view name_of_convention(NormalY y) {
-  return y == NormalY::up ? "up (OpenGL)" : "down (DirectX)";
+/// A packed file whose channels are all the same is some other map, or was packed from one map by mistake.
+void warn_of_grey_packings(const std::vector<RecognisedMap>& maps, const std::map<std::string, Source>& sources,
+                           std::vector<std::string>& notes) {
+  std::map<std::string, Texts> packed;
+  for (const RecognisedMap& m : maps)
+    if (m.channels.size() == 1 && m.channels != "a") packed[m.file].push_back(m.map);
+  for (const auto& [file, names] : packed)
+    if (names.size() > 1 && is_grey(*sources.at(file).image))
+      notes.push_back(fmt::format(
+          "{}{}: {} are read from its channels, but these are the same: it is a grey picture, not a packed one. If it "
+          "is one map, say which, and leave the others out: `maps` {{\"{}\": \"{}:r\", \"{}\": \"\"}}",
+          warning_mark, file, fmt::join(names, ", "), names[0], file,
+          fmt::join(names.begin() + 1, names.end(), "\": \"\", \"")));
 }
 
-/// The convention judged by pixels, and on which grounds.
-struct Judgement {
-  std::optional<NormalY> normal_y;
-  std::string grounds;
-};
-
-Judgement judged(const Image& normal, const ImagePtr& height) {
-  if (height) {
-    const ConventionEvidence e = convention_from_height(normal, *height);
-    if (e.normal_y)
-      return {e.normal_y,
-              fmt::format("judged by the height map (correlation with its slopes x {:.2f}, y {:.2f}){}", e.along_x,
-                          e.along_y,
-                          e.height_inverted ? "; the height map seems to be dark where the surface is high" : "")};
+/// The space that the file, or the sidecar, says; empty if it says none.
+std::string described_color_space(const RecognisedMap& m) {
+  if (m.color_space.empty()) return "";
+  try {
+    return canonical_color_space(m.color_space);
+  } catch (const Error& e) {
+    throw Error("path",
+                fmt::format("{}: {} says its colour space: {}. Set `color_space`", m.file, m.said_by, e.what()));
   }
-  const ConventionEvidence e = convention_from_curl(normal);
-  return {e.normal_y, fmt::format("judged by the normals themselves (correlation {:.2f})", e.along_y)};
-}
-
-/// Judges the convention by pixels; notes the result.
-NormalY detect_convention(const Image& normal, const ImagePtr& height, std::vector<std::string>& notes) {
-  const Judgement found = judged(normal, height);
-  if (found.normal_y) {
-    notes.push_back(fmt::format("normal: green points {}, {}", name_of_convention(*found.normal_y), found.grounds));
-    return *found.normal_y;
-  }
-  notes.push_back(
-      "normal: neither its name nor its pixels say whether green points up (OpenGL) or down (DirectX); up is assumed. "
-      "Set `normal_y` if that is wrong");
-  return NormalY::up;
-}
-
-/// A name is believed, but not silently if the pixels speak against it.
-void check_named_convention(const RecognisedMap& source, const Image& normal, const ImagePtr& height,
-                            std::vector<std::string>& notes) {
-  const Judgement found = judged(normal, height);
-  if (found.normal_y && *found.normal_y != *source.normal_y)
-    notes.push_back(
-        fmt::format("normal: the name {} says that green points {}, but it seems to point {}, {}. The name is used; "
-                    "set `normal_y` to \"{}\" if it is wrong",
-                    source.file, name_of_convention(*source.normal_y), name_of_convention(*found.normal_y),
-                    found.grounds, *found.normal_y == NormalY::up ? "up" : "down"));
-}
-
-void settle_conventions(NodeContext& node, const std::vector<RecognisedMap>& sources, std::vector<Map>& maps) {
-  ImagePtr height;
-  for (const Map& m : maps)
-    if (m.image->info().semantic == Semantic::height) height = m.image;
-  const std::string& wish = node.text("normal_y");
-  std::vector<std::string> notes;
-  for (Map& m : maps) {
-    if (m.image->info().semantic != Semantic::normal) continue;
-    ImageInfo info = m.image->info();
-    const auto source =
-        std::find_if(sources.begin(), sources.end(), [&](const RecognisedMap& s) { return s.map == m.name; });
-    if (wish != "auto")
-      info.normal_y = wish == "up" ? NormalY::up : NormalY::down;
-    else if (source->normal_y) {
-      info.normal_y = *source->normal_y;
-      check_named_convention(*source, *m.image, height, notes);
-    } else
-      info.normal_y = detect_convention(*m.image, height, notes);
-    m.image = Image::redescribed(m.image, info);
-  }
-  for (std::string& n : notes) node.note(std::move(n));
 }
 
 void compute(NodeContext& node) {
   const fs::path folder = folder_of(node.params());
   const std::string given_space = node.text("color_space") == "auto" ? "" : color_space_of(node, "color_space");
   std::vector<std::string> notes;
-  const std::vector<RecognisedMap> found = find_maps(node.params(), notes);
+  const FoundMaterial material_found = find_maps(node.params(), notes);
+  const std::vector<RecognisedMap>& found = material_found.maps;
   for (std::string& n : notes) node.note(std::move(n));
   notes.clear();
   const std::map<std::string, Source> sources = read_sources(node, folder, found);
@@ -150,14 +106,15 @@ void compute(NodeContext& node) {
   for (const RecognisedMap& m : found) {
     const ImagePtr& file = sources.at(m.file).image;
     const bool space_given = m.semantic == Semantic::base_color && !given_space.empty();
-    maps.push_back(
-        {m.map,
-         map_of_file(m, file, space_given ? given_space : assumed_color_space(m.semantic, file->info().depth), notes)});
+    std::string space = space_given ? given_space : described_color_space(m);
+    if (space.empty()) space = assumed_color_space(m.semantic, file->info().depth);
+    maps.push_back({m.map, map_of_file(m, file, space, notes)});
   }
+  warn_of_grey_packings(found, sources, notes);
   for (const RecognisedMap& m : found) add_alpha(m, sources.at(m.file).image, maps, notes);
+  settle_normals(node.text("normal_y"), found, maps, notes);
   for (std::string& n : notes) node.note(std::move(n));
-  settle_conventions(node, found, maps);
-  const MaterialPtr material = Material::make(folder.filename().string(), std::move(maps));
+  const MaterialPtr material = Material::make(material_found.name, std::move(maps));
   warn_of_smaller_maps(node, *material);
   node.output("material", material);
 }
@@ -178,7 +135,7 @@ Forecast preflight(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
   Forecast out{.possible_maps = Texts{}};
   std::set<std::string> troubles;
-  for (const RecognisedMap& m : find_maps(params, ignored_notes)) {
+  for (const RecognisedMap& m : find_maps(params, ignored_notes).maps) {
     out.maps.push_back(m.map);
     try {
       require_readable_image(folder_of(params) / m.file);
@@ -195,7 +152,7 @@ Forecast preflight(const Params& params, const InputForecasts&) {
 
 Texts doubts(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
-  for (const RecognisedMap& m : find_maps(params, ignored_notes))
+  for (const RecognisedMap& m : find_maps(params, ignored_notes).maps)
     if (m.semantic == Semantic::base_color && m.channels.empty())
       return doubts_about_colour("\"path\": " + m.file, folder_of(params) / m.file);
   return {};
@@ -206,7 +163,7 @@ Texts doubts(const Params& params, const InputForecasts&) {
 NodeType load_material_node() {
   NodeType t;
   t.name = "load_material";
-  t.version = 5;
+  t.version = 6;
   t.category = "source";
   t.summary = "Reads a folder of maps as one material";
   t.help =
@@ -215,7 +172,12 @@ NodeType load_material_node() {
       "metallicRoughness, MaskMap, MetallicSmoothness, AlbedoTransparency) are split into their channels, gloss and "
       "smoothness maps are inverted into roughness, grey maps stored in colour are reduced to one channel, and a base "
       "colour's alpha becomes the opacity map. If several files hold one map, OpenGL normals, larger and lossless "
-      "files are preferred. Maps may differ in size as long as they show the same area; a warning names those smaller "
+      "files are preferred. A file terrazzo-material.json, as export writes it, counts more than names, and so does "
+      "what "
+      "terrazzo wrote into a PNG, TIFF or EXR file's description. A folder of several materials is refused unless "
+      "`name` picks one; UDIM tiles count as "
+      "materials. ID maps (*_ID) are kept as labels. Maps may differ in size as long as they show the same area; a "
+      "warning names those smaller "
       "than the largest, which will be scaled up. Notes say what was recognised and what was left out.";
   t.outputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps found, named after their semantics"}};
@@ -224,6 +186,12 @@ NodeType load_material_node() {
        .type = ParamType::path,
        .help = "The folder of the maps, or \"library:NAME\" for the one that a named analysis was made of.",
        .library = LibraryFile::material},
+      {.name = "name",
+       .type = ParamType::text,
+       .fallback = "",
+       .help = "Which material of a folder that holds several: what the names of its files begin with, such as "
+               "Bricks075, or the name of one of its files. Case, resolutions and formats do not count. * and ? stand "
+               "for any characters: \"*\" takes all files as one material."},
       {.name = "normal_y",
        .type = ParamType::choice,
        .fallback = "auto",
@@ -240,6 +208,12 @@ NodeType load_material_node() {
        .type = ParamType::texts,
        .fallback = Texts{},
        .help = "File names to leave out; * and ? stand for any characters."},
+      {.name = "data",
+       .type = ParamType::texts,
+       .fallback = Texts{},
+       .help = "Files to keep although their names say no map: each becomes a data map named after the rest of its "
+               "name, such as data_translucency. Data is never blended or filtered. * and ? stand for any characters; "
+               "[\"*\"] keeps all."},
       {.name = "color_space",
        .type = ParamType::text,
        .fallback = "auto",

@@ -9,8 +9,11 @@
 
 #include "core/base/paths.h"
 #include "core/base/suggest.h"
+#include "core/base/text.h"
 #include "core/image/image_file.h"
+#include "core/material/map_names.h"
 #include "core/material/material_maps.h"
+#include "nodes/source/material_sidecar.h"
 
 namespace terrazzo {
 
@@ -22,13 +25,6 @@ namespace {
 bool is_file_or_broken_link(const fs::directory_entry& entry) {
   std::error_code failure;
   return entry.is_regular_file(failure) || (entry.is_symlink(failure) && !entry.exists(failure));
-}
-
-/// The map that a name of the `maps` parameter stands for: a semantic's name, or one with a suffix.
-std::optional<Semantic> semantic_of_map(const std::string& map) {
-  for (const std::string_view name : semantic_names)
-    if (map == name || map.starts_with(std::string(name) + "_")) return semantic_from(name);
-  return std::nullopt;
 }
 
 /// "file.png", or "file.png:g" for one channel.
@@ -132,12 +128,119 @@ std::vector<MapFile> files_to_recognise(const Params& params, const std::set<std
       const FileInfo info = read_image_info(folder / name);
       f.size = info.size;
       f.channels = info.channels;
+      f.description = info.description;
     } catch (const Error&) {
       // If the file is chosen all the same, reading it says what is wrong.
     }
     files.push_back(std::move(f));
   }
   return files;
+}
+
+std::string listed(const std::vector<FolderMaterial>& materials) {
+  constexpr size_t shown = 20;
+  std::string all;
+  for (size_t i = 0; i < std::min(shown, materials.size()); i++)
+    all += fmt::format("{}{} ({})", i ? "; " : "", materials[i].name.empty() ? "without a name" : materials[i].name,
+                       fmt::join(materials[i].maps, ", "));
+  if (materials.size() > shown) all += fmt::format("; and {} more", materials.size() - shown);
+  return all;
+}
+
+/// Mixing two materials would look like a result.
+void require_one_material(const fs::path& folder, const std::string& wanted, const Recognition& found) {
+  if (!found.maps.empty() || found.materials.empty()) return;
+  if (wanted.empty())
+    throw Error("path", fmt::format("{} holds {} materials: {}. {}", folder.string(), found.materials.size(),
+                                    listed(found.materials), advice_on_several_materials));
+  std::vector<std::string> names;
+  for (const FolderMaterial& m : found.materials) names.push_back(m.name);
+  throw Error("name", fmt::format("there is no material \"{}\" in {}{}; it holds {}", wanted, folder.string(),
+                                  did_you_mean(wanted, names), listed(found.materials)));
+}
+
+/// What was left out because `wanted` names another.
+void note_other_materials(const Recognition& found, Texts& notes) {
+  if (found.name.empty() || found.materials.size() < 2) return;
+  Texts others;
+  for (const FolderMaterial& m : found.materials)
+    if (m.name != found.name) others.push_back(m.name.empty() ? fmt::format("{}", fmt::join(m.maps, ", ")) : m.name);
+  notes.push_back(fmt::format("left out, other materials: {}", fmt::join(others, ", ")));
+}
+
+std::string described(const RecognisedMap& m) {
+  return m.channels.empty() ? m.file : fmt::format("{} (channel {})", m.file, m.channels);
+}
+
+/// The folder's sidecar, unless `name` means another material than that.
+std::optional<Sidecar> sidecar_that_counts(const Params& params) {
+  const std::string& wanted = std::get<std::string>(params.at("name"));
+  std::optional<Sidecar> sidecar = read_sidecar(folder_of(params));
+  const bool is_meant = sidecar && (wanted.empty() || lowercase(wanted) == lowercase(sidecar->name));
+  return is_meant ? sidecar : std::nullopt;
+}
+
+/// The maps that a sidecar names, without those that the parameters give or leave out.
+void add_described(const Sidecar& sidecar, const std::vector<MapFile>& files, const TextMap& given, FoundMaterial& out,
+                   Texts& notes) {
+  std::vector<RecognisedMap> maps = sidecar.maps;
+  std::stable_sort(maps.begin(), maps.end(),
+                   [](const RecognisedMap& a, const RecognisedMap& b) { return a.inverted < b.inverted; });
+  notes.push_back(fmt::format("{} says what the files are", sidecar_name));
+  for (const RecognisedMap& m : maps) {
+    const auto is_file = [&](const MapFile& f) { return f.name == m.file; };
+    if (given.count(m.map) || std::none_of(files.begin(), files.end(), is_file)) continue;
+    const auto have = std::find_if(out.maps.begin(), out.maps.end(), [&](const auto& o) { return o.map == m.map; });
+    if (have != out.maps.end()) {
+      notes.push_back(fmt::format("{} is {}; {} left out", m.map, described(*have), described(m)));
+      continue;
+    }
+    out.maps.push_back(m);
+    if (m.inverted) notes.push_back(fmt::format("{} is {}, inverted", m.map, described(m)));
+  }
+  Texts others;
+  for (const MapFile& f : files)
+    if (std::find(sidecar.files.begin(), sidecar.files.end(), f.name) == sidecar.files.end()) others.push_back(f.name);
+  if (!others.empty())
+    notes.push_back(fmt::format("left out, {} does not name them: {}. `maps` takes them in", sidecar_name,
+                                fmt::join(others, ", ")));
+  if (out.maps.empty())
+    throw Error("path", fmt::format("`maps` and `ignore` leave out all maps that {} names", sidecar_name));
+  out.metres = sidecar.metres;
+  if (!sidecar.name.empty()) out.name = sidecar.name;
+}
+
+/// A pattern of `data` that keeps nothing is probably misspelt.
+void note_unused_patterns(const Params& params, const Recognition& found, Texts& notes) {
+  for (const std::string& pattern : std::get<Texts>(params.at("data")))
+    if (std::none_of(found.maps.begin(), found.maps.end(), [&](const RecognisedMap& m) {
+          return m.map.starts_with("data_") && matches_pattern(m.file, pattern);
+        }))
+      notes.push_back(
+          fmt::format("the pattern \"{}\" of the parameter `data` keeps no file: none of that name is left "
+                      "whose name says no map",
+                      pattern));
+}
+
+/// The maps that the files' names say, without those that the parameters give or leave out.
+void add_recognised(const Params& params, const std::vector<MapFile>& files, const TextMap& given, FoundMaterial& out,
+                    Texts& notes) {
+  const fs::path folder = folder_of(params);
+  const std::string& wanted = std::get<std::string>(params.at("name"));
+  const Recognition found = recognise_maps(files, {.name = wanted, .data = std::get<Texts>(params.at("data"))});
+  require_one_material(folder, wanted, found);
+  for (const RecognisedMap& m : found.maps)
+    if (!given.count(m.map)) out.maps.push_back(m);
+  if (out.maps.empty()) fail_nothing_recognised(folder, found);
+  if (!found.name.empty()) out.name = found.name;
+  notes.insert(notes.end(), found.notes.begin(), found.notes.end());
+  note_other_materials(found, notes);
+  note_unused_patterns(params, found, notes);
+  if (!found.ignored.empty())
+    notes.push_back(
+        fmt::format("ignored, the name says no map: {}. `data` keeps them as they are, `maps` says what they are. "
+                    "Known words are {}",
+                    fmt::join(found.ignored, ", "), all_words()));
 }
 
 }  // namespace
@@ -168,34 +271,29 @@ std::vector<std::string> problems_with_map_names(const Params& params) {
   return problems;
 }
 
-std::vector<RecognisedMap> find_maps(const Params& params, Texts& notes) {
+FoundMaterial find_maps(const Params& params, Texts& notes) {
   const fs::path folder = folder_of(params);
   require_folder(folder);
   require_given_maps(params);
   const TextMap& given = std::get<TextMap>(params.at("maps"));
-  std::vector<RecognisedMap> maps;
+  FoundMaterial out{.name = folder.filename().string()};
   std::set<std::string> taken;
   for (const auto& [map, text] : given) {
     if (text.empty()) continue;
-    maps.push_back(given_map(map, text));
-    if (maps.back().channels.empty()) taken.insert(maps.back().file);
+    out.maps.push_back(given_map(map, text));
+    if (out.maps.back().channels.empty()) taken.insert(out.maps.back().file);
   }
-  const Recognition recognition = recognise_maps(files_to_recognise(params, taken, notes));
-  for (const RecognisedMap& m : recognition.maps)
-    if (!given.count(m.map)) maps.push_back(m);
-  if (maps.empty()) fail_nothing_recognised(folder, recognition);
-  std::stable_sort(maps.begin(), maps.end(),
+  const std::vector<MapFile> files = files_to_recognise(params, taken, notes);
+  Texts more_notes;
+  if (const auto sidecar = sidecar_that_counts(params))
+    add_described(*sidecar, files, given, out, more_notes);
+  else
+    add_recognised(params, files, given, out, more_notes);
+  std::stable_sort(out.maps.begin(), out.maps.end(),
                    [](const RecognisedMap& a, const RecognisedMap& b) { return a.semantic < b.semantic; });
-  for (const RecognisedMap& m : maps) {
-    std::string from = m.file;
-    if (!m.channels.empty()) from += fmt::format(" (channel {})", m.channels);
-    notes.push_back(fmt::format("{}: {}", m.map, from));
-  }
-  notes.insert(notes.end(), recognition.notes.begin(), recognition.notes.end());
-  if (!recognition.ignored.empty())
-    notes.push_back(fmt::format("ignored, the name says no map: {}. Known words are {}",
-                                fmt::join(recognition.ignored, ", "), all_words()));
-  return maps;
+  for (const RecognisedMap& m : out.maps) notes.push_back(fmt::format("{}: {}", m.map, described(m)));
+  notes.insert(notes.end(), more_notes.begin(), more_notes.end());
+  return out;
 }
 
 std::vector<fs::path> files_of_material(const Params& params) {
@@ -204,6 +302,7 @@ std::vector<fs::path> files_of_material(const Params& params) {
   for (const std::string& name : image_names(folder)) files.push_back(folder / name);
   for (const auto& [map, text] : std::get<TextMap>(params.at("maps")))
     if (!text.empty() && semantic_of_map(map)) files.push_back(folder / given_map(map, text).file);
+  if (std::error_code failure; fs::exists(folder / sidecar_name, failure)) files.push_back(folder / sidecar_name);
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,11 +10,13 @@
 #include "core/material/material_files.h"
 #include "core/node/node.h"
 
-/// Which files the node `load_material` reads, by its parameters `path`, `maps` and `ignore`.
+/// Which files the node `load_material` reads, by its parameters `path`, `name`, `maps` and `ignore`.
 namespace terrazzo {
 
 /// What messages of find_maps advise those who write a graph.
 inline constexpr std::string_view advice_on_map_names = "the parameter `maps` names files explicitly";
+inline constexpr std::string_view advice_on_several_materials =
+    "The parameter `name` picks one of them; `\"name\": \"*\"` takes all files as one material";
 inline constexpr std::string_view advice_on_one_file = "load_map reads a single file";
 
 std::filesystem::path folder_of(const Params& params);
@@ -23,11 +27,20 @@ std::vector<std::string> image_names(const std::filesystem::path& folder);
 /// A message for each name in `maps` that is not a map name.
 std::vector<std::string> problems_with_map_names(const Params& params);
 
-/// Recognises the maps of the folder. Throws Error about the parameter if the folder or files named in `maps` are
-/// missing, or nothing is recognised. Adds what the user should know to `notes`.
-std::vector<RecognisedMap> find_maps(const Params& params, Texts& notes);
+/// What a folder holds of a material.
+struct FoundMaterial {
+  std::vector<RecognisedMap> maps{};
+  std::string name{};                             ///< the folder's, or that of the material that was picked
+  std::optional<std::array<double, 2>> metres{};  ///< that the maps show, if a sidecar says it
+};
 
-/// All files that the material depends on, sorted: the folder's images and those named in `maps`.
+/// Finds the maps of the folder: by its sidecar if it has one, else by what the files say of themselves and their
+/// names. Throws Error about the parameter if the folder or files named in `maps` are missing, nothing is recognised,
+/// or it is not clear which of several materials is meant. Adds what the user should know to `notes`.
+FoundMaterial find_maps(const Params& params, Texts& notes);
+
+/// All files that the material depends on, sorted: the folder's images, those named in
+/// `maps`, and the sidecar.
 std::vector<std::filesystem::path> files_of_material(const Params& params);
 
 }  // namespace terrazzo

@@ -149,7 +149,7 @@ void check_sheet(const std::string& path) {
   if (is_page(path)) check_writable("--sheet", path);  // the plan looks at pictures
 }
 
-std::string for_command_line(std::string message, const std::string& folder) {
+std::string for_command_line(std::string message, const std::string& folder, const std::string& name_option) {
   const auto replace = [&](std::string_view graph_advice, const std::string& advice) {
     if (const size_t at = message.find(graph_advice); at != message.npos)
       message.replace(at, graph_advice.size(), advice);
@@ -158,6 +158,8 @@ std::string for_command_line(std::string message, const std::string& folder) {
           fmt::format("rename the files, or name them explicitly: `terrazzo run graphs/material.json --set material={} "
                       "--set 'exemplar.maps={{\"base_color\": \"FILE\"}}' --set out=OUT`",
                       folder));
+  replace(advice_on_several_materials,
+          fmt::format("{0}NAME picks one of them; {0}'*' takes all files as one material", name_option));
   replace(advice_on_one_file,
           fmt::format("for a single picture: `terrazzo run graphs/texture.json --set image={} --set out=OUT`", folder));
   return message;

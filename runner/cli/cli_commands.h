@@ -49,8 +49,9 @@ bool is_page(const std::filesystem::path& path);
 /// Throws UsageError unless `--sheet` can write that: a page, or a picture in a known format. Accepts an empty `path`.
 void check_sheet(const std::string& path);
 /// Replaces advice for graph authors in a message about a material's `folder` by advice for commands without node
-/// parameters.
-std::string for_command_line(std::string message, const std::string& folder);
+/// parameters. `name_option`: what picks a material, such as "--name ".
+std::string for_command_line(std::string message, const std::string& folder,
+                             const std::string& name_option = "--name ");
 /// Parses "512M", "2G", "1.5 GiB" into bytes. Throws UsageError.
 uint64_t parse_bytes(const std::string& text, const std::string& option);
 /// 1536 MiB as "1.5 GiB".

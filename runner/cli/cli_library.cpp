@@ -89,7 +89,7 @@ int add(const LibraryFlags& flags) {
     for (const Problem& p : e.problems())
       problems.push_back({{},
                           p.node == "exemplar" || p.node == "index" ? "SOURCE" : p.where,
-                          for_command_line(p.message, flags.addition.source)});
+                          for_command_line(p.message, flags.addition.source, "--set exemplar.name=")});
     throw GraphError("", std::move(problems));
   }
   for (const Failure& f : result.failures) say("error: {}\n", f.message);

@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 struct NewFlags {
   std::string folder;
   std::string out;
+  std::string name;
   std::string like = "material";
   bool force = false;
 };
@@ -46,9 +47,9 @@ RunResult run_on_folder(const Graph& graph, const RunOptions& options, const std
 }
 
 /// The exemplar with the search for what repeats in it.
-Graph looking_graph(const std::string& folder) {
+Graph looking_graph(const std::string& folder, const std::string& name) {
   Graph graph;
-  graph.nodes = {memory_node("exemplar", "load_material", {{"path", fs::absolute(folder).string()}}),
+  graph.nodes = {memory_node("exemplar", "load_material", {{"path", fs::absolute(folder).string()}, {"name", name}}),
                  memory_node("weighted", "weight", {}), memory_node("lattice", "regularity", {})};
   graph.nodes[1].inputs["material"] = {{"exemplar", "material"}};
   graph.nodes[2].inputs["features"] = {{"weighted", "features"}};
@@ -69,7 +70,7 @@ int make_new(const NewFlags& flags) {
     throw UsageError(fmt::format("{} exists; --force overwrites it", flags.out));
   require_stock_graph(flags);
   const CancelOnSignal signals;
-  const Graph graph = looking_graph(flags.folder);
+  const Graph graph = looking_graph(flags.folder, flags.name);
   RunOptions options;
   options.targets.keep = {"exemplar", "lattice"};
   options.cancelled = &signals.flag();
@@ -79,6 +80,7 @@ int make_new(const NewFlags& flags) {
   const auto features = std::get<FeaturesPtr>(result.kept.at("lattice").at("features"));
   ExemplarLook look{.exemplar = std::get<MaterialPtr>(result.kept.at("exemplar").at("material")),
                     .folder = seen_from(fs::absolute(flags.out).parent_path(), flags.folder),
+                    .name = flags.name,
                     .notes = result.stages[0].notes,
                     .lattice_notes = result.stages[2].notes,
                     .repeats = features->repeats().lattice.rank > 0,
@@ -95,6 +97,11 @@ void add_new_command(CLI::App& app, Chosen& chosen) {
   const auto flags = std::make_shared<NewFlags>();
   command->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
   command->add_option("-o,--out", flags->out, "The graph file to write")->required()->type_name("FILE.json");
+  command
+      ->add_option("--name", flags->name,
+                   "Which material of a folder that holds several: what the names of its files begin with; '*' takes "
+                   "all files as one")
+      ->type_name("STEM");
   command->add_option("--like", flags->like, "The stock graph (graphs/NAME.json) to begin with; material if not given")
       ->type_name("NAME");
   command->add_flag("--force", flags->force, "Overwrite the graph file if it exists");

@@ -270,7 +270,7 @@ bool same_folder(const std::string& a, const std::string& b) {
 void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
   struct Flags : RunFlags {
-    std::string folder, out, scale, size, seed, quality, blend, join, format, tileable;
+    std::string folder, out, name, scale, size, seed, quality, blend, join, format, tileable;
     std::vector<std::string> set;
   };
   const auto flags = std::make_shared<Flags>();
@@ -280,6 +280,11 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
                    "The folder to write to; {material}, {width}, {height} and {map} are replaced")
       ->required()
       ->type_name("DIR");
+  synth
+      ->add_option("--name", flags->name,
+                   "Which material of a folder that holds several: what the names of its files begin with; '*' takes "
+                   "all files as one")
+      ->type_name("STEM");
   synth
       ->add_option("--scale", flags->scale,
                    "The size of the result: how many times the exemplar in each direction; 2 if not given")
@@ -319,6 +324,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       const auto set_if_given = [&](const char* name, const char* parameter, const std::string& value) {
         if (!value.empty()) arguments.push_back({name, parameter, value});
       };
+      set_if_given("--name", "name", flags->name);
       set_if_given("--scale", "scale", flags->scale);
       set_if_given("--size", "size", flags->size);
       set_if_given("--seed", "seed", flags->seed);

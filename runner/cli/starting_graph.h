@@ -13,6 +13,7 @@ namespace terrazzo {
 struct ExemplarLook {
   MaterialPtr exemplar;
   std::filesystem::path folder;            ///< of its maps, as a graph should name it
+  std::string name{};                      ///< of the material in the folder, where one was asked for
   std::vector<std::string> notes;          ///< of load_material
   std::vector<std::string> lattice_notes;  ///< of regularity
   bool repeats = false;                    ///< a lattice was found

@@ -41,6 +41,7 @@ StoredImage describe(const OIIO::ImageSpec& spec, const std::string& format) {
   header.exact = header.depth != Depth::f32 || spec.format == OIIO::TypeDesc::FLOAT;
   header.deep = spec.deep;
   header.inks = says_inks(spec);
+  header.description = std::string(spec.get_string_attribute("ImageDescription"));
   return header;
 }
 

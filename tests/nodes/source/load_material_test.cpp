@@ -53,7 +53,7 @@ TEST_CASE("a folder of maps becomes a material with the folder's name") {
   CHECK(m->find("normal")->info().semantic == Semantic::normal);
   CHECK(m->find("normal")->info().normal_y == NormalY::up);
   CHECK(run.says("base_color: bricks_color.png"));
-  CHECK(run.says("ignored, the name says no map: bricks_sheet.png. Known words are base_color: basecolor"));
+  CHECK(run.says("ignored, the name says no map: bricks_sheet.png. `data` keeps them"));
   CHECK_FALSE(run.says("SOURCE"));
 }
 
@@ -87,6 +87,24 @@ TEST_CASE("packed files are split, smoothness is inverted") {
   run = run_node("load_material", {{"path", folder.path().string()}});
   CHECK(run.get<Material>("material")->find("roughness")->read({3, 4, 1, 1})[0] == 1.0f - ramp(3, 4, 0));
   CHECK(run.says("roughness is wall_Smoothness.png, inverted"));
+}
+
+TEST_CASE("a packed file of equal channels is a warning that says how to read it as one map") {
+  const TemporaryFolder folder;
+  write(folder.path() / "wall_ORM.png", 3, [](int x, int y, int) { return ramp(x, y, 0); });
+  const std::string path = folder.path().string();
+  CHECK(run_node("load_material", {{"path", path}})
+            .says("warning: wall_ORM.png: roughness, metallic, ambient_occlusion are read from its channels, but these "
+                  "are the same: it is a grey picture, not a packed one. If it is one map, say which, and leave the "
+                  "others out: `maps` {\"roughness\": \"wall_ORM.png:r\", \"metallic\": \"\", "
+                  "\"ambient_occlusion\": \"\"}"));
+  const NodeRun one =
+      run_node("load_material",
+               {{"path", path},
+                {"maps", TextMap{{"roughness", "wall_ORM.png:r"}, {"metallic", ""}, {"ambient_occlusion", ""}}}});
+  CHECK_FALSE(one.says("warning"));
+  write(folder.path() / "wall_ORM.png", 3, ramp);
+  CHECK_FALSE(run_node("load_material", {{"path", path}}).says("warning"));
 }
 
 TEST_CASE("grey maps stored in colour are reduced, with a note if the channels differ") {
@@ -171,6 +189,39 @@ TEST_CASE("the parameters maps and ignore overrule the names") {
   Params params = {{"maps", TextMap{{"hieght", "scan.png"}}}, {"color_space", "auto"}};
   REQUIRE(type->check(params).size() == 1);
   CHECK(contains(type->check(params)[0], "did you mean \"height\"?"));
+}
+
+TEST_CASE("a folder of several materials is refused until `name` picks one") {
+  const TemporaryFolder folder;
+  for (const char* file : {"Concrete07_color.png", "Leather05_color.png", "Leather05_roughness.png"})
+    write(folder.path() / file, 3, [](int x, int y, int) { return ramp(x, y, 0); });
+  const std::string path = folder.path().string();
+  CHECK(
+      error_of("load_material", {{"path", path}}) ==
+      "path: " + path +
+          " holds 2 materials: Concrete07 (base_color); Leather05 (base_color, roughness). The parameter `name` picks "
+          "one of them; `\"name\": \"*\"` takes all files as one material");
+  CHECK(error_of("load_material", {{"path", path}, {"name", "lether05"}}) ==
+        "name: there is no material \"lether05\" in " + path +
+            " (did you mean \"Leather05\"?); it holds Concrete07 (base_color); Leather05 (base_color, roughness)");
+  const NodeRun run = run_node("load_material", {{"path", path}, {"name", "leather05"}});
+  CHECK(run.get<Material>("material")->name() == "Leather05");
+  CHECK(run.get<Material>("material")->map_names() == "base_color, roughness");
+  CHECK(run.says("left out, other materials: Concrete07"));
+  CHECK(run_node("load_material", {{"path", path}, {"name", "*"}}).says("Concrete07_color.png (32x32) left out"));
+}
+
+TEST_CASE("ID maps and files kept as data come in as they are") {
+  const TemporaryFolder folder;
+  for (const char* file : {"wall_color.png", "wall_ID.png", "wall_fuzz.png"}) write(folder.path() / file, 3, ramp);
+  const NodeRun run =
+      run_node("load_material", {{"path", folder.path().string()}, {"data", Texts{"*fuzz*", "*gone*"}}});
+  const MaterialPtr m = run.get<Material>("material");
+  CHECK(m->map_names() == "base_color, data_fuzz, data_id");
+  CHECK(m->find("data_id")->info().semantic == Semantic::data);
+  CHECK(m->find("data_id")->channels() == 3);
+  CHECK(m->find("data_fuzz")->info().color_space == "raw");
+  CHECK(run.says("the pattern \"*gone*\" of the parameter `data` keeps no file"));
 }
 
 TEST_CASE("a folder that gives no material is refused with what was found") {

@@ -301,6 +301,33 @@ TEST_CASE("synth and new advise what can be typed when a folder holds no maps or
   }
 }
 
+TEST_CASE("synth and new refuse a folder of several materials until --name picks one") {
+  const Workplace w;
+  write_picture(w.path / "pack/Concrete07_Color.png", 5);
+  write_picture(w.path / "pack/Leather05_Color.png", 7);
+  write_picture(w.path / "pack/Leather05_Roughness.png", 3);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"synth", "pack", "-o", "x"}, {"new", "pack", "-o", "x.json"}}) {
+    const ProgramRun r = w.run(command);
+    CHECK(r.code == 2);
+    CHECK_MESSAGE(contains(r.err,
+                           "pack holds 2 materials: Concrete07 (base_color); Leather05 (base_color, roughness). --name "
+                           "NAME picks one of them; --name '*' takes all files as one material"),
+                  r.err);
+  }
+  CHECK(contains(w.run({"library", "add", "one", "pack"}).err, "--set exemplar.name=NAME picks one"));
+  CHECK(contains(w.run({"synth", "pack", "-o", "x", "--name", "leather5"}).err, "did you mean \"Leather05\"?"));
+
+  const ProgramRun picked = w.run({"synth", "pack", "-o", "{material}", "--size", "32x32", "--name", "leather05"});
+  CHECK_MESSAGE(picked.code == 0, picked.err);
+  CHECK(fs::exists(w.path / "Leather05/roughness.png"));
+  const ProgramRun one = w.run({"new", "pack", "-o", "one.json", "--name", "concrete07"});
+  CHECK_MESSAGE(contains(one.err, "found base_color\n"), one.err);
+  CHECK(w.run({"run", "one.json", "--set", "size=32x32"}).code == 0);
+  REQUIRE(w.run({"new", "pack", "-o", "wraps.json", "--like", "make_tileable", "--name", "concrete07"}).code == 0);
+  CHECK(contains(read_text(w.path / "wraps.json"), "\"name\": \"concrete07\""));
+}
+
 TEST_CASE("the stock graph make_tileable keeps the exemplar's size if it is told to, and says how when it does not") {
   const Workplace w;
   write_text(w.path / "tiles.json", R"({"terrazzo": 1, "nodes": {
