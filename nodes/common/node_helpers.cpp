@@ -170,6 +170,22 @@ ImagePtr require_map(const std::string& param, const Material& material, const s
   return material.find(map);
 }
 
+Param metres_param(const std::string& empty) {
+  return {.name = "metres",
+          .type = ParamType::numbers,
+          .fallback = Numbers{},
+          .help = "Physical size of the surface that the maps show: width and height, or the width alone. " + empty,
+          .min = 0.000001,
+          .max = largest_extent,
+          .unit = "metres",
+          .max_count = 2};
+}
+
+PhysicalSize metres_of(const Numbers& given, Size size) {
+  if (given.empty()) return {};
+  return {given[0], given.size() > 1 ? given[1] : given[0] * size.height / size.width};
+}
+
 MaterialPtr with_maps_changed(const MaterialPtr& material, const Texts& maps,
                               const std::function<ImagePtr(const Map&)>& change) {
   require_maps("maps", maps, names_of(material->maps()));

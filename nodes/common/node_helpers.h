@@ -36,6 +36,11 @@ ImageInfo generated_info(const NodeContext& node, int channels);
 /// The same pixel everywhere, computed on demand under the node's key; `info` without channels.
 ImagePtr constant_image(const NodeContext& node, ImageInfo info, const Numbers& pixel);
 
+/// Parameter "metres", the physical size of a surface. `empty`: what an empty list means.
+Param metres_param(const std::string& empty);
+/// What it says of a surface of `size`, whose width alone may be given; not known if it is empty.
+PhysicalSize metres_of(const Numbers& given, Size size);
+
 Port image_port(const std::string& name, const std::string& help);
 Port material_port(const std::string& name, const std::string& help);
 

@@ -11,6 +11,7 @@
 #include "core/file/file_io.h"
 #include "core/image/color.h"
 #include "core/node/node.h"
+#include "nodes/common/node_helpers.h"
 #include "nodes/exchange/scene.h"
 #include "nodes/sink/export_paths.h"
 #include "nodes/sink/map_files.h"
@@ -58,9 +59,7 @@ std::string name_of_files(const std::string& given, const Material& material) {
 /// The surface's size: as the parameter says, else as the material knows it; not known if neither does.
 PhysicalSize metres_of(const NodeContext& node, const Material& material) {
   const Numbers& given = node.numbers("metres");
-  if (given.empty()) return material.metres();
-  const Size size = material.size();
-  return {given[0], given.size() > 1 ? given[1] : given[0] * size.height / size.width};
+  return given.empty() ? material.metres() : metres_of(given, material.size());
 }
 
 fs::path folder_for(const NodeContext& node, const Material& material) {
@@ -231,15 +230,7 @@ std::vector<Param> params() {
        .help = "Quality of JPEG files; lower makes smaller files with more artefacts.",
        .min = 1,
        .max = 100},
-      {.name = "metres",
-       .type = ParamType::numbers,
-       .fallback = Numbers{},
-       .help = "Physical size of the surface that the maps show: width and height, or the width alone. Empty: as the "
-               "material knows it.",
-       .min = 0.000001,
-       .max = largest_extent,
-       .unit = "metres",
-       .max_count = 2},
+      metres_param("Empty: as the material knows it."),
       {.name = "repeats",
        .type = ParamType::numbers,
        .fallback = Numbers{1},

@@ -114,7 +114,11 @@ void compute(NodeContext& node) {
   for (const RecognisedMap& m : found) add_alpha(m, sources.at(m.file).image, maps, notes);
   settle_normals(node.text("normal_y"), found, maps, notes);
   for (std::string& n : notes) node.note(std::move(n));
-  const MaterialPtr material = Material::make(material_found.name, std::move(maps));
+  PhysicalSize metres;
+  if (material_found.metres) metres = {(*material_found.metres)[0], (*material_found.metres)[1]};
+  MaterialPtr material = Material::make(material_found.name, std::move(maps), metres);
+  if (const PhysicalSize given = metres_of(node.numbers("metres"), material->size()); given.is_known())
+    material = Material::make(material->name(), material->maps(), given);
   warn_of_smaller_maps(node, *material);
   node.output("material", material);
 }
@@ -192,6 +196,7 @@ NodeType load_material_node() {
        .help = "Which material of a folder that holds several: what the names of its files begin with, such as "
                "Bricks075, or the name of one of its files. Case, resolutions and formats do not count. * and ? stand "
                "for any characters: \"*\" takes all files as one material."},
+      metres_param("Exports carry it on. Empty: as a terrazzo-material.json in the folder says, else not known."),
       {.name = "normal_y",
        .type = ParamType::choice,
        .fallback = "auto",
