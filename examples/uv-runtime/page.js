@@ -485,7 +485,7 @@ const withUnit = (bytes) => bytes >= 10 * 2 ** 20 ? `${(bytes / 2 ** 20).toFixed
 
 function showMemory(uv, pack, maps) {
   // Block compression: BC7 or BC5 takes a byte for a texel, BC4 half a byte.
-  const formats = [["uncompressed", (m) => m.channels], ["BC7, BC5, BC4", (m) => m.channels === 1 ? 0.5 : 1]];
+  const formats = [["uncompressed", (m) => m.channels], ["BC", (m) => m.channels === 1 ? 0.5 : 1]];
   const all = (perTexel, levelsOf) => maps.reduce((sum, m) => sum + sizeOf(levelsOf(m), perTexel(m)), 0);
   const uvBytes = {plain: uv.values.byteLength, packed: pack.indices.byteLength + pack.palette.values.byteLength};
   const columns = formats.map(([, f]) => {
@@ -513,7 +513,8 @@ function showMemory(uv, pack, maps) {
   add(["All maps with mips", ...formats.map(([name]) => name)], "", "th");
   for (const [name, value, kind] of rows) add([name, ...columns.map(value)], kind);
   $("memory-note").textContent = `${maps.length} maps: ${maps.map((m) => m.name).join(", ")}. This page draws from ` +
-    `uncompressed ones: 4 bytes a texel for colours and normals, 1 for one-channel maps.`;
+    `uncompressed ones: 4 bytes a texel for colours and normals, 1 for one-channel maps. BC would be block compression ` +
+    `(BC7, BC5, BC4): 1 byte, and half a byte.`;
   tell({bytesWhole: columns[0].whole, bytesRuntime: columns[0].plain, bytesPacked: columns[0].packed,
         bytesUv: uvBytes.plain, bytesUvPacked: uvBytes.packed});
 }
