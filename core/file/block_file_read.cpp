@@ -31,9 +31,13 @@ Header parse_header(const std::array<uint8_t, header_bytes>& bytes, size_t size)
     throw DamagedFile("it is not a terrazzo value file, or was not written to its end");
   if (size < header_bytes) throw DamagedFile("it ends too early");
   ByteReader in(bytes.data() + magic.size(), bytes.size() - magic.size());
-  if (const auto found = in.get<uint32_t>(); found != version)
-    throw DamagedFile(fmt::format("its format version is {}, and this terrazzo reads version {}: {}", found, version,
-                                  found > version ? "a newer terrazzo wrote it" : "an older terrazzo wrote it"));
+  const auto found = in.get<uint32_t>();
+  if (found < version)
+    throw OutdatedFile(fmt::format(
+        "its format version is {}, and this terrazzo reads version {}: an older terrazzo wrote it", found, version));
+  if (found > version)
+    throw DamagedFile(fmt::format(
+        "its format version is {}, and this terrazzo reads version {}: a newer terrazzo wrote it", found, version));
   Header h;
   h.header.type = in.get<uint32_t>();
   h.header.digest = in.get<Digest>();

@@ -17,6 +17,12 @@ class DamagedFile : public Error {
   using Error::Error;
 };
 
+/// A file that was right for an older terrazzo.
+class OutdatedFile : public DamagedFile {
+ public:
+  using DamagedFile::DamagedFile;
+};
+
 /// Puts numbers (little endian), texts and digests one after the other.
 class ByteWriter {
  public:

@@ -283,6 +283,8 @@ template <typename Read>
 auto naming(const std::filesystem::path& path, const Read& read) {
   try {
     return read();
+  } catch (const OutdatedFile& e) {
+    throw OutdatedFile(fmt::format("{} cannot be used: {}", path.string(), e.what()));
   } catch (const DamagedFile& e) {
     throw DamagedFile(fmt::format("{} cannot be used: {}", path.string(), e.what()));
   } catch (const std::bad_alloc&) {

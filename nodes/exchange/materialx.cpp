@@ -94,7 +94,7 @@ class Writer {
   /// A node that reads a map, and its name.
   std::string image(const char* map, const char* type) {
     const SceneFile& file = *scene_.find(map);
-    const std::string name = std::string(map) + "_image";
+    std::string name = std::string(map) + "_image";
     pugi::xml_node node = add(graph_, "tiledimage", name, type);
     pugi::xml_node input = add_value(node, "file", "filename", file.name);
     // Colours say so; data must say nothing, or readers convert it.

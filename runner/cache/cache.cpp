@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "core/file/atomic_file.h"
+#include "core/file/bytes.h"
 #include "core/file/file_io.h"
 #include "core/file/user_folders.h"
 #include "core/node/serialize.h"
@@ -45,6 +46,7 @@ void Cache::State::warn_unwritten(const Error& why) {
 
 void Cache::State::discard(const std::filesystem::path& path, const Error& why) {
   ::unlink(path.c_str());
+  if (dynamic_cast<const OutdatedFile*>(&why)) return;  // as after every change of the format
   warn(fmt::format("a damaged cache entry was removed: {}", why.what()));
 }
 

@@ -66,6 +66,20 @@ TEST_CASE("a problem with a member of a map, or an item of a list, points at it"
         std::vector<std::string>{"3:/nodes/w", "3:/nodes/w", "3:/nodes/w", "10:/nodes/f/maps/1"});
 }
 
+TEST_CASE("a mistake in several rounds of a loop names them all") {
+  const Workplace w;
+  write_text(w.path / "loop.json",
+             R"({"terrazzo": 1, "graphs": {"one": {"parameters": {"n": {"type": "int"}}, "nodes": {
+ "p": {"type": "pattern", "kind": "gravel", "size": 64, "seed": "$n"},
+ "w": {"type": "weight", "material": "@p", "weights": {"nonsense": 1}}, "s": {"type": "pca", "features": "@w"},
+ "i": {"type": "index", "appearance": "@s"}, "a": {"type": "save_analysis", "index": "@i", "path": "a.tza"}}}},
+ "nodes": {"all": {"type": "one", "foreach": {"values": [1, 2, 3]}, "n": "$item"}}})");
+  const ProgramRun run = w.run({"check", "loop.json"});
+  CHECK(run.code == 2);
+  CHECK(contains(run.err, "the same in all[2] and all[3]"));
+  CHECK(contains(run.err, "let the path tell the rounds of the loop apart"));
+}
+
 TEST_CASE("check warns of what is hardly meant") {
   const Workplace w;
   write_text(w.path / "odd.json", R"({"terrazzo": 1, "nodes": {
