@@ -84,7 +84,8 @@ void warn_of_grey_packings(const std::vector<RecognisedMap>& maps, const std::ma
 
 /// The space that the file, or the sidecar, says; empty if it says none.
 std::string described_color_space(const RecognisedMap& m) {
-  if (m.color_space.empty()) return "";
+  // Of a file that holds colours and something else, such as opacity, only the colours have a space.
+  if (m.color_space.empty() || !is_color(m.semantic)) return "";
   try {
     return canonical_color_space(m.color_space);
   } catch (const Error& e) {
