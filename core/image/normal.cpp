@@ -1,6 +1,9 @@
 #include "core/image/normal.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/image/image_ops.h"
 
 namespace terrazzo {
 
@@ -80,6 +83,17 @@ void normals_from_height(const PixelView& height, const Rect& region, double hei
       const float up = side * (above[0] - below[0] + above[2] - below[2]) + middle * (above[1] - below[1]);
       encode_normal(normalized({-right * scale, -up * scale, 1}), normal_y, out + (size_t(y) * region.width + x) * 3);
     }
+}
+
+ImagePtr with_normal_y(const ImagePtr& image, NormalY wanted) {
+  ImageInfo info = image->info();
+  if (info.semantic != Semantic::normal || info.normal_y == wanted || info.channels < 2) return image;
+  info.normal_y = wanted;
+  const Digest recipe = Hasher().add("flipped green").add(image->digest()).digest();
+  return pixel_by_pixel(info, recipe, {image}, [info](auto in, float* out, int64_t count) {
+    std::copy_n(in[0], count * info.channels, out);
+    flip_green(out, info.channels, count, info.depth);
+  });
 }
 
 }  // namespace terrazzo

@@ -28,6 +28,10 @@ void renormalize(float* pixels, int channels, int64_t count);
 /// 16-bit files gets the value of another step of that file, so that doing it twice gives the same bits.
 void flip_green(float* pixels, int channels, int64_t count, Depth depth);
 
+/// The normal map with green pointing that way, computed when pulled; anything else, and a map that has it so, as it
+/// is.
+ImagePtr with_normal_y(const ImagePtr& image, NormalY wanted);
+
 /// `detail` laid over `base` by rotating it into the base's tangent frame: reoriented normal mapping (Barre-Brisebois
 /// and Hill, Blending in Detail, 2012). A flat detail leaves the base, a flat base gives the detail.
 Vector3f reoriented(const Vector3f& base, const Vector3f& detail);

@@ -6,6 +6,7 @@
 
 #include "core/image/color.h"
 #include "core/image/image_ops.h"
+#include "core/image/normal.h"
 #include "nodes/exchange/export_preset.h"
 
 namespace terrazzo {
@@ -16,15 +17,7 @@ using Channel = FileContent::Channel;
 
 /// A map as files hold it: normals as the preset has them, colours in sRGB.
 ImagePtr conventional(const ImagePtr& map, NormalY wanted) {
-  ImageInfo info = map->info();
-  if (is_color(info.semantic)) return convert_color(map, "srgb_texture");
-  if (info.semantic != Semantic::normal || info.normal_y == wanted || info.channels < 2) return map;
-  info.normal_y = wanted;
-  const Digest recipe = Hasher().add("flipped green").add(map->digest()).digest();
-  return pixel_by_pixel(info, recipe, {map}, [n = info.channels](auto in, float* out, int64_t count) {
-    std::copy_n(in[0], count * n, out);
-    for (int64_t i = 1; i < count * n; i += n) out[i] = 1.0f - out[i];
-  });
+  return is_color(map->info().semantic) ? convert_color(map, "srgb_texture") : with_normal_y(map, wanted);
 }
 
 /// Of what may be filtered or displaced 8 bits are too few: they show as steps.

@@ -17,16 +17,15 @@ void compute(NodeContext& node) {
   ImageInfo info = normal->info();
   if (info.semantic != Semantic::normal || info.channels < 3)
     throw Error("normal", fmt::format("expected a normal map of 3 channels, found {}", describe(*normal)));
-  const bool flips = info.normal_y != normal_y_of(node), renormalizes = node.flag("renormalize");
+  const ImagePtr turned = with_normal_y(normal, normal_y_of(node));
   info.normal_y = normal_y_of(node);
-  if (!flips && !renormalizes) {
-    node.output("normal", normal);
+  if (!node.flag("renormalize")) {
+    node.output("normal", turned);
     return;
   }
-  node.output("normal", pixel_by_pixel(info, node.key(), {normal}, [=](auto in, float* out, int64_t count) {
+  node.output("normal", pixel_by_pixel(info, node.key(), {turned}, [=](auto in, float* out, int64_t count) {
                 std::copy_n(in[0], count * info.channels, out);
-                if (flips) flip_green(out, info.channels, count, info.depth);
-                if (renormalizes) to_stored(info, out, count);
+                to_stored(info, out, count);
               }));
 }
 

@@ -7,7 +7,7 @@
 #include "core/file/file_io.h"
 #include "core/image/color.h"
 #include "core/image/image_file.h"
-#include "core/image/image_ops.h"
+#include "core/image/normal.h"
 #include "core/material/map_names.h"
 #include "core/node/node.h"
 #include "nodes/common/color_space.h"
@@ -22,15 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 ImagePtr with_normals(const ImagePtr& image, const std::string& wish) {
-  ImageInfo info = image->info();
-  const NormalY wanted = wish == "down" ? NormalY::down : NormalY::up;
-  if (wish == "keep" || info.semantic != Semantic::normal || info.normal_y == wanted || info.channels < 2) return image;
-  info.normal_y = wanted;
-  const Digest recipe = Hasher().add("flipped green").add(image->digest()).digest();
-  return pixel_by_pixel(info, recipe, {image}, [n = info.channels](auto in, float* out, int64_t count) {
-    std::copy_n(in[0], count * n, out);
-    for (int64_t i = 1; i < count * n; i += n) out[i] = 1.0f - out[i];
-  });
+  return wish == "keep" ? image : with_normal_y(image, wish == "down" ? NormalY::down : NormalY::up);
 }
 
 std::vector<Map> chosen_maps(const NodeContext& node, const Material& material) {
