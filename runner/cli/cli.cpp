@@ -78,6 +78,11 @@ std::string direction_hint(const CLI::App* command, const std::string& arg) {
                                                                  : "";
 }
 
+std::string hint_for_option(const CLI::App* command, const std::string& arg) {
+  const std::string set = set_hint(*command, arg);
+  return set.empty() ? suggestion(arg.substr(0, arg.find('=')), option_names(command)) : set;
+}
+
 /// Arguments that nothing takes, each with the nearest thing that exists; empty if there are none. What follows an
 /// unknown command would be that command's; what follows an unknown option may be its value, or be left over because
 /// its value has been taken for an argument.
@@ -89,10 +94,9 @@ std::string unknown_arguments(const CLI::App* command) {
     is_after_option |= arg.starts_with("-");
     const std::vector<std::string> commands = command_names(command);
     const std::string line =
-        arg.starts_with("-")
-            ? fmt::format("unknown option {}{}", arg, suggestion(arg.substr(0, arg.find('=')), option_names(command)))
-        : commands.empty() ? fmt::format("unexpected argument {}{}", arg, direction_hint(command, arg))
-                           : fmt::format("unknown command {}{}", arg, suggestion(arg, commands));
+        arg.starts_with("-") ? fmt::format("unknown option {}{}", arg, hint_for_option(command, arg))
+        : commands.empty()   ? fmt::format("unexpected argument {}{}", arg, direction_hint(command, arg))
+                             : fmt::format("unknown command {}{}", arg, suggestion(arg, commands));
     out += (out.empty() ? "" : "\n") + line;
     if (!arg.starts_with("-") && !commands.empty()) break;
   }

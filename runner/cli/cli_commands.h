@@ -6,6 +6,8 @@
 #include <memory>
 #include <string>
 
+#include "core/file/file_io.h"
+#include "graphs/document/problem.h"
 #include "runner/cache/cache.h"
 
 namespace CLI {
@@ -29,6 +31,20 @@ class UsageError : public Error {
  public:
   using Error::Error;
 };
+
+/// Runs something whose errors are the command line's fault, but for those of files and graphs.
+template <typename Act>
+auto as_usage(const Act& act) {
+  try {
+    return act();
+  } catch (const FileError&) {
+    throw;
+  } catch (const GraphError&) {
+    throw;
+  } catch (const Error& e) {
+    throw UsageError(e.what());
+  }
+}
 
 using Chosen = std::function<int()>;
 

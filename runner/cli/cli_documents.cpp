@@ -72,7 +72,7 @@ void compare_seeds(const DocumentFlags& flags, const std::string& before, const 
 }
 
 int regroup(const DocumentFlags& flags, const std::function<std::string(const std::string&)>& rewrite) {
-  const std::string before = read_document(flags.graph), after = rewrite(before);
+  const std::string before = read_document(flags.graph), after = as_usage([&] { return rewrite(before); });
   compare_seeds(flags, before, after);
   write_changed(flags, after);
   return exit_done;
@@ -86,8 +86,8 @@ int group_to_file(const DocumentFlags& flags) {
   const fs::path folder = fs::absolute(flags.out.empty() ? flags.graph : flags.out).lexically_normal().parent_path();
   const fs::path type = fs::absolute(flags.to).lexically_normal().lexically_relative(folder);
   const std::string before = read_document(flags.graph);
-  const GraphInFile moved = moved_to_file(grouped(before, flags.graph, flags.name, flags.nodes), flags.graph,
-                                          flags.name, type.generic_string());
+  const std::string grouped_text = as_usage([&] { return grouped(before, flags.graph, flags.name, flags.nodes); });
+  const GraphInFile moved = moved_to_file(grouped_text, flags.graph, flags.name, type.generic_string());
   write_whole_file(flags.to, moved.graph);
   say("wrote {}\n", flags.to);
   write_changed(flags, moved.document);

@@ -1,6 +1,9 @@
 #include "runner/cli/cli_graph.h"
 
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "graphs/document/pack.h"
 #include "graphs/document/read_document.h"
@@ -42,12 +45,34 @@ void add_value_flags(CLI::App& command, GraphFlags& flags) {
       "Sets what a file says, an object of values by name. Counts more than presets, less than --set");
 }
 
-std::string help_on_graph(const CLI::App& command) {
+namespace {
+
+/// The graph file that has been named; empty if the command takes none or none has been named.
+std::filesystem::path named_graph(const CLI::App& command) {
   const CLI::Option* graph = command.get_option_no_throw("GRAPH");
-  if (!graph || graph->results().empty()) return "";
+  if (!graph || graph->results().empty()) return {};
   const std::string& file = graph->results().front();
-  return graph_reference(
-      file, read_interface(is_pack(file) ? unpacked(file, pack_folder()) / "graph.json" : std::filesystem::path(file)));
+  return is_pack(file) ? unpacked(file, pack_folder()) / "graph.json" : std::filesystem::path(file);
+}
+
+}  // namespace
+
+std::string set_hint(const CLI::App& command, const std::string& option) {
+  const std::string name = option.substr(std::min(option.size(), size_t{2}), option.find('=') - 2);
+  try {
+    const std::filesystem::path graph = named_graph(command);
+    if (graph.empty() || !command.get_option_no_throw("--set")) return "";
+    for (const GraphParameter& p : read_interface(graph).parameters)
+      if (p.param.name == name) return fmt::format("; --set {0}=VALUE sets the graph's parameter {0}", name);
+  } catch (const Error&) {
+    // A graph that cannot be read has been complained about, or will be.
+  }
+  return "";
+}
+
+std::string help_on_graph(const CLI::App& command) {
+  const std::filesystem::path graph = named_graph(command);
+  return graph.empty() ? "" : graph_reference(command.get_option("GRAPH")->results().front(), read_interface(graph));
 }
 
 }  // namespace terrazzo

@@ -25,6 +25,9 @@ void add_graph_argument(CLI::App& command, GraphFlags& flags);
 /// --set, --preset and --params.
 void add_value_flags(CLI::App& command, GraphFlags& flags);
 
+/// How to set a parameter of the command's graph that was taken for an option ("--seed"); empty if it has none such.
+std::string set_hint(const CLI::App& command, const std::string& option);
+
 /// What `COMMAND GRAPH --help` adds about the graph; empty if the command takes none or none has been named. Throws
 /// GraphError.
 std::string help_on_graph(const CLI::App& command);

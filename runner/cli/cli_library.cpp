@@ -60,22 +60,10 @@ class WorkFolder {
   fs::path path_;
 };
 
-/// What is wrong with a name is the command line's fault.
-template <typename Act>
-auto by_name(const Act& act) {
-  try {
-    return act();
-  } catch (const FileError&) {
-    throw;
-  } catch (const Error& e) {
-    throw UsageError(e.what());
-  }
-}
-
 int add(const LibraryFlags& flags) {
   const Library library = flags.open();
   const std::string& name = flags.name;
-  by_name([&] { require_library_name(name); });
+  as_usage([&] { require_library_name(name); });
   if (!flags.force && library.contains(name))
     throw UsageError(fmt::format("{} is in the library {}; --force replaces it", name, library.folder().string()));
   const WorkFolder work(library.folder());
@@ -202,7 +190,7 @@ int check(const LibraryFlags& flags) {
   std::vector<std::string> faults;
   std::vector<LibraryEntry> entries;
   if (flags.names.empty()) entries = library.entries(faults);
-  for (const std::string& name : flags.names) entries.push_back(by_name([&] { return library.find(name); }));
+  for (const std::string& name : flags.names) entries.push_back(as_usage([&] { return library.find(name); }));
   for (const std::string& fault : faults) answer("{}\n", fault);
   size_t faulty = faults.size();
   for (const LibraryEntry& e : entries) {
@@ -220,7 +208,7 @@ int check(const LibraryFlags& flags) {
 int remove(const LibraryFlags& flags) {
   const Library library = flags.open();
   for (const std::string& name : flags.names) {
-    by_name([&] { library.remove(name); });
+    as_usage([&] { library.remove(name); });
     say("removed {}\n", name);
   }
   return exit_done;

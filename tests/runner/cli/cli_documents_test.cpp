@@ -80,6 +80,16 @@ TEST_CASE("a mistake in several rounds of a loop names them all") {
   CHECK(contains(run.err, "let the path tell the rounds of the loop apart"));
 }
 
+TEST_CASE("a parameter of the graph that is taken for an option is told how to be set") {
+  const Workplace w;
+  for (const char* arg : {"--radius", "--radius=2"}) {
+    const ProgramRun run = w.run({"run", "soft.json", arg});
+    CHECK(run.code == 2);
+    CHECK(contains(run.err, "--set radius=VALUE sets the graph's parameter radius"));
+  }
+  CHECK(contains(w.run({"run", "soft.json", "--swep", "radius=1"}).err, "did you mean \"--sweep\"?"));
+}
+
 TEST_CASE("check warns of what is hardly meant") {
   const Workplace w;
   write_text(w.path / "odd.json", R"({"terrazzo": 1, "nodes": {
@@ -144,7 +154,9 @@ TEST_CASE("group, ungroup, format and diff on files") {
   CHECK(read_text(w.path / "grouped.json") == read_text(w.path / "plain.json"));
   CHECK(w.run({"diff", "soft.json", "grouped.json"}).code == 0);
   CHECK(read_text(w.path / "soft.json") == before);
-  CHECK(w.run({"group", "plain.json", "part", "sof"}).err.find("did you mean \"soft\"?") != std::string::npos);
+  const ProgramRun misspelt = w.run({"group", "plain.json", "part", "sof"});
+  CHECK(misspelt.code == 2);
+  CHECK(contains(misspelt.err, "did you mean \"soft\"?"));
 }
 
 TEST_CASE("a pack runs where nothing else is") {
