@@ -119,6 +119,8 @@ class Writer {
   void add_geometry() {
     const PhysicalSize plane = scene_.plane();
     for (const Part& p : plane_parts(plane)) {
+      // Without normals nothing reads them.
+      if (p.name && p.name == std::string_view("TANGENT") && !scene_.find("normal")) continue;
       const int view = add_view(p.bytes, p.name ? array_buffer : element_array_buffer);
       ordered_json accessor = {{"bufferView", view},
                                {"componentType", p.name ? component_float : component_short},
