@@ -108,8 +108,8 @@ TEST_CASE("check warns of what is hardly meant") {
 
 TEST_CASE("synth makes twice the exemplar unless it is told otherwise, and warns of less surface") {
   const Workplace w;
-  REQUIRE(w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/generate-exemplar.json", "--set", "type=gravel", "--set",
-                 "size=32x40", "--set", "out=stone"})
+  REQUIRE(w.run({"run", std::string(TERRAZZO_SOURCE_DIR) + "/graphs/generate-exemplar.json", "--set", "type=gravel",
+                 "--set", "size=32x40", "--set", "out=stone"})
               .code == 0);
   CHECK(w.run({"synth", "stone", "-o", "twice", "--quality", "draft"}).code == 0);
   CHECK(read_image_info(w.path / "twice/height.png").size == Size{64, 80});
