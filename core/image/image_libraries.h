@@ -11,9 +11,9 @@
 #include "core/image/image_file.h"
 
 /// What terrazzo uses of OpenImageIO and OpenColorIO. The two bring some 250 shared libraries along, and linking those
-/// takes ten times as long as a run that finds everything cached. So what uses them (core/libraries/) is a module of
-/// its own, which is loaded when something is first asked of it. The module knows nothing of the rest of terrazzo but
-/// headers. Every function throws Error with the library's own reason.
+/// takes ten times as long as a run that finds everything cached. So what uses them (core/image/libraries/) is a module
+/// of its own, which is loaded when something is first asked of it. The module knows nothing of the rest of terrazzo
+/// but headers. Every function throws Error with the library's own reason.
 namespace terrazzo {
 
 /// What an image file says of itself.
