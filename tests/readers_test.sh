@@ -74,6 +74,8 @@ else {
   for (const input of ['diffuseColor', 'normal', 'roughness', 'occlusion']) {
     const texture = reader.getTexture(material[input + 'TextureId'] ?? -1);
     if (texture?.wrapS !== 'repeat' || texture?.wrapT !== 'repeat') wrong.push(`${input} has no texture that repeats`);
+    const image = texture?.textureImageId, space = image === undefined ? '' : reader.getImage(image).usdColorSpace;
+    if (space && space !== (input === 'diffuseColor' ? 'srgb' : 'raw')) wrong.push(`${input} has colour space ${space}`);
   }
   if (material.useSpecularWorkflow) wrong.push('it uses the specular workflow');
   const extent = Math.max(...points) - Math.min(...points);
@@ -86,6 +88,8 @@ JS
 node read.mjs usd-png-2/old_bricks.usda 3 || failed=1
 grep -v wrapT usd-png-2/old_bricks.usda >wrong.usda
 node read.mjs wrong.usda 3 >said && { echo "textures that do not repeat passed"; failed=1; }
+sed 's/"raw"/"auto"/' usd-png-2/old_bricks.usda >wrong.usda
+node read.mjs wrong.usda 3 >said && { echo "data maps whose colour space is left open passed"; failed=1; }
 sed 's/inputs:roughness.connect/inputs:rougness.connect/' usd-png-2/old_bricks.usda >wrong.usda
 node read.mjs wrong.usda 3 >said && { echo "a map that is left unconnected passed"; failed=1; }
 exit $failed
