@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs missing packages, builds, and runs every test: one run of the test program for each room. Arguments go to
-# ctest: tests/run.sh -R runner/cache, or -C long for the tests that need Blender too. A single test is quicker without it, and -d tells how long each takes:
+# ctest: tests/run.sh -R runner/cache. With -C long it also runs what needs Blender or Godot. A single test is quicker
+# without it, and -d tells how long each takes:
 #   build/tests/terrazzo_tests -d -tc="*cache*"
 # Under the sanitizers: tests/sanitize.sh.
 set -euo pipefail
