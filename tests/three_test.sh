@@ -83,7 +83,8 @@ const lit = (azimuth, more) => ({azimuth, expected: `lit-${azimuth}.png`, ...mor
 const bare = (azimuth, more) => ({azimuth, expected: `bare-${azimuth}.png`, ...more});
 const gltf = (folder, kind) => ({page: 'three', reader: 'gltf', file: `${folder}/old_stones.${kind}`, maps, metres: 3});
 const usd = folder => ({page: 'three', reader: 'usd', file: `${folder}/old_stones.usda`, maps, metres: 3});
-const engine = (folder, engine) => ({page: 'three', reader: 'engine', engine, file: `${folder}/${engine === 'unreal' ? 'T_' : ''}old_stones{}`, maps});
+const engine = (folder, engine) => ({
+  page: 'three', reader: 'engine', engine, file: `${folder}/${engine === 'unreal' ? 'T_' : ''}old_stones{}`, maps});
 const library = folder => ({page: 'materialx', reader: 'materialx', file: `${folder}/old_stones.mtlx`});
 const nodes = folder => ({page: 'nodes', file: `${folder}/old_stones.mtlx`});
 
@@ -95,10 +96,12 @@ for (const preset of ['materialx', 'materialx_openpbr']) {
   add(preset, false, bare(135, library(preset)));
   add(`${preset} in three.js`, false, bare(45, nodes(preset)));
 }
-for (const folder of ['green-flipped', 'channels-swapped', 'three-reds', 'curve-on-data', 'linear-colour', 'normal-unconnected', 'transform-missing'])
+for (const folder of ['green-flipped', 'channels-swapped', 'three-reds', 'curve-on-data', 'linear-colour',
+                      'normal-unconnected', 'transform-missing'])
   add(folder, true, lit(135, gltf(folder, 'gltf')));
 for (const folder of ['usd-swapped', 'usd-unconnected']) add(folder, true, lit(135, usd(folder)));
-for (const folder of ['mtlx-linear-colour', 'mtlx-unconnected', 'mtlx-once', 'mtlx-wrong-type']) add(folder, true, bare(135, library(folder)));
+for (const folder of ['mtlx-linear-colour', 'mtlx-unconnected', 'mtlx-once', 'mtlx-wrong-type'])
+  add(folder, true, bare(135, library(folder)));
 add('green-up', true, lit(135, engine('green-up', 'unreal')));
 add('not-smooth', true, lit(135, engine('not-smooth', 'unity_hdrp')));
 console.log(JSON.stringify(jobs));

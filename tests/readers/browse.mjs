@@ -9,8 +9,9 @@ import { spawn } from 'child_process';
 const [browser, jobsFile] = process.argv.slice(2);
 const jobs = JSON.parse(fs.readFileSync(jobsFile));
 const pages = path.dirname(new URL(import.meta.url).pathname), folder = process.cwd();
-const types = {'.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm', '.png': 'image/png',
-               '.jpg': 'image/jpeg'};
+const types = {
+  '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm', '.png': 'image/png', '.jpg': 'image/jpeg',
+};
 let chromium, silence, failed = false;
 
 function leave(code) {
@@ -78,8 +79,10 @@ const server = http.createServer(async (request, response) => {
 
 server.listen(0, '127.0.0.1', () => {
   const at = `http://127.0.0.1:${server.address().port}`;
-  chromium = spawn(browser, ['--headless=new', '--no-sandbox', '--disable-breakpad', '--use-gl=angle', '--use-angle=swiftshader',
-    '--enable-unsafe-swiftshader', `--user-data-dir=${path.join(folder, 'profile')}`, `${at}/pages/${left.shift()}.html`], {stdio: 'ignore', detached: true});
+  chromium = spawn(browser, [
+    '--headless=new', '--no-sandbox', '--disable-breakpad', '--use-gl=angle', '--use-angle=swiftshader',
+    '--enable-unsafe-swiftshader', `--user-data-dir=${path.join(folder, 'profile')}`, `${at}/pages/${left.shift()}.html`,
+  ], {stdio: 'ignore', detached: true});
   chromium.on('exit', () => { console.error('the browser ended'); leave(1); });
   heard();
 });

@@ -70,7 +70,14 @@ export function sceneOf(job) {
 }
 
 // Images load beside what asks for them.
-export const loaded = () => new Promise(done => setTimeout(done, 300));
+let busy = false;
+THREE.DefaultLoadingManager.onStart = () => { busy = true; };
+THREE.DefaultLoadingManager.onLoad = () => { busy = false; };
+export async function loaded() {
+  const pause = () => new Promise(done => setTimeout(done, 50));
+  do await pause(); while (busy);
+  await pause();
+}
 
 // A plane with tangents, 1 m wide, which shows the maps so often.
 export function planeOf(material, repeats = 1) {
