@@ -131,7 +131,8 @@ void write_odd(const std::filesystem::path& path, const OddFile& file, const std
   if (file.mip) spec.attribute("textureformat", "Plain Texture");
   for (const auto& [name, value] : file.attributes) spec.attribute(name, value);
   if (file.images > 1) {
-    const std::vector<OIIO::ImageSpec> specs(file.images, spec);
+    std::vector<OIIO::ImageSpec> specs(file.images, spec);
+    for (size_t i = 0; i < file.part_names.size(); i++) specs[i].attribute("oiio:subimagename", file.part_names[i]);
     REQUIRE(out->open(path.string(), file.images, specs.data()));
   } else {
     REQUIRE_MESSAGE(out->open(path.string(), spec), out->geterror());

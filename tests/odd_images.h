@@ -38,6 +38,7 @@ struct OddFile {
   int x = 0, y = 0;                          ///< where the data begins
   int tile = 0;                              ///< side of the tiles; 0 = none
   int images = 1;                            ///< so many images, each with the same pixels
+  std::vector<std::string> part_names{};     ///< for EXR: one for each of `images`
   bool mip = false;                          ///< a second, smaller level
 };
 /// Writes floats (0..1 is the range of integer types) through OpenImageIO, in the format of the path's extension.

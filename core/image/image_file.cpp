@@ -16,13 +16,13 @@ std::string lower_extension(const std::filesystem::path& path) {
 }  // namespace
 
 bool looks_like_image(const std::filesystem::path& path) {
-  static const std::vector<std::string> known = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr",
-                                                 ".tga", ".bmp", ".hdr",  ".gif", ".webp", ".psd"};
+  static const std::vector<std::string> known = {".png", ".jpg", ".jpeg", ".tif",  ".tiff", ".exr", ".tga",
+                                                 ".bmp", ".hdr", ".gif",  ".webp", ".psd",  ".tx"};
   return std::find(known.begin(), known.end(), lower_extension(path)) != known.end();
 }
 
 std::string_view name_of(FileFormat format) {
-  constexpr std::array<std::string_view, 5> names = {"PNG", "TIFF", "EXR", "JPEG", "TGA"};
+  constexpr std::array<std::string_view, 6> names = {"PNG", "TIFF", "EXR", "JPEG", "TGA", "TX"};
   return names[static_cast<size_t>(format)];
 }
 
@@ -31,6 +31,7 @@ bool holds(FileFormat format, Depth depth) {
     case FileFormat::png:
       return depth == Depth::u8 || depth == Depth::u16;
     case FileFormat::tiff:
+    case FileFormat::tx:
       return true;
     case FileFormat::exr:
       return depth == Depth::f16 || depth == Depth::f32;
@@ -48,6 +49,7 @@ std::optional<FileFormat> format_from(const std::filesystem::path& path) {
   if (e == ".exr") return FileFormat::exr;
   if (e == ".jpg" || e == ".jpeg") return FileFormat::jpeg;
   if (e == ".tga") return FileFormat::tga;
+  if (e == ".tx") return FileFormat::tx;
   return std::nullopt;
 }
 

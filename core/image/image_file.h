@@ -13,7 +13,14 @@
 namespace terrazzo {
 
 /// The formats that can be written.
-enum class FileFormat : uint8_t { png, tiff, exr, jpeg, tga };
+enum class FileFormat : uint8_t {
+  png,
+  tiff,
+  exr,
+  jpeg,
+  tga,
+  tx  ///< a TIFF file of tiles and mip levels, as renderers' texture systems take it (OpenImageIO's maketx)
+};
 
 /// What a file says of itself without its pixels being read.
 struct FileInfo {
@@ -21,6 +28,7 @@ struct FileInfo {
   int channels = 0;
   Depth depth = Depth::u8;
   std::string description{};  ///< of PNG, TIFF and EXR files, as write_image stores it
+  std::string layer{};        ///< see read_layer_infos
 };
 
 /// Whether the name ends like an image file that can be read.
@@ -33,24 +41,31 @@ void require_image_file(const std::filesystem::path& path);
 /// there is no such file, what it takes to read it is not installed, or its end is missing.
 void require_readable_image(const std::filesystem::path& path);
 
-FileInfo read_image_info(const std::filesystem::path& path);
+/// `layer` as in read_image.
+FileInfo read_image_info(const std::filesystem::path& path, const std::string& layer = "");
 
-/// Reads the first image of the file into memory. 1..4 channels come through; palettes are expanded; CMYK and images of
-/// more channels are refused, as are empty, truncated and absurdly large files (over 2^31 pixel values). Alpha is never
-/// multiplied in or divided out of formats that keep it apart. An EXR file comes as its display window, an image with
-/// an orientation tag as it is meant to be seen. Values of 8 bits are exactly k / 255, of 16 bits k / 65535; halfs stay
-/// halfs; integers of other depths become floats. Pixels that are not finite become 0. Normals stored as signed numbers
-/// are encoded. `warn` is told whatever the user should know, a sentence each, beginning with warning_mark if it is
-/// about values that are lost. `info` gives semantic, colour space and normal convention; size, channels and depth are
-/// taken from the file.
+/// The layers of an EXR file: its parts, and the channels of one prefix in them ("normal" of normal.X, normal.Y and
+/// normal.Z). Channels without a prefix are the layer "". Other files are one layer "".
+std::vector<FileInfo> read_layer_infos(const std::filesystem::path& path);
+
+/// Reads the first image of the file into memory, or the EXR layer of that name; case does not count. Without a name a
+/// file's only layer is meant, or that of channels without a prefix. 1..4 channels come through; palettes are expanded;
+/// CMYK and images of more channels are refused, as are empty, truncated and absurdly large files (over 2^31 pixel
+/// values). Alpha is never multiplied in or divided out of formats that keep it apart. An EXR file comes as its display
+/// window, an image with an orientation tag as it is meant to be seen. Values of 8 bits are exactly k / 255, of 16 bits
+/// k / 65535; halfs stay halfs; integers of other depths become floats. Pixels that are not finite become 0. Normals
+/// stored as signed numbers are encoded. `warn` is told whatever the user should know, a sentence each, beginning with
+/// warning_mark if it is about values that are lost. `info` gives semantic, colour space and normal convention; size,
+/// channels and depth are taken from the file.
 ImagePtr read_image(const std::filesystem::path& path, const ImageInfo& info,
-                    const std::function<void(const std::string&)>& warn);
+                    const std::function<void(const std::string&)>& warn, const std::string& layer = "");
 
 struct WriteOptions {
   FileFormat format = FileFormat::png;
   Depth depth = Depth::u8;  ///< must be one the format can hold, see `holds`
   int jpeg_quality = 95;
-  std::string description{};  ///< stored in the file if not empty
+  std::string description{};       ///< stored in the file if not empty
+  std::vector<ImagePtr> levels{};  ///< the mip levels below the image, for tx
 };
 std::string_view name_of(FileFormat format);
 bool holds(FileFormat format, Depth depth);

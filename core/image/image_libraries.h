@@ -36,9 +36,15 @@ struct StoredImage {
 class ImageDecoder {
  public:
   virtual ~ImageDecoder() = default;
+  /// Of the selected layer.
   virtual const StoredImage& header() const = 0;
   virtual bool has_more_images() = 0;
-  /// Reads the stored pixels of the first image, all channels of each together.
+  /// Parts of an EXR file, and channels of one prefix in it: "normal" of normal.X, normal.Y and normal.Z. The one of
+  /// channels without a prefix is "". At least one; other files have only "".
+  virtual std::vector<std::string> layers() const { return {""}; }
+  /// Index into layers(); the first is selected to begin with.
+  virtual void select(size_t) {}
+  /// Reads the stored pixels of the selected layer, all channels of each together.
   virtual void read(Depth as, void* out) = 0;
 };
 
@@ -64,6 +70,8 @@ class ImageEncoder {
   virtual ~ImageEncoder() = default;
   /// The next rows, values of the file's depth.
   virtual void write_rows(int first, int end, const void* values) = 0;
+  /// Ends the level, and begins the next of a mip chain.
+  virtual void next_level(Size) {}
   virtual void finish() = 0;
 };
 
@@ -83,7 +91,7 @@ class ColorConfiguration {
 
 struct ImageLibraries {
   std::unique_ptr<ImageDecoder> (*open_image)(const std::string& path);
-  /// For TIFF, EXR and JPEG. Writes to `sink`, or to the file `name` if that is null.
+  /// For all formats but PNG. Writes to `sink`, or to the file `name` if that is null.
   std::unique_ptr<ImageEncoder> (*create_image)(const std::string& name, const EncodedImage& image, ByteSink* sink);
   /// An OpenColorIO configuration file; the spaces of core/color.h if the path is empty.
   std::shared_ptr<const ColorConfiguration> (*load_colors)(const std::string& path);

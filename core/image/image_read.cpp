@@ -80,9 +80,25 @@ void refuse_absurd_sizes(const fs::path& path, const StoredImage& header) {
                            stored.height, counted(channels, "channel")));
 }
 
-OpenFile open(const fs::path& path) {
-  require_image_file(path);
-  OpenFile file{decoder_of(path)};
+/// "albedo", "normal"; the one of channels without a prefix is not shown.
+std::string listed(const std::vector<std::string>& layers) {
+  std::vector<std::string> names;
+  for (const std::string& l : layers)
+    if (!l.empty()) names.push_back(fmt::format("\"{}\"", l));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+size_t index_of_layer(const fs::path& path, const std::vector<std::string>& layers, const std::string& wanted) {
+  if (wanted.empty() && layers.size() == 1) return 0;
+  for (size_t i = 0; i < layers.size(); i++)
+    if (lowercase(layers[i]) == lowercase(wanted)) return i;
+  if (wanted.empty()) fail(path, fmt::format("it holds the layers {}; say which is meant", listed(layers)));
+  const std::string held = listed(layers);
+  fail(path, fmt::format("it has no layer \"{}\"{}; it holds {}", wanted, did_you_mean(wanted, layers),
+                         held.empty() ? "no named layers" : held));
+}
+
+void require_flat_picture(const fs::path& path, const OpenFile& file) {
   const StoredImage& header = file.header();
   refuse_absurd_sizes(path, header);
   if (header.slices > 1) fail(path, fmt::format("it is a volume of {} slices; expected a flat picture", header.slices));
@@ -96,6 +112,14 @@ OpenFile open(const fs::path& path) {
   if (file.channels() < 1 || file.channels() > 4)
     fail(path, fmt::format("it has {} channels ({}); expected 1 to 4: save the wanted ones as a separate file",
                            file.channels(), fmt::join(header.channels, ", ")));
+}
+
+OpenFile open(const fs::path& path, const std::string& layer) {
+  require_image_file(path);
+  OpenFile file{decoder_of(path)};
+  if (const std::vector<std::string> layers = file.in->layers(); layers.size() > 1 || !layer.empty())
+    file.in->select(index_of_layer(path, layers, layer));
+  require_flat_picture(path, file);
   return file;
 }
 
@@ -206,6 +230,14 @@ void warn_of_layout(const fs::path& path, OpenFile& file, const Warn& warn) {
   if (file.in->has_more_images()) warn(fmt::format("{}: it holds several images; the first was read", name));
 }
 
+/// Nothing was asked for, and the file holds more than was read.
+void warn_of_layers(const fs::path& path, const OpenFile& file, const std::string& layer, const Warn& warn) {
+  const std::vector<std::string> layers = file.in->layers();
+  if (layer.empty() && layers.size() > 1)
+    warn(fmt::format("{}: its channels without a layer were read; it also holds {}", path.filename().string(),
+                     listed(layers)));
+}
+
 ImagePtr read_opened(const fs::path& path, OpenFile& file, const ImageInfo& given, const Warn& warn) {
   ImageInfo info = given;
   info.size = file.upright();
@@ -226,6 +258,10 @@ ImagePtr read_opened(const fs::path& path, OpenFile& file, const ImageInfo& give
   warn_of_zeroed(path, zero_unfinite(floats), warn);
   if (is_normal) encode_signed_normals(path, floats, warn);
   return Image::from_floats(info, std::move(floats));
+}
+
+FileInfo info_of(const OpenFile& file, const std::string& layer) {
+  return {file.upright(), file.channels(), file.header().depth, file.header().description, layer};
 }
 
 }  // namespace
@@ -261,18 +297,33 @@ void require_readable_image(const fs::path& path) {
   if (!is_plain_png()) require_image_libraries();
 }
 
-FileInfo read_image_info(const fs::path& path) {
+FileInfo read_image_info(const fs::path& path, const std::string& layer) {
   require_image_file(path);
   // Such a file needs no decoder to be known.
   const JpegFacts jpeg = read_jpeg_facts(path);
-  if ((jpeg.components == 1 || jpeg.components == 3) && jpeg.bits == 8 && jpeg.size.area() > 0 && !jpeg.has_exif)
-    return {jpeg.size, jpeg.components, Depth::u8, ""};
-  const OpenFile file = open(path);
-  return {file.upright(), file.channels(), file.header().depth, file.header().description};
+  if (layer.empty() && (jpeg.components == 1 || jpeg.components == 3) && jpeg.bits == 8 && jpeg.size.area() > 0 &&
+      !jpeg.has_exif)
+    return {jpeg.size, jpeg.components, Depth::u8};
+  return info_of(open(path, layer), layer);
 }
 
-ImagePtr read_image(const fs::path& path, const ImageInfo& info, const Warn& warn) {
-  OpenFile file = open(path);
+std::vector<FileInfo> read_layer_infos(const fs::path& path) {
+  if (lowercase(path.extension().string()) != ".exr") return {read_image_info(path)};
+  require_image_file(path);
+  const OpenFile file{decoder_of(path)};
+  const std::vector<std::string> layers = file.in->layers();
+  if (layers.size() == 1) require_flat_picture(path, file);  // of several, reading one says what is wrong with it
+  std::vector<FileInfo> infos;
+  for (size_t i = 0; i < layers.size(); i++) {
+    file.in->select(i);
+    infos.push_back(info_of(file, layers[i]));
+  }
+  return infos;
+}
+
+ImagePtr read_image(const fs::path& path, const ImageInfo& info, const Warn& warn, const std::string& layer) {
+  OpenFile file = open(path, layer);
+  warn_of_layers(path, file, layer, warn);
   try {
     return read_opened(path, file, info, warn);
   } catch (const std::bad_alloc&) {

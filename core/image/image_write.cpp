@@ -136,11 +136,18 @@ Clipping write_through(const Image& image, const std::string& name, ByteSink* si
     out = is_png ? create_png(target, *sink) : image_libraries().create_image(name, target, sink);
   });
   Converter converter(image.channels(), target.channels);
-  for_each_strip(image, [&](const Rect& r, const float* pixels) {
-    const void* values = converter.convert(pixels, r.area(), options.depth);
-    encode([&] { out->write_rows(r.y, r.bottom(), values); });
-    progress(double(r.bottom()) / image.height());
-  });
+  const auto write_level = [&](const Image& level, const std::function<void(double)>& tell) {
+    for_each_strip(level, [&](const Rect& r, const float* pixels) {
+      const void* values = converter.convert(pixels, r.area(), options.depth);
+      encode([&] { out->write_rows(r.y, r.bottom(), values); });
+      tell(double(r.bottom()) / level.height());
+    });
+  };
+  write_level(image, progress);
+  for (const ImagePtr& level : options.levels) {
+    encode([&] { out->next_level(level->size()); });
+    write_level(*level, [](double) {});
+  }
   encode([&] { out->finish(); });
   return converter.clipped();
 }
@@ -160,7 +167,7 @@ Clipping write_image(const Image& image, const std::filesystem::path& path, cons
     refuse(reason);
   };
   // TIFF's library finishes half-float files by ways of its own, so it gets no proxy; what it wrote is checked below.
-  const bool is_tiff = options.format == FileFormat::tiff;
+  const bool is_tiff = options.format == FileFormat::tiff || options.format == FileFormat::tx;
   const Clipping clipped = write_through(image, path.string(), is_tiff ? nullptr : &file, options, progress, fail);
   file.close_and_check();
   if (is_tiff && !tiff_is_complete(path)) refuse("not all of it could be written; is the disk full?");

@@ -37,6 +37,13 @@ std::optional<int> tile_of(std::vector<NameWord> words, size_t first, size_t las
   return std::nullopt;
 }
 
+/// Where the tile's word stands in a material's name.
+std::optional<NameWord> udim_word(std::string_view name) {
+  const std::vector<NameWord> words = words_in(name);
+  if (words.empty() || tile_of({words.back()}, 0, 0) != number_in(words.back().text)) return std::nullopt;
+  return words.back();
+}
+
 bool is_tile(const std::string& word, const std::optional<int>& tile) {
   return tile && word == std::to_string(*tile);
 }
@@ -191,6 +198,19 @@ std::vector<FolderMaterial> materials_named(const std::vector<FolderMaterial>& a
     if (!chosen.empty()) return chosen;
   }
   return {};
+}
+
+std::string udim_tile_of(std::string_view name) {
+  const std::optional<NameWord> word = udim_word(name);
+  return word ? word->text : "";
+}
+
+std::string without_udim_tile(std::string_view name) {
+  const std::optional<NameWord> word = udim_word(name);
+  if (!word) return std::string(name);
+  std::string rest(name.substr(0, word->begin));
+  while (!rest.empty() && (rest.back() == '_' || !is_word(rest.back()))) rest.pop_back();
+  return rest;
 }
 
 bool may_belong_to(std::string_view file, const FolderMaterial& material) {

@@ -25,6 +25,12 @@ Stem stem_of(std::string_view name, const std::vector<NameWord>& words, size_t f
 /// The stem that a text means.
 Stem stem_in(std::string_view text);
 
+/// The UDIM tile that a material's name ends in: "1002" of "wall.1002"; empty if it names none.
+std::string udim_tile_of(std::string_view name);
+
+/// The name without it: "wall".
+std::string without_udim_tile(std::string_view name);
+
 /// A map and the stem of its file.
 struct StemmedMap {
   Stem stem;

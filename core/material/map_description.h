@@ -3,20 +3,38 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "core/image/image.h"
+#include "core/material/material.h"
 
-/// What an image file says of itself in its description, as `export` writes it there.
+/// What an image file says in its description of the maps that it holds, on a line of its own. Thread-safe.
+///
+///     terrazzo: normal green=up color_space=raw metres=2x1.5
+///     terrazzo: metallic=r ambient_occlusion=g roughness=1-a color_space=raw
 namespace terrazzo {
 
-/// "terrazzo: normal green=up color_space=raw".
+/// A map in a file.
 struct DescribedMap {
+  std::string name;  ///< "height", "mask_moss"
   Semantic semantic = Semantic::data;
-  std::optional<NormalY> normal_y{};
-  std::string color_space{};  ///< empty if it says none
+  std::string channels{};  ///< of the file: "rgb", "a"; empty: all
+  bool inverted = false;   ///< the file holds 1 - value
 };
 
-/// Nullopt if none of the description's lines begins with "terrazzo: " and a map's name. What is not known is skipped.
-std::optional<DescribedMap> described_map(std::string_view description);
+struct FileDescription {
+  std::vector<DescribedMap> maps;
+  std::optional<NormalY> normal_y{};
+  std::string color_space{};  ///< empty if it says none
+  PhysicalSize metres{};      ///< that the file shows
+};
+
+/// Nullopt if none of the lines begins with "terrazzo: " and names a map. What is not known is skipped.
+std::optional<FileDescription> file_description(std::string_view description);
+
+/// The line for a description.
+std::string description_line(const FileDescription& file);
+
+/// Of an image that is one map.
+FileDescription description_of(const std::string& map, const ImageInfo& info, PhysicalSize metres);
 
 }  // namespace terrazzo

@@ -113,13 +113,11 @@ bool is_bump(const std::string& file) {
   return std::any_of(words.begin(), words.end(), [](const NameWord& w) { return without_digits(w.text) == "bump"; });
 }
 
-std::string described(const RecognisedMap& m) {
-  return m.channels.empty() ? m.file : fmt::format("{} (channel {})", m.file, m.channels);
-}
-
-std::string size_text(const std::vector<MapFile>& files, const std::string& name) {
+std::string size_text(const std::vector<MapFile>& files, const RecognisedMap& m) {
+  const auto& [name, layer] = std::tie(m.file, m.layer);
   for (const MapFile& f : files)
-    if (f.name == name && f.size.area() > 0) return fmt::format(" ({}x{})", f.size.width, f.size.height);
+    if (f.name == name && f.layer == layer && f.size.area() > 0)
+      return fmt::format(" ({}x{})", f.size.width, f.size.height);
   return "";
 }
 
@@ -127,26 +125,30 @@ void note_choice(const Candidate& chosen, const RecognisedMap& passed_over, cons
                  Recognition& out) {
   const RecognisedMap& taken = chosen.map;
   if (taken.semantic == Semantic::normal && taken.normal_y == NormalY::up && passed_over.normal_y == NormalY::down)
-    out.notes.push_back(fmt::format("normal is {} (OpenGL); {} (DirectX) left out", taken.file, passed_over.file));
+    out.notes.push_back(
+        fmt::format("normal is {} (OpenGL); {} (DirectX) left out", taken.place(), passed_over.place()));
   else
-    out.notes.push_back(fmt::format("{} is {}{}; {}{} left out", taken.map, described(taken),
-                                    size_text(files, taken.file), described(passed_over),
-                                    size_text(files, passed_over.file)));
+    out.notes.push_back(fmt::format("{} is {}{}; {}{} left out", taken.map, taken.place(), size_text(files, taken),
+                                    passed_over.place(), size_text(files, passed_over)));
+}
+
+std::string shown(const MapFile& f) {
+  return f.layer.empty() ? f.name : fmt::format("{} (layer {})", f.name, f.layer);
 }
 
 std::vector<Candidate> candidates_among(const std::vector<MapFile>& files, Recognition& out) {
   std::vector<Candidate> found;
   for (const MapFile& f : files) {
-    const std::string reason = reason_to_skip(f.name);
+    const std::string reason = reason_to_skip(f.telling_name());
     if (!reason.empty()) {
-      out.notes.push_back(fmt::format("{} left out: {}", f.name, reason));
+      out.notes.push_back(fmt::format("{} left out: {}", shown(f), reason));
       continue;
     }
     Stem stem;
     const std::vector<RecognisedMap> maps = recognise_map(f, &stem);
-    if (maps.empty()) out.ignored.push_back(f.name);
+    if (maps.empty()) out.ignored.push_back(shown(f));
     for (const RecognisedMap& m : maps) {
-      const bool stands_in = m.inverted || (m.semantic == Semantic::height && is_bump(m.file));
+      const bool stands_in = m.inverted || (m.semantic == Semantic::height && is_bump(f.telling_name()));
       found.push_back({m, stem, stands_in ? 2 : m.channels.empty() ? 0 : 1, f.size.area(), lossiness_of(f.name)});
     }
   }
@@ -154,13 +156,14 @@ std::vector<Candidate> candidates_among(const std::vector<MapFile>& files, Recog
 }
 
 std::vector<RecognisedMap> recognise_name(const MapFile& file, Stem* stem) {
-  const std::vector<NameWord> words = without_workflow(words_of_file(file.name), file.channels);
+  const std::string name = file.telling_name();
+  const std::vector<NameWord> words = without_workflow(words_of_file(name), file.channels);
   const Telling t = find_telling(words, file.channels);
   if (!t.word) return {};
   size_t first = t.first, last = t.last;  // numbers around the word belong to the material: wall_01_color
   while (first + 1 < last && is_digit(words[first].text[0])) first++;
   while (first + 1 < last && is_digit(words[last - 1].text[0])) last--;
-  if (stem) *stem = stem_of(file.name, words, first, last);
+  if (stem) *stem = stem_of(name, words, first, last);
   std::vector<RecognisedMap> maps;
   for (int i = 0; i < t.word->part_count; i++) {
     const WordPart& part = t.word->parts[i];
@@ -168,6 +171,7 @@ std::vector<RecognisedMap> recognise_name(const MapFile& file, Stem* stem) {
     m.map = part.map.empty() ? name_of(part.semantic) : part.map;
     m.semantic = part.semantic;
     m.file = file.name;
+    m.layer = file.layer;
     m.channels = part.channels;
     m.inverted = part.inverted;
     if (part.semantic == Semantic::normal) m.normal_y = t.normal_y ? t.normal_y : convention_beside(words, t);
@@ -178,25 +182,64 @@ std::vector<RecognisedMap> recognise_name(const MapFile& file, Stem* stem) {
 
 }  // namespace
 
+namespace {
+
+std::string without_extension(const std::string& file) {
+  return lowercase(file.substr(0, file.rfind('.')));
+}
+
+/// As mask_moss.png does.
+bool names_a_map(const std::string& file, Semantic semantic) {
+  return semantic_of_map(without_extension(file)) == semantic;
+}
+
+/// A program that dropped channels may have kept the description.
+bool needs_more_channels(const FileDescription& said, int channels) {
+  const std::string_view held = std::string_view("rgba").substr(0, channels ? size_t(channels) : 4);
+  return std::any_of(said.maps.begin(), said.maps.end(),
+                     [&](const DescribedMap& d) { return d.channels.find_first_not_of(held) != std::string::npos; });
+}
+
+}  // namespace
+
+std::string MapFile::telling_name() const {
+  if (layer.empty()) return name;
+  const size_t dot = std::min(name.rfind('.'), name.size());
+  return name.substr(0, dot) + "_" + layer + name.substr(dot);
+}
+
+std::string RecognisedMap::place() const {
+  if (layer.empty() && channels.empty()) return file;
+  if (layer.empty()) return fmt::format("{} (channel {})", file, channels);
+  return fmt::format("{} (layer {}{})", file, layer, channels.empty() ? "" : ", channel " + channels);
+}
+
 std::vector<RecognisedMap> recognise_map(const MapFile& file, Stem* stem) {
-  std::vector<RecognisedMap> maps = recognise_name(file, stem);
-  const std::optional<DescribedMap> described = described_map(file.description);
-  if (!described || maps.size() > 1) return maps;  // a description is of one map; packed files are known by name
-  if (maps.empty() || maps.front().semantic != described->semantic) {
-    // mask_moss.png is that map; of other names all that counts is which material they mean.
-    const std::string whole = lowercase(file.name.substr(0, file.name.rfind('.')));
-    const bool is_map_name = semantic_of_map(whole) == described->semantic;
-    if (stem && maps.empty()) *stem = is_map_name ? Stem() : stem_in(whole);
-    maps = {{.map = is_map_name ? whole : std::string(name_of(described->semantic)),
-             .semantic = described->semantic,
-             .file = file.name,
-             .channels = ""}};
-  }
-  for (RecognisedMap& m : maps) {
-    m.said_by = "its description";
-    m.color_space = described->color_space;
-    if (m.semantic == Semantic::normal && described->normal_y) m.normal_y = described->normal_y;
-  }
+  const std::vector<RecognisedMap> named = recognise_name(file, stem);
+  const std::optional<FileDescription> said = file_description(file.description);
+  if (!said || !file.layer.empty() || needs_more_channels(*said, file.channels)) return named;
+  const bool is_map_name = names_a_map(file.name, said->maps.front().semantic);
+  if (stem && named.empty()) *stem = is_map_name ? Stem() : stem_in(without_extension(file.name));
+  std::vector<RecognisedMap> maps;
+  for (const DescribedMap& d : said->maps)
+    maps.push_back({.map = d.name,
+                    .semantic = d.semantic,
+                    .file = file.name,
+                    .channels = d.channels,
+                    .inverted = d.inverted,
+                    .normal_y = d.semantic == Semantic::normal ? said->normal_y : std::nullopt,
+                    .color_space = said->color_space,
+                    .said_by = "its description"});
+  if (maps.size() > 1 || !maps.front().channels.empty()) return maps;
+  // The file's name may know better which of several of that kind it is, and which way green points.
+  RecognisedMap& only = maps.front();
+  const bool agree = named.size() == 1 && named.front().semantic == only.semantic;
+  if (agree && !only.normal_y) only.normal_y = named.front().normal_y;
+  if (only.map != name_of(only.semantic)) return maps;
+  if (agree)
+    only.map = named.front().map;
+  else if (is_map_name)
+    only.map = without_extension(file.name);
   return maps;
 }
 
@@ -207,6 +250,7 @@ std::string reason_to_skip(const std::string& name) {
   for (const NameWord& word : words_of_file(name)) {
     const std::string& w = word.text;
     if (pictures.count(without_digits(w))) return "a picture of the material, not a map";
+    if (w.starts_with("mip") && w.size() > 3 && is_digit(w[3])) return "a level of a mip chain";
     if (w.starts_with("lod") && w.size() > 3 && is_digit(w[3]) && w != "lod0") return "a lower level of detail";
     glued += w;
   }
@@ -245,12 +289,14 @@ void keep_as_data(const std::vector<std::string>& patterns, const std::vector<Fo
             std::any_of(meant.begin(), meant.end(), [&](const FolderMaterial& m) { return may_belong_to(file, m); }));
   };
   for (const MapFile& f : files) {
-    if (std::find(out.ignored.begin(), out.ignored.end(), f.name) == out.ignored.end() || !is_wanted(f.name)) continue;
-    std::erase(out.ignored, f.name);
-    RecognisedMap m{.map = "data_" + rest_of_name(f.name, out.materials),
+    if (std::find(out.ignored.begin(), out.ignored.end(), shown(f)) == out.ignored.end() || !is_wanted(f.name))
+      continue;
+    std::erase(out.ignored, shown(f));
+    RecognisedMap m{.map = "data_" + rest_of_name(f.telling_name(), out.materials),
                     .semantic = Semantic::data,
                     .file = f.name,
-                    .channels = ""};
+                    .channels = "",
+                    .layer = f.layer};
     candidates.push_back({std::move(m), {}, 0, f.size.area(), lossiness_of(f.name)});
   }
 }
@@ -268,7 +314,7 @@ Recognition recognise_maps(std::vector<MapFile> files, const MapWishes& wishes) 
   for (const Candidate& c : found) stem_count[c.stem.key()]++;
   const auto rank = [&](const Candidate& c) {
     return std::tuple(c.map.semantic, c.map.map, -stem_count[c.stem.key()], c.stand_in,
-                      c.map.normal_y == NormalY::up ? 0 : 1, -c.area, c.lossiness, c.map.file);
+                      c.map.normal_y == NormalY::up ? 0 : 1, -c.area, c.lossiness, c.map.file, c.map.layer);
   };
   std::sort(found.begin(), found.end(), [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); });
 
@@ -280,7 +326,7 @@ Recognition recognise_maps(std::vector<MapFile> files, const MapWishes& wishes) 
     }
     chosen = &c;
     out.maps.push_back(c.map);
-    if (c.map.inverted) out.notes.push_back(fmt::format("roughness is {}, inverted", described(c.map)));
+    if (c.map.inverted) out.notes.push_back(fmt::format("roughness is {}, inverted", c.map.place()));
   }
   return out;
 }

@@ -11,12 +11,16 @@
 /// Megascans, Unreal, Unity and glTF, and plain names. Works on lists; reads no files.
 namespace terrazzo {
 
-/// A file to recognise.
+/// A file to recognise, or a layer of an EXR file.
 struct MapFile {
   std::string name;           ///< with extension, without folder
   Size size;                  ///< in pixels; 0x0 if not known
   int channels = 0;           ///< 0 if not known
   std::string description{};  ///< what the file says of itself
+  std::string layer{};        ///< see read_layer_infos
+
+  /// As the file would be named if it held this layer alone: "wall_normal.exr" of the layer "normal" in wall.exr.
+  std::string telling_name() const;
 };
 
 /// A map and its source.
@@ -29,6 +33,10 @@ struct RecognisedMap {
   std::optional<NormalY> normal_y{};  ///< if the name, or whoever describes the file, says it
   std::string color_space{};          ///< if the file is described; empty: as is usual for the map
   std::string said_by{};              ///< who describes the file; empty: only its name
+  std::string layer{};                ///< of an EXR file, see read_layer_infos
+
+  /// "orm.png (channel g)", "wall.exr (layer normal)".
+  std::string place() const;
 };
 
 struct Recognition {

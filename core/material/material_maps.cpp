@@ -67,7 +67,7 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
     const auto compression_noise = float(tuning->compression_noise);
     for (int c = 1; c < colors; c++)
       if (!channel_is(file, c, compression_noise, [](const float* p) { return p[0]; })) {
-        notes.push_back(fmt::format("{} has channels that differ in {}; the first is used", m.map, m.file));
+        notes.push_back(fmt::format("{} has channels that differ in {}; the first is used", m.map, m.place()));
         break;
       }
     return {0};
@@ -100,14 +100,21 @@ bool is_grey(const Image& image) {
   return channel_is(image, 1, noise, first) && channel_is(image, 2, noise, first);
 }
 
-ImagePtr opacity_of(const ImagePtr& file) {
+bool is_constant(const Image& image) {
+  const std::vector<float> first = image.read({0, 0, 1, 1});
+  for (int c = 0; c < image.channels(); c++)
+    if (!channel_is(image, c, 0, [&](const float*) { return first[size_t(c)]; })) return false;
+  return true;
+}
+
+ImagePtr alpha_of(const ImagePtr& file, Semantic semantic, bool inverted) {
   if (file->channels() % 2 != 0) return nullptr;
   const int alpha = file->channels() - 1;
   if (channel_is(*file, alpha, 0, [](const float*) { return 1.0f; })) return nullptr;
   ImageInfo info = file->info();
-  info.semantic = Semantic::opacity;
+  info.semantic = semantic;
   info.color_space = "raw";
-  return channels_of(file, info, {alpha}, false);
+  return channels_of(file, info, {alpha}, inverted);
 }
 
 }  // namespace terrazzo

@@ -21,7 +21,10 @@ ImagePtr map_of_file(const RecognisedMap& source, const ImagePtr& file, const st
 /// Whether the first three channels are the same, but for compression noise; false if there are fewer.
 bool is_grey(const Image& image);
 
-/// An opacity map out of a file's alpha channel; null if there is none or it is 1 everywhere.
-ImagePtr opacity_of(const ImagePtr& file);
+/// Whether every pixel is the same.
+bool is_constant(const Image& image);
+
+/// A file's alpha channel as a map of that meaning; null if there is none or it is 1 everywhere.
+ImagePtr alpha_of(const ImagePtr& file, Semantic semantic, bool inverted = false);
 
 }  // namespace terrazzo

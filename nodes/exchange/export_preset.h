@@ -75,7 +75,4 @@ std::string metadata_line(const FileContent& file, PhysicalSize metres);
 std::string sidecar_text(const ExportPreset& preset, const std::string& material, PhysicalSize metres,
                          const std::vector<std::pair<std::string, const FileContent*>>& files);
 
-/// The file that holds it.
-inline constexpr std::string_view sidecar_name = "terrazzo-material.json";
-
 }  // namespace terrazzo

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/image/color.h"
+#include "core/material/map_description.h"
 #include "nodes/exchange/export_preset.h"
 
 namespace terrazzo {
@@ -56,17 +57,12 @@ std::string described(const FileContent& file) {
 }
 
 std::string metadata_line(const FileContent& file, PhysicalSize metres) {
-  const ImageInfo& info = file.image->info();
-  std::string out = "terrazzo:";
-  if (!file.whole_map().empty())
-    out += fmt::format(" {}", file.whole_map());
-  else
-    for (const auto& [map, where] : places(file))
-      out += fmt::format(" {}={}{}", map, file.find(map)->inverted ? "1-" : "", where);
-  if (info.semantic == Semantic::normal) out += fmt::format(" green={}", way_of(info.normal_y));
-  out += fmt::format(" color_space={}", info.color_space);
-  if (metres.is_known()) out += fmt::format(" metres={:g}x{:g}", metres.width, metres.height);
-  return out;
+  FileDescription out = description_of(file.whole_map(), file.image->info(), metres);
+  if (!file.whole_map().empty()) return description_line(out);
+  out.maps.clear();
+  for (const auto& [map, where] : places(file))
+    out.maps.push_back({.name = map, .channels = where, .inverted = file.find(map)->inverted});
+  return description_line(out);
 }
 
 std::string sidecar_text(const ExportPreset& preset, const std::string& material, PhysicalSize metres,

@@ -8,6 +8,7 @@
 #include "core/image/color.h"
 #include "core/image/image_file.h"
 #include "core/image/normal.h"
+#include "core/material/map_description.h"
 #include "core/material/map_names.h"
 #include "core/node/node.h"
 #include "nodes/common/color_space.h"
@@ -49,6 +50,7 @@ ImagePtr with_colors(const ImagePtr& image, const std::string& wish, Depth writt
 /// The image as it goes to the file, with the depth it gets there.
 MapFileJob job_for(NodeContext& node, const std::string& name, const ImagePtr& image, const fs::path& target) {
   MapFileJob job{.name = name, .image = with_normals(image, node.text("normal_y")), .target = target};
+  job.has_levels = node.flag("mips");
   job.options.format = required_format("path", target);
   require_depth(job.options.format, node.text("depth"));
   job.options.jpeg_quality = int(node.integer("jpeg_quality"));
@@ -62,28 +64,25 @@ void add_material(NodeContext& node, const Material& material, std::vector<MapFi
   const std::string& pattern = node.text("path");
   const std::vector<Map> maps = chosen_maps(node, material);
   const auto target_of = [&](const Map& m) {
-    return filled("path", pattern,
-                  {{"map", m.name},
-                   {"material", material.name()},
-                   {"width", fmt::format("{}", m.image->width())},
-                   {"height", fmt::format("{}", m.image->height())}});
+    return filled("path", pattern, {m.name, material.name(), m.image->size()});
   };
   target_of(maps.front());  // says what is wrong with the pattern itself
   std::vector<std::string> names;
   for (const Map& m : maps) names.push_back(m.name);
   require_pattern_for(pattern, names);
-  for (const Map& m : maps) jobs.push_back(job_for(node, m.name, m.image, target_of(m)));
+  for (const Map& m : maps) {
+    MapFileJob& job = jobs.emplace_back(job_for(node, m.name, m.image, target_of(m)));
+    job.options.description = description_line(description_of(m.name, job.image->info(), material.metres()));
+  }
 }
 
 fs::path uv_target(const NodeContext& node, const UvMap& uv, const std::string& material) {
   const char* param = param_of_uv(node.params());
-  fs::path target = filled(param, node.text(param),
-                           {{"map", "uv"},
-                            {"material", material},
-                            {"width", fmt::format("{}", uv.size().width)},
-                            {"height", fmt::format("{}", uv.size().height)}});
-  if (required_format("uv_path", target) == FileFormat::jpeg)
-    throw Error("uv_path", fmt::format("the uv map is exact and JPEG is not; expected .exr, .png or .tif, found \"{}\"",
+  fs::path target = filled(param, node.text(param), {"uv", material, uv.size()});
+  const FileFormat format = required_format("uv_path", target);
+  if (format == FileFormat::jpeg || format == FileFormat::tx)
+    throw Error("uv_path", fmt::format("the uv map {}; expected .exr, .png or .tif, found \"{}\"",
+                                       format == FileFormat::jpeg ? "is exact and JPEG is not" : "has no mip levels",
                                        target.filename().string()));
   return target;
 }
@@ -123,7 +122,7 @@ void compute(NodeContext& node) {
     add_pictures(*report, report_path, jobs);
   }
   require_distinct(jobs);
-  for (MapFileJob& job : jobs) job.temporary = node.stage(job.target);
+  for (MapFileJob& job : jobs) stage_job(node, job);
   if (report)
     write_file(node.stage(report_path), is_csv(report_path) ? report_as_csv(*report) : report_as_json(*report));
   write_all(node, jobs);
@@ -143,9 +142,7 @@ std::vector<std::string> check(const Params& params) {
   for (const char* param : {"path", "uv_path"}) {
     if (text(param).empty()) continue;
     attempt([&] {
-      const FileFormat format = required_format(
-          param,
-          filled(param, text(param), {{"map", "map"}, {"material", "material"}, {"width", "1"}, {"height", "1"}}));
+      const FileFormat format = required_format(param, filled(param, text(param), {"map", "material.1001", {1, 1}}));
       if (std::string_view(param) == "path") require_depth(format, text("depth"));
     });
   }
@@ -159,11 +156,13 @@ std::vector<Param> params() {
       {.name = "path",
        .type = ParamType::path,
        .fallback = "",
-       .help =
-           "File name pattern for the maps, with {map} for the map's name, and optionally {material}, {width} and "
-           "{height}. The extension decides the format: png, tif or tiff, exr, jpg or jpeg, tga. Needed if a material "
-           "is connected."},
+       .help = "File name pattern for the maps, with {map} for the map's name, and optionally {material}, {width} and "
+               "{height}, and <UDIM> for the tile that a material such as wall.1002 is; {material} is then wall. The "
+               "extension decides the format: png, tif or tiff, exr, jpg or jpeg, tga, tx (tiles and mip levels, for "
+               "renderers). Needed if a material "
+               "is connected."},
       depth_param(),
+      mips_param(),
       {.name = "color_space",
        .type = ParamType::text,
        .fallback = "keep",
@@ -199,14 +198,16 @@ std::vector<Param> params() {
 NodeType export_node() {
   NodeType t;
   t.name = "export";
-  t.version = 2;
+  t.version = 3;
   t.category = "sink";
   t.summary = "Writes maps, a uv map and a report to files";
   t.help =
       "Writes PNG (8 and 16 bit), TIFF, EXR (half and float), JPEG and TGA, strip by strip, so that results need not "
       "fit in "
       "memory. Every map keeps its depth, colour space and normal convention unless the parameters change them; values "
-      "at the depth they were read are written back exactly. Files appear complete or not at all. At least one input "
+      "at the depth they were read are written back exactly. The description of PNG, TIFF and EXR files says which map "
+      "it is, its convention, colour space and physical size, from which load_material reads it right again. Files "
+      "appear complete or not at all. At least one input "
       "must be connected.";
   t.inputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps to write", .optional = true},

@@ -8,13 +8,38 @@
 #include "core/base/error.h"
 #include "core/base/suggest.h"
 #include "core/image/image_libraries.h"
+#include "core/material/file_stems.h"
 #include "nodes/common/node_helpers.h"
 
 namespace terrazzo {
 
 namespace fs = std::filesystem;
 
-std::string filled(const char* param, const std::string& pattern, const std::map<std::string, std::string>& values) {
+namespace {
+
+constexpr std::string_view udim = "<UDIM>";
+
+std::string with_tile(const char* param, std::string pattern, std::string& material) {
+  if (pattern.find(udim) == std::string::npos) return pattern;
+  const std::string tile = udim_tile_of(material);
+  if (tile.empty())
+    throw Error(param, fmt::format("<UDIM> in \"{}\" is the tile that the material's name ends in, such as "
+                                   "wall.1002; the material is called \"{}\"",
+                                   pattern, material));
+  material = without_udim_tile(material);
+  for (size_t at; (at = pattern.find(udim)) != std::string::npos;) pattern.replace(at, udim.size(), tile);
+  return pattern;
+}
+
+}  // namespace
+
+std::string filled(const char* param, const std::string& given, const PathValues& values) {
+  std::string material = values.material;
+  const std::string pattern = with_tile(param, given, material);
+  const std::map<std::string, std::string> known = {{"map", values.map},
+                                                    {"material", material},
+                                                    {"width", fmt::format("{}", values.size.width)},
+                                                    {"height", fmt::format("{}", values.size.height)}};
   std::string out;
   for (size_t i = 0; i < pattern.size(); i++) {
     if (pattern[i] != '{') {
@@ -24,13 +49,11 @@ std::string filled(const char* param, const std::string& pattern, const std::map
     const size_t end = pattern.find('}', i);
     if (end == std::string::npos) throw Error(param, fmt::format("expected a }} after every {{ in \"{}\"", pattern));
     const std::string name = pattern.substr(i + 1, end - i - 1);
-    const auto at = values.find(name);
-    if (at == values.end())
-      throw Error(
-          param, fmt::format(
-                     "unknown placeholder {{{0}}} in \"{1}\"; known are {{map}}, {{material}}, {{width}} and {{height}}"
-                     "; a parameter of the graph is written ${0}",
-                     name, pattern));
+    const auto at = known.find(name);
+    if (at == known.end())
+      throw Error(param, fmt::format("unknown placeholder {{{0}}} in \"{1}\"; known are {{map}}, {{material}}, "
+                                     "{{width}}, {{height}} and <UDIM>; a parameter of the graph is written ${0}",
+                                     name, pattern));
     out += at->second;
     i = end;
   }
@@ -40,10 +63,11 @@ std::string filled(const char* param, const std::string& pattern, const std::map
 FileFormat required_format(const char* param, const fs::path& path) {
   if (const auto format = format_from(path)) return *format;
   const std::string extension = path.extension().string();
-  throw Error(param, fmt::format("the extension decides the file format, and \"{}\" ends in {}; expected .png, .tif, "
-                                 ".tiff, .exr, .jpg, .jpeg or .tga{}",
-                                 path.filename().string(), extension.empty() ? "no extension" : "\"" + extension + "\"",
-                                 did_you_mean(extension, {".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".tga"})));
+  throw Error(param,
+              fmt::format("the extension decides the file format, and \"{}\" ends in {}; expected .png, .tif, "
+                          ".tiff, .exr, .jpg, .jpeg, .tga or .tx{}",
+                          path.filename().string(), extension.empty() ? "no extension" : "\"" + extension + "\"",
+                          did_you_mean(extension, {".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".tga", ".tx"})));
 }
 
 void require_pattern_for(const std::string& pattern, const std::vector<std::string>& maps) {
@@ -85,7 +109,7 @@ namespace {
 FutureFile future_file(const char* param, const std::string& pattern, const std::string& map, const std::string& what) {
   std::string path = pattern;
   for (size_t at; !map.empty() && (at = path.find("{map}")) != std::string::npos;) path.replace(at, 5, map);
-  const fs::path known = path.substr(0, path.find('{'));
+  const fs::path known = path.substr(0, std::min(path.find('{'), path.find(udim)));
   return {param, known.parent_path(), known == path ? known.filename().string() : "", what};
 }
 

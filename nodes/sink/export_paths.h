@@ -11,8 +11,16 @@
 /// Where the node `export` writes to, as far as its parameters say. All throw Error naming the parameter.
 namespace terrazzo {
 
-/// Fills {name} placeholders; throws for unknown ones and unmatched braces.
-std::string filled(const char* param, const std::string& pattern, const std::map<std::string, std::string>& values);
+/// What stands for the placeholders of a pattern.
+struct PathValues {
+  std::string map;
+  std::string material;
+  Size size;
+};
+
+/// Fills {map}, {material}, {width}, {height} and <UDIM>, the tile that the material's name ends in; beside that,
+/// {material} is the name without it. Throws for unknown ones, unmatched braces, and materials that are no tiles.
+std::string filled(const char* param, const std::string& pattern, const PathValues& values);
 
 /// The format that a path's extension names.
 FileFormat required_format(const char* param, const std::filesystem::path& path);

@@ -10,11 +10,13 @@
 #include "core/base/text.h"
 #include "core/file/file_io.h"
 #include "core/image/color.h"
+#include "core/material/file_stems.h"
 #include "core/node/node.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/exchange/scene.h"
 #include "nodes/sink/export_paths.h"
 #include "nodes/sink/map_files.h"
+#include "nodes/source/material_sidecar.h"
 
 namespace terrazzo {
 
@@ -45,14 +47,17 @@ Texts formats_of(PresetDocument document) {
     case PresetDocument::usd:
       return {"png", "jpg", "exr"};
     default:
+      return {"png", "tif", "exr", "jpg", "tga", "tx"};
+    case PresetDocument::blender:
       return {"png", "tif", "exr", "jpg", "tga"};
   }
 }
 
-/// What files are named after.
+/// What files are named after, without the UDIM tile.
 std::string name_of_files(const std::string& given, const Material& material) {
   std::string out;
-  for (const char c : given.empty() ? material.name() : given) out += is_word(c) || c == '-' ? c : '_';
+  for (const char c : without_udim_tile(given.empty() ? material.name() : given))
+    out += is_word(c) || c == '-' ? c : '_';
   return out.empty() ? "material" : out;
 }
 
@@ -63,16 +68,13 @@ PhysicalSize metres_of(const NodeContext& node, const Material& material) {
 }
 
 fs::path folder_for(const NodeContext& node, const Material& material) {
-  const Size size = material.size();
-  return filled("path", node.text("path"),
-                {{"material", material.name()},
-                 {"width", fmt::format("{}", size.width)},
-                 {"height", fmt::format("{}", size.height)}});
+  return filled("path", node.text("path"), {"", material.name(), material.size()});
 }
 
 MapFileJob job_for(NodeContext& node, FileContent& content, const fs::path& folder) {
   const std::string& extension = node.text("format");
   MapFileJob job{.name = content.name, .image = content.image, .target = folder / (content.name + "." + extension)};
+  job.has_levels = node.flag("mips");
   job.options.format = *format_from(job.target);
   job.options.jpeg_quality = int(node.integer("jpeg_quality"));
   const bool needs_alpha = job.image->channels() == 4;
@@ -94,14 +96,15 @@ struct TextFile {
   std::string bytes;
 };
 
-TextFile document_for(const ExportPreset& preset, const MaterialScene& scene) {
+TextFile document_for(const ExportPreset& preset, const MaterialScene& scene, const std::vector<MapFileJob>& jobs) {
   switch (preset.document) {
     case PresetDocument::gltf:
       return {scene.name + ".gltf", gltf_text(scene)};
     case PresetDocument::glb: {
       std::vector<std::string> images;
       for (const SceneFile& f : scene.files) {
-        const std::vector<uint8_t> bytes = encoded_file(*f.content->image, {.format = *format_from(f.name)});
+        const auto job = std::ranges::find(jobs, f.name, [](const auto& j) { return j.target.filename().string(); });
+        const std::vector<uint8_t> bytes = encoded_file(*job->image, job->options);
         images.emplace_back(bytes.begin(), bytes.end());
       }
       return {scene.name + ".glb", glb_bytes(scene, images)};
@@ -148,11 +151,13 @@ void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const ExportPreset& preset = preset_of(node.params());
   const std::string name = name_of_files(node.text("name"), *material);
+  const std::string tile = udim_tile_of(material->name()), tiled_name = tile.empty() ? name : name + "." + tile;
   const PhysicalSize metres = metres_of(node, *material);
   const fs::path folder = folder_for(node, *material);
   std::vector<std::string> notes;
   std::vector<FileContent> contents = preset_files(preset, *material, name, notes);
-  MaterialScene scene = has_document(preset) ? scene_of(node, name, metres, *material) : MaterialScene();
+  for (FileContent& c : contents) c.name += tiled_name.substr(name.size());
+  MaterialScene scene = has_document(preset) ? scene_of(node, tiled_name, metres, *material) : MaterialScene();
   std::vector<MapFileJob> jobs;
   for (FileContent& c : contents) jobs.push_back(job_for(node, c, folder));
   require_distinct(jobs);
@@ -166,13 +171,13 @@ void compute(NodeContext& node) {
   }
   for (std::string& n : notes) node.note(std::move(n));
   if (has_document(preset)) {
-    const TextFile document = document_for(preset, scene);
+    const TextFile document = document_for(preset, scene, jobs);
     write_file(node.stage(folder / document.name), document.bytes);
   }
   if (preset.document == PresetDocument::glb) leave_rest(scene, jobs, listed);
   if (jobs.empty()) return;
-  write_file(node.stage(folder / sidecar_name), sidecar_text(preset, name, metres, listed));
-  for (MapFileJob& job : jobs) job.temporary = node.stage(job.target);
+  write_file(node.stage(folder / sidecar_name(tiled_name)), sidecar_text(preset, tiled_name, metres, listed));
+  for (MapFileJob& job : jobs) stage_job(node, job);
   write_all(node, jobs);
 }
 
@@ -221,9 +226,12 @@ std::vector<Param> params() {
       {.name = "format",
        .type = ParamType::choice,
        .fallback = "png",
-       .help = "File format of the maps. glTF takes png and jpg, USD exr too.",
-       .choices = {"png", "tif", "exr", "jpg", "tga"}},
+       .help =
+           "File format of the maps. glTF takes png and jpg, USD exr too; tx is TIFF with tiles and mip levels, for "
+           "renderers.",
+       .choices = {"png", "tif", "exr", "jpg", "tga", "tx"}},
       depth_param(),
+      mips_param(),
       {.name = "jpeg_quality",
        .type = ParamType::integer,
        .fallback = int64_t{95},
@@ -264,6 +272,7 @@ NodeType export_preset_node() {
       "at least 16 bits, since 8 show as steps.";
   t.inputs = {{.name = "material", .type = ValueType::material, .help = "the maps to write"}};
   t.params = params();
+  t.version = 2;
   t.persist = Persist::digest;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.memory_hint = [](const NodeContext& node) {

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/paths.h"
+#include "core/image/mip_levels.h"
 
 namespace terrazzo {
 
@@ -41,6 +42,7 @@ Depth nearest_depth(FileFormat format, Depth have) {
     case FileFormat::exr:
       return have == Depth::u8 ? Depth::f16 : Depth::f32;
     case FileFormat::tiff:
+    case FileFormat::tx:
       break;
   }
   return have;
@@ -88,6 +90,26 @@ Depth written_depth(FileFormat format, const std::string& wanted, Depth have) {
   return depth_from(wanted).value_or(nearest_depth(format, have));
 }
 
+Param mips_param() {
+  return {.name = "mips",
+          .type = ParamType::boolean,
+          .fallback = false,
+          .help =
+              "Also writes the levels of a mip chain, as files that end in .mip1, .mip2 and so on before the "
+              "extension. Colours are averaged in linear light, normals are made unit length again, masks and labels "
+              "are sampled. TX files hold them in any case."};
+}
+
+void stage_job(NodeContext& node, MapFileJob& job) {
+  job.temporary = node.stage(job.target);
+  if (!job.has_levels || job.options.format == FileFormat::tx) return;
+  for (int level = 1; level < mip_level_count(job.image->size()); level++) {
+    fs::path file = job.target;
+    file.replace_extension(fmt::format(".mip{}{}", level, job.target.extension().string()));
+    job.level_temporaries.push_back(node.stage(file));
+  }
+}
+
 void tell_of_losses(NodeContext& node, const MapFileJob& job, bool depth_was_asked_for) {
   const Depth have = job.image->info().depth;
   if (loses(have, job.options.depth))
@@ -108,11 +130,28 @@ void require_distinct(const std::vector<MapFileJob>& jobs) {
   }
 }
 
+namespace {
+
+/// Writes the file, and its mip levels into it or into files of their own.
+void write_job(MapFileJob& job, const std::function<void(double)>& progress) {
+  const bool has_levels = job.options.format == FileFormat::tx || !job.level_temporaries.empty();
+  std::vector<ImagePtr> levels = has_levels ? mip_levels(job.image) : std::vector{job.image};
+  const ImagePtr image = levels.front();
+  levels.erase(levels.begin());
+  if (job.options.format == FileFormat::tx) job.options.levels = levels;
+  job.clipped = write_image(*image, job.temporary, job.options, progress);
+  for (size_t i = 0; i < job.level_temporaries.size(); i++)
+    write_image(*levels[i], job.level_temporaries[i], job.options, [](double) {});
+  job.options.levels.clear();
+}
+
+}  // namespace
+
 void write_all(NodeContext& node, std::vector<MapFileJob>& jobs) {
   std::mutex mutex;
   std::vector<double> done(jobs.size());
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
-    jobs[i].clipped = write_image(*jobs[i].image, jobs[i].temporary, jobs[i].options, [&](double fraction) {
+    write_job(jobs[i], [&](double fraction) {
       double sum = 0;
       {
         const std::lock_guard lock(mutex);

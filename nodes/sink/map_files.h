@@ -16,6 +16,8 @@ struct MapFileJob {
   ImagePtr image;
   std::filesystem::path target;
   std::filesystem::path temporary{};
+  bool has_levels = false;  ///< mip levels get files of their own
+  std::vector<std::filesystem::path> level_temporaries{};
   WriteOptions options{};
   Clipping clipped{};
 };
@@ -26,6 +28,12 @@ Param depth_param();
 void require_depth(FileFormat format, const std::string& depth);
 /// The depth that the parameter `wanted` says; "keep": the format's nearest to the map's, lossless if there is one.
 Depth written_depth(FileFormat format, const std::string& wanted, Depth have);
+
+/// Parameter "mips" of nodes that write maps.
+Param mips_param();
+
+/// Asks for the temporary files of a job and of its mip levels, wall_normal.mip1.png beside wall_normal.png.
+void stage_job(NodeContext& node, MapFileJob& job);
 
 /// Tells what is lost by the format and depth that have been chosen.
 void tell_of_losses(NodeContext& node, const MapFileJob& job, bool depth_was_asked_for);

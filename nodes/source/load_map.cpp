@@ -30,11 +30,12 @@ void compute(NodeContext& node) {
   ImageInfo info;
   info.semantic = *semantic_from(node.text("semantic"));
   info.normal_y = node.text("normal_y") == "down" ? NormalY::down : NormalY::up;
-  const std::string& path = node.text("path");
+  const std::string &path = node.text("path"), &layer = node.text("layer");
   info.color_space = node.text("color_space") == "auto"
-                         ? assumed_color_space(info.semantic, read_image_info(path).depth)
+                         ? assumed_color_space(info.semantic, read_image_info(path, layer).depth)
                          : color_space_of(node, "color_space");
-  const ImagePtr image = read_image(path, info, [&](const std::string& warning) { node.note(warning); });
+  const ImagePtr image = read_image(
+      path, info, [&](const std::string& warning) { node.note(warning); }, layer);
   if (info.semantic == Semantic::mask) note_transparency(node, *image);
   node.output("image", image);
 }
@@ -54,6 +55,12 @@ NodeType load_map_node() {
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "the map"}};
   t.params = {
       {.name = "path", .type = ParamType::path, .help = "The image file."},
+      {.name = "layer",
+       .type = ParamType::text,
+       .fallback = "",
+       .help =
+           "Which layer of an EXR file that holds several: a part's name, or what stands before the last dot of its "
+           "channels' names. Empty: the channels without a layer, or the only layer."},
       {.name = "semantic",
        .type = ParamType::choice,
        .fallback = "base_color",
@@ -78,7 +85,7 @@ NodeType load_map_node() {
   };
   t.memory_hint = [](const NodeContext& node) {
     try {
-      const FileInfo info = read_image_info(node.text("path"));
+      const FileInfo info = read_image_info(node.text("path"), node.text("layer"));
       return size_t(info.size.area()) * info.channels * 2 * sizeof(float);
     } catch (const Error&) {
       return size_t{0};  // compute reports it
@@ -91,7 +98,7 @@ NodeType load_map_node() {
     Forecast out;
     out.semantic = semantic_from(std::get<std::string>(p.at("semantic")));
     try {
-      out.sizes[""] = read_image_info(path).size;
+      out.sizes[""] = read_image_info(path, std::get<std::string>(p.at("layer"))).size;
     } catch (const Error&) {
       // compute reports it
     }

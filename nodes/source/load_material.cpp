@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include "nodes/common/node_helpers.h"
 #include "nodes/source/material_folder.h"
 #include "nodes/source/normal_checks.h"
+#include "nodes/source/unnamed_packings.h"
 
 namespace terrazzo {
 
@@ -29,57 +31,79 @@ struct Source {
   std::vector<std::string> warnings;
 };
 
+/// A file and, of an EXR file, a layer.
+using Place = std::pair<std::string, std::string>;
+using Sources = std::map<Place, Source>;
+
+Place place_of(const RecognisedMap& m) {
+  return {m.file, m.layer};
+}
+
 /// Reads each file once, several at a time.
-std::map<std::string, Source> read_sources(NodeContext& node, const fs::path& folder,
-                                           const std::vector<RecognisedMap>& maps) {
-  std::map<std::string, Source> sources;
-  std::map<std::string, Semantic> semantics;
+Sources read_sources(NodeContext& node, const fs::path& folder, const std::vector<RecognisedMap>& maps) {
+  Sources sources;
+  std::map<Place, Semantic> semantics;
   for (const RecognisedMap& m : maps) {
-    sources[m.file];
-    semantics.emplace(m.file, m.semantic);
+    sources[place_of(m)];
+    semantics.emplace(place_of(m), m.semantic);
   }
-  std::vector<std::pair<const std::string, Source>*> entries;
+  std::vector<std::pair<const Place, Source>*> entries;
   for (auto& entry : sources) entries.push_back(&entry);
   tbb::parallel_for(size_t{0}, entries.size(), [&](size_t i) {
     node.task().check();
-    const std::string& file = entries[i]->first;
+    const auto& [file, layer] = entries[i]->first;
     Source& source = entries[i]->second;
     ImageInfo info;
-    info.semantic = semantics.at(file);
-    source.image = read_image(folder / file, info, [&](const std::string& w) { source.warnings.push_back(w); });
+    info.semantic = semantics.at(entries[i]->first);
+    source.image = read_image(
+        folder / file, info, [&](const std::string& w) { source.warnings.push_back(w); }, layer);
   });
-  for (const auto& [file, source] : sources)
+  for (const auto& [place, source] : sources)
     for (const std::string& warning : source.warnings) node.note(warning);
   return sources;
 }
 
-/// The opacity map that hides in a base colour's alpha channel.
+/// What usually hides in a map's alpha channel: opacity in a base colour's; gloss in that of specular and of metallic
+/// maps, as Unity takes them.
+std::optional<Semantic> hidden_in_alpha(const RecognisedMap& m) {
+  if (!m.channels.empty()) return std::nullopt;
+  if (m.semantic == Semantic::base_color) return Semantic::opacity;
+  const bool may_have_gloss = m.semantic == Semantic::specular || m.semantic == Semantic::metallic;
+  return may_have_gloss ? std::optional(Semantic::roughness) : std::nullopt;
+}
+
 void add_alpha(const RecognisedMap& m, const ImagePtr& file, std::vector<Map>& maps, std::vector<std::string>& notes) {
-  if (m.semantic != Semantic::base_color || !m.channels.empty()) return;
-  const ImagePtr opacity = opacity_of(file);
-  if (!opacity) return;
-  const bool have = std::any_of(maps.begin(), maps.end(), [](const Map& k) { return k.name == "opacity"; });
-  if (have) {
-    notes.push_back(fmt::format("the alpha channel of {} is left out: there is an opacity map", m.file));
+  const std::optional<Semantic> hidden = hidden_in_alpha(m);
+  if (!hidden) return;
+  const bool is_gloss = *hidden == Semantic::roughness;
+  const ImagePtr alpha = alpha_of(file, *hidden, is_gloss);
+  if (!alpha) return;
+  const std::string name(name_of(*hidden));
+  if (std::any_of(maps.begin(), maps.end(), [&](const Map& k) { return k.name == name; })) {
+    notes.push_back(fmt::format("the alpha channel of {} is left out: there is {} map", m.place(),
+                                is_gloss ? "a roughness" : "an opacity"));
     return;
   }
-  maps.push_back({"opacity", opacity});
-  notes.push_back(fmt::format("opacity: {} (alpha channel)", m.file));
+  maps.push_back({name, alpha});
+  notes.push_back(fmt::format("{}: {} (alpha channel){}", name, m.place(),
+                              is_gloss ? ", inverted: gloss, as in the specular workflow and in Unity" : ""));
 }
 
 /// A packed file whose channels are all the same is some other map, or was packed from one map by mistake.
-void warn_of_grey_packings(const std::vector<RecognisedMap>& maps, const std::map<std::string, Source>& sources,
+void warn_of_grey_packings(const std::vector<RecognisedMap>& maps, const Sources& sources,
                            std::vector<std::string>& notes) {
-  std::map<std::string, Texts> packed;
+  std::map<Place, Texts> packed;
   for (const RecognisedMap& m : maps)
-    if (m.channels.size() == 1 && m.channels != "a") packed[m.file].push_back(m.map);
-  for (const auto& [file, names] : packed)
-    if (names.size() > 1 && is_grey(*sources.at(file).image))
+    if (m.channels.size() == 1 && m.channels != "a") packed[place_of(m)].push_back(m.map);
+  for (const auto& [place, names] : packed) {
+    const std::string& file = place.first;
+    if (names.size() > 1 && is_grey(*sources.at(place).image))
       notes.push_back(fmt::format(
           "{}{}: {} are read from its channels, but these are the same: it is a grey picture, not a packed one. If it "
           "is one map, say which, and leave the others out: `maps` {{\"{}\": \"{}:r\", \"{}\": \"\"}}",
           warning_mark, file, fmt::join(names, ", "), names[0], file,
           fmt::join(names.begin() + 1, names.end(), "\": \"\", \"")));
+  }
 }
 
 /// The space that the file, or the sidecar, says; empty if it says none.
@@ -94,6 +118,11 @@ std::string described_color_space(const RecognisedMap& m) {
   }
 }
 
+/// Most MaskMaps have no detail mask; their third channel is a constant.
+bool may_be_empty(const Params& params, const RecognisedMap& m) {
+  return m.map == "mask_detail" && !m.channels.empty() && !std::get<TextMap>(params.at("maps")).count(m.map);
+}
+
 void compute(NodeContext& node) {
   const fs::path folder = folder_of(node.params());
   const std::string given_space = node.text("color_space") == "auto" ? "" : color_space_of(node, "color_space");
@@ -102,22 +131,28 @@ void compute(NodeContext& node) {
   const std::vector<RecognisedMap>& found = material_found.maps;
   for (std::string& n : notes) node.note(std::move(n));
   notes.clear();
-  const std::map<std::string, Source> sources = read_sources(node, folder, found);
+  const Sources sources = read_sources(node, folder, found);
   std::vector<Map> maps;
   for (const RecognisedMap& m : found) {
-    const ImagePtr& file = sources.at(m.file).image;
+    const ImagePtr& file = sources.at(place_of(m)).image;
     const bool space_given = m.semantic == Semantic::base_color && !given_space.empty();
     std::string space = space_given ? given_space : described_color_space(m);
     if (space.empty()) space = assumed_color_space(m.semantic, file->info().depth);
-    maps.push_back({m.map, map_of_file(m, file, space, notes)});
+    const ImagePtr map = map_of_file(m, file, space, notes);
+    if (may_be_empty(node.params(), m) && is_constant(*map))
+      notes.push_back(fmt::format("{}: {} is the same everywhere; left out", m.map, m.place()));
+    else
+      maps.push_back({m.map, map});
   }
   warn_of_grey_packings(found, sources, notes);
-  for (const RecognisedMap& m : found) add_alpha(m, sources.at(m.file).image, maps, notes);
+  for (const RecognisedMap& m : found) add_alpha(m, sources.at(place_of(m)).image, maps, notes);
+  Texts ignored = material_found.ignored;
+  add_unnamed_packing(folder, material_found.unnamed, maps, ignored, notes);
+  if (!ignored.empty()) notes.push_back(note_on_ignored(ignored));
+  std::ranges::stable_sort(maps, {}, [](const Map& m) { return m.image->info().semantic; });
   settle_normals(node.text("normal_y"), found, maps, notes);
   for (std::string& n : notes) node.note(std::move(n));
-  PhysicalSize metres;
-  if (material_found.metres) metres = {(*material_found.metres)[0], (*material_found.metres)[1]};
-  MaterialPtr material = Material::make(material_found.name, std::move(maps), metres);
+  MaterialPtr material = Material::make(material_found.name, std::move(maps), material_found.metres);
   if (const PhysicalSize given = metres_of(node.numbers("metres"), material->size()); given.is_known())
     material = Material::make(material->name(), material->maps(), given);
   warn_of_smaller_maps(node, *material);
@@ -140,13 +175,17 @@ Forecast preflight(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
   Forecast out{.possible_maps = Texts{}};
   std::set<std::string> troubles;
-  for (const RecognisedMap& m : find_maps(params, ignored_notes).maps) {
-    out.maps.push_back(m.map);
+  const FoundMaterial found = find_maps(params, ignored_notes);
+  if (!found.unnamed.empty())
+    for (const Semantic s : packed_semantics) out.possible_maps->emplace_back(name_of(s));
+  for (const RecognisedMap& m : found.maps) {
+    (may_be_empty(params, m) ? *out.possible_maps : out.maps).push_back(m.map);
     try {
       require_readable_image(folder_of(params) / m.file);
-      const FileInfo file = read_image_info(folder_of(params) / m.file);
+      const FileInfo file = read_image_info(folder_of(params) / m.file, m.layer);
       out.sizes[m.map] = file.size;
-      if (m.semantic == Semantic::base_color && file.channels % 2 == 0) out.possible_maps->push_back("opacity");
+      if (const auto hidden = hidden_in_alpha(m); hidden && file.channels % 2 == 0)
+        out.possible_maps->emplace_back(name_of(*hidden));
     } catch (const Error& e) {
       troubles.insert(e.what());
     }
@@ -158,7 +197,7 @@ Forecast preflight(const Params& params, const InputForecasts&) {
 Texts doubts(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
   for (const RecognisedMap& m : find_maps(params, ignored_notes).maps)
-    if (m.semantic == Semantic::base_color && m.channels.empty())
+    if (m.semantic == Semantic::base_color && m.channels.empty() && m.layer.empty())
       return doubts_about_colour("\"path\": " + m.file, folder_of(params) / m.file);
   return {};
 }
@@ -168,15 +207,18 @@ Texts doubts(const Params& params, const InputForecasts&) {
 NodeType load_material_node() {
   NodeType t;
   t.name = "load_material";
-  t.version = 6;
+  t.version = 7;
   t.category = "source";
   t.summary = "Reads a folder of maps as one material";
   t.help =
       "Finds the maps in a folder by the naming conventions of ambientCG, Poly Haven, Substance, Quixel Megascans, "
       "Unreal, Unity and glTF, and by plain names; the last such word in a name counts. Packed files (ORM, ARM, "
-      "metallicRoughness, MaskMap, MetallicSmoothness, AlbedoTransparency) are split into their channels, gloss and "
+      "metallicRoughness, MaskMap, MetallicSmoothness, AlbedoTransparency) are split into their channels, as are files "
+      "of three or four channels whose names say nothing but whose pixels do, gloss and "
       "smoothness maps are inverted into roughness, grey maps stored in colour are reduced to one channel, and a base "
-      "colour's alpha becomes the opacity map. If several files hold one map, OpenGL normals, larger and lossless "
+      "colour's alpha becomes the opacity map, that of a specular or metallic map, inverted, the roughness if there is "
+      "no other. Layers of EXR files are recognised by their names. If several files hold one map, OpenGL normals, "
+      "larger and lossless "
       "files are preferred. A file terrazzo-material.json, as export writes it, counts more than names, and so does "
       "what "
       "terrazzo wrote into a PNG, TIFF or EXR file's description. A folder of several materials is refused unless "
@@ -197,7 +239,9 @@ NodeType load_material_node() {
        .help = "Which material of a folder that holds several: what the names of its files begin with, such as "
                "Bricks075, or the name of one of its files. Case, resolutions and formats do not count. * and ? stand "
                "for any characters: \"*\" takes all files as one material."},
-      metres_param("Exports carry it on. Empty: as a terrazzo-material.json in the folder says, else not known."),
+      metres_param(
+          "Exports carry it on. Empty: as a terrazzo-material.json in the folder, the files' descriptions or the "
+          "data of a Megascans download say, else not known."),
       {.name = "normal_y",
        .type = ParamType::choice,
        .fallback = "auto",
@@ -209,7 +253,9 @@ NodeType load_material_node() {
        .type = ParamType::text_map,
        .fallback = TextMap{},
        .help = "Files by map name, where the file names do not say it: {\"height\": \"scan.tif\", \"roughness\": "
-               "\"packed.png:g\"}; Relative to the folder; channels after a colon. An empty text leaves the map out."},
+               "\"packed.png:g\"}. Relative to the folder; channels after a colon, of EXR files a layer "
+               "(\"wall.exr:normal\", \"wall.exr:arm.g\"). <UDIM> stands for the tile that `name` picks. An empty text "
+               "leaves the map out."},
       {.name = "ignore",
        .type = ParamType::texts,
        .fallback = Texts{},

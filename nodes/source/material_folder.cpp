@@ -11,9 +11,12 @@
 #include "core/base/suggest.h"
 #include "core/base/text.h"
 #include "core/image/image_file.h"
+#include "core/material/map_description.h"
 #include "core/material/map_names.h"
 #include "core/material/material_maps.h"
+#include "nodes/source/given_maps.h"
 #include "nodes/source/material_sidecar.h"
+#include "nodes/source/site_documents.h"
 
 namespace terrazzo {
 
@@ -21,45 +24,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// A file and a layer of it.
+using FilePlace = std::pair<std::string, std::string>;
+
 /// A link to a missing file counts, so that reading it complains: without it the material would silently lack a map.
 bool is_file_or_broken_link(const fs::directory_entry& entry) {
   std::error_code failure;
   return entry.is_regular_file(failure) || (entry.is_symlink(failure) && !entry.exists(failure));
-}
-
-/// "file.png", or "file.png:g" for one channel.
-RecognisedMap given_map(const std::string& map, const std::string& text) {
-  RecognisedMap m{.map = map, .semantic = *semantic_of_map(map), .file = text, .channels = ""};
-  const size_t colon = text.rfind(':');
-  if (colon != std::string::npos && text.find_first_not_of("rgba", colon + 1) == std::string::npos) {
-    m.file = text.substr(0, colon);
-    m.channels = text.substr(colon + 1);
-  }
-  return m;
-}
-
-/// Throws if the file that the `maps` parameter gives for a map is not there or has not the channels asked for.
-void require_given_map(const fs::path& folder, const std::string& map, const std::string& text) {
-  const RecognisedMap given = given_map(map, text);
-  const size_t colon = text.rfind(':');
-  std::error_code missing;
-  if (given.file == text && colon != std::string::npos && !fs::exists(folder / text, missing) &&
-      fs::is_regular_file(folder / text.substr(0, colon), missing))
-    throw Error(fmt::format("{} should be channel {} of {}, but channels are called r, g, b and a", map,
-                            text.substr(colon + 1), text.substr(0, colon)));
-  require_image_file(folder / given.file);
-  if (!given.channels.empty()) require_channels(given, read_image_info(folder / given.file).channels);
-}
-
-/// Says at once all that is wrong with the files that the parameter `maps` gives.
-void require_given_maps(const Params& params) {
-  std::vector<Error> troubles;
-  for (const auto& [map, text] : std::get<TextMap>(params.at("maps"))) try {
-      if (!text.empty()) require_given_map(folder_of(params), map, text);
-    } catch (const Error& e) {
-      troubles.emplace_back("maps." + map, e.what());
-    }
-  if (!troubles.empty()) throw Errors(std::move(troubles));
 }
 
 void require_folder(const fs::path& folder) {
@@ -110,7 +81,7 @@ std::string all_words() {
 }
 
 /// Names the folder's files, the ignored ones taken out.
-std::vector<MapFile> files_to_recognise(const Params& params, const std::set<std::string>& taken, Texts& notes) {
+std::vector<MapFile> files_to_recognise(const Params& params, const std::set<FilePlace>& taken, Texts& notes) {
   const fs::path folder = folder_of(params);
   std::vector<std::string> names = image_names(folder);
   for (const std::string& pattern : std::get<Texts>(params.at("ignore"))) {
@@ -122,17 +93,17 @@ std::vector<MapFile> files_to_recognise(const Params& params, const std::set<std
   }
   std::vector<MapFile> files;
   for (const std::string& name : names) {
-    if (taken.count(name)) continue;
-    MapFile f{.name = name, .size = {}};
+    std::vector<FileInfo> layers = {{}};
     try {
-      const FileInfo info = read_image_info(folder / name);
-      f.size = info.size;
-      f.channels = info.channels;
-      f.description = info.description;
+      layers = read_layer_infos(folder / name);
     } catch (const Error&) {
       // If the file is chosen all the same, reading it says what is wrong.
     }
-    files.push_back(std::move(f));
+    if (layers.size() == 1 && taken.count({name, ""})) continue;
+    for (const FileInfo& i : layers)
+      if (!taken.count({name, i.layer}))
+        files.push_back(
+            {.name = name, .size = i.size, .channels = i.channels, .description = i.description, .layer = i.layer});
   }
   return files;
 }
@@ -168,16 +139,15 @@ void note_other_materials(const Recognition& found, Texts& notes) {
   notes.push_back(fmt::format("left out, other materials: {}", fmt::join(others, ", ")));
 }
 
-std::string described(const RecognisedMap& m) {
-  return m.channels.empty() ? m.file : fmt::format("{} (channel {})", m.file, m.channels);
-}
-
 /// The folder's sidecar, unless `name` means another material than that.
 std::optional<Sidecar> sidecar_that_counts(const Params& params) {
   const std::string& wanted = std::get<std::string>(params.at("name"));
-  std::optional<Sidecar> sidecar = read_sidecar(folder_of(params));
-  const bool is_meant = sidecar && (wanted.empty() || lowercase(wanted) == lowercase(sidecar->name));
-  return is_meant ? sidecar : std::nullopt;
+  std::optional<Sidecar> sidecar = read_sidecar(folder_of(params), wanted);
+  if (!sidecar || wanted.empty() || lowercase(wanted) == lowercase(sidecar->name)) return sidecar;
+  const bool names_a_file = std::ranges::any_of(sidecar->files, [&](const std::string& f) {
+    return lowercase(fs::path(f).stem().string()) == lowercase(wanted);
+  });
+  return names_a_file ? sidecar : std::nullopt;
 }
 
 /// The maps that a sidecar names, without those that the parameters give or leave out.
@@ -186,28 +156,39 @@ void add_described(const Sidecar& sidecar, const std::vector<MapFile>& files, co
   std::vector<RecognisedMap> maps = sidecar.maps;
   std::stable_sort(maps.begin(), maps.end(),
                    [](const RecognisedMap& a, const RecognisedMap& b) { return a.inverted < b.inverted; });
-  notes.push_back(fmt::format("{} says what the files are", sidecar_name));
+  notes.push_back(fmt::format("{} says what the files are", sidecar_name(sidecar.name)));
   for (const RecognisedMap& m : maps) {
     const auto is_file = [&](const MapFile& f) { return f.name == m.file; };
     if (given.count(m.map) || std::none_of(files.begin(), files.end(), is_file)) continue;
     const auto have = std::find_if(out.maps.begin(), out.maps.end(), [&](const auto& o) { return o.map == m.map; });
     if (have != out.maps.end()) {
-      notes.push_back(fmt::format("{} is {}; {} left out", m.map, described(*have), described(m)));
+      notes.push_back(fmt::format("{} is {}; {} left out", m.map, have->place(), m.place()));
       continue;
     }
     out.maps.push_back(m);
-    if (m.inverted) notes.push_back(fmt::format("{} is {}, inverted", m.map, described(m)));
+    if (m.inverted) notes.push_back(fmt::format("{} is {}, inverted", m.map, m.place()));
   }
   Texts others;
   for (const MapFile& f : files)
     if (std::find(sidecar.files.begin(), sidecar.files.end(), f.name) == sidecar.files.end()) others.push_back(f.name);
   if (!others.empty())
-    notes.push_back(fmt::format("left out, {} does not name them: {}. `maps` takes them in", sidecar_name,
+    notes.push_back(fmt::format("left out, {} does not name them: {}. `maps` takes them in", sidecar_name(sidecar.name),
                                 fmt::join(others, ", ")));
   if (out.maps.empty())
-    throw Error("path", fmt::format("`maps` and `ignore` leave out all maps that {} names", sidecar_name));
+    throw Error("path",
+                fmt::format("`maps` and `ignore` leave out all maps that {} names", sidecar_name(sidecar.name)));
   out.metres = sidecar.metres;
   if (!sidecar.name.empty()) out.name = sidecar.name;
+}
+
+/// What the files say of the size of the surface that they show.
+PhysicalSize metres_in_descriptions(const std::vector<RecognisedMap>& maps, const std::vector<MapFile>& files) {
+  for (const MapFile& f : files) {
+    const bool is_used = std::ranges::find(maps, f.name, &RecognisedMap::file) != maps.end();
+    const std::optional<FileDescription> said = is_used ? file_description(f.description) : std::nullopt;
+    if (said && said->metres.is_known()) return said->metres;
+  }
+  return {};
 }
 
 /// A pattern of `data` that keeps nothing is probably misspelt.
@@ -232,18 +213,38 @@ void add_recognised(const Params& params, const std::vector<MapFile>& files, con
   for (const RecognisedMap& m : found.maps)
     if (!given.count(m.map)) out.maps.push_back(m);
   if (out.maps.empty()) fail_nothing_recognised(folder, found);
+  out.metres = metres_in_descriptions(found.maps, files);
+  if (!out.metres.is_known()) out.metres = metres_in_documents(folder, notes);
   if (!found.name.empty()) out.name = found.name;
   notes.insert(notes.end(), found.notes.begin(), found.notes.end());
   note_other_materials(found, notes);
   note_unused_patterns(params, found, notes);
-  if (!found.ignored.empty())
-    notes.push_back(
-        fmt::format("ignored, the name says no map: {}. `data` keeps them as they are, `maps` says what they are. "
-                    "Known words are {}",
-                    fmt::join(found.ignored, ", "), all_words()));
+  out.ignored = found.ignored;
+  for (const MapFile& f : files) {
+    const bool is_ignored = std::ranges::find(found.ignored, f.name) != found.ignored.end();
+    const bool is_other = found.materials.size() > 1 && std::ranges::none_of(found.materials, [&](const auto& m) {
+                            return m.name == found.name && may_belong_to(f.name, m);
+                          });
+    if (is_ignored && !is_other && f.channels >= 3) out.unnamed.push_back(f.name);
+  }
+}
+
+/// Sidecars, and what sites put beside the maps.
+std::vector<fs::path> documents_of_material(const fs::path& folder) {
+  std::vector<fs::path> files = site_documents(folder);
+  std::error_code failure;
+  for (const fs::directory_entry& e : fs::directory_iterator(folder, failure))
+    if (is_sidecar(e.path())) files.push_back(e.path());
+  return files;
 }
 
 }  // namespace
+
+std::string note_on_ignored(const Texts& ignored) {
+  return fmt::format(
+      "ignored, the name says no map: {}. `data` keeps them as they are, `maps` says what they are. Known words are {}",
+      fmt::join(ignored, ", "), all_words());
+}
 
 fs::path folder_of(const Params& params) {
   return without_trailing_slash(std::get<std::string>(params.at("path")));
@@ -277,11 +278,11 @@ FoundMaterial find_maps(const Params& params, Texts& notes) {
   require_given_maps(params);
   const TextMap& given = std::get<TextMap>(params.at("maps"));
   FoundMaterial out{.name = folder.filename().string()};
-  std::set<std::string> taken;
+  std::set<FilePlace> taken;
   for (const auto& [map, text] : given) {
     if (text.empty()) continue;
-    out.maps.push_back(given_map(map, text));
-    if (out.maps.back().channels.empty()) taken.insert(out.maps.back().file);
+    const RecognisedMap m = out.maps.emplace_back(given_map(params, map, text));
+    if (m.channels.empty()) taken.emplace(m.file, m.layer);
   }
   const std::vector<MapFile> files = files_to_recognise(params, taken, notes);
   Texts more_notes;
@@ -291,7 +292,7 @@ FoundMaterial find_maps(const Params& params, Texts& notes) {
     add_recognised(params, files, given, out, more_notes);
   std::stable_sort(out.maps.begin(), out.maps.end(),
                    [](const RecognisedMap& a, const RecognisedMap& b) { return a.semantic < b.semantic; });
-  for (const RecognisedMap& m : out.maps) notes.push_back(fmt::format("{}: {}", m.map, described(m)));
+  for (const RecognisedMap& m : out.maps) notes.push_back(fmt::format("{}: {}", m.map, m.place()));
   notes.insert(notes.end(), more_notes.begin(), more_notes.end());
   return out;
 }
@@ -301,8 +302,8 @@ std::vector<fs::path> files_of_material(const Params& params) {
   std::vector<fs::path> files;
   for (const std::string& name : image_names(folder)) files.push_back(folder / name);
   for (const auto& [map, text] : std::get<TextMap>(params.at("maps")))
-    if (!text.empty() && semantic_of_map(map)) files.push_back(folder / given_map(map, text).file);
-  if (std::error_code failure; fs::exists(folder / sidecar_name, failure)) files.push_back(folder / sidecar_name);
+    if (!text.empty() && semantic_of_map(map)) files.push_back(folder / given_map(params, map, text).file);
+  for (fs::path& f : documents_of_material(folder)) files.push_back(std::move(f));
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/material/material.h"
 #include "core/material/material_files.h"
 #include "core/node/node.h"
 
@@ -30,14 +29,19 @@ std::vector<std::string> problems_with_map_names(const Params& params);
 /// What a folder holds of a material.
 struct FoundMaterial {
   std::vector<RecognisedMap> maps{};
-  std::string name{};                             ///< the folder's, or that of the material that was picked
-  std::optional<std::array<double, 2>> metres{};  ///< that the maps show, if a sidecar says it
+  std::string name{};     ///< the folder's, or that of the material that was picked
+  PhysicalSize metres{};  ///< that the maps show, if a file says it
+  Texts ignored{};        ///< images whose names say no map
+  Texts unnamed{};        ///< those of them that may belong to the material and have three channels or more
 };
 
 /// Finds the maps of the folder: by its sidecar if it has one, else by what the files say of themselves and their
 /// names. Throws Error about the parameter if the folder or files named in `maps` are missing, nothing is recognised,
 /// or it is not clear which of several materials is meant. Adds what the user should know to `notes`.
 FoundMaterial find_maps(const Params& params, Texts& notes);
+
+/// Tells which images were ignored, and what to do about it.
+std::string note_on_ignored(const Texts& ignored);
 
 /// All files that the material depends on, sorted: the folder's images, those named in
 /// `maps`, and the sidecar.

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/suggest.h"
 #include "core/image/color.h"
+#include "core/material/file_stems.h"
 #include "core/material/map_names.h"
 
 namespace terrazzo {
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int known_format = 1;
+constexpr std::string_view first_of_name = "terrazzo-material", last_of_name = ".json";
 
 /// A value and where it stands, for messages: `"files": "orm.png"`.
 struct Entry {
@@ -72,7 +74,7 @@ RecognisedMap map_in(const Entry& entry, const std::string& map, const std::stri
   const std::string channels = entry.text("channels such as \"rgb\" or \"g\"");
   if (channels.empty() || channels.size() > 4 || channels.find_first_not_of("rgba") != std::string::npos)
     entry.fail(fmt::format("expected channels such as \"rgb\" or \"g\", found \"{}\"", channels));
-  return {.map = map, .semantic = *semantic, .file = file, .channels = channels, .said_by = std::string(sidecar_name)};
+  return {.map = map, .semantic = *semantic, .file = file, .channels = channels, .said_by = sidecar_name()};
 }
 
 void invert(const Entry& entry, std::vector<RecognisedMap>& maps) {
@@ -91,7 +93,7 @@ void read_file_entry(const Entry& entry, const std::string& file, const fs::path
     entry.fail("expected the name of a file in the folder");
   std::error_code failure;
   if (!fs::exists(folder / file, failure))
-    entry.fail("the folder has no such file; put it back, or take it out of " + std::string(sidecar_name));
+    entry.fail("the folder has no such file; put it back, or take it out of " + sidecar_name());
   const std::optional<Entry> listed = entry.find("maps");
   if (!listed || !listed->value.is_object()) entry.fail("expected \"maps\" with the channels of each map");
   std::vector<RecognisedMap> maps;
@@ -111,7 +113,7 @@ void read_file_entry(const Entry& entry, const std::string& file, const fs::path
   out.maps.insert(out.maps.end(), maps.begin(), maps.end());
 }
 
-std::array<double, 2> metres_in(const Entry& entry) {
+PhysicalSize metres_in(const Entry& entry) {
   const Json& v = entry.value;
   const bool are_two = v.is_array() && v.size() == 2 && v[0].is_number() && v[1].is_number() && v[0] > 0 && v[1] > 0;
   entry.require(are_two, "two numbers above 0, width and height");
@@ -157,8 +159,18 @@ std::string reason_of(const nlohmann::json::exception& e) {
 
 }  // namespace
 
-std::optional<Sidecar> read_sidecar(const fs::path& folder) {
-  const fs::path path = folder / sidecar_name;
+std::string sidecar_name(std::string_view material) {
+  const std::string tile = udim_tile_of(material);
+  return std::string(first_of_name) + (tile.empty() ? "" : "." + tile) + std::string(last_of_name);
+}
+
+bool is_sidecar(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.starts_with(first_of_name) && name.ends_with(last_of_name);
+}
+
+std::optional<Sidecar> read_sidecar(const fs::path& folder, std::string_view material) {
+  const fs::path path = folder / sidecar_name(material);
   std::error_code failure;
   if (!fs::exists(path, failure)) return std::nullopt;
   try {

@@ -136,6 +136,9 @@ void write_odd_files(const fs::path& folder) {
   wild[100] = std::numeric_limits<float>::infinity();
   wild[200] = 1e-30f;
   wild[300] = -0.0f;
+  write_odd(folder / "layers.exr",
+            {.size = {12, 9}, .channels = 5, .type = "half", .channel_names = {"B", "G", "R", "height.Z", "normal.X"}},
+            varied(12 * 9 * 5, 0, 1));
   write_odd(folder / "wild.exr", {.size = {24, 20}, .channels = 3, .type = "float"}, wild);
 }
 

@@ -1,20 +1,32 @@
 #include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <optional>
 
 #include <OpenImageIO/imageio.h>
 
 #include "core/base/error.h"
+#include "core/image/libraries/exr_layers.h"
 #include "core/image/libraries/parts.h"
 
 namespace terrazzo {
 
 namespace {
 
-Depth depth_of(const OIIO::ImageSpec& spec) {
-  if (!spec.channelformats.empty()) return Depth::f32;  // channels of different depths
-  if (spec.format == OIIO::TypeDesc::HALF) return Depth::f16;
-  if (spec.format == OIIO::TypeDesc::UINT8) return Depth::u8;
-  if (spec.format == OIIO::TypeDesc::UINT16) return Depth::u16;
+Depth depth_of(OIIO::TypeDesc type) {
+  if (type == OIIO::TypeDesc::HALF) return Depth::f16;
+  if (type == OIIO::TypeDesc::UINT8) return Depth::u8;
+  if (type == OIIO::TypeDesc::UINT16) return Depth::u16;
   return Depth::f32;
+}
+
+/// Nullopt if the channels are of several types.
+std::optional<OIIO::TypeDesc> type_of(const OIIO::ImageSpec& spec, const std::vector<int>& channels) {
+  if (channels.empty()) return spec.format;
+  const OIIO::TypeDesc type = spec.channelformat(channels.front());
+  for (const int c : channels)
+    if (spec.channelformat(c) != type) return std::nullopt;
+  return type;
 }
 
 bool says_inks(const OIIO::ImageSpec& spec) {
@@ -23,7 +35,7 @@ bool says_inks(const OIIO::ImageSpec& spec) {
          spec.get_string_attribute("oiio:ColorSpace") == "CMYK";
 }
 
-StoredImage describe(const OIIO::ImageSpec& spec, const std::string& format) {
+StoredImage describe(const OIIO::ImageSpec& spec, const std::string& format, const std::vector<int>& channels) {
   StoredImage header;
   header.format = format;
   header.stored = {0, 0, spec.width, spec.height};
@@ -34,11 +46,11 @@ StoredImage describe(const OIIO::ImageSpec& spec, const std::string& format) {
   }
   header.slices = spec.depth;
   header.orientation = std::clamp(spec.get_int_attribute("Orientation", 1), 1, 8);
-  header.channels = spec.channelnames;
-  header.channels.resize(std::max(0, spec.nchannels));
-  header.depth = depth_of(spec);
-  header.type = spec.channelformats.empty() ? spec.format.c_str() : "mixed depth";
-  header.exact = header.depth != Depth::f32 || spec.format == OIIO::TypeDesc::FLOAT;
+  for (const int c : channels) header.channels.push_back(spec.channel_name(c));
+  const std::optional<OIIO::TypeDesc> type = type_of(spec, channels);
+  header.depth = type ? depth_of(*type) : Depth::f32;
+  header.type = type ? type->c_str() : "mixed depth";
+  header.exact = header.depth != Depth::f32 || type == OIIO::TypeDesc::FLOAT;
   header.deep = spec.deep;
   header.inks = says_inks(spec);
   header.description = std::string(spec.get_string_attribute("ImageDescription"));
@@ -53,23 +65,68 @@ class OiioDecoder final : public ImageDecoder {
     in_ = OIIO::ImageInput::open(path, &wishes);
     if (!in_) throw Error(OIIO::geterror());
     in_->threads(1);
-    header_ = describe(in_->spec(), in_->format_name());
+    find_layers();
+    OiioDecoder::select(0);
   }
   const StoredImage& header() const override { return header_; }
   bool has_more_images() override {
+    if (layers_.size() > 1) return false;
     const bool more = in_->seek_subimage(1, 0);
     if (more) in_->seek_subimage(0, 0);
     return more;
+  }
+  std::vector<std::string> layers() const override {
+    std::vector<std::string> names;
+    for (const ExrLayer& l : layers_) names.push_back(l.name);
+    return names;
+  }
+  void select(size_t index) override {
+    layer_ = &layers_.at(index);
+    in_->seek_subimage(layer_->part, 0);
+    header_ = describe(in_->spec(), in_->format_name(), layer_->channels);
   }
   void read(Depth as, void* out) override {
     constexpr std::array types = {OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16, OIIO::TypeDesc::HALF,
                                   OIIO::TypeDesc::FLOAT};
     const OIIO::TypeDesc type = types[static_cast<size_t>(as)];
-    if (!in_->read_image(0, 0, 0, in_->spec().nchannels, type, out)) throw Error(in_->geterror());
+    const std::vector<int>& channels = layer_->channels;
+    const auto [least, most] = std::minmax_element(channels.begin(), channels.end());
+    const int first = *least, count = *most + 1 - first;
+    const bool in_order = std::is_sorted(channels.begin(), channels.end()) && count == int(channels.size());
+    if (in_order) return read_channels(first, count, type, out);
+    std::vector<uint8_t> all(size_t(header_.stored.area()) * count * type.size());
+    read_channels(first, count, type, all.data());
+    auto* to = static_cast<uint8_t*>(out);
+    for (int64_t i = 0; i < header_.stored.area(); i++)
+      for (const int c : channels) {
+        std::memcpy(to, &all[(size_t(i) * count + (c - first)) * type.size()], type.size());
+        to += type.size();
+      }
   }
 
  private:
+  void read_channels(int first, int count, OIIO::TypeDesc type, void* out) {
+    if (!in_->read_image(layer_->part, 0, first, first + count, type, out)) throw Error(in_->geterror());
+  }
+
+  void find_layers() {
+    std::vector<ExrPart> parts;
+    const bool may_have_layers = std::string_view(in_->format_name()) == "openexr";
+    do {
+      const OIIO::ImageSpec& spec = in_->spec();
+      std::vector<std::string> channels = spec.channelnames;
+      channels.resize(std::max(0, spec.nchannels));
+      parts.push_back({std::string(spec.get_string_attribute("oiio:subimagename")), std::move(channels)});
+    } while (may_have_layers && in_->seek_subimage(int(parts.size()), 0));
+    if (may_have_layers) layers_ = exr_layers(parts);
+    if (!layers_.empty()) return;
+    layers_ = {{"", 0, std::vector<int>(parts.front().channels.size())}};
+    std::iota(layers_.front().channels.begin(), layers_.front().channels.end(), 0);
+  }
+
   std::unique_ptr<OIIO::ImageInput> in_;
+  std::vector<ExrLayer> layers_;
+  const ExrLayer* layer_ = nullptr;
   StoredImage header_;
 };
 

@@ -263,10 +263,6 @@ TEST_CASE("too many channels and CMYK are refused with advice") {
   const TemporaryFolder folder;
   write_odd(folder.path() / "five.tif", {.size = {2, 2}, .channels = 5}, ramp(20));
   CHECK(contains(error_of(folder.path() / "five.tif"), "it has 5 channels"));
-  write_odd(folder.path() / "layers.exr",
-            {.size = {1, 1}, .channels = 6, .type = "half", .channel_names = {"R", "G", "B", "N.X", "N.Y", "N.Z"}},
-            ramp(6));
-  CHECK(contains(error_of(folder.path() / "layers.exr"), "N.X"));
   write_bytes(folder.path() / "ink.jpg", make_cmyk_jpeg());
   CHECK(contains(error_of(folder.path() / "ink.jpg"), "CMYK"));
   CHECK(contains(error_of(folder.path() / "ink.jpg"), "convert it to RGB"));

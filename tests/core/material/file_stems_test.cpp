@@ -122,3 +122,13 @@ TEST_CASE("patterns match whole names") {
   CHECK_FALSE(matches_pattern("a12.png", "a?.png"));
   CHECK_FALSE(matches_pattern("color.png.txt", "*.png"));
 }
+
+TEST_CASE("a material's name may end in a UDIM tile") {
+  CHECK(udim_tile_of("wall.1002") == "1002");
+  CHECK(without_udim_tile("wall.1002") == "wall");
+  CHECK(without_udim_tile("old_wall_1011") == "old_wall");
+  for (const char* name : {"wall", "wall.2048", "1002 wall", "wall.1002b", ""}) {
+    CHECK(udim_tile_of(name).empty());
+    CHECK(without_udim_tile(name) == name);
+  }
+}

@@ -97,6 +97,16 @@ TEST_CASE("a binary glTF holds its images; what it does not take lies beside it"
   CHECK(fs::file_size(folder.path() / "wall.glb") > 1000);
 }
 
+TEST_CASE("the images in a binary glTF have the quality and the depth asked for") {
+  const TemporaryFolder folder;
+  const auto size = [&](const char* format, int64_t quality, const char* depth) {
+    run(folder.path(), {{"preset", "glb"}, {"format", format}, {"jpeg_quality", quality}, {"depth", depth}});
+    return fs::file_size(folder.path() / "wall.glb");
+  };
+  CHECK(size("jpg", 10, "keep") < size("jpg", 95, "keep"));
+  CHECK(size("png", 95, "uint8") < size("png", 95, "uint16"));
+}
+
 TEST_CASE("float files hold linear colours") {
   const TemporaryFolder folder;
   run(folder.path(), {{"preset", std::string("maps")}, {"format", std::string("exr")}});

@@ -1,0 +1,52 @@
+#include "core/image/mip_levels.h"
+
+#include <algorithm>
+
+#include "core/base/hash.h"
+#include "core/image/kept_pixels.h"
+#include "core/image/pixel_space.h"
+#include "core/image/resample.h"
+
+namespace terrazzo {
+
+namespace {
+
+class KeptSource final : public PixelSource {
+ public:
+  explicit KeptSource(const Image& image) : pixels_(image.size(), image.channels()) {
+    for_each_strip(image, [&](const Rect& r, const float* p) { pixels_.write_rows(r.y, r.height, p); });
+  }
+  void read(const Rect& region, float* out) const override { pixels_.read(region, out); }
+
+ private:
+  KeptPixels pixels_;
+};
+
+ImagePtr kept(const ImagePtr& image) {
+  if (image->in_memory()) return image;
+  return Image::with_digest(image->info(), image->digest(), std::make_shared<KeptSource>(*image));
+}
+
+Size half(Size size) {
+  return {std::max(1, size.width / 2), std::max(1, size.height / 2)};
+}
+
+}  // namespace
+
+std::vector<ImagePtr> mip_levels(const ImagePtr& image) {
+  const bool is_label = !can_be_averaged(image->info()) || image->info().semantic == Semantic::data;
+  const std::string filter = is_label ? "nearest" : "box";
+  const Digest recipe = Hasher().add("mip level").digest();
+  std::vector<ImagePtr> levels = {kept(image)};
+  while (levels.back()->size().area() > 1)
+    levels.push_back(kept(resampled(levels.back(), half(levels.back()->size()), filter, Outside::wrap, recipe)));
+  return levels;
+}
+
+int mip_level_count(Size size) {
+  int count = 1;
+  for (; size.area() > 1; size = half(size)) count++;
+  return count;
+}
+
+}  // namespace terrazzo
