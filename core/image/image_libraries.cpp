@@ -17,11 +17,19 @@ namespace fs = std::filesystem;
 
 constexpr const char* module_name = "terrazzo_libraries.so";
 
-/// Beside the program, where it is installed, or where it was built. Throws Error if it is in none of these places.
-fs::path module_path() {
+/// The folder of the library that this code is in; that of the program if it is in none.
+fs::path own_folder() {
   std::error_code unreadable;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", unreadable).parent_path();
-  const std::array<fs::path, 3> folders = {beside, beside / "../lib/terrazzo", TERRAZZO_MODULE_FOLDER};
+  Dl_info place{};
+  const bool is_known = ::dladdr(reinterpret_cast<const void*>(&require_image_libraries), &place) != 0;
+  const fs::path file = fs::canonical(is_known ? place.dli_fname : "/proc/self/exe", unreadable);
+  return file.parent_path();
+}
+
+/// Beside the library, where it is installed, or where it was built. Throws Error if it is in none of these places.
+fs::path module_path() {
+  const fs::path beside = own_folder();
+  const std::array<fs::path, 3> folders = {beside, beside / "terrazzo", TERRAZZO_MODULE_FOLDER};
   std::string places;
   for (const fs::path& folder : folders) {
     fs::path path = (folder / module_name).lexically_normal();
