@@ -121,6 +121,13 @@ using InputForecasts = std::map<std::string, std::vector<Forecast>>;
 
 class NodeContext;
 
+/// Where a node type comes from that is not terrazzo's own.
+struct NodeOrigin {
+  std::string name{};     ///< of the plug-in or program; empty: terrazzo
+  std::string version{};  ///< as it says itself
+  Digest content{};       ///< of what the code is in, as far as that is known
+};
+
 struct NodeType {
   std::string name;
   int version = 1;       ///< raise it whenever the same inputs would give other outputs
@@ -148,6 +155,7 @@ struct NodeType {
   /// What is allowed and hardly meant, for the command `check`: one message each, starting with the name of a parameter
   /// or port in quotes if it is about one. May read files that `files_read` names; ports that are open are not there.
   std::function<std::vector<std::string>(const Params&, const InputForecasts&)> doubts;
+  NodeOrigin origin{};
 
   const Port* find_input(std::string_view port) const;
   const Port* find_output(std::string_view port) const;

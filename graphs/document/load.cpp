@@ -36,6 +36,7 @@ class Loader {
         types_(options.types),
         subgraphs_(types_, options.migrations, problems_),
         levels_(subgraphs_, types_, problems_) {
+    for (const auto& [name, type] : options.inputs) types_.types.emplace(type->name, type);
     ParsedJson parsed = parse_json(text);
     problems_ = std::move(parsed.problems);
     const bool is_read = parsed.value && migrate(*parsed.value, options.migrations, problems_);
@@ -46,6 +47,7 @@ class Loader {
       if (std::ranges::find(document_keys(), m.name) == document_keys().end())
         problems_.push_back(
             {m.place, "", fmt::format("unknown key {}{}", in_quotes(m.name), suggestion(m.name, document_keys()))});
+    give_inputs(options.inputs);
   }
 
   void finish() {
@@ -126,12 +128,28 @@ class Loader {
     for (const LoopSource& l : levels_.made_from())
       out.graph.made_from.push_back(l.kind == "table" ? l.path : l.path.parent_path());
     out.loops = levels_.made_from();
+    out.given = given_;
     out.graph.settings = settings_of(parameters);
     out.parameters = std::move(parameters);
     return out;
   }
 
  private:
+  /// Inputs whose values are given become nodes.
+  void give_inputs(const std::map<std::string, const NodeType*>& given) {
+    JsonValue *inputs = document_.find("inputs"), *nodes = document_.find("nodes");
+    for (const auto& [name, type] : given) {
+      if (!inputs || !inputs->find(name) || !nodes || !nodes->is_object()) continue;
+      std::erase_if(inputs->members, [&](const JsonMember& m) { return m.name == name; });
+      JsonValue node = JsonValue::empty_object();
+      node.set("type", JsonValue::of(type->name));
+      nodes->set(name, std::move(node));
+      given_.push_back(name);
+    }
+    if (inputs && inputs->members.empty())
+      std::erase_if(document_.members, [](const JsonMember& m) { return m.name == "inputs"; });
+  }
+
   /// Those of the command line count most, then settings files, then presets.
   std::vector<Override> overrides_from(const std::vector<Preset>& presets, const std::vector<std::string>& texts,
                                        const LoadOptions& options) {
@@ -359,6 +377,7 @@ class Loader {
   JsonValue document_;
   std::vector<Problem> problems_;
   size_t coded_ = 0;  ///< how many of them have their code
+  std::vector<std::string> given_;
   KnownTypes types_;
   Subgraphs subgraphs_;
   Levels levels_;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,9 @@ struct LoadOptions {
   /// Unless empty, and if all exist: only these nodes and their sources will run, and only parameters that these need
   /// must be set. If others are unset, the graph has only these nodes.
   std::vector<std::string> only{};
+  /// Node types that give values to inputs that the graph declares, by the inputs' names; they must outlive the graph.
+  /// Other names are left alone: LoadedGraph::given tells which were used.
+  std::map<std::string, const NodeType*> inputs{};
   /// If a document has problems: finds more in its valid nodes, so that all are reported at once. Gets the nodes in
   /// topological order, as far as there is one.
   std::function<std::vector<Problem>(const std::vector<GraphNode>&)> look_ahead{};
@@ -43,6 +47,7 @@ struct LoadedGraph {
   std::vector<Preset> presets;
   std::vector<Port> inputs;  ///< of a graph that is made to be a node of others
   std::vector<LoopSource> loops;
+  std::vector<std::string> given;  ///< of LoadOptions::inputs, those that the graph declares
   /// Images that become materials of one map; nodes and parameters that nothing uses.
   std::vector<Problem> conversions, warnings;
 };

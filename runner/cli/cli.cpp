@@ -21,6 +21,7 @@
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
+#include "runner/cli/plugin_flag.h"
 #include "runner/report/progress.h"
 
 namespace terrazzo {
@@ -244,6 +245,9 @@ int obey(int argc, const char* const* argv, ProgressMode mode) {
                "terrazzo");
   app.set_version_flag("--version", "terrazzo " TERRAZZO_VERSION);
   app.footer(examples);
+  std::string plugin;  // taken before, see plugin_flag.h; here for the help
+  app.add_option("--plugin", plugin, "Loads node types from a shared library; several times, and behind commands too")
+      ->type_name("FILE.so");
   app.require_subcommand(0, 1);  // further words belong to the command, even if they are a command's name too
   app.get_formatter()->column_width(32);
   Chosen chosen;
@@ -285,7 +289,15 @@ int obey(int argc, const char* const* argv, ProgressMode mode) {
 int run_command_line(int argc, const char* const* argv) {
   keep_standard_streams_apart();
   const ProgressMode mode = mode_of(argc, argv);
-  return with_answer_written(obey(argc, argv, mode), mode);
+  CommandLine line;
+  try {
+    line = without_plugins(argc, argv);
+    load_plugins(line.plugins);
+  } catch (const Error& e) {
+    write_error(mode, std::cerr, e);
+    return exit_usage;
+  }
+  return with_answer_written(obey(int(line.words.size()), line.words.data(), mode), mode);
 }
 
 }  // namespace terrazzo

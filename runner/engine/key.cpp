@@ -42,6 +42,9 @@ std::vector<Ingredient> ingredients_of(const GraphNode& node, const InputNames& 
   std::vector<Ingredient> out;
   out.push_back({"type", Hasher().add(type.name).add(type.version).digest(),
                  fmt::format("{} version {}", type.name, type.version)});
+  if (const NodeOrigin& from = type.origin; !from.name.empty())
+    out.push_back({"plug-in", Hasher().add(from.name).add(from.version).add(from.content).digest(),
+                   fmt::format("{} {}", from.name, from.version)});
   if (const std::string tuning = overridden_tuning(); !tuning.empty())
     out.push_back({"tuning", Hasher().add(tuning).digest(), tuning});
 

@@ -1,0 +1,23 @@
+# Installs runner/api/terrazzo.h and every header of the project that it leads to, as terrazzo/..., so that they stand in
+# nobody's way. Set before: terrazzo_source, the project's folder.
+cmake_minimum_required(VERSION 3.25)
+set(waiting runner/api/terrazzo.h)
+set(public "")
+while(waiting)
+  list(POP_FRONT waiting header)
+  list(APPEND public ${header})
+  file(READ ${terrazzo_source}/${header} text)
+  string(REGEX MATCHALL "#include \"[^\"]+\"" lines "${text}")
+  foreach(line ${lines})
+    string(REGEX REPLACE "#include \"([^\"]+)\"" "\\1" included ${line})
+    if(NOT included IN_LIST public AND NOT included IN_LIST waiting)
+      list(APPEND waiting ${included})
+    endif()
+  endforeach()
+  string(REPLACE "#include \"" "#include \"terrazzo/" text "${text}")
+  set(target ${CMAKE_INSTALL_PREFIX}/include/terrazzo/${header})
+  message(STATUS "Installing: ${target}")
+  file(WRITE $ENV{DESTDIR}${target} "${text}")
+endwhile()
+file(WRITE $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/include/terrazzo/terrazzo.h
+     "#pragma once\n\n#include \"terrazzo/runner/api/terrazzo.h\"\n")

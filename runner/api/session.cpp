@@ -1,0 +1,54 @@
+#include "runner/api/session.h"
+
+#include <optional>
+
+#include "runner/engine/history.h"
+
+namespace terrazzo {
+
+namespace {
+
+PlanOptions targets_of(const CheckedJob& job, const RunRequest& request) {
+  return {.only = nodes_meant(job.graph(), request.only), .keep = nodes_meant(job.graph(), request.keep)};
+}
+
+/// Beside the cache; graphs that were made in memory have none.
+std::optional<History> history_of(const CheckedJob& job, const Cache* cache) {
+  std::error_code missing;
+  const std::filesystem::path& file = job.graph().file;
+  if (!cache || file.empty() || !std::filesystem::exists(file, missing)) return std::nullopt;
+  return History(cache->folder(), file);
+}
+
+}  // namespace
+
+Session::Session(SessionOptions options) : options_(std::move(options)) {
+  if (options_.use_cache)
+    cache_ = std::make_unique<Cache>(options_.cache.empty() ? Cache::default_folder() : options_.cache);
+}
+
+Session::~Session() = default;
+
+Plan Session::plan(const CheckedJob& job, const RunRequest& request) {
+  const std::optional<History> history = history_of(job, cache_.get());
+  return make_plan(job.graph(), cache_.get(), targets_of(job, request), history ? &*history : nullptr);
+}
+
+RunResult Session::run(const CheckedJob& job, const RunRequest& request) {
+  std::optional<History> history = history_of(job, cache_.get());
+  const RunResult result = run_graph(job.graph(), {.targets = targets_of(job, request),
+                                                   .cache = cache_.get(),
+                                                   .history = history ? &*history : nullptr,
+                                                   .threads = options_.threads,
+                                                   .memory = options_.memory,
+                                                   .cancelled = request.cancelled,
+                                                   .observer = request.observer});
+  if (cache_ && result.count(StageOutcome::Kind::run) > 0) cache_->collect();
+  return result;
+}
+
+std::vector<std::string> Session::take_warnings() {
+  return cache_ ? cache_->take_warnings() : std::vector<std::string>();
+}
+
+}  // namespace terrazzo

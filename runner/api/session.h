@@ -1,0 +1,54 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runner/api/job.h"
+#include "runner/engine/plan.h"
+#include "runner/engine/schedule.h"
+
+/// Runs jobs, for programs.
+namespace terrazzo {
+
+struct SessionOptions {
+  /// The folder of the cache; empty: the usual one, see Cache::default_folder.
+  std::filesystem::path cache{};
+  bool use_cache = true;  ///< false: nothing is reused and nothing is kept
+  int threads = 0;        ///< 0: one per core
+  uint64_t memory = 0;    ///< budget in bytes for values and running nodes; 0: half of the machine's memory
+};
+
+struct RunRequest {
+  std::vector<std::string> only{};  ///< only these nodes and what they need; empty: all sinks, or what nothing reads
+  std::vector<std::string> keep{};  ///< nodes whose values come back in RunResult::kept
+  RunObserver* observer = nullptr;  ///< is told what happens, from any thread
+  const std::atomic<bool>* cancelled = nullptr;  ///< set it to stop the run within a second; may be null
+};
+
+/// A cache that is open, and how to run. Jobs may run at the same time, from different threads: they share the cache,
+/// and each has the session's threads and memory. Throws from the constructor only if the cache cannot be opened.
+class Session {
+ public:
+  explicit Session(SessionOptions options = {});
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// What a run would do, and why. Throws GraphError, and Error for names in `request` that are no nodes. The job must
+  /// outlive the plan.
+  Plan plan(const CheckedJob& job, const RunRequest& request = {});
+  /// Runs what must run. Failures and cancellation are in the result; throws what plan() throws. Values that are kept
+  /// may be lazy: their pixels are computed when they are read, and need neither the job nor the session.
+  RunResult run(const CheckedJob& job, const RunRequest& request = {});
+  /// What only cost time since the last call (a full disk, a damaged entry), one line each.
+  std::vector<std::string> take_warnings();
+
+ private:
+  SessionOptions options_;
+  std::unique_ptr<Cache> cache_;
+};
+
+}  // namespace terrazzo

@@ -1,0 +1,11 @@
+#pragma once
+
+/// All of the C++ interface. See examples/guide/programs.md.
+#include "core/image/image_file.h"
+#include "core/image/image_ops.h"
+#include "core/material/material.h"
+#include "core/node/node.h"
+#include "nodes/common/registry.h"
+#include "runner/api/job.h"
+#include "runner/api/plugin.h"
+#include "runner/api/session.h"
