@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# What programs need: the installed tree is enough to compile a program and a plug-in (examples/embedding, examples/plugin),
+# with CMake and with pkg-config; the same job gives the same bytes by command line and C++; plug-ins are loaded, are in
+# keys, and what goes wrong in them is said.
+# Usage: tests/programs_test.sh SOURCE_FOLDER BUILD_FOLDER
+set -euo pipefail
+source=$(realpath "${1:?usage: programs_test.sh SOURCE_FOLDER BUILD_FOLDER}")
+build=$(realpath "${2:?usage: programs_test.sh SOURCE_FOLDER BUILD_FOLDER}")
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/terrazzo-programs.XXXXXX")
+trap 'rm -rf "$scratch"' EXIT
+export TERRAZZO_CACHE=$scratch/cache
+unset TERRAZZO_PLUGINS
+cd "$scratch"
+failed=0
+
+complain() {
+  echo "$1" >&2
+  failed=1
+}
+
+# refuses WORDS COMMAND...: the command fails with exit code 1 or 2 and says the words.
+refuses() {
+  local words=$1 status=0
+  shift
+  "$@" >said 2>&1 || status=$?
+  [[ $status == [12] ]] || complain "$* ended with $status, not 1 or 2"
+  grep -qF -- "$words" said || complain "$*: expected \"$words\", found: $(cat said)"
+}
+
+cmake --install "$build" --prefix "$scratch/tree" >installed
+terrazzo=$scratch/tree/bin/terrazzo
+for header in $(cd tree/include && find . -name '*.h'); do
+  echo "#include \"$header\"" >one.cpp
+  g++ -std=c++20 -Wall -Wextra -Werror -fsyntax-only -Itree/include one.cpp || complain "$header does not compile alone"
+done
+for example in embedding plugin; do
+  cmake -S "$source/examples/$example" -B "$example" -DCMAKE_PREFIX_PATH="$scratch/tree" >configured
+  cmake --build "$example" >built || { cat built; exit 1; }
+done
+PKG_CONFIG_PATH=$scratch/tree/lib/pkgconfig pkg-config --exists 'terrazzo >= 0.1' || complain "pkg-config does not find it"
+g++ $(PKG_CONFIG_PATH=$scratch/tree/lib/pkgconfig pkg-config --cflags terrazzo) -fsyntax-only "$source/examples/embedding/main.cpp"
+
+# The same bytes by command line and C++.
+sed 's/"default": *"bricks"/"default": "tiles"/; s/"default": *\[512, 512\]/"default": [64, 64]/' "$source/graphs/generate-exemplar.json" >job.json
+"$terrazzo" run job.json --no-cache --set out="$scratch/by-command" --progress none
+embedding/embedding job.json "$scratch/by-program" "$scratch/cache" >said
+grep -q 'the inverted height at (20, 4) is 0.25' said || complain "the value from memory was lost: $(cat said)"
+diff -r by-command by-program || complain "the command line and the program made different files"
+
+# Plug-ins.
+plugin=$scratch/plugin/emboss.so
+graph=$source/examples/plugin/emboss.json
+run=("$terrazzo" run "$graph" --set material="$scratch/by-command" --progress none)
+refuses 'unknown node type "emboss"' "${run[@]}"
+"${run[@]}" --plugin "$plugin" --set out="$scratch/embossed" 2>said
+test -s embossed/embossed.png || complain "the plug-in made nothing"
+TERRAZZO_PLUGINS=$plugin "${run[@]}" --set out="$scratch/embossed" --dry-run >said 2>&1
+grep -q 'up to date' said || complain "a second run does it again: $(cat said)"
+for list in nodes schema; do
+  "$terrazzo" $list --plugin "$plugin" >said
+  grep -q emboss said || complain "the plug-in's type is not in \`terrazzo $list\`"
+done
+# Another build has other keys.
+sed 's/0.5f + x/0.25f + x/' "$source/examples/plugin/emboss.cpp" >other.cpp
+compile() { g++ -std=c++20 -shared -fPIC -Itree/include "$@" -Ltree/lib -lterrazzo; }
+compile other.cpp -o other.so
+"${run[@]}" --plugin other.so --set out="$scratch/embossed" --dry-run >said 2>&1
+grep -q 'plug-in' said || complain "another build of the plug-in takes the first one's results: $(cat said)"
+
+refuses 'there is no such file (did you mean "emboss.so"?)' "$terrazzo" nodes --plugin plugin/embos.so
+refuses 'it has no TERRAZZO_PLUGIN' "$terrazzo" nodes --plugin tree/lib/libterrazzo.so
+refuses 'another plug-in of the name "emboss" is loaded already' "$terrazzo" nodes --plugin "$plugin" --plugin other.so
+odd() { compile "-DODD=$1" "$source/tests/programs/odd_plugin.cpp" -o "odd$1.so"; }
+for i in 0 1 2 3; do odd $i; done
+refuses 'plug-in "odd" failed: no types today' "$terrazzo" nodes --plugin odd1.so
+refuses 'the node type "blur" of odd is already there, from terrazzo' "$terrazzo" nodes --plugin odd2.so
+refuses 'it was compiled for another terrazzo' "$terrazzo" nodes --plugin odd3.so
+echo '{"terrazzo": 1, "nodes": {"a": {"type": "odd"}}}' >odd.json
+refuses 'node "a" (odd), parameter "how": it is odd' "$terrazzo" run odd.json --plugin odd0.so
+refuses 'plug-in "odd" failed: out of luck' "$terrazzo" run odd.json --plugin odd0.so --set a.how=exception
+refuses 'something that is no std::exception' "$terrazzo" run odd.json --plugin odd0.so --set a.how=number
+refuses 'did not set its output' "$terrazzo" run odd.json --plugin odd0.so --set a.how=nothing
+exit $failed
