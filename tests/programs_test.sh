@@ -79,4 +79,19 @@ refuses 'node "a" (odd), parameter "how": it is odd' "$terrazzo" run odd.json --
 refuses 'plug-in "odd" failed: out of luck' "$terrazzo" run odd.json --plugin odd0.so --set a.how=exception
 refuses 'something that is no std::exception' "$terrazzo" run odd.json --plugin odd0.so --set a.how=number
 refuses 'did not set its output' "$terrazzo" run odd.json --plugin odd0.so --set a.how=nothing
+
+# Nodes that lie are caught by name in a checked run; those of terrazzo do not.
+echo 0.25 >secret.txt
+echo '{"terrazzo": 1, "nodes": {"liar": {"type": "odd"}, "file": {"type": "export", "material": "@liar", "path": "liar.exr"}}}' >liar.json
+checked=("$terrazzo" run liar.json --checked --plugin odd0.so --progress none)
+"${checked[@]}" --set liar.how=honest 2>said || complain "an honest node is not believed: $(cat said)"
+[ ! -s said ] || complain "a checked run says more than it should: $(cat said)"
+refuses "node \"liar\" (odd): checked: odd reads $scratch/secret.txt, which its \`files_read\` does not name" "${checked[@]}" --set liar.how=file
+refuses 'node "liar" (odd): checked: odd gives another "image"' "${checked[@]}" --set liar.how=random
+refuses 'node "liar" (odd): checked: odd gives another "image"' "${checked[@]}" --set liar.how=clock
+refuses 'checked: odd reads the variable ODD_VALUE of the environment' "${checked[@]}" --set liar.how=variable
+"$terrazzo" synth "$scratch/by-command" -o synthesized --size 96x96 --quality draft --checked --progress none 2>said ||
+  complain "a node of terrazzo is caught: $(cat said)"
+"$terrazzo" run "$source/graphs/engine.json" --checked --set material="$scratch/by-command" --set engine=glb --set scale=1 \
+  --set out="$scratch/glb" --progress none 2>said || complain "a node of terrazzo is caught: $(cat said)"
 exit $failed

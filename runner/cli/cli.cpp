@@ -22,6 +22,7 @@
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
 #include "runner/cli/plugin_flag.h"
+#include "runner/engine/checked.h"
 #include "runner/report/progress.h"
 
 namespace terrazzo {
@@ -288,6 +289,7 @@ int obey(int argc, const char* const* argv, ProgressMode mode) {
 
 int run_command_line(int argc, const char* const* argv) {
   keep_standard_streams_apart();
+  if (std::find(argv, argv + argc, std::string_view("--checked")) != argv + argc) start_watching(argv);
   const ProgressMode mode = mode_of(argc, argv);
   CommandLine line;
   try {

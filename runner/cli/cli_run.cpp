@@ -18,6 +18,7 @@
 #include "runner/cli/console.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/watch.h"
+#include "runner/engine/checked.h"
 #include "runner/engine/history.h"
 #include "runner/engine/preflight.h"
 #include "runner/report/html_report.h"
@@ -36,7 +37,7 @@ void warn(const RunFlags& flags, const std::string& message) {
 
 /// The cache to use. The usual folder may be out of reach, which costs time; one that was asked for may not.
 std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
-  if (flags.no_cache) return nullptr;
+  if (flags.no_cache || flags.checked) return nullptr;
   try {
     return std::make_unique<Cache>(flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache));
   } catch (const Error& e) {
@@ -71,7 +72,8 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   options.targets.only = nodes_meant(graph, flags.only);
   options.cache = cache;
   options.history = history ? &*history : nullptr;
-  options.threads = flags.threads;
+  options.threads = flags.checked ? 1 : flags.threads;
+  options.checked = flags.checked;
   options.memory = flags.memory.empty() ? 0 : parse_bytes(flags.memory, "--memory");
   options.cancelled = &cancelled;
   options.targets.keep = flags.keep;
@@ -148,6 +150,9 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
   command
       .add_option("--memory", flags.memory, "Memory for running nodes, such as 2G; half of the machine's if not given")
       ->type_name("SIZE");
+  command.add_flag("--checked", flags.checked,
+                   "Run every node twice and watch what it reads: one that is not deterministic, or reads files or "
+                   "variables of the environment that its key does not cover, fails. Uses one thread and no cache");
   command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
   command.add_flag(
       "--watch", flags.watch,
@@ -171,6 +176,7 @@ int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
     throw UsageError(fmt::format("--report takes a file that ends in .html; \"{}\" does not", flags.report));
   check_writable("--report", flags.report);
   check_writable("--trace", flags.trace);
+  if (flags.checked && !is_watching()) warn(flags, "what nodes read is not watched: " + why_not_watching());
   const CancelOnSignal signals;
   const std::unique_ptr<Cache> cache = open_cache(flags);
   if (flags.watch) return watch(load, flags, cache.get(), signals.flag());

@@ -24,6 +24,7 @@ struct RunFlags {
   std::string memory;
   bool dry_run = false;
   bool watch = false;
+  bool checked = false;
   std::string report;
   std::string trace;
   std::string progress = "auto";

@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include "graphs/document/problem.h"
+#include "runner/engine/checked.h"
 
 namespace terrazzo {
 
@@ -77,14 +78,24 @@ void check_repeatable(const Stage& stage, const std::map<std::string, Digest>& n
 
 void compute(Job& job, const Stage& stage, const RunOptions& options) {
   NodeContext& context = *job.context;
+  std::optional<NodeContext> again;
+  if (options.checked) again.emplace(context);
   StagedFiles staged(context);
   const auto start = std::chrono::steady_clock::now();
   context.task().check();
   if (options.observer) options.observer->started(stage);
   // Isolated: a thread that waits for this node's inner loops must not pick up another node meanwhile.
-  tbb::this_task_arena::isolate([&] { stage.type().compute(context); });
-  context.task().check();
-  check_outputs(context);
+  {
+    std::optional<WatchedReads> reads;
+    if (options.checked) reads.emplace();
+    tbb::this_task_arena::isolate([&] { stage.type().compute(context); });
+    context.task().check();
+    check_outputs(context);
+    if (reads) {
+      reads->stop();
+      check_node(stage, context, *again, *reads);
+    }
+  }
   if (stage.type().files_read) check_files_unchanged(stage, options.cache);
   StageRecord record;
   record.outputs = names_of(stage.type(), stage.known->key, context.outputs());

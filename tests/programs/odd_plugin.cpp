@@ -1,4 +1,8 @@
 // A plug-in that does what plug-ins should not; what, says the macro ODD.
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <random>
 #include <stdexcept>
 
 #include <terrazzo/terrazzo.h>
@@ -18,6 +22,15 @@ tz::NodeType odd_node() {
     if (node.text("how") == "error") throw tz::Error("how", "it is odd");
     if (node.text("how") == "exception") throw std::runtime_error("out of luck");
     if (node.text("how") == "number") throw 3;
+    if (node.text("how") == "nothing") return;
+    tz::ImageInfo info;
+    info.size = {8, 8};
+    float value = 0.5f;
+    if (node.text("how") == "random") value = float(std::random_device()() % 1000) / 1000;
+    if (node.text("how") == "clock") value = float(std::chrono::steady_clock::now().time_since_epoch().count() % 1000);
+    if (node.text("how") == "variable") value = std::getenv("ODD_VALUE") ? 1 : 0;
+    if (node.text("how") == "file") std::ifstream("secret.txt") >> value;
+    node.output("image", tz::Image::from_floats(info, std::vector<float>(64, value)));
   };
   return t;
 }

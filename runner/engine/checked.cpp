@@ -1,0 +1,207 @@
+#include "runner/engine/checked.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <mutex>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+#include "core/base/error.h"
+#include "core/file/module_path.h"
+
+namespace terrazzo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Tell = void (*)(char kind, const char* what, int flags, const void* by);
+using Watch = void (*)(Tell);
+
+constexpr const char* library_name = "terrazzo_watch.so";
+constexpr const char* preload = "LD_PRELOAD";
+/// Names a file whose content is in the keys of all that read it.
+constexpr std::string_view color_variable = "OCIO";
+constexpr const char* started = "TERRAZZO_WATCHED";
+
+Watch watch() {
+  return reinterpret_cast<Watch>(::dlsym(RTLD_DEFAULT, "terrazzo_watch"));
+}
+
+std::string reason;
+std::mutex mutex;
+WatchedReads* now = nullptr;
+thread_local bool is_telling = false;  ///< what telling reads itself does not count
+
+/// Pixels of lazy outputs too: their digests name the recipe.
+void add_pixels(Hasher& hasher, const Image& image) {
+  hasher.add(image.width()).add(image.height()).add(image.channels());
+  for_each_strip(image, [&](const Rect& r, const float* pixels) {
+    hasher.stream(pixels, size_t(r.area()) * size_t(image.channels()) * sizeof(float));
+  });
+}
+
+Digest content_of(const Value& value) {
+  Hasher hasher;
+  if (const auto* image = std::get_if<ImagePtr>(&value)) {
+    add_pixels(hasher, **image);
+  } else if (const auto* material = std::get_if<MaterialPtr>(&value)) {
+    for (const Map& m : (*material)->maps()) {
+      hasher.add(m.name);
+      add_pixels(hasher, *m.image);
+    }
+  } else {
+    hasher.add(digest_of(value));
+  }
+  return hasher.digest();
+}
+
+bool is_inside(const fs::path& path, const fs::path& folder) {
+  const fs::path relative = path.lexically_relative(folder);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+/// What the system's libraries read, whatever a node does.
+bool is_of_the_system(const fs::path& path) {
+  constexpr std::array<const char*, 7> folders = {"/usr", "/lib", "/lib64", "/etc", "/proc", "/sys", "/dev"};
+  return std::ranges::any_of(folders, [&](const char* f) { return is_inside(path, f); });
+}
+
+/// Whether code at that address is in a library of the system: these ask for variables on their own.
+bool is_code_of_the_system(const void* address) {
+  Dl_info place{};
+  return ::dladdr(address, &place) != 0 && place.dli_fname && is_of_the_system(fs::path(place.dli_fname));
+}
+
+bool is_random(const fs::path& path) {
+  return path == "/dev/urandom" || path == "/dev/random";
+}
+
+void require_declared(const Stage& stage, const NodeContext& context, const WatchedReads& reads) {
+  const NodeType& type = stage.type();
+  std::set<fs::path> declared;
+  std::error_code unresolved;
+  if (type.files_read)
+    for (const fs::path& f : type.files_read(stage.node->params)) declared.insert(fs::weakly_canonical(f, unresolved));
+  for (const StagedFile& f : context.staged()) declared.insert(fs::weakly_canonical(f.temporary, unresolved));
+  for (const fs::path& file : reads.files()) {
+    const fs::path path = fs::weakly_canonical(file, unresolved);
+    if (is_random(path))
+      throw Error(fmt::format("checked: {} reads random numbers from {}; its results cannot be cached", type.name,
+                              path.string()));
+    if (declared.contains(path) || is_of_the_system(path) || !fs::is_regular_file(path, unresolved)) continue;
+    throw Error(
+        fmt::format("checked: {} reads {}, which its `files_read` does not name: when that file changes, results "
+                    "of before would be taken for those of now",
+                    type.name, path.string()));
+  }
+  for (const std::string& variable : reads.variables())
+    if (variable != color_variable)
+      throw Error(
+          fmt::format("checked: {} reads the variable {} of the environment, which is not in its key: make it a "
+                      "parameter",
+                      type.name, variable));
+}
+
+void require_same_files(const NodeContext& first, const NodeContext& again, const std::string& type) {
+  const auto content = [](const StagedFile& f) { return digest_of_file(nullptr, f.temporary); };
+  const auto same = [&](const StagedFile& a, const StagedFile& b) {
+    return a.target == b.target && content(a) == content(b);
+  };
+  if (!std::ranges::equal(first.staged(), again.staged(), same))
+    throw Error(fmt::format("checked: {} writes other files when it runs again with the same inputs", type));
+}
+
+void remove_files(const NodeContext& context) {
+  std::error_code ignored;
+  for (const StagedFile& f : context.staged()) fs::remove(f.temporary, ignored);
+}
+
+}  // namespace
+
+/// Passes on what the library tells.
+struct WatchedSink {
+  static void tell(char kind, const char* what, int flags, const void* by) {
+    if (is_telling) return;
+    is_telling = true;
+    {
+      const std::lock_guard lock(mutex);
+      const bool is_read = (flags & (O_WRONLY | O_RDWR | O_DIRECTORY)) == 0;
+      if (now && kind == 'v' && !is_code_of_the_system(by)) now->variables_.emplace(what);
+      if (now && kind == 'f' && is_read) now->files_.insert(fs::absolute(what));
+    }
+    is_telling = false;
+  }
+};
+
+bool is_watching() {
+  return watch() != nullptr;
+}
+
+void start_watching(const char* const* argv) {
+  if (is_watching()) return;
+  if (std::getenv(started)) {
+    reason = "the watching library was not loaded";
+    return;
+  }
+  try {
+    const std::string library = module_path(library_name, "the module for checked runs").string();
+    const char* others = std::getenv(preload);
+    ::setenv(preload, (library + (others ? std::string(":") + others : "")).c_str(), 1);
+    ::setenv(started, "1", 1);
+    ::execv("/proc/self/exe", const_cast<char* const*>(argv));
+    reason = "the program cannot be started again";
+  } catch (const Error& e) {
+    reason = e.what();
+  }
+}
+
+std::string why_not_watching() {
+  return is_watching() ? "" : reason.empty() ? "only the program terrazzo watches" : reason;
+}
+
+WatchedReads::WatchedReads() {
+  if (!is_watching()) return;
+  const std::lock_guard lock(mutex);
+  now = this;
+  watch()(&WatchedSink::tell);
+}
+
+void WatchedReads::stop() {
+  const std::lock_guard lock(mutex);
+  if (now != this) return;
+  watch()(nullptr);
+  now = nullptr;
+}
+
+WatchedReads::~WatchedReads() {
+  stop();
+}
+
+void check_node(const Stage& stage, const NodeContext& first, NodeContext& again, const WatchedReads& reads) {
+  const std::string& type = stage.type().name;
+  require_declared(stage, first, reads);
+  try {
+    tbb::this_task_arena::isolate([&] { stage.type().compute(again); });
+    for (const auto& [port, value] : const_cast<NodeContext&>(first).outputs()) {
+      const auto at = again.outputs().find(port);
+      if (at == again.outputs().end() || content_of(at->second) != content_of(value))
+        throw Error(
+            fmt::format("checked: {} gives another \"{}\" when it runs again with the same inputs. Random numbers, "
+                        "the clock, the order of threads and memory that was not set are the usual causes",
+                        type, port));
+    }
+    require_same_files(first, again, type);
+  } catch (...) {
+    remove_files(again);
+    throw;
+  }
+  remove_files(again);
+}
+
+}  // namespace terrazzo
