@@ -46,6 +46,17 @@ sed 's/"default": *"bricks"/"default": "tiles"/; s/"default": *\[512, 512\]/"def
 guide/out/embedding/embedding job.json "$scratch/by-program" "$scratch/cache" >said
 diff -r by-command by-program || complain "the command line and the program made different files"
 
+# The Debian package says what it needs, and runs from where it is unpacked.
+package=$(find guide/out/package -maxdepth 1 -name '*.deb')
+dpkg-deb -f "$package" Depends >depends
+for library in libopenimageio libopencolorio libtbb; do grep -q $library depends || complain "it does not depend on $library"; done
+dpkg-deb -x "$package" root
+root/usr/bin/terrazzo synth by-command -o unpacked --size 64x64 --quality draft --format exr --no-cache --progress none 2>said ||
+  complain "the unpacked program does not run: $(cat said)"
+for file in man/man1/terrazzo-cache-gc.1 bash-completion/completions/terrazzo zsh/vendor-completions/_terrazzo; do
+  test -s root/usr/share/$file || complain "the package lacks $file"
+done
+
 # Plug-ins.
 plugin=$scratch/plugin/emboss.so
 graph=$source/examples/plugin/emboss.json

@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-examples/packages.sh doctest-dev python3-jsonschema
+examples/packages.sh doctest-dev python3-jsonschema dpkg-dev
 cmake --preset release -DTERRAZZO_TESTS=ON
 cmake --build build
 log=build/Testing/Temporary/LastTest.log

@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# Completions and manual pages, which are made from the commands: bash completes, zsh and fish take their scripts, and groff
+# has no complaint, where these are there.
+# Usage: tests/shell_test.sh PROGRAM
+set -euo pipefail
+program=$(realpath "${1:?usage: shell_test.sh PROGRAM}")
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/terrazzo-shell.XXXXXX")
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+failed=0
+
+complain() {
+  echo "$1" >&2
+  failed=1
+}
+
+"$program" completion bash >completion.bash
+source completion.bash
+touch wall.json 'white wall.json'
+# completes EXPECTED WORD...: what the last word becomes.
+completes() {
+  local expected=$1
+  shift
+  COMP_WORDS=(terrazzo "$@")
+  COMP_CWORD=$#
+  _terrazzo
+  [ "$(printf '%s\n' "${COMPREPLY[@]}")" = "$(printf -- "$expected")" ] ||
+    complain "terrazzo $*: expected \"$expected\", found \"${COMPREPLY[*]}\""
+}
+completes 'run' ru
+completes 'status' cache st
+completes '--progress' run --prog
+completes 'json' run --progress js
+completes 'plain' run wall.json --progress pl
+completes 'wall.json' run wa
+completes 'white wall.json' run wh
+completes 'wall.json' run --params wa
+completes '' run --memory wa
+completes 'verify' cache ver
+
+for shell in zsh fish; do
+  "$program" completion $shell >completion.$shell
+  if command -v $shell >/dev/null; then
+    $shell -n completion.$shell || complain "$shell does not take its script"
+  else
+    echo "$shell is not installed: its script was not read by it"
+  fi
+done
+grep -q -- "-l progress -x -a 'auto bar plain json none'" completion.fish || complain "fish gets no choices"
+status=0
+"$program" completion tcsh >said 2>&1 || status=$?
+[ $status = 2 ] || complain "an unknown shell ended with $status"
+
+for page in "" run "cache gc" synth completion; do
+  "$program" man $page >page.1
+  grep -q '^\.SH SYNOPSIS' page.1 || complain "the page on \"$page\" has no synopsis"
+  if command -v groff >/dev/null; then
+    groff -man -Tutf8 -ww -z page.1 2>said
+    [ ! -s said ] || complain "groff on the page of \"$page\": $(cat said)"
+  fi
+done
+"$program" man run >page.1
+grep -q 'fB\\-\\-progress' page.1 || complain "the page on run lacks an option"
+exit $failed
