@@ -67,6 +67,10 @@ const std::filesystem::path& Cache::folder() const {
   return state_->given_folder;
 }
 
+uint64_t Cache::limit() const {
+  return state_->limit;
+}
+
 std::vector<std::string> Cache::take_warnings() {
   return state_->take_warnings();
 }
@@ -122,6 +126,12 @@ std::optional<Value> Cache::load_value(const Digest& value) {
     state_->warn(e.what());
   }
   return std::nullopt;
+}
+
+uint64_t Cache::stored_bytes(const Digest& value) const {
+  std::error_code missing;
+  const uint64_t bytes = std::filesystem::file_size(state_->folder.path_of(EntryKind::value, value), missing);
+  return missing ? 0 : bytes;
 }
 
 void Cache::store_value(const Value& value, double seconds, const Task& task) {

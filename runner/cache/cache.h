@@ -53,6 +53,8 @@ class Cache {
   Cache& operator=(const Cache&) = delete;
 
   const std::filesystem::path& folder() const;
+  /// Bytes.
+  uint64_t limit() const;
 
   std::optional<StageRecord> find_stage(const Digest& key);
   void store_stage(const Digest& key, const StageRecord& record);
@@ -66,6 +68,8 @@ class Cache {
   /// this Cache object lives.
   bool has_value(const Digest& value);
   std::optional<Value> load_value(const Digest& value);
+  /// What the value takes on the disk; 0 if it is not stored.
+  uint64_t stored_bytes(const Digest& value) const;
   /// `seconds`: time to compute, for eviction. Throws Cancelled.
   void store_value(const Value& value, double seconds, const Task& task);
 

@@ -26,6 +26,8 @@ struct RunFlags {
   bool watch = false;
   std::string report;
   std::string trace;
+  std::string summary;
+  bool keep_going = false;
   std::string progress = "auto";
   std::vector<std::string> keep{};                ///< more targets, whose values are kept for `after`
   std::function<void(const RunResult&)> after{};  ///< called with the result of each run
