@@ -58,6 +58,7 @@ LivePins read_live_pins(const std::filesystem::path& folder) {
     const std::string name = path.filename().string();
     if (!is_alive(file, name)) {
       ::unlink(path.c_str());
+      live.dead++;
       continue;
     }
     live.owners.insert(name);

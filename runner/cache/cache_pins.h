@@ -21,6 +21,7 @@ bool lock_file(const File& file, int operation);
 struct LivePins {
   std::set<Digest> values;
   std::set<std::string> owners;
+  int dead = 0;  ///< files of dead processes that were there
 };
 
 /// Reads all pins and removes the files of dead processes. If locks do not work, and for other hosts, whose locks may

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "graphs/document/load.h"
+#include "runner/cache/cache_limit.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/cli_sweep.h"
@@ -33,11 +34,29 @@ void warn(const RunFlags& flags, const std::string& message) {
   write_warning(*progress_mode_from(flags.progress), std::cerr, message);
 }
 
+fs::path cache_folder(const RunFlags& flags) {
+  return flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache);
+}
+
+/// What the command line says, else the environment or the folder's settings: wrong ones are no reason to do without a
+/// cache. None if there is no folder.
+std::optional<uint64_t> limit_of_cache(const RunFlags& flags) {
+  if (!flags.cache_size.empty()) return parse_bytes(flags.cache_size, "--cache-size");
+  fs::path folder;
+  try {
+    folder = cache_folder(flags);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+  return as_usage([&] { return cache_limit(folder).bytes; });
+}
+
 /// The cache to use. The usual folder may be out of reach, which costs time; one that was asked for may not.
 std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
   if (flags.no_cache) return nullptr;
+  const std::optional<uint64_t> limit = limit_of_cache(flags);
   try {
-    return std::make_unique<Cache>(flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache));
+    return std::make_unique<Cache>(cache_folder(flags), limit.value_or(0));
   } catch (const Error& e) {
     if (!flags.cache.empty()) throw UsageError(fmt::format("--cache {}: {}", flags.cache, e.what()));
     warn(flags, fmt::format("running without a cache: {}", e.what()));
@@ -126,7 +145,7 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   const RunResult result = run_plan(plan, options);
   std::vector<std::string> warnings;
   if (cache) {
-    cache->collect();
+    cache->collect_if_due();
     warnings = cache->take_warnings();
     for (const std::string& w : warnings) progress->warned(w);
   }
@@ -181,7 +200,12 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
       ->expected(1);
   CLI::Option* cache = command.add_option("--cache", flags.cache, "Folder of the cache, if not the usual one");
   cache->type_name("DIR");
-  command.add_flag("--no-cache", flags.no_cache, "Reuse nothing and keep nothing")->excludes(cache);
+  CLI::Option* size = command.add_option(
+      "--cache-size", flags.cache_size,
+      "How large the cache may become, such as 20G; if not given, $TERRAZZO_CACHE_SIZE, or as settings.txt in the "
+      "cache's folder says, or 10G");
+  size->type_name("SIZE");
+  command.add_flag("--no-cache", flags.no_cache, "Reuse nothing and keep nothing")->excludes(cache)->excludes(size);
   command.add_option("--threads", flags.threads, "Threads to use; one per core if not given")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));

@@ -19,6 +19,7 @@ struct RunFlags {
   std::string graph;  ///< the graph file; empty for a stock graph
   std::vector<std::string> only;
   std::string cache;
+  std::string cache_size;
   bool no_cache = false;
   int threads = 0;
   std::string memory;
