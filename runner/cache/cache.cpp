@@ -27,7 +27,8 @@ Cache::State::State(std::filesystem::path given, uint64_t bytes)
     : given_folder(std::move(given)),
       limit(bytes == 0 ? cache_limit(given_folder) : CacheLimit{bytes, ""}),
       folder(given_folder),
-      pins(folder.pins(), folder.lock()) {
+      pins(folder.pins(), folder.lock()),
+      leases(folder.leases()) {
   if (pins.failure() != 0) warn_unwritten(FileError("", pins.failure()));
 }
 
@@ -97,11 +98,11 @@ void Cache::store_stage(const Digest& key, const StageRecord& record) {
 }
 
 LeaseAttempt Cache::try_lease(const Digest& key) {
-  return terrazzo::try_lease(state_->folder.leases(), key);
+  return state_->leases.try_lease(key);
 }
 
 bool Cache::is_leased(const Digest& key) const {
-  return lease_is_taken(state_->folder.leases(), key);
+  return state_->leases.is_taken(key);
 }
 
 bool Cache::has_value(const Digest& value) {

@@ -80,9 +80,8 @@ uint64_t remove_values(const CacheFolder& folder, const std::vector<CacheEntry>&
   return freed;
 }
 
-/// Removes what dead processes left: their leases, their pins, and what they had half-written.
+/// Removes what dead processes left: their pins, and what they had half-written.
 uint64_t remove_abandoned(const CacheFolder& folder, const std::vector<TemporaryEntry>& temporaries) {
-  remove_abandoned_leases(folder.leases());
   const EvictionLock lock(folder.lock());
   const LivePins pins = read_live_pins(folder.pins());
   uint64_t freed = 0;
@@ -182,6 +181,7 @@ CacheCollection Cache::collect_all() {
   const int64_t begun = now_ns();
   const CacheScan scan = folder.scan();
   terrazzo::remove_abandoned(folder.history());
+  state_->leases.remove_abandoned();
   uint64_t freed = remove_abandoned(folder, scan.temporaries);
   freed += remove_forgotten(folder, scan);
   const uint64_t total = scan.bytes() - freed;
@@ -217,6 +217,7 @@ CacheCollection Cache::collect_if_due() {
 uint64_t Cache::clear() {
   const CacheFolder& folder = state_->folder;
   const CacheScan scan = folder.scan();
+  state_->leases.remove_abandoned();
   uint64_t freed = remove_abandoned(folder, scan.temporaries);
   freed += remove_values(folder, of_kind(scan, EntryKind::value), scan.bytes() + 1);
   for (const CacheEntry& e : scan.entries)

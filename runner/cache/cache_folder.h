@@ -17,7 +17,7 @@
 ///   v1/stages/ab/<key>          runner/cache/cache_records.h
 ///   v1/files/ab/<path digest>   runner/cache/cache_records.h
 ///   v1/pins/, v1/lock           runner/cache/cache_pins.h
-///   v1/leases/<key>             runner/cache/cache_leases.h
+///   v1/leases/<key>/            runner/cache/cache_leases.h
 ///   v1/total                    runner/cache/cache_total.h
 ///   history/<path digest>.txt   runner/cache/history_files.h
 ///   settings.txt                runner/cache/cache_limit.h

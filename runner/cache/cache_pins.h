@@ -16,6 +16,9 @@ namespace terrazzo {
 
 /// flock(2), uninterrupted; false if it fails, and errno says why.
 bool lock_file(const File& file, int operation);
+/// The same, but waits for 10 s at most: who holds the lock may have been stopped. What is evicted meanwhile though it
+/// is in use costs time, and nothing else.
+bool lock_file_soon(const File& file, int operation);
 
 /// Values and owners in use by running processes.
 struct LivePins {

@@ -7,6 +7,7 @@
 
 #include "runner/cache/cache.h"
 #include "runner/cache/cache_folder.h"
+#include "runner/cache/cache_leases.h"
 #include "runner/cache/cache_limit.h"
 #include "runner/cache/cache_pins.h"
 
@@ -20,6 +21,7 @@ struct Cache::State {
   CacheLimit limit;
   CacheFolder folder;
   Pins pins;
+  Leases leases;
 
   /// Adds a warning, once per text.
   void warn(const std::string& text);

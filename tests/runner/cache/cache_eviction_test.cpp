@@ -2,11 +2,14 @@
 #include <fstream>
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "core/file/atomic_file.h"
 #include "runner/cache/cache.h"
 #include "runner/cache/cache_folder.h"
+#include "runner/cache/cache_pins.h"
 #include "runner/engine/history.h"
 #include "test_paths.h"
 #include "tests/run_node.h"
@@ -277,4 +280,12 @@ TEST_CASE("a graph that is run again keeps its history young") {
   CHECK(History(folder.path(), folder.path() / "one.json").seconds("total"));
   cache.collect();
   CHECK(cache.status().histories == 1);
+}
+
+TEST_CASE("a process that is stopped while it holds the folder's lock does not hold up others for ever") {
+  const TemporaryFolder folder;
+  const std::vector<Value> values = store_row(folder.path(), 1);
+  const File stopped = File::open(CacheFolder(folder.path()).lock(), O_RDWR | O_CREAT);
+  REQUIRE(lock_file(stopped, LOCK_EX));
+  CHECK_FALSE(lock_file_soon(File::open(CacheFolder(folder.path()).lock(), O_RDWR), LOCK_SH));
 }
