@@ -350,12 +350,18 @@ void write_error(ProgressMode mode, std::ostream& out, const std::exception& err
   const GraphError* graph = dynamic_cast<const GraphError*>(&error);
   const std::string file = graph ? graph->file() : "";
   const std::vector<Problem> problems = graph ? graph->problems() : std::vector<Problem>{{{}, "", error.what()}};
-  for (const Problem& p : problems) {
+  for (size_t i = 0; i < std::min(problems.size(), most_problems_shown); i++) {
     if (mode == ProgressMode::json)
-      write_event(out, error_event(file, p));
+      write_event(out, error_event(file, problems[i]));
     else
-      out << "error: " << describe(file, p) << std::endl;
+      out << "error: " << describe(file, problems[i]) << std::endl;
   }
+  const std::string more = problems_not_shown(problems.size());
+  if (more.empty()) return;
+  if (mode == ProgressMode::json)
+    write_event(out, {{"event", "error"}, {"message", more}});
+  else
+    out << more << std::endl;
 }
 
 void write_watching(ProgressMode mode, std::ostream& out, size_t files) {

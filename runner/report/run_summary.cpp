@@ -1,5 +1,8 @@
 #include "runner/report/run_summary.h"
 
+#include <algorithm>
+#include <span>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -87,14 +90,21 @@ Json problem_json(const std::string& graph, const Problem& p) {
   return out;
 }
 
+std::span<const Problem> shown(const std::vector<Problem>& problems) {
+  return {problems.data(), std::min(problems.size(), most_problems_shown)};
+}
+
 Json failures_json(const RunSummary& s) {
   Json out = Json::array();
   if (s.result)
     for (const Failure& f : s.result->failures) out.push_back({{"message", f.message}, {"node", f.node}});
-  if (const auto* graph = dynamic_cast<const GraphError*>(s.error))
-    for (const Problem& p : graph->problems()) out.push_back(problem_json(graph->file(), p));
-  else if (s.error)
+  if (const auto* graph = dynamic_cast<const GraphError*>(s.error)) {
+    for (const Problem& p : shown(graph->problems())) out.push_back(problem_json(graph->file(), p));
+    if (const std::string more = problems_not_shown(graph->problems().size()); !more.empty())
+      out.push_back({{"message", more}});
+  } else if (s.error) {
     out.push_back({{"message", s.error->what()}});
+  }
   return out;
 }
 
