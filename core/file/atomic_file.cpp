@@ -10,12 +10,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/base/hash.h"
 #include "core/file/file_io.h"
+#include "core/file/processes.h"
 
 namespace terrazzo {
 
@@ -25,13 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr auto trusted_age = std::chrono::hours(24);
 constexpr std::string_view mark = "terrazzo";
-
-/// The processes that can be told dead from here: those of this host that are counted together with this one.
-std::string neighbourhood() {
-  std::error_code missing;
-  const fs::path processes = fs::read_symlink("/proc/self/ns/pid", missing);
-  return Hasher().add(host_name()).add(processes.native()).digest().hex().substr(0, 8);
-}
 
 struct Owner {
   std::string neighbourhood;
@@ -57,15 +49,11 @@ std::optional<Owner> owner_of(const fs::path& file) {
   return whole && owner.process > 0 ? std::optional(owner) : std::nullopt;
 }
 
-bool is_running(pid_t process) {
-  return ::kill(process, 0) == 0 || errno != ESRCH;
-}
-
 bool is_abandoned(const fs::directory_entry& entry) {
   const std::optional<Owner> owner = owner_of(entry.path());
   std::error_code failure;
   if (!owner || entry.is_symlink(failure) || !entry.is_regular_file(failure)) return false;
-  if (owner->neighbourhood == neighbourhood()) return !is_running(owner->process);
+  if (owner->neighbourhood == process_neighbourhood()) return !is_running(owner->process);
   const fs::file_time_type written = entry.last_write_time(failure);
   return !failure && fs::file_time_type::clock::now() - written > trusted_age;
 }
@@ -117,8 +105,8 @@ fs::path temporary_beside(const fs::path& target) {
   static std::atomic<unsigned> count{0};
   // Names have at most 255 bytes; the beginning is for people only.
   const std::string beginning = target.stem().string().substr(0, 100);
-  return target.parent_path() / fmt::format(".{}.{}-{}-{}-{}{}", beginning, mark, neighbourhood(), ::getpid(), count++,
-                                            target.extension().string());
+  return target.parent_path() / fmt::format(".{}.{}-{}-{}-{}{}", beginning, mark, process_neighbourhood(), ::getpid(),
+                                            count++, target.extension().string());
 }
 
 void publish_file(const fs::path& temporary, const fs::path& target, bool sync) {

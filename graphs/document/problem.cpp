@@ -57,11 +57,12 @@ std::string files(const GraphNode& node, const std::string& about, const char* h
 
 std::string all_described(const std::string& file, const std::vector<Problem>& problems) {
   std::string text;
-  for (const Problem& p : problems) {
+  for (size_t i = 0; i < std::min(problems.size(), most_problems_shown); i++) {
     if (!text.empty()) text += '\n';
-    text += describe(file, p);
+    text += describe(file, problems[i]);
   }
-  return text;
+  const std::string more = problems_not_shown(problems.size());
+  return more.empty() ? text : text + '\n' + more;
 }
 
 }  // namespace
@@ -111,6 +112,14 @@ std::string describe(const std::string& file, const Problem& problem) {
   return text + problem.message;
 }
 
+std::string problems_not_shown(size_t all, const char* what) {
+  if (all <= most_problems_shown) return "";
+  const size_t more = all - most_problems_shown;
+  std::string number = std::to_string(more);
+  for (size_t at = number.size(); at > 3;) number.insert(at -= 3, ",");
+  return fmt::format("and {} more {}{}", number, what, more == 1 ? "" : "s");
+}
+
 Problem problem_of(const GraphNode& node, const std::string& about, const std::string& message) {
   std::string where = fmt::format("node \"{}\" ({})", node.name, node.type->name);
   if (node.type->find_input(about)) where += fmt::format(", input \"{}\"{}", about, files(node, about, "made from "));
@@ -120,6 +129,9 @@ Problem problem_of(const GraphNode& node, const std::string& about, const std::s
 }
 
 GraphError::GraphError(const std::string& file, std::vector<Problem> problems)
-    : Error(all_described(file, in_order(problems))), file_(file), problems_(in_order(std::move(problems))) {}
+    : GraphError(InOrder{in_order(std::move(problems))}, file) {}
+
+GraphError::GraphError(InOrder ordered, const std::string& file)
+    : Error(all_described(file, ordered.problems)), file_(file), problems_(std::move(ordered.problems)) {}
 
 }  // namespace terrazzo

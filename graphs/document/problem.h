@@ -37,7 +37,12 @@ std::string describe(const std::string& file, const Problem& problem);
 /// "maps.0") that is to blame, or is empty.
 Problem problem_of(const GraphNode& node, const std::string& about, const std::string& message);
 
-/// All problems of one document, in the order of their places; what() has one line for each.
+/// Of many problems only the first ones are shown, and only these are worth a search for what may be meant instead.
+inline constexpr size_t most_problems_shown = 100;
+/// "and 99,900 more problems" of so many; empty if all are shown.
+std::string problems_not_shown(size_t all, const char* what = "problem");
+
+/// All problems of one document, in the order of their places; what() has one line for each that is shown.
 class GraphError : public Error {
  public:
   GraphError(const std::string& file, std::vector<Problem> problems);
@@ -45,6 +50,11 @@ class GraphError : public Error {
   const std::string& file() const { return file_; }
 
  private:
+  struct InOrder {
+    std::vector<Problem> problems;
+  };
+  GraphError(InOrder ordered, const std::string& file);
+
   std::string file_;
   std::vector<Problem> problems_;
 };

@@ -95,7 +95,8 @@ bool GraphScope::check_names(const Expression& expression, const JsonValue& text
   for (const auto& [name, offset] : expression.nodes()) {
     if (node_names_.contains(name)) continue;
     known = false;
-    const std::vector<std::string> all(node_names_.begin(), node_names_.end());
+    std::vector<std::string> all;  // to look for the nearest one in; not for problems that will not be shown
+    if (hints_++ < most_problems_shown) all.assign(node_names_.begin(), node_names_.end());
     diagnostics.add(place_in(text, offset),
                     fmt::format("@{} leads to no node{}, in {}", name, suggestion(name, all), in_quotes(text.text)));
   }

@@ -67,6 +67,7 @@ class GraphScope : public ExpressionScope {
   std::set<std::string> node_names_;
   std::string path_;
   Forecasts forecasts_;
+  mutable size_t hints_ = 0;  ///< given on nodes that are not there
 };
 
 }  // namespace terrazzo

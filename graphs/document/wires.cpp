@@ -44,13 +44,11 @@ class WireChecker {
 
  private:
   /// Null after a problem, or if the node's type is unknown.
-  const Port* find_output(const WireEnd& end, PortWires& into) const {
+  const Port* find_output(const WireEnd& end, PortWires& into) {
     const auto* source = level_.graph->find_source(end.node);
     if (!source) {
-      std::vector<std::string> names;
-      for (const auto& [name, type] : sources_) names.push_back(name);
       into.diagnostics.add(end.place,
-                           fmt::format("{} leads to no node{}", in_quotes(end.spelled), suggestion(end.node, names)));
+                           fmt::format("{} leads to no node{}", in_quotes(end.spelled), nearest_nodes(end.node)));
       return nullptr;
     }
     const NodeType* type = source->second;
@@ -71,7 +69,17 @@ class WireChecker {
     return output;
   }
 
-  bool types_fit(const std::string& reader, const WireEnd& end, const Port& output, PortWires& into) const {
+  /// Hints look at all nodes, so that only those problems get one that may be shown.
+  bool is_worth_a_hint() { return hints_++ < most_problems_shown; }
+
+  std::string nearest_nodes(const std::string& wrong) {
+    if (!is_worth_a_hint()) return "";
+    std::vector<std::string> names;
+    for (const auto& [name, type] : sources_) names.push_back(name);
+    return suggestion(wrong, names);
+  }
+
+  bool types_fit(const std::string& reader, const WireEnd& end, const Port& output, PortWires& into) {
     const ValueType wanted = into.port->type;
     if (converts(output.type, wanted)) return true;
     into.diagnostics.add(end.place, fmt::format("expected a wire of type {}, found {}, which is of type {}{}",
@@ -81,7 +89,8 @@ class WireChecker {
   }
 
   /// Which wires would fit: those of the node itself, if it has any, else those of all nodes.
-  std::string fitting_outputs(ValueType wanted, const std::string& node, const std::string& reader) const {
+  std::string fitting_outputs(ValueType wanted, const std::string& node, const std::string& reader) {
+    if (!is_worth_a_hint()) return "";
     std::vector<std::string> own, all;
     for (const auto& [name, type] : sources_) {
       if (!type || name == reader) continue;
@@ -99,6 +108,7 @@ class WireChecker {
   const Level& level_;
   const NodeTypes& sources_;
   std::vector<Problem>& conversions_;
+  size_t hints_ = 0;
 };
 
 /// Follows a wire back to nodes that run.
@@ -206,7 +216,11 @@ void connect_port(NodeDraft& draft, PortWires& port) {
 class Walk {
  public:
   Walk(const Drafts& drafts, std::vector<Problem>& problems)
-      : drafts_(drafts), problems_(problems), sources_(drafts.size()), state_(drafts.size(), State::unseen) {
+      : drafts_(drafts),
+        problems_(problems),
+        sources_(drafts.size()),
+        state_(drafts.size(), State::unseen),
+        place_in_path_(drafts.size()) {
     const Positions positions = positions_of(drafts);
     for (size_t i = 0; i < drafts.size(); i++)
       for (const PortWires& p : drafts[i].ports)
@@ -237,6 +251,7 @@ class Walk {
     std::vector<Step> path;
     const auto enter = [&](size_t node) {
       state_[node] = State::open;
+      place_in_path_[node] = path.size();
       path.push_back({node});
     };
     enter(start);
@@ -254,17 +269,34 @@ class Walk {
     }
   }
 
-  /// Each step of the path reads the next one, and the last one reads `closing` again.
+  /// Each step of the path reads the next one, and the last one reads `closing` again. The problem stands at the first
+  /// of them in the document; that is not looked for where there are more than will be shown.
   void report_cycle(const std::vector<Step>& path, size_t closing) {
-    std::string names = drafts_[closing].node.name;
+    const auto begin = path.begin() + ptrdiff_t(place_in_path_[closing]);
     size_t first = closing;
-    for (size_t i = path.size(); i-- > 0;) {
-      names += " -> " + drafts_[path[i].node].node.name;
-      first = std::min(first, path[i].node);
-      if (path[i].node == closing) break;
-    }
+    if (cycles_++ < most_problems_shown)
+      for (auto step = begin; step != path.end(); ++step) first = std::min(first, step->node);
     const GraphNode& node = drafts_[first].node;
-    problems_.push_back({node.place, "node " + in_quotes(node.name), reads_ + names, node.name, node.file});
+    problems_.push_back(
+        {node.place, "node " + in_quotes(node.name), reads_ + names_along(begin, path.end()), node.name, node.file});
+  }
+
+  /// "a -> c -> b -> a" of steps that read one another; of a long way the middle is left out.
+  std::string names_along(std::vector<Step>::const_iterator begin, std::vector<Step>::const_iterator end) const {
+    constexpr ptrdiff_t shown_at_each_end = 10;
+    const ptrdiff_t left_out = end - begin - 2 * shown_at_each_end;
+    std::string names = drafts_[begin->node].node.name;
+    const auto add = [&](std::vector<Step>::const_iterator from, std::vector<Step>::const_iterator to) {
+      while (to != from) names += " -> " + drafts_[(--to)->node].node.name;
+    };
+    if (left_out <= 1) {
+      add(begin, end);
+    } else {
+      add(end - shown_at_each_end, end);
+      names += fmt::format(" -> ({} more)", left_out);
+      add(begin, begin + shown_at_each_end);
+    }
+    return names;
   }
 
   const Drafts& drafts_;
@@ -272,7 +304,9 @@ class Walk {
   std::vector<std::vector<size_t>> sources_;
   std::string reads_ = "the wires form a cycle: ";
   std::vector<State> state_;
+  std::vector<size_t> place_in_path_;  ///< of open nodes
   std::vector<size_t> order_;
+  size_t cycles_ = 0;
 };
 
 }  // namespace

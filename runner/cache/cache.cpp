@@ -17,8 +17,6 @@ namespace terrazzo {
 
 namespace {
 
-constexpr uint64_t default_limit = uint64_t{10} << 30;
-
 /// What is computed quicker than that need not survive a power failure: writing thousands of small entries to the disk
 /// one by one would take longer than making them again. An entry of which only a part got there fails its checksum.
 constexpr double seconds_worth_syncing = 0.05;
@@ -27,9 +25,10 @@ constexpr double seconds_worth_syncing = 0.05;
 
 Cache::State::State(std::filesystem::path given, uint64_t bytes)
     : given_folder(std::move(given)),
-      limit(bytes == 0 ? default_limit : bytes),
+      limit(bytes == 0 ? cache_limit(given_folder) : CacheLimit{bytes, ""}),
       folder(given_folder),
-      pins(folder.pins(), folder.lock()) {
+      pins(folder.pins(), folder.lock()),
+      leases(folder.leases()) {
   if (pins.failure() != 0) warn_unwritten(FileError("", pins.failure()));
 }
 
@@ -45,9 +44,10 @@ void Cache::State::warn_unwritten(const Error& why) {
 }
 
 void Cache::State::discard(const std::filesystem::path& path, const Error& why) {
-  ::unlink(path.c_str());
+  const bool is_gone = ::unlink(path.c_str()) == 0 || errno == ENOENT;
   if (dynamic_cast<const OutdatedFile*>(&why)) return;  // as after every change of the format
-  warn(fmt::format("a damaged cache entry was removed: {}", why.what()));
+  warn(fmt::format("a damaged cache entry {}: {}", is_gone ? "was removed" : "is not used, and cannot be removed",
+                   why.what()));
 }
 
 std::vector<std::string> Cache::State::take_warnings() {
@@ -65,6 +65,10 @@ Cache::~Cache() = default;
 
 const std::filesystem::path& Cache::folder() const {
   return state_->given_folder;
+}
+
+uint64_t Cache::limit() const {
+  return state_->limit.bytes;
 }
 
 std::vector<std::string> Cache::take_warnings() {
@@ -94,11 +98,11 @@ void Cache::store_stage(const Digest& key, const StageRecord& record) {
 }
 
 LeaseAttempt Cache::try_lease(const Digest& key) {
-  return terrazzo::try_lease(state_->folder.leases(), key);
+  return state_->leases.try_lease(key);
 }
 
 bool Cache::is_leased(const Digest& key) const {
-  return lease_is_taken(state_->folder.leases(), key);
+  return state_->leases.is_taken(key);
 }
 
 bool Cache::has_value(const Digest& value) {
@@ -124,6 +128,12 @@ std::optional<Value> Cache::load_value(const Digest& value) {
   return std::nullopt;
 }
 
+uint64_t Cache::stored_bytes(const Digest& value) const {
+  std::error_code missing;
+  const uint64_t bytes = std::filesystem::file_size(state_->folder.path_of(EntryKind::value, value), missing);
+  return missing ? 0 : bytes;
+}
+
 void Cache::store_value(const Value& value, double seconds, const Task& task) {
   if (has_value(digest_of(value))) return;
   const std::filesystem::path target = state_->folder.path_of(EntryKind::value, digest_of(value));
@@ -132,6 +142,7 @@ void Cache::store_value(const Value& value, double seconds, const Task& task) {
     const bool sync = seconds >= seconds_worth_syncing;
     save_value(value, temporary, task, seconds, sync);
     publish_file(temporary, target, sync);
+    state_->folder.note_written(stored_bytes(digest_of(value)));
   } catch (const Error& e) {
     state_->warn_unwritten(e);
   }

@@ -34,6 +34,20 @@ struct CacheStatus {
   uint64_t limit = 0;
   int64_t stages = 0;
   int64_t values = 0;
+  int64_t histories = 0;   ///< graphs whose last run is known
+  std::string limit_from;  ///< what says so, see runner/cache/cache_limit.h; empty if the program does
+};
+
+/// What a check of all entries has found.
+struct CacheVerdict {
+  std::vector<std::string> damaged;  ///< a line for each such entry
+  int left = 0;                      ///< how many of them could not be removed
+};
+
+/// What an eviction has done.
+struct CacheCollection {
+  uint64_t freed = 0;    ///< bytes
+  size_t looked_at = 0;  ///< entries
 };
 
 /// A content-addressed cache in a folder that any number of threads, processes and machines may share. A stage record
@@ -46,13 +60,16 @@ class Cache {
   /// $TERRAZZO_CACHE, or terrazzo under $XDG_CACHE_HOME, or ~/.cache/terrazzo.
   static std::filesystem::path default_folder();
 
-  /// Opens or creates the folder; throws Error if that fails. `limit`: bytes, 0 = the default of 10 GiB.
+  /// Opens or creates the folder; throws Error if that fails. `limit`: bytes, 0 = as
+  /// the environment and the folder's settings say, which throws Error if they are wrong.
   explicit Cache(const std::filesystem::path& folder, uint64_t limit = 0);
   ~Cache();
   Cache(const Cache&) = delete;
   Cache& operator=(const Cache&) = delete;
 
   const std::filesystem::path& folder() const;
+  /// Bytes.
+  uint64_t limit() const;
 
   std::optional<StageRecord> find_stage(const Digest& key);
   void store_stage(const Digest& key, const StageRecord& record);
@@ -66,6 +83,8 @@ class Cache {
   /// this Cache object lives.
   bool has_value(const Digest& value);
   std::optional<Value> load_value(const Digest& value);
+  /// What the value takes on the disk; 0 if it is not stored.
+  uint64_t stored_bytes(const Digest& value) const;
   /// `seconds`: time to compute, for eviction. Throws Cancelled.
   void store_value(const Value& value, double seconds, const Task& task);
 
@@ -77,15 +96,20 @@ class Cache {
   std::vector<std::string> take_warnings();
 
   CacheStatus status();
-  /// Reads every entry, removes damaged ones, and returns one line for each of these. Throws Cancelled.
-  std::vector<std::string> verify(const Task& task);
+  /// Reads every entry and removes damaged ones. Throws Cancelled.
+  CacheVerdict verify(const Task& task);
   /// Evicts entries until the limit holds, by seconds to recompute per byte and by age, except those pinned by running
-  /// processes. Returns the bytes freed. Called when a run ends.
+  /// processes; with values that were evicted the records of their stages. Returns the bytes freed.
   uint64_t collect();
+  /// The same when a run ends, if it may be due: the entries are looked at only if their total, as far as it is known,
+  /// is above the limit or not to be relied on (see runner/cache/cache_total.h).
+  CacheCollection collect_if_due();
   /// Removes all entries except those pinned by running processes. Returns the bytes freed.
   uint64_t clear();
 
  private:
+  CacheCollection collect_all();
+
   struct State;
   std::unique_ptr<State> state_;
 };

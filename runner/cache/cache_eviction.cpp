@@ -1,14 +1,18 @@
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
+#include <optional>
+#include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "core/base/portable_math.h"
+#include "core/file/atomic_file.h"
 #include "core/node/serialize.h"
 #include "runner/cache/cache_records.h"
 #include "runner/cache/cache_state.h"
+#include "runner/cache/cache_total.h"
 
 namespace terrazzo {
 
@@ -76,9 +80,8 @@ uint64_t remove_values(const CacheFolder& folder, const std::vector<CacheEntry>&
   return freed;
 }
 
-/// Removes what dead processes left: their leases, their pins, and what they had half-written.
+/// Removes what dead processes left: their pins, and what they had half-written.
 uint64_t remove_abandoned(const CacheFolder& folder, const std::vector<TemporaryEntry>& temporaries) {
-  remove_abandoned_leases(folder.leases());
   const EvictionLock lock(folder.lock());
   const LivePins pins = read_live_pins(folder.pins());
   uint64_t freed = 0;
@@ -87,97 +90,139 @@ uint64_t remove_abandoned(const CacheFolder& folder, const std::vector<Temporary
   return freed;
 }
 
-/// Whether any value that a stage's record names is still there. False for records that cannot be read.
-bool has_values_left(const CacheFolder& folder, const CacheEntry& stage) {
+/// The values that a stage's record names; none if it cannot be read.
+std::vector<Digest> values_of(const CacheEntry& stage) {
+  std::vector<Digest> values;
   try {
     const auto bytes = CacheFolder::read(stage.path);
-    if (!bytes) return false;
-    const StageRecord record = stage_from_bytes(stage.name, *bytes);
-    return std::any_of(record.outputs.begin(), record.outputs.end(), [&](const auto& output) {
-      return ::access(folder.path_of(EntryKind::value, output.second).c_str(), F_OK) == 0;
-    });
+    if (bytes)
+      for (const auto& [port, value] : stage_from_bytes(stage.name, *bytes).outputs) values.push_back(value);
   } catch (const Error&) {
-    return false;
+    // As good as none.
   }
+  return values;
 }
 
-/// Reads an entry from its first to its last byte. Throws DamagedFile, or Error if it cannot be read.
-void read_all(const CacheEntry& entry) {
-  if (entry.kind == EntryKind::value) {
-    if (digest_of(load_value(entry.path)) != entry.name)
-      throw DamagedFile(fmt::format("{} is stored under another value's name", entry.path.string()));
-    return;
-  }
-  const auto bytes = CacheFolder::read(entry.path);
-  if (!bytes) return;
-  try {
-    if (entry.kind == EntryKind::stage)
-      stage_from_bytes(entry.name, *bytes);
-    else
-      memo_from_bytes(entry.name, *bytes);
-  } catch (const DamagedFile& e) {
-    throw DamagedFile(fmt::format("{} cannot be used: {}", entry.path.string(), e.what()));
-  }
+bool is_stored(const CacheFolder& folder, const Digest& value) {
+  return ::access(folder.path_of(EntryKind::value, value).c_str(), F_OK) == 0;
+}
+
+/// Whether any value that a stage's record names is still there. False for records that cannot be read.
+bool has_values_left(const CacheFolder& folder, const CacheEntry& stage) {
+  const std::vector<Digest> values = values_of(stage);
+  return std::any_of(values.begin(), values.end(), [&](const Digest& v) { return is_stored(folder, v); });
+}
+
+/// Whether a stage's record names values of these, and has none left.
+bool describes_any(const CacheFolder& folder, const CacheEntry& stage, const std::set<Digest>& evicted) {
+  const std::vector<Digest> values = values_of(stage);
+  return std::any_of(values.begin(), values.end(), [&](const Digest& v) { return evicted.count(v) == 1; }) &&
+         std::none_of(values.begin(), values.end(), [&](const Digest& v) { return is_stored(folder, v); });
 }
 
 }  // namespace
 
 CacheStatus Cache::status() {
   const CacheScan scan = state_->folder.scan();
-  CacheStatus status{scan.bytes(), state_->limit, 0, 0};
+  CacheStatus status{scan.bytes(), state_->limit.bytes, 0, 0, 0, state_->limit.from};
   for (const CacheEntry& e : scan.entries) {
     status.stages += e.kind == EntryKind::stage;
     status.values += e.kind == EntryKind::value;
+    status.histories += e.kind == EntryKind::history;
   }
   return status;
 }
 
-std::vector<std::string> Cache::verify(const Task& task) {
-  const CacheScan scan = state_->folder.scan();
-  std::vector<std::string> damaged;
-  const uint64_t total = scan.bytes();
-  uint64_t done = 0;
+namespace {
+
+/// Removes small entries that were not used for long, but no records that describe a value.
+uint64_t remove_forgotten(const CacheFolder& folder, const CacheScan& scan) {
+  const int64_t now = now_ns();
+  uint64_t freed = 0;
   for (const CacheEntry& e : scan.entries) {
-    task.progress(double(done) / double(total));
-    done += e.bytes;
-    try {
-      read_all(e);
-    } catch (const DamagedFile& trouble) {
-      ::unlink(e.path.c_str());
-      damaged.push_back(trouble.what());
-    } catch (const FileError& trouble) {
-      if (trouble.code() != ENOENT) state_->warn(trouble.what());
-    } catch (const Error& trouble) {
-      state_->warn(trouble.what());
-    }
+    if (e.kind == EntryKind::value || days_unused(e, now) < kept_unused_days) continue;
+    if (e.kind != EntryKind::stage || !has_values_left(folder, e)) freed += remove(e.path, e.bytes);
   }
-  return damaged;
+  return freed;
+}
+
+/// Brings the cache from `total` bytes down to `target`: values, the records of stages that have lost all of theirs,
+/// and if that is not enough, other small entries, those first that were not used for longest.
+uint64_t evict(const CacheFolder& folder, const CacheScan& scan, uint64_t total, uint64_t target) {
+  const uint64_t excess = total - target;
+  std::vector<CacheEntry> values = cheapest_first(of_kind(scan, EntryKind::value));
+  uint64_t freed = remove_values(folder, values, excess);
+  std::set<Digest> evicted;
+  for (const CacheEntry& e : values)
+    if (::access(e.path.c_str(), F_OK) != 0) evicted.insert(e.name);
+  std::vector<const CacheEntry*> others;
+  for (const CacheEntry& e : scan.entries) {
+    if (e.kind == EntryKind::stage && describes_any(folder, e, evicted))
+      freed += remove(e.path, e.bytes);
+    else if (e.kind != EntryKind::value)
+      others.push_back(&e);
+  }
+  std::sort(others.begin(), others.end(), [](const CacheEntry* a, const CacheEntry* b) {
+    return std::tuple(a->used_ns, a->name) < std::tuple(b->used_ns, b->name);
+  });
+  for (const CacheEntry* e : others) {
+    if (freed >= excess) break;
+    if (e->kind != EntryKind::stage || !has_values_left(folder, *e)) freed += remove(e->path, e->bytes);
+  }
+  return freed;
+}
+
+}  // namespace
+
+CacheCollection Cache::collect_all() {
+  CacheFolder& folder = state_->folder;
+  const uint64_t limit = state_->limit.bytes;
+  folder.take_written();
+  const int64_t begun = now_ns();
+  const CacheScan scan = folder.scan();
+  terrazzo::remove_abandoned(folder.history());
+  state_->leases.remove_abandoned();
+  uint64_t freed = remove_abandoned(folder, scan.temporaries);
+  freed += remove_forgotten(folder, scan);
+  const uint64_t total = scan.bytes() - freed;
+  if (total > limit) freed += evict(folder, scan, total, uint64_t(double(limit) * filled_after_eviction));
+  if (state_->pins.failure() == 0) {
+    const EvictionLock lock(folder.lock());
+    write_total(folder.total(), {scan.bytes() - freed, begun}, state_->pins.owner());
+  }
+  return {freed, scan.entries.size()};
 }
 
 uint64_t Cache::collect() {
-  const CacheFolder& folder = state_->folder;
-  const CacheScan scan = folder.scan();
-  uint64_t freed = remove_abandoned(folder, scan.temporaries);
-  const uint64_t total = scan.bytes() - freed;
-  if (total > state_->limit) {
-    const auto target = uint64_t(double(state_->limit) * filled_after_eviction);
-    freed += remove_values(folder, cheapest_first(of_kind(scan, EntryKind::value)), total - target);
+  return collect_all().freed;
+}
+
+CacheCollection Cache::collect_if_due() {
+  CacheFolder& folder = state_->folder;
+  if (state_->pins.failure() != 0) return {};  // nothing can be removed
+  {
+    const EvictionLock lock(folder.lock());
+    const bool all_told = read_live_pins(folder.pins()).dead == 0;
+    std::optional<CacheTotal> total = read_total(folder.total());
+    if (total && all_told) {
+      const uint64_t written = folder.take_written();
+      total->bytes += written;
+      if (written > 0) write_total(folder.total(), *total, state_->pins.owner());
+      if (total->bytes <= state_->limit.bytes) return {};
+    }
   }
-  const int64_t now = now_ns();
-  for (const CacheEntry& e : scan.entries) {
-    if (e.kind == EntryKind::value || days_unused(e, now) < kept_unused_days) continue;
-    if (e.kind == EntryKind::file || !has_values_left(folder, e)) freed += remove(e.path, e.bytes);
-  }
-  return freed;
+  return collect_all();
 }
 
 uint64_t Cache::clear() {
   const CacheFolder& folder = state_->folder;
   const CacheScan scan = folder.scan();
+  state_->leases.remove_abandoned();
   uint64_t freed = remove_abandoned(folder, scan.temporaries);
   freed += remove_values(folder, of_kind(scan, EntryKind::value), scan.bytes() + 1);
   for (const CacheEntry& e : scan.entries)
-    if (e.kind == EntryKind::file || (e.kind == EntryKind::stage && !has_values_left(folder, e)))
+    if (e.kind == EntryKind::file || e.kind == EntryKind::history ||
+        (e.kind == EntryKind::stage && !has_values_left(folder, e)))
       freed += remove(e.path, e.bytes);
   return freed;
 }

@@ -20,7 +20,7 @@ namespace terrazzo {
 namespace {
 
 constexpr std::array<std::string_view, 3> kind_folders = {"values", "stages", "files"};
-constexpr std::string_view value_suffix = ".tzv", temporary_suffix = ".tmp";
+constexpr std::string_view value_suffix = ".tzv", history_suffix = ".txt", temporary_suffix = ".tmp";
 /// Times of use are kept this coarsely: reading the cache should not mean writing to it all the time.
 constexpr int64_t use_granularity_ns = 3600 * ns_per_second;
 
@@ -39,6 +39,10 @@ void for_each_name(const std::filesystem::path& folder, const Visit& visit) {
   }
 }
 
+std::string_view suffix_of(EntryKind kind) {
+  return kind == EntryKind::value ? value_suffix : kind == EntryKind::history ? history_suffix : "";
+}
+
 void add_to_scan(CacheScan& scan, EntryKind kind, const std::filesystem::path& path) {
   struct stat status;
   if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
@@ -48,10 +52,9 @@ void add_to_scan(CacheScan& scan, EntryKind kind, const std::filesystem::path& p
     scan.temporaries.push_back({path, name.substr(0, name.rfind('-')), uint64_t(status.st_size)});
     return;
   }
-  if (kind == EntryKind::value) {
-    if (!stem.ends_with(value_suffix)) return;
-    stem.remove_suffix(value_suffix.size());
-  }
+  const std::string_view suffix = suffix_of(kind);
+  if (!stem.ends_with(suffix)) return;
+  stem.remove_suffix(suffix.size());
   Digest digest;
   if (Digest::parse(stem, digest))
     scan.entries.push_back({kind, digest, path, uint64_t(status.st_size), ns_of(status.st_mtim)});
@@ -89,10 +92,16 @@ CacheFolder::CacheFolder(const std::filesystem::path& folder) : root_(folder / "
   std::filesystem::create_directory(leases(), failure);
 }
 
+bool CacheFolder::is_in(const std::filesystem::path& folder) {
+  std::error_code missing;
+  return std::filesystem::is_directory(folder / "v1", missing);
+}
+
 std::filesystem::path CacheFolder::path_of(EntryKind kind, const Digest& name) const {
   const std::string hex = name.hex();
-  const std::string_view suffix = kind == EntryKind::value ? value_suffix : "";
-  return fmt::format("{}/{}/{}/{}{}", root_.native(), kind_folders[size_t(kind)], hex.substr(0, 2), hex, suffix);
+  if (kind == EntryKind::history) return history() / (hex + std::string(history_suffix));
+  return fmt::format("{}/{}/{}/{}{}", root_.native(), kind_folders[size_t(kind)], hex.substr(0, 2), hex,
+                     suffix_of(kind));
 }
 
 std::filesystem::path CacheFolder::temporary(const std::filesystem::path& target, const std::string& owner) {
@@ -106,6 +115,7 @@ void CacheFolder::write(const std::filesystem::path& target, const std::vector<u
                         const std::string& owner, bool sync) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   write_whole_file(target, text, temporary(target, owner), sync);
+  note_written(bytes.size());
 }
 
 namespace {
@@ -150,6 +160,7 @@ CacheScan CacheFolder::scan() const {
                     [&](const std::string& name) { add_to_scan(scan, EntryKind(kind), folder / two / name); });
     });
   }
+  for_each_name(history(), [&](const std::string& name) { add_to_scan(scan, EntryKind::history, history() / name); });
   std::sort(scan.entries.begin(), scan.entries.end(), [](const CacheEntry& a, const CacheEntry& b) {
     return a.kind != b.kind ? a.kind < b.kind : a.name < b.name;
   });

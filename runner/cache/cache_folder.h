@@ -17,11 +17,14 @@
 ///   v1/stages/ab/<key>          runner/cache/cache_records.h
 ///   v1/files/ab/<path digest>   runner/cache/cache_records.h
 ///   v1/pins/, v1/lock           runner/cache/cache_pins.h
-///   v1/leases/<key>             runner/cache/cache_leases.h
+///   v1/leases/<key>/            runner/cache/cache_leases.h
+///   v1/total                    runner/cache/cache_total.h
+///   history/<path digest>.txt   runner/cache/history_files.h
+///   settings.txt                runner/cache/cache_limit.h
 /// An entry's modification time is when it was last used. Files being written end in ".tmp".
 namespace terrazzo {
 
-enum class EntryKind : uint8_t { value, stage, file };
+enum class EntryKind : uint8_t { value, stage, file, history };
 
 struct CacheEntry {
   EntryKind kind = EntryKind::value;
@@ -59,6 +62,11 @@ class CacheFolder {
   std::filesystem::path pins() const { return root_ / "pins"; }
   std::filesystem::path leases() const { return root_ / "leases"; }
   std::filesystem::path lock() const { return root_ / "lock"; }
+  std::filesystem::path total() const { return root_ / "total"; }
+  std::filesystem::path history() const { return root_.parent_path() / "history"; }
+
+  /// Whether there is a cache in the folder. Changes nothing.
+  static bool is_in(const std::filesystem::path& folder);
 
   /// A temporary name beside `target`, whose folder is created. `owner`: see Pins::owner. Throws FileError.
   std::filesystem::path temporary(const std::filesystem::path& target, const std::string& owner);
@@ -70,6 +78,10 @@ class CacheFolder {
   static std::optional<std::vector<uint8_t>> read(const std::filesystem::path& path);
   /// The same, and marks the entry as used now.
   static std::optional<std::vector<uint8_t>> read_and_use(const std::filesystem::path& path);
+  /// For the total: an entry has been written by other means than `write`.
+  void note_written(uint64_t bytes) { written_ += bytes; }
+  /// The bytes written since the last call.
+  uint64_t take_written() { return written_.exchange(0); }
   /// Marks an entry as used now; false if it does not exist.
   static bool use(const std::filesystem::path& path);
 
@@ -78,7 +90,7 @@ class CacheFolder {
 
  private:
   std::filesystem::path root_;
-  std::atomic<uint64_t> temporaries_{0};
+  std::atomic<uint64_t> temporaries_{0}, written_{0};
 };
 
 }  // namespace terrazzo

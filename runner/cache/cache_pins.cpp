@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 #include <vector>
 
 #include <fcntl.h>
@@ -47,6 +49,16 @@ bool lock_file(const File& file, int operation) {
   return result == 0;
 }
 
+bool lock_file_soon(const File& file, int operation) {
+  constexpr std::chrono::milliseconds patience{10000}, pause{2};
+  const auto last = std::chrono::steady_clock::now() + patience;
+  while (!lock_file(file, operation | LOCK_NB)) {
+    if (errno != EWOULDBLOCK || std::chrono::steady_clock::now() > last) return false;
+    std::this_thread::sleep_for(pause);
+  }
+  return true;
+}
+
 LivePins read_live_pins(const std::filesystem::path& folder) {
   LivePins live;
   std::error_code failure;
@@ -58,6 +70,7 @@ LivePins read_live_pins(const std::filesystem::path& folder) {
     const std::string name = path.filename().string();
     if (!is_alive(file, name)) {
       ::unlink(path.c_str());
+      live.dead++;
       continue;
     }
     live.owners.insert(name);
@@ -67,13 +80,13 @@ LivePins read_live_pins(const std::filesystem::path& folder) {
 }
 
 EvictionLock::EvictionLock(const std::filesystem::path& lock) : file_(File::open(lock, O_RDWR | O_CREAT)) {
-  if (file_.ok()) lock_file(file_, LOCK_EX);
+  if (file_.ok()) lock_file_soon(file_, LOCK_EX);
 }
 
 Pins::Pins(const std::filesystem::path& folder, const std::filesystem::path& lock)
     : lock_(File::open(lock, O_RDWR | O_CREAT)) {
   static std::atomic<unsigned> counter{0};
-  if (lock_.ok()) lock_file(lock_, LOCK_SH);
+  if (lock_.ok()) lock_file_soon(lock_, LOCK_SH);
   do {
     owner_ = fmt::format("{}-{}-{}", host_name(), ::getpid(), counter++);
     path_ = folder / owner_;
@@ -91,7 +104,7 @@ Pins::~Pins() {
 void Pins::pin(const Digest& value) {
   const std::lock_guard guard(mutex_);
   if (!file_.ok() || pinned_.count(value)) return;
-  if (lock_.ok()) lock_file(lock_, LOCK_SH);
+  if (lock_.ok()) lock_file_soon(lock_, LOCK_SH);
   try {
     file_.write_at(pinned_.size() * sizeof value, &value, sizeof value, path_);
     pinned_.insert(value);

@@ -16,11 +16,15 @@ namespace terrazzo {
 
 /// flock(2), uninterrupted; false if it fails, and errno says why.
 bool lock_file(const File& file, int operation);
+/// The same, but waits for 10 s at most: who holds the lock may have been stopped. What is evicted meanwhile though it
+/// is in use costs time, and nothing else.
+bool lock_file_soon(const File& file, int operation);
 
 /// Values and owners in use by running processes.
 struct LivePins {
   std::set<Digest> values;
   std::set<std::string> owners;
+  int dead = 0;  ///< files of dead processes that were there
 };
 
 /// Reads all pins and removes the files of dead processes. If locks do not work, and for other hosts, whose locks may

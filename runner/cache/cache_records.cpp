@@ -10,7 +10,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr std::string_view stage_magic = "TZSTAGE1", memo_magic = "TZFILE_1";
+constexpr std::string_view stage_magic = "TZSTAGE1", memo_magic = "TZFILE_1", total_magic = "TZTOTAL1";
 
 ByteWriter begun(std::string_view magic, const Digest& name) {
   ByteWriter out;
@@ -99,6 +99,22 @@ FileMemo memo_from_bytes(const Digest& path, const std::vector<uint8_t>& bytes) 
   memo.content = in.get<Digest>();
   in.expect_end();
   return memo;
+}
+
+std::vector<uint8_t> total_to_bytes(const CacheTotal& total) {
+  ByteWriter out = begun(total_magic, {});
+  out.put(total.bytes);
+  out.put(total.counted_ns);
+  return sealed(std::move(out));
+}
+
+CacheTotal total_from_bytes(const std::vector<uint8_t>& bytes) {
+  ByteReader in = unsealed(total_magic, {}, bytes);
+  CacheTotal total;
+  total.bytes = in.get<uint64_t>();
+  total.counted_ns = in.get<int64_t>();
+  in.expect_end();
+  return total;
 }
 
 }  // namespace terrazzo

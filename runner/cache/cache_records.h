@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runner/cache/cache.h"
+#include "runner/cache/cache_total.h"
 
 /// The cache's small files: a magic word, a version, the content and a checksum.
 namespace terrazzo {
@@ -29,5 +30,9 @@ StageRecord stage_from_bytes(const Digest& key, const std::vector<uint8_t>& byte
 std::vector<uint8_t> memo_to_bytes(const Digest& path, const FileMemo& memo);
 /// Throws DamagedFile if the bytes are anything but the memo of the file whose path has that digest.
 FileMemo memo_from_bytes(const Digest& path, const std::vector<uint8_t>& bytes);
+
+std::vector<uint8_t> total_to_bytes(const CacheTotal& total);
+/// Throws DamagedFile if the bytes are anything but a total.
+CacheTotal total_from_bytes(const std::vector<uint8_t>& bytes);
 
 }  // namespace terrazzo

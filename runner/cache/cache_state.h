@@ -7,6 +7,8 @@
 
 #include "runner/cache/cache.h"
 #include "runner/cache/cache_folder.h"
+#include "runner/cache/cache_leases.h"
+#include "runner/cache/cache_limit.h"
 #include "runner/cache/cache_pins.h"
 
 /// State shared by the parts of the cache.
@@ -16,9 +18,10 @@ struct Cache::State {
   State(std::filesystem::path given, uint64_t bytes);
 
   std::filesystem::path given_folder;
-  uint64_t limit;
+  CacheLimit limit;
   CacheFolder folder;
   Pins pins;
+  Leases leases;
 
   /// Adds a warning, once per text.
   void warn(const std::string& text);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -18,6 +17,7 @@
 #include "core/image/image_file.h"
 #include "graphs/document/problem.h"
 #include "nodes/source/material_folder.h"
+#include "runner/cache/cache_limit.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
@@ -172,21 +172,8 @@ std::string for_command_line(std::string message, const std::string& folder, con
 }
 
 uint64_t parse_bytes(const std::string& text, const std::string& option) {
-  const auto wrong = [&]() -> UsageError {
-    return UsageError(fmt::format(
-        "{} takes a number with a unit, such as 512M or 2G (K, M, G, T; 1K = 1024 bytes); \"{}\" is not one", option,
-        text));
-  };
-  double number = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-  std::string unit(end, text.data() + text.size());
-  std::erase(unit, ' ');
-  for (const std::string_view ending : {"iB", "B"})
-    if (unit.size() > 1 && unit.ends_with(ending)) unit.erase(unit.size() - ending.size());
-  const size_t power = unit.size() == 1 ? std::string_view("KMGT").find(static_cast<char>(std::toupper(unit[0])))
-                                        : std::string_view::npos;
-  if (failure != std::errc() || power == std::string_view::npos || !(number > 0) || number > 1e6) throw wrong();
-  return static_cast<uint64_t>(number * static_cast<double>(uint64_t{1} << (10 * (power + 1))));
+  if (const std::optional<uint64_t> bytes = size_from(text)) return *bytes;
+  throw UsageError(fmt::format("{} {}; \"{}\" is not one", option, size_help, text));
 }
 
 std::string shown_bytes(uint64_t bytes) {

@@ -83,7 +83,8 @@ class Pointers {
 
 void add_to(Json& list, const std::vector<Problem>& problems, const char* severity, const std::string& graph,
             Pointers& pointers) {
-  for (const Problem& p : problems) {
+  for (size_t i = 0; i < std::min(problems.size(), most_problems_shown); i++) {
+    const Problem& p = problems[i];
     const std::string& file = p.file.empty() ? graph : p.file;
     Json entry = {{"severity", severity}, {"code", p.code}, {"file", file}};
     if (p.place.line > 0) {
@@ -103,11 +104,11 @@ void answer_json(const CheckFlags& flags, const Findings& found) {
   add_to(problems, found.errors, "error", flags.graph, pointers);
   add_to(problems, found.warnings, "warning", flags.graph, pointers);
   add_to(problems, found.notes, "note", flags.graph, pointers);
-  const Json out = {{"graph", flags.graph},
-                    {"valid", found.errors.empty()},
-                    {"nodes", found.nodes},
-                    {"parameters", found.parameters},
-                    {"problems", std::move(problems)}};
+  size_t not_shown = 0;
+  for (const std::vector<Problem>* list : {&found.errors, &found.warnings, &found.notes})
+    not_shown += list->size() - std::min(list->size(), most_problems_shown);
+  const Json out = {{"graph", flags.graph},           {"valid", found.errors.empty()},   {"nodes", found.nodes},
+                    {"parameters", found.parameters}, {"problems", std::move(problems)}, {"not_shown", not_shown}};
   answer("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -123,9 +124,13 @@ int check(const CheckFlags& flags) {
     return found.errors.empty() ? exit_done : exit_usage;
   }
   const Findings found = look_at(flags);
+  size_t notes = 0, warnings = 0;
   for (const Problem& n : found.notes)
-    if (n.place.line > 0) answer("note: {}\n", describe(flags.graph, n));
-  for (const Problem& w : found.warnings) say("warning: {}\n", describe(flags.graph, w));
+    if (n.place.line > 0 && notes++ < most_problems_shown) answer("note: {}\n", describe(flags.graph, n));
+  if (notes > most_problems_shown) answer("{}\n", problems_not_shown(notes, "note"));
+  for (const Problem& w : found.warnings)
+    if (warnings++ < most_problems_shown) say("warning: {}\n", describe(flags.graph, w));
+  if (warnings > most_problems_shown) say("{}\n", problems_not_shown(warnings, "warning"));
   for (const Problem& n : found.notes)
     if (n.place.line == 0) say("note: {}\n", n.message);
   answer("{} is valid: {}, {}\n", flags.graph, counted(int64_t(found.nodes), "node"),
@@ -147,7 +152,8 @@ void add_check_command(CLI::App& app, Chosen& chosen) {
   add_graph_argument(*command, *flags);
   add_value_flags(*command, *flags);
   command->add_flag("--json", flags->json,
-                    "Print all problems as JSON: severity, code, file, line, column, JSON pointer, node, message");
+                    "Print the problems, of each severity the first hundred, as JSON: severity, code, file, line, "
+                    "column, JSON pointer, node, message");
   command->callback([&chosen, flags] { chosen = [flags] { return check(*flags); }; });
 }
 

@@ -10,8 +10,7 @@
 #include <unistd.h>
 
 #include "graphs/document/load.h"
-#include "graphs/document/override.h"
-#include "graphs/document/stock_graphs.h"
+#include "runner/cache/cache_limit.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/cli_sweep.h"
@@ -22,6 +21,7 @@
 #include "runner/engine/history.h"
 #include "runner/engine/preflight.h"
 #include "runner/report/html_report.h"
+#include "runner/report/run_summary.h"
 #include "runner/report/shown_nodes.h"
 #include "runner/report/trace.h"
 
@@ -35,11 +35,29 @@ void warn(const RunFlags& flags, const std::string& message) {
   write_warning(*progress_mode_from(flags.progress), std::cerr, message);
 }
 
+fs::path cache_folder(const RunFlags& flags) {
+  return flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache);
+}
+
+/// What the command line says, else the environment or the folder's settings: wrong ones are no reason to do without a
+/// cache. None if there is no folder.
+std::optional<uint64_t> limit_of_cache(const RunFlags& flags) {
+  if (!flags.cache_size.empty()) return parse_bytes(flags.cache_size, "--cache-size");
+  fs::path folder;
+  try {
+    folder = cache_folder(flags);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+  return as_usage([&] { return cache_limit(folder).bytes; });
+}
+
 /// The cache to use. The usual folder may be out of reach, which costs time; one that was asked for may not.
 std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
   if (flags.no_cache || flags.checked) return nullptr;
+  const std::optional<uint64_t> limit = limit_of_cache(flags);
   try {
-    return std::make_unique<Cache>(flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache));
+    return std::make_unique<Cache>(cache_folder(flags), limit.value_or(0));
   } catch (const Error& e) {
     if (!flags.cache.empty()) throw UsageError(fmt::format("--cache {}: {}", flags.cache, e.what()));
     warn(flags, fmt::format("running without a cache: {}", e.what()));
@@ -55,6 +73,7 @@ bool is_terminal() {
 /// What people read at the end; programs that asked for json have had it all.
 void print_end(const RunResult& result, ProgressMode mode) {
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
+  for (const std::string& line : result.skips()) say("{}\n", line);
   for (const StageOutcome& s : result.stages)
     for (const std::string& note : s.notes)
       if (is_warning(note)) say("{}node \"{}\": {}\n", warning_mark, s.node, note.substr(warning_mark.size()));
@@ -63,6 +82,33 @@ void print_end(const RunResult& result, ProgressMode mode) {
     if (s.kind == StageOutcome::Kind::run)
       for (const OutputFile& f : s.files) say("wrote {}\n", f.path.string());
   say("{}{}\n", result.cancelled ? "cancelled; " : "", result.summary());
+}
+
+void summarize(const RunFlags& flags, const RunSummary& summary) {
+  if (!flags.summary.empty()) write_run_summary(summary, flags.summary);
+}
+
+/// Runs something that plans a graph or makes ready for that; if it throws, the summary says why there was no run.
+template <typename Act>
+auto summarizing_failure(const RunFlags& flags, const Act& act) {
+  const auto tell = [&](const std::exception& e, int code) {
+    RunSummary summary{flags.graph};
+    summary.error = &e;
+    summary.exit_code = code;
+    summarize(flags, summary);
+  };
+  try {
+    return act();
+  } catch (const GraphError& e) {
+    tell(e, exit_usage);
+    throw;
+  } catch (const UsageError& e) {
+    tell(e, exit_usage);
+    throw;
+  } catch (const std::exception& e) {
+    tell(e, exit_failed);
+    throw;
+  }
 }
 
 int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
@@ -77,8 +123,9 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   options.memory = flags.memory.empty() ? 0 : parse_bytes(flags.memory, "--memory");
   options.cancelled = &cancelled;
   options.targets.keep = flags.keep;
+  options.keep_going = flags.keep_going;
 
-  const Plan plan = [&] {
+  const Plan plan = summarizing_failure(flags, [&] {
     try {
       if (!flags.report.empty())
         for (std::string& name : nodes_for_report(graph, flags.only, cache))
@@ -89,7 +136,7 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
     } catch (const Error& e) {
       throw UsageError(fmt::format("--only: {}", e.what()));
     }
-  }();
+  });
   if (flags.dry_run) {
     answer("{}", plan.table());
     return exit_done;
@@ -98,16 +145,28 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   const std::unique_ptr<Progress> progress = make_progress(mode, std::cerr, is_terminal());
   options.observer = progress.get();
   const RunResult result = run_plan(plan, options);
+  std::vector<std::string> warnings;
   if (cache) {
-    cache->collect();
-    for (const std::string& w : cache->take_warnings()) progress->warned(w);
+    cache->collect_if_due();
+    warnings = cache->take_warnings();
+    for (const std::string& w : warnings) progress->warned(w);
   }
   progress->closed(result);
   if (mode != ProgressMode::json) print_end(result, mode);
-  if (flags.after) flags.after(result);
-  if (!flags.trace.empty()) write_trace(result, flags.trace);
-  if (!flags.report.empty()) write_html_report(plan, result, flags.report);
-  return result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
+  RunSummary summary{graph.file, &plan, &result, cache, std::move(warnings)};
+  summary.exit_code = result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
+  try {
+    if (flags.after) flags.after(result);
+    if (!flags.trace.empty()) write_trace(result, flags.trace);
+    if (!flags.report.empty()) write_html_report(plan, result, flags.report);
+  } catch (const std::exception& e) {
+    summary.error = &e;
+    summary.exit_code = exit_failed;
+    summarize(flags, summary);
+    throw;
+  }
+  summarize(flags, summary);
+  return summary.exit_code;
 }
 
 int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
@@ -120,7 +179,7 @@ int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cach
     int code = exit_usage;
     watched.look_again();  // if the graph cannot be loaded, its files of before are what may mend it
     try {
-      graph = load();
+      graph = summarizing_failure(flags, load);
       watched.look_at(graph);
       watched.until_change(cancelled,
                            [&](const std::atomic<bool>& stop) { code = run_once(graph, flags, cache, stop); });
@@ -143,7 +202,12 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
       ->expected(1);
   CLI::Option* cache = command.add_option("--cache", flags.cache, "Folder of the cache, if not the usual one");
   cache->type_name("DIR");
-  command.add_flag("--no-cache", flags.no_cache, "Reuse nothing and keep nothing")->excludes(cache);
+  CLI::Option* size = command.add_option(
+      "--cache-size", flags.cache_size,
+      "How large the cache may become, such as 20G; if not given, $TERRAZZO_CACHE_SIZE, or as settings.txt in the "
+      "cache's folder says, or 10G");
+  size->type_name("SIZE");
+  command.add_flag("--no-cache", flags.no_cache, "Reuse nothing and keep nothing")->excludes(cache)->excludes(size);
   command.add_option("--threads", flags.threads, "Threads to use; one per core if not given")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
@@ -160,6 +224,14 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
       "anew. Ctrl-C ends it, with the exit "
       "code of the last run, or 130 if it interrupts one");
   command.add_option("--report", flags.report, "Write a report with pictures")->type_name("FILE.html");
+  command
+      .add_option("--summary", flags.summary,
+                  "Write what was done as JSON, also if the run fails or is cancelled: stages, times, files with "
+                  "digests, failures")
+      ->type_name("FILE.json");
+  command.add_flag("--keep-going", flags.keep_going,
+                   "After a failure, go on with everything that does not need the failed node; the exit code is 1 all "
+                   "the same");
   command.add_option("--trace", flags.trace, "Write a timeline for chrome://tracing")->type_name("FILE.json");
   command.add_option("--progress", flags.progress, "auto, bar, plain, json, or none: nothing but warnings and errors")
       ->type_name("MODE")
@@ -176,11 +248,13 @@ int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
     throw UsageError(fmt::format("--report takes a file that ends in .html; \"{}\" does not", flags.report));
   check_writable("--report", flags.report);
   check_writable("--trace", flags.trace);
+  check_writable("--summary", flags.summary);
   if (flags.checked && !is_watching()) warn(flags, "what nodes read is not watched: " + why_not_watching());
   const CancelOnSignal signals;
   const std::unique_ptr<Cache> cache = open_cache(flags);
   if (flags.watch) return watch(load, flags, cache.get(), signals.flag());
-  return run_once(load(), flags, cache.get(), signals.flag());
+  const Graph graph = summarizing_failure(flags, load);
+  return run_once(graph, flags, cache.get(), signals.flag());
 }
 
 namespace {
@@ -239,118 +313,6 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
             return std::move(loaded.graph);
           },
           *flags);
-    };
-  });
-}
-
-/// An argument of `synth`, and the parameter of the stock graph that it sets.
-struct Argument {
-  std::string name, parameter, value;
-
-  std::string override_text() const { return parameter + "=" + value; }
-};
-
-/// What is wrong, said of the arguments of `synth`, the folder first, instead of the graph that they stand for.
-GraphError about_arguments(const GraphError& error, const std::vector<Argument>& arguments) {
-  std::vector<Problem> problems;
-  for (const Problem& p : error.problems()) {
-    const bool is_source = p.node == "exemplar" || p.node == "weighted";  // the latter looks at the maps' shapes
-    const auto argument = std::find_if(arguments.begin(), arguments.end(), [&](const Argument& a) {
-      return p.where == where_of_override(a.override_text());
-    });
-    if (argument != arguments.end())
-      problems.push_back({{}, argument->name + " " + argument->value, p.message});
-    else if (is_source || p.node == "files")
-      problems.push_back({{}, is_source ? "FOLDER" : "-o", for_command_line(p.message, arguments.front().value)});
-    else
-      return error;
-  }
-  return GraphError("", std::move(problems));
-}
-
-bool same_folder(const std::string& a, const std::string& b) {
-  std::error_code missing;
-  return std::filesystem::equivalent(a, b, missing);
-}
-
-void add_synth_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
-  struct Flags : RunFlags {
-    std::string folder, out, name, scale, size, seed, quality, blend, join, format, tileable;
-    std::vector<std::string> set;
-  };
-  const auto flags = std::make_shared<Flags>();
-  synth->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
-  synth
-      ->add_option("-o,--out", flags->out,
-                   "The folder to write to; {material}, {width}, {height} and {map} are replaced")
-      ->required()
-      ->type_name("DIR");
-  synth
-      ->add_option("--name", flags->name,
-                   "Which material of a folder that holds several: what the names of its files begin with; '*' takes "
-                   "all files as one")
-      ->type_name("STEM");
-  synth
-      ->add_option("--scale", flags->scale,
-                   "The size of the result: how many times the exemplar in each direction; 2 if not given")
-      ->type_name("FACTOR");
-  synth->add_option("--size", flags->size, "The size of the result in pixels")->type_name("WxH")->excludes("--scale");
-  synth->add_option("--seed", flags->seed, "Another number gives another arrangement")->type_name("N");
-  synth->add_option("--quality", flags->quality, "draft, normal or best: draft is quick, best takes its time")
-      ->type_name("LEVEL");
-  synth
-      ->add_option(
-          "--blend", flags->blend,
-          "How far from a seam pixels are blended, 0 to 8; more is softer, 2 to 3 hides most seams. 0 if not given")
-      ->type_name("PIXELS");
-  synth
-      ->add_option("--join", flags->join,
-                   "How far from a seam heights change so that pieces meet: below 1 a share of the exemplar's shorter "
-                   "side, else pixels; 0 keeps heights exact. 0.03 if not given")
-      ->type_name("REACH");
-  synth
-      ->add_option("--format", flags->format,
-                   "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
-      ->type_name("FORMAT");
-  synth
-      ->add_option("--set", flags->set,
-                   "Sets a parameter of the graph that this stands for (graphs/material.json), or of one of its nodes, "
-                   "as for run; may be given several times")
-      ->type_name("NAME=VALUE")
-      ->take_all()
-      ->expected(1);
-  synth->add_flag("--tileable{xy}", flags->tileable,
-                  "The result wraps around; --tileable=x or --tileable=y in one direction only");
-  add_run_flags(*synth, *flags);
-  synth->footer("Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7");
-  synth->callback([&chosen, flags] {
-    chosen = [flags] {
-      std::vector<Argument> arguments = {{"FOLDER", "material", flags->folder}, {"-o", "out", flags->out}};
-      const auto set_if_given = [&](const char* name, const char* parameter, const std::string& value) {
-        if (!value.empty()) arguments.push_back({name, parameter, value});
-      };
-      set_if_given("--name", "name", flags->name);
-      set_if_given("--scale", "scale", flags->scale);
-      set_if_given("--size", "size", flags->size);
-      set_if_given("--seed", "seed", flags->seed);
-      set_if_given("--quality", "quality", flags->quality);
-      set_if_given("--blend", "blend", flags->blend);
-      set_if_given("--join", "join", flags->join);
-      set_if_given("--format", "format", flags->format);
-      set_if_given("--tileable", "tileable", flags->tileable);
-      std::vector<std::string> set;
-      for (const Argument& a : arguments) set.push_back(a.override_text());
-      set.insert(set.end(), flags->set.begin(), flags->set.end());
-      if (same_folder(flags->folder, flags->out))
-        throw UsageError(
-            fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
-      try {
-        return run_with_flags(
-            [&] { return load_graph_text(stock_graph("material"), "stock graph material.json", set).graph; }, *flags);
-      } catch (const GraphError& e) {
-        throw about_arguments(e, arguments);
-      }
     };
   });
 }

@@ -19,6 +19,7 @@ struct RunFlags {
   std::string graph;  ///< the graph file; empty for a stock graph
   std::vector<std::string> only;
   std::string cache;
+  std::string cache_size;
   bool no_cache = false;
   int threads = 0;
   std::string memory;
@@ -27,6 +28,8 @@ struct RunFlags {
   bool checked = false;
   std::string report;
   std::string trace;
+  std::string summary;
+  bool keep_going = false;
   std::string progress = "auto";
   std::vector<std::string> keep{};                ///< more targets, whose values are kept for `after`
   std::function<void(const RunResult&)> after{};  ///< called with the result of each run

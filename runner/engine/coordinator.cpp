@@ -91,8 +91,11 @@ void Coordinator::want_values(int stage) {
 }
 
 void Coordinator::ask_sources(int stage) {
+  const std::vector<int>& sources = plan_.stages[stage].sources;
+  if (std::any_of(sources.begin(), sources.end(), [&](int s) { return states_.value(s) == ValueState::lost; }))
+    return put_off(Step::skip, stage);
   if (states_.inputs_held(stage)) return start_computing(stage);
-  for (const int source : plan_.stages[stage].sources)
+  for (const int source : sources)
     if (states_.value(source) != ValueState::held) put_off(Step::want_values, source);
 }
 
@@ -194,8 +197,8 @@ void Coordinator::settle(const JobPtr& job) {
   if (job->kind != Job::Kind::begin) admission_.ended(*job);
   outcomes_.ended(*job);
   if (job->cancelled) cancelled_ = true;
-  if (job->failure) outcomes_.failed(*job);
-  if (job->failure || job->cancelled) return;
+  if (job->failure) return failed(*job);
+  if (job->cancelled) return;
   if (job->busy) {
     move(job->stage, ValueEvent::busy);
     if (!stopping()) postponed_.push_back(job);
@@ -203,6 +206,36 @@ void Coordinator::settle(const JobPtr& job) {
   }
   react(*job);
   take_steps();
+}
+
+/// A stage that could not be stored has given its values all the same.
+void Coordinator::failed(const Job& job) {
+  outcomes_.failed(job);
+  if (stopping() || job.kind == Job::Kind::store) return;
+  lose(job.stage);
+  take_steps();
+}
+
+/// What a stage was to give will not come. Of its readers, those are skipped that need it; others have their results in
+/// the cache.
+void Coordinator::lose(int stage) {
+  move(stage, ValueEvent::give_up);
+  for (const int reader : plan_.stages[stage].readers) put_off(Step::skip, reader);
+}
+
+void Coordinator::skip_if_lost(int stage) {
+  const std::vector<int>& sources = plan_.stages[stage].sources;
+  const ValueState now = states_.value(stage);
+  const NameState name = states_.name(stage);
+  const auto needs = [&](int source) {
+    const bool nameless = states_.name(source) != NameState::named;
+    return states_.value(source) == ValueState::lost &&
+           (now == ValueState::awaiting || (name == NameState::unknown && nameless));
+  };
+  const auto cause = std::find_if(sources.begin(), sources.end(), needs);
+  if (cause == sources.end() || now == ValueState::lost) return;
+  outcomes_.skipped(stage, *cause);
+  lose(stage);
 }
 
 /// To be tried again, behind what has come in the meantime.
@@ -225,6 +258,9 @@ void Coordinator::take_steps() {
         break;
       case Step::let_go:
         let_go_if_unclaimed(stage);
+        break;
+      case Step::skip:
+        skip_if_lost(stage);
         break;
     }
   }

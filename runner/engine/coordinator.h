@@ -30,8 +30,8 @@ class Coordinator {
   /// The jobs that wait for another process. Settle each again, with `resumed` set, to retry it.
   std::vector<JobPtr> take_postponed() { return std::exchange(postponed_, {}); }
 
-  /// No new computation starts: the run was cancelled, or a stage failed.
-  bool stopping() const { return cancelled_ || outcomes_.any_failed(); }
+  /// No new computation starts: the run was cancelled, or a stage failed and the run is not to go on without it.
+  bool stopping() const { return cancelled_ || (outcomes_.any_failed() && !options_.keep_going); }
   bool cancelled() const { return cancelled_; }
   Outcomes& outcomes() { return outcomes_; }
   std::map<std::string, std::map<std::string, Value>> take_kept();
@@ -42,7 +42,7 @@ class Coordinator {
 
  private:
   /// Queued instead of called, as chains may be thousands of stages long.
-  enum class Step : uint8_t { look_up, want_values, let_go };
+  enum class Step : uint8_t { look_up, want_values, let_go, skip };
 
   void react(Job& job);
   void resume(const JobPtr& job);
@@ -62,6 +62,9 @@ class Coordinator {
   void computed(Job& job);
   void enqueue_store(const Job& job);
   void let_go_if_unclaimed(int stage);
+  void failed(const Job& job);
+  void lose(int stage);
+  void skip_if_lost(int stage);
   std::unique_ptr<NodeContext> make_context(int stage);
   void enqueue(Job::Kind kind, int stage);
 

@@ -3,21 +3,20 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
+#include "runner/cache/cache_folder.h"
+#include "runner/cache/history_files.h"
 
 namespace terrazzo {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::string_view first_line = "terrazzo history 2", first_line_before_seconds = "terrazzo history 1";
 
 /// Stands where the name of an ingredient would.
 constexpr std::string_view seconds_line = "seconds";
@@ -58,13 +57,24 @@ std::string difference(const Ingredient& before, const Ingredient& now) {
   return fmt::format("{} changed from {} to {}", now.what, before.shown, now.shown);
 }
 
+/// What was saved; empty if it cannot be read.
+std::string lines_in(const fs::path& file) {
+  try {
+    const auto bytes = CacheFolder::read(file);
+    if (!bytes) return "";
+    return unsealed_history({reinterpret_cast<const char*>(bytes->data()), bytes->size()}).value_or("");
+  } catch (const Error&) {
+    return "";
+  }
+}
+
 }  // namespace
 
 History::History(const fs::path& folder, const fs::path& graph_file)
     : path_(folder / "history" / (Hasher().add(fs::weakly_canonical(graph_file).string()).digest().hex() + ".txt")) {
-  std::ifstream in(path_);
+  CacheFolder::use(path_);
+  std::istringstream in(lines_in(path_));
   std::string line;
-  if (!std::getline(in, line) || (line != first_line && line != first_line_before_seconds)) return;
   while (std::getline(in, line)) {
     std::string node;
     Ingredient ingredient;
@@ -111,7 +121,7 @@ void History::save() const {
   if (!changed_) return;
   std::error_code failure;
   fs::create_directories(path_.parent_path(), failure);
-  std::string text = fmt::format("{}\n", first_line);
+  std::string text;
   for (const auto& [node, ingredients] : nodes_)
     for (const Ingredient& i : ingredients)
       text +=
@@ -119,7 +129,7 @@ void History::save() const {
   for (const auto& [node, seconds] : seconds_)
     text += fmt::format("{}\t{}\t{}\t{:.3g}\n", on_one_line(node), seconds_line, Digest().hex(), seconds);
   try {
-    write_whole_file(path_, text);
+    write_whole_file(path_, sealed_history(text));
   } catch (const FileError&) {
     // Without it, plans cannot say what has changed since.
   }

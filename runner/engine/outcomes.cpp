@@ -23,6 +23,8 @@ void Outcomes::looked_up(int stage) {
     outcome.files = record->files;
   }
   outcome.reason = s.known->must_run;
+  outcome.key = s.known->key;
+  outcome.outputs = s.known->names;
   if (!s.known->must_run.empty()) return;
   outcome.kind = record ? StageOutcome::Kind::reused : StageOutcome::Kind::idle;
   if (record && options_.history) options_.history->remember(s.node->name, s.known->ingredients, record->seconds);
@@ -47,6 +49,7 @@ void Outcomes::computed(const Job& job) {
   outcome.kind = job.made_elsewhere ? StageOutcome::Kind::reused : StageOutcome::Kind::run;
   outcome.notes = job.record->notes;
   outcome.files = job.record->files;
+  outcome.outputs = job.record->outputs;
   if (job.made_elsewhere) {
     rests(job.stage);
   } else {
@@ -63,6 +66,14 @@ void Outcomes::failed(const Job& job) {
     failures_.push_back({plan_.stages[job.stage].node->name, *job.failure});
   stages_[job.stage].kind = StageOutcome::Kind::failed;
   if (options_.observer) options_.observer->failed(plan_.stages[job.stage], *job.failure);
+}
+
+void Outcomes::skipped(int stage, int cause) {
+  const StageOutcome& from = stages_[cause];
+  StageOutcome& outcome = stages_[stage];
+  outcome.because = from.kind == StageOutcome::Kind::skipped ? from.because : from.node;
+  outcome.kind = StageOutcome::Kind::skipped;
+  if (options_.observer) options_.observer->skipped(plan_.stages[stage], outcome.because);
 }
 
 void Outcomes::ended(const Job& job) {

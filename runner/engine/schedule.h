@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@
 namespace terrazzo {
 
 /// Receives the events of a run. Calls come from any thread, concurrently, and must return quickly. Every needed stage
-/// gets one of finished, reused, spared and failed, unless the run ends before.
+/// gets one of finished, reused, spared, failed and skipped, unless the run ends before.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
@@ -27,6 +28,8 @@ class RunObserver {
   /// Its result was not needed after all, and does not exist.
   virtual void spared(const Stage&) {}
   virtual void failed(const Stage&, const std::string& /*message*/) {}
+  /// It cannot run, as the node `because`, which it needs, has failed. Only with `keep_going`.
+  virtual void skipped(const Stage&, const std::string& /*because*/) {}
 };
 
 struct RunOptions {
@@ -38,6 +41,7 @@ struct RunOptions {
   bool checked = false;  ///< each node twice, and watched, see runner/engine/checked.h; takes one thread, no cache
   const std::atomic<bool>* cancelled = nullptr;  ///< set it to stop the run; may be null
   RunObserver* observer = nullptr;
+  bool keep_going = false;  ///< a failure ends only what depends on it
 };
 
 /// An activity of a worker, for `write_trace`; times in seconds since the start of the run.
@@ -55,13 +59,17 @@ struct StageOutcome {
     run,         ///< it was computed
     failed,      ///< it threw
     unfinished,  ///< the run ended before it
+    skipped,     ///< a node that it needs failed
   };
   Kind kind = Kind::idle;
   std::string node;
-  std::string reason;              ///< why it had to run, if the plan could not know yet
-  double seconds = 0;              ///< computing time in this run
-  std::vector<std::string> notes;  ///< from this run, or from when its result was computed
-  std::vector<OutputFile> files;   ///< written by a sink, in this run or before
+  std::string reason;                     ///< why it had to run, if the plan could not know yet
+  double seconds = 0;                     ///< computing time in this run
+  std::vector<std::string> notes;         ///< from this run, or from when its result was computed
+  std::vector<OutputFile> files;          ///< written by a sink, in this run or before
+  std::string because;                    ///< of a skipped stage: the node whose failure it is due to
+  std::optional<Digest> key;              ///< once it is known
+  std::map<std::string, Digest> outputs;  ///< the names of its values, once they are known
 };
 
 struct Failure {
@@ -81,10 +89,13 @@ struct RunResult {
   int count(StageOutcome::Kind kind) const;
   /// "8 stages: 5 cached, 3 run, 1.84 s".
   std::string summary() const;
+  /// A line for each failed node that others needed: which ones were skipped because of it.
+  std::vector<std::string> skips() const;
 };
 
 /// Plans the graph and runs what must run. Independent nodes run in parallel; values are freed after their last reader.
-/// The first failure ends the run once running nodes have finished. Failures and cancellation are in the result; only
+/// The first failure ends the run once running nodes have finished; with `keep_going`, all runs that does not need a
+/// failed node. Failures and cancellation are in the result; only
 /// make_plan throws.
 RunResult run_graph(const Graph& graph, const RunOptions& options);
 

@@ -36,13 +36,14 @@ std::string_view name_of(NameEvent event) {
 }
 
 std::string_view name_of(ValueState state) {
-  constexpr std::array<std::string_view, 6> names = {"open", "resting", "loading", "awaiting", "computing", "held"};
+  constexpr std::array<std::string_view, 7> names = {"open",      "resting", "loading", "awaiting",
+                                                     "computing", "held",    "lost"};
   return names[static_cast<size_t>(state)];
 }
 
 std::string_view name_of(ValueEvent event) {
-  constexpr std::array<std::string_view, 9> names = {"rest",       "load", "compute",  "inputs_held", "read",
-                                                     "unreadable", "busy", "computed", "let_go"};
+  constexpr std::array<std::string_view, 10> names = {"rest",       "load", "compute",  "inputs_held", "read",
+                                                      "unreadable", "busy", "computed", "let_go",      "give_up"};
   return names[static_cast<size_t>(event)];
 }
 

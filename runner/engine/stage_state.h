@@ -35,6 +35,7 @@ enum class ValueState : uint8_t {
   awaiting,   ///< to be computed as soon as all sources' values are in memory
   computing,  ///< its job is queued or runs, here or in another process
   held,       ///< in memory
+  lost,       ///< not to be had in this run: the stage failed, or what it needs did (with `keep_going`)
 };
 enum class ValueEvent : uint8_t {
   rest,         ///< it is certain that no reader needs it to be computed
@@ -45,7 +46,8 @@ enum class ValueEvent : uint8_t {
   unreadable,   ///< the cache entry is missing or damaged
   busy,         ///< another process is computing it; to be retried
   computed,
-  let_go,  ///< no reader will need them again
+  let_go,   ///< no reader will need them again
+  give_up,  ///< its job failed, or a source that it needs is lost
 };
 
 std::string_view name_of(NameState state);
@@ -62,7 +64,7 @@ struct Transition {
 using NameTransition = Transition<NameState, NameEvent>;
 using ValueTransition = Transition<ValueState, ValueEvent>;
 
-/// All allowed transitions. A stage whose job fails keeps its state: the run ends.
+/// All allowed transitions. A stage whose job fails keeps its state if the run ends with the first failure.
 inline constexpr std::array name_transitions = {
     NameTransition{NameState::unknown, NameEvent::inputs_named, NameState::looking_up},
     NameTransition{NameState::looking_up, NameEvent::found, NameState::named},
@@ -81,6 +83,10 @@ inline constexpr std::array value_transitions = {
     ValueTransition{ValueState::computing, ValueEvent::busy, ValueState::computing},
     ValueTransition{ValueState::computing, ValueEvent::computed, ValueState::held},
     ValueTransition{ValueState::held, ValueEvent::let_go, ValueState::resting},
+    ValueTransition{ValueState::open, ValueEvent::give_up, ValueState::lost},
+    ValueTransition{ValueState::loading, ValueEvent::give_up, ValueState::lost},
+    ValueTransition{ValueState::awaiting, ValueEvent::give_up, ValueState::lost},
+    ValueTransition{ValueState::computing, ValueEvent::give_up, ValueState::lost},
 };
 
 /// Whether a stage in this state may still need its sources' values, so that they must stay in memory.
@@ -94,9 +100,9 @@ constexpr bool go_together(NameState name, ValueState value) {
   switch (name) {
     case NameState::unknown:
     case NameState::looking_up:
-      return value == ValueState::open;
+      return value == ValueState::open || value == ValueState::lost;
     case NameState::nameless:
-      return claims_sources(value);
+      return claims_sources(value) || value == ValueState::lost;
     case NameState::named:
       return true;
   }

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include "core/base/text.h"
 #include "graphs/document/problem.h"
+#include "runner/report/process_usage.h"
 
 namespace terrazzo {
 
@@ -90,19 +90,6 @@ void write_event(std::ostream& out, const Json& event) {
   out << event.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
 }
 
-/// What the process has used since it began.
-struct ProcessUsage {
-  double cpu_seconds = 0;
-  int64_t peak_memory = 0;  ///< bytes
-};
-
-ProcessUsage process_usage() {
-  rusage used{};
-  ::getrusage(RUSAGE_SELF, &used);
-  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + double(t.tv_usec) * 1e-6; };
-  return {seconds(used.ru_utime) + seconds(used.ru_stime), int64_t{used.ru_maxrss} * 1024};
-}
-
 void write_note(std::ostream& out, const Stage& s, const std::string& message) {
   out << fmt::format("note: node \"{}\": {}", s.node->name, message) << std::endl;
 }
@@ -152,6 +139,9 @@ class JsonProgress : public Progress {
   void failed(const Stage& s, const std::string& message) override {
     write({{"event", "failed"}, {"node", s.node->name}, {"message", message}});
   }
+  void skipped(const Stage& s, const std::string& because) override {
+    write({{"event", "skipped"}, {"node", s.node->name}, {"because", because}});
+  }
   void warned(const std::string& message) override {
     const std::lock_guard lock(mutex_);
     write_warning(ProgressMode::json, out_, message);
@@ -171,6 +161,7 @@ class JsonProgress : public Progress {
            {"cached", r.count(Kind::reused)},
            {"run", r.count(Kind::run)},
            {"failed", r.count(Kind::failed)},
+           {"skipped", r.count(Kind::skipped)},
            {"unfinished", r.count(Kind::unfinished)},
            {"files", std::move(files)}});
   }
@@ -223,6 +214,10 @@ class PlainProgress : public Progress {
   void failed(const Stage& s, const std::string&) override {
     const std::lock_guard lock(mutex_);
     line(s, "failed");
+  }
+  void skipped(const Stage& s, const std::string& because) override {
+    const std::lock_guard lock(mutex_);
+    line(s, fmt::format("skipped, as {} failed", because));
   }
   void warned(const std::string& message) override {
     const std::lock_guard lock(mutex_);
@@ -355,12 +350,18 @@ void write_error(ProgressMode mode, std::ostream& out, const std::exception& err
   const GraphError* graph = dynamic_cast<const GraphError*>(&error);
   const std::string file = graph ? graph->file() : "";
   const std::vector<Problem> problems = graph ? graph->problems() : std::vector<Problem>{{{}, "", error.what()}};
-  for (const Problem& p : problems) {
+  for (size_t i = 0; i < std::min(problems.size(), most_problems_shown); i++) {
     if (mode == ProgressMode::json)
-      write_event(out, error_event(file, p));
+      write_event(out, error_event(file, problems[i]));
     else
-      out << "error: " << describe(file, p) << std::endl;
+      out << "error: " << describe(file, problems[i]) << std::endl;
   }
+  const std::string more = problems_not_shown(problems.size());
+  if (more.empty()) return;
+  if (mode == ProgressMode::json)
+    write_event(out, {{"event", "error"}, {"message", more}});
+  else
+    out << more << std::endl;
 }
 
 void write_watching(ProgressMode mode, std::ostream& out, size_t files) {

@@ -43,8 +43,9 @@ class Progress : public RunObserver {
 ///   done      "node", "seconds"
 ///   cached    "node": its result was there
 ///   failed    "node", "message"
+///   skipped   "node", "because": the failed node that it needs (with --keep-going)
 ///   finished  "ok", "cancelled", "seconds", "cpu_seconds" and "peak_memory" (bytes) of the whole process,
-///             "cached", "run", "failed", "unfinished", "files": [path]; the run's last
+///             "cached", "run", "failed", "skipped", "unfinished", "files": [path]; the run's last
 ///   watching  "files": how many; the run is over and waits for one of them to change
 std::unique_ptr<Progress> make_progress(ProgressMode mode, std::ostream& out, bool terminal);
 

@@ -90,7 +90,7 @@ Json material_json(const LitMaterial& lit) {
 }  // namespace
 
 std::string_view what_it_did(const Stage& stage, const StageOutcome& outcome) {
-  constexpr std::array<std::string_view, 5> names = {"not asked for", "cached", "run", "failed", "not run"};
+  constexpr std::array<std::string_view, 6> names = {"not asked for", "cached", "run", "failed", "not run", "skipped"};
   if (!stage.needed) return "not needed";
   if (outcome.kind == StageOutcome::Kind::reused && stage.type().is_sink()) return "up to date";
   return names[static_cast<size_t>(outcome.kind)];

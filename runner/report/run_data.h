@@ -9,7 +9,8 @@
 
 namespace terrazzo {
 
-/// What a stage did, in one or two words: "run", "cached", "up to date", "failed", "not run", "not needed".
+/// What a stage did, in one or two words: "run", "cached", "up to date", "failed", "not run", "skipped", "not
+/// needed".
 std::string_view what_it_did(const Stage& stage, const StageOutcome& outcome);
 
 /// Why, as the run found out or the plan foresaw.

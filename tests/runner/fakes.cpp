@@ -154,7 +154,7 @@ double kept_number(const RunResult& result, const std::string& node) {
 }
 
 std::string outcome(const RunResult& result, const std::string& node) {
-  constexpr std::array<const char*, 5> names = {"idle", "reused", "run", "failed", "unfinished"};
+  constexpr std::array<const char*, 6> names = {"idle", "reused", "run", "failed", "unfinished", "skipped"};
   for (const StageOutcome& s : result.stages)
     if (s.node == node) return names[static_cast<size_t>(s.kind)];
   return "no such node";

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <exception>
+#include <functional>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -124,4 +126,59 @@ TEST_CASE("any override gives a graph or a clear error") {
       CAPTURE(override);
       CHECK(is_handled(valid, {override}));
     }
+}
+
+namespace {
+
+constexpr int many = 20000;
+
+/// A graph of many nodes, each of which `line` makes.
+GraphError error_of_many(const std::function<std::string(int)>& line) {
+  std::string text = R"({"terrazzo": 1, "nodes": {"a": {"type": "photo", "file": "a.png"})";
+  for (int i = 0; i < many; i++) text += fmt::format(",\n\"n{}\": {}", i, line(i));
+  try {
+    load_fake(text + "}}");
+  } catch (const GraphError& e) {
+    return e;
+  }
+  return GraphError("", {});
+}
+
+size_t lines_with(const std::vector<Problem>& problems, const std::string& words) {
+  return size_t(std::count_if(problems.begin(), problems.end(),
+                              [&](const Problem& p) { return p.message.find(words) != std::string::npos; }));
+}
+
+}  // namespace
+
+TEST_CASE("of very many mistakes the first hundred are shown, and only these are compared with all nodes") {
+  const GraphError nowhere =
+      error_of_many([](int i) { return fmt::format(R"({{"type": "adjust", "image": "@m{}"}})", i); });
+  REQUIRE(nowhere.problems().size() == many);
+  CHECK(lines_with(nowhere.problems(), "leads to no node") == many);
+  CHECK(lines_with(nowhere.problems(), "did you mean") == 100);
+  CHECK(std::string(nowhere.what()).ends_with("\nand 19,900 more problems"));
+  CHECK(std::ranges::count(std::string(nowhere.what()), '\n') == 100);
+
+  const GraphError types = error_of_many([](int i) {
+    return fmt::format(R"({{"type": "adjust", "image": "@{}"}})", i == 0 ? "a" : "n" + std::to_string(i - 1) + ".no");
+  });
+  CHECK(types.problems().size() == many - 1);
+}
+
+TEST_CASE("of long cycles the middle is left out, and of very many the text stays short") {
+  const GraphError one =
+      error_of_many([](int i) { return fmt::format(R"({{"type": "adjust", "image": "@n{}"}})", (i + 1) % many); });
+  REQUIRE(one.problems().size() == 1);
+  CHECK(one.problems()[0].message.find("the wires form a cycle: n0 -> n19999 -> n19998") == 0);
+  CHECK(one.problems()[0].message.find(" -> n19990 -> (19980 more) -> n9 -> n8 ") != std::string::npos);
+  CHECK(one.problems()[0].message.ends_with(" -> n1 -> n0"));
+
+  const GraphError all = error_of_many([](int i) {
+    return fmt::format(R"({{"type": "gather", "images": ["@n{}", "@n0"]}})", std::min(i + 1, many - 1));
+  });
+  CHECK(all.problems().size() >= many - 1);
+  size_t longest = 0;
+  for (const Problem& p : all.problems()) longest = std::max(longest, p.message.size());
+  CHECK(longest < 500);
 }

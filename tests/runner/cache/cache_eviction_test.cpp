@@ -2,9 +2,15 @@
 #include <fstream>
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include "core/file/atomic_file.h"
 #include "runner/cache/cache.h"
 #include "runner/cache/cache_folder.h"
+#include "runner/cache/cache_pins.h"
+#include "runner/engine/history.h"
 #include "test_paths.h"
 #include "tests/run_node.h"
 #include "tests/runner/fakes.h"
@@ -187,4 +193,99 @@ TEST_CASE(
   make_older(pins / "elsewhere-123-0", 2);
   cache.clear();
   CHECK(listing(pins) == std::vector<std::string>{mine});
+}
+
+TEST_CASE("the record of a stage goes with the last of its values, and what needs no value goes by age if need be") {
+  const TemporaryFolder folder;
+  const std::vector<Value> values = store_row(folder.path(), 10);
+  const CacheFolder layout(folder.path());
+  {
+    Cache cache(folder.path());
+    for (uint64_t i = 0; i < 10; i++) cache.store_stage({i, 0}, {{{"image", digest_of(values[i])}}, {}, {}, 1});
+    cache.store_stage({20, 0}, {{{"image", digest_of(values[0])}, {"other", digest_of(values[9])}}, {}, {}, 1});
+    cache.store_stage({30, 0}, {{{"image", {9, 9}}}, {}, {}, 1});
+  }
+  const auto is_there = [&](uint64_t key) {
+    return std::filesystem::exists(layout.path_of(EntryKind::stage, {key, 0}));
+  };
+  Cache(folder.path(), layout.scan().bytes() / 2).collect();
+  for (uint64_t i = 0; i < 10; i++)
+    CHECK(is_there(i) == std::filesystem::exists(layout.path_of(EntryKind::value, digest_of(values[i]))));
+  CHECK_FALSE(is_there(0));
+  CHECK(is_there(9));
+  CHECK(is_there(20));
+  CHECK(is_there(30));
+  for (const uint64_t i : {40, 41}) Cache(folder.path()).store_stage({i, 0}, {{}, {}, {}, 1});
+  make_older(layout.path_of(EntryKind::stage, {40, 0}), 20);
+  make_older(layout.path_of(EntryKind::stage, {30, 0}), 10);
+  uint64_t newest = 0;
+  for (const CacheEntry& e : layout.scan().entries)
+    if (e.name == Digest{41, 0}) newest = e.bytes;
+  Cache(folder.path(), newest * 10 / 8).collect();
+  CHECK(is_there(41));
+  CHECK_FALSE(is_there(40));
+  CHECK_FALSE(is_there(30));
+}
+
+TEST_CASE("histories count, are verified, and go after a month without use; so do what killed processes left of them") {
+  const TemporaryFolder folder;
+  Cache cache(folder.path());
+  FakeTypes t;
+  Graph g = small_graph(t);
+  RunOptions options = keeping({"total"}, &cache);
+  std::vector<std::filesystem::path> files;
+  for (const char* name : {"one.json", "two.json"}) {
+    History history(folder.path(), folder.path() / name);
+    options.history = &history;
+    REQUIRE(run_graph(g, options).ok());
+  }
+  const std::filesystem::path histories = folder.path() / "history";
+  for (const auto& e : std::filesystem::directory_iterator(histories)) files.push_back(e.path());
+  REQUIRE(files.size() == 2);
+  CHECK(cache.status().histories == 2);
+  CHECK(cache.status().bytes >= std::filesystem::file_size(files[0]) + std::filesystem::file_size(files[1]));
+  CHECK(cache.verify(Task()).damaged.empty());
+
+  const std::filesystem::path left = temporary_beside(histories / "three.txt");
+  const std::string mine = "-" + std::to_string(::getpid()) + "-";
+  std::string dead = left.filename().string();
+  dead.replace(dead.find(mine), mine.size(), "-999999999-");
+  std::ofstream(histories / dead) << "half a history";
+  std::ofstream(left) << "half a history";
+  make_older(files[0], 40);
+  cache.collect();
+  CHECK_FALSE(std::filesystem::exists(files[0]));
+  CHECK(std::filesystem::exists(files[1]));
+  CHECK_FALSE(std::filesystem::exists(histories / dead));
+  CHECK(std::filesystem::exists(left));
+
+  std::fstream(files[1], std::ios::in | std::ios::out).seekp(60) << "?";
+  const CacheVerdict verdict = cache.verify(Task());
+  REQUIRE(verdict.damaged.size() == 1);
+  CHECK(verdict.damaged[0].find("its checksum is wrong") != std::string::npos);
+  CHECK(cache.status().histories == 0);
+}
+
+TEST_CASE("a graph that is run again keeps its history young") {
+  const TemporaryFolder folder;
+  Cache cache(folder.path());
+  FakeTypes t;
+  RunOptions options = keeping({"total"}, &cache);
+  {
+    History history(folder.path(), folder.path() / "one.json");
+    options.history = &history;
+    REQUIRE(run_graph(small_graph(t), options).ok());
+  }
+  for (const auto& e : std::filesystem::directory_iterator(folder.path() / "history")) make_older(e.path(), 40);
+  CHECK(History(folder.path(), folder.path() / "one.json").seconds("total"));
+  cache.collect();
+  CHECK(cache.status().histories == 1);
+}
+
+TEST_CASE("a process that is stopped while it holds the folder's lock does not hold up others for ever") {
+  const TemporaryFolder folder;
+  const std::vector<Value> values = store_row(folder.path(), 1);
+  const File stopped = File::open(CacheFolder(folder.path()).lock(), O_RDWR | O_CREAT);
+  REQUIRE(lock_file(stopped, LOCK_EX));
+  CHECK_FALSE(lock_file_soon(File::open(CacheFolder(folder.path()).lock(), O_RDWR), LOCK_SH));
 }

@@ -97,7 +97,7 @@ TEST_CASE("threads with a cache object each share a folder and never see a wrong
   other.join();
   CHECK(wrong_here == 0);
   CHECK(wrong_there == 0);
-  CHECK(Cache(folder.path()).verify(Task()).empty());
+  CHECK(Cache(folder.path()).verify(Task()).damaged.empty());
 }
 
 TEST_CASE("threads share one cache object") {
@@ -127,7 +127,7 @@ TEST_CASE("processes share a folder and never see a wrong value") {
   CHECK(one.wait() == 0);
   CHECK(two.wait() == 0);
   Cache cache(folder.path());
-  CHECK(cache.verify(Task()).empty());
+  CHECK(cache.verify(Task()).damaged.empty());
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path() / "v1" / "pins"), {}) == 1);
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("a process killed while storing leaves a usable cache, and its pins an
   victim.kill();
   CHECK(victim.wait() == -SIGKILL);
   Cache cache(folder.path());
-  CHECK(cache.verify(Task()).empty());
+  CHECK(cache.verify(Task()).damaged.empty());
   const ImagePtr image = sample_image({400, 400}, 0);
   const auto value = cache.load_value(image->digest());
   REQUIRE(value);

@@ -14,6 +14,8 @@
 #include "runner/cache/cache_records.h"
 #include "test_paths.h"
 #include "tests/run_node.h"
+#include "tests/runner/cache/environment.h"
+#include "tests/runner/cache/without_writing.h"
 #include "tests/sample_values.h"
 #include "tests/texts.h"
 
@@ -38,46 +40,6 @@ void flip_bit(const std::filesystem::path& path) {
   file.seekp(40);
   file.put(char(byte ^ 16));
 }
-
-/// An environment variable, for as long as the object lives.
-class Environment {
- public:
-  Environment(const char* name, const char* value) : name_(name) {
-    if (const char* old = std::getenv(name)) old_ = old;
-    ::setenv(name, value, 1);
-  }
-  ~Environment() { old_ ? ::setenv(name_, old_->c_str(), 1) : ::unsetenv(name_); }
-
- private:
-  const char* name_;
-  std::optional<std::string> old_;
-};
-
-/// Takes away the permission to write to a folder. Who may write anywhere becomes nobody for as long as the object
-/// lives.
-class WithoutWriting {
- public:
-  explicit WithoutWriting(const std::filesystem::path& folder) : folder_(folder) {
-    if (root_)
-      REQUIRE(::seteuid(65534) == 0);
-    else
-      permit(0555);
-  }
-  ~WithoutWriting() {
-    if (root_)
-      CHECK(::seteuid(0) == 0);
-    else
-      permit(0755);
-  }
-
- private:
-  void permit(int mode) {
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
-      if (entry.is_directory()) std::filesystem::permissions(entry.path(), std::filesystem::perms(mode));
-  }
-  std::filesystem::path folder_;
-  bool root_ = ::geteuid() == 0;
-};
 
 }  // namespace
 
@@ -198,15 +160,15 @@ TEST_CASE("verify finds and removes what is damaged and nothing else") {
   for (const Value& v : values) cache.store_value(v, 1, Task());
   cache.store_stage({7, 7}, sample_record());
   cache.store_stage({7, 8}, sample_record());
-  CHECK(cache.verify(Task()).empty());
+  CHECK(cache.verify(Task()).damaged.empty());
   flip_bit(layout.path_of(EntryKind::stage, {7, 8}));
   flip_bit(layout.path_of(EntryKind::value, digest_of(values[2])));
-  const std::vector<std::string> found = cache.verify(Task());
+  const std::vector<std::string> found = cache.verify(Task()).damaged;
   REQUIRE(found.size() == 2);
   CHECK(found[0].find(digest_of(values[2]).hex()) != std::string::npos);
   CHECK(cache.status().values == int64_t(values.size()) - 1);
   CHECK(cache.status().stages == 1);
-  CHECK(cache.verify(Task()).empty());
+  CHECK(cache.verify(Task()).damaged.empty());
 }
 
 TEST_CASE("a cache folder that cannot be made is an error") {

@@ -3,16 +3,17 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 
+#include "core/file/processes.h"
 #include "runner/cache/cache_folder.h"
 #include "runner/cache/cache_leases.h"
+#include "runner/cache/lease_folder.h"
 #include "tests/runner/fakes.h"
 #include "tests/runner/program.h"
 #include "tests/runner/workplace.h"
 
-/// Runs that share a cache compute a stage once. Locks of files that are opened twice are as much apart within a
-/// process as between two, so most of this needs no second one.
+/// Runs that share a cache compute a stage once. Leases of two objects are as much apart within a process as between
+/// two, so most of this needs no second one.
 using namespace terrazzo;
 using namespace terrazzo::test;
 namespace fs = std::filesystem;
@@ -113,9 +114,11 @@ TEST_CASE("equal nodes of one graph are computed once, on any number of threads"
 
 TEST_CASE("when the other one goes without a result, the stage is computed after all") {
   OneStage s;
-  LeaseAttempt other = try_lease(s.leases, key_of_slow());
+  Leases theirs(s.leases);
+  LeaseAttempt other = theirs.try_lease(key_of_slow());
   REQUIRE(other.lease);
-  CHECK(try_lease(s.leases, key_of_slow()).taken);
+  CHECK(Leases(s.leases).try_lease(key_of_slow()).taken);
+  CHECK(theirs.try_lease(key_of_slow()).taken);
   Waits waits;
   waits.then = [&] { other.lease.reset(); };
   const RunResult r = s.run(s.cache, &waits);
@@ -126,7 +129,8 @@ TEST_CASE("when the other one goes without a result, the stage is computed after
 
 TEST_CASE("a run with one thread goes on with other stages while it waits for another one") {
   OneStage s;
-  LeaseAttempt other = try_lease(s.leases, key_of_slow());
+  Leases theirs(s.leases);
+  LeaseAttempt other = theirs.try_lease(key_of_slow());
   REQUIRE(other.lease);
   constexpr int steps = 10;
   for (int i = 0; i < steps; i++)
@@ -163,20 +167,27 @@ TEST_CASE("a run with one thread goes on with other stages while it waits for an
 TEST_CASE("the lease of a process is seen without taking it") {
   const TemporaryFolder folder;
   const Digest key{1, 2};
-  CHECK_FALSE(lease_is_taken(folder.path(), key));
+  Leases mine(folder.path()), theirs(folder.path());
+  CHECK_FALSE(mine.is_taken(key));
   CHECK(listing(folder.path()).empty());
-  LeaseAttempt one = try_lease(folder.path(), key);
-  CHECK(lease_is_taken(folder.path(), key));
-  CHECK_FALSE(lease_is_taken(folder.path(), Digest{2, 1}));
+  LeaseAttempt one = theirs.try_lease(key);
+  CHECK(mine.is_taken(key));
+  CHECK_FALSE(mine.is_taken(Digest{2, 1}));
   one.lease.reset();
-  CHECK_FALSE(lease_is_taken(folder.path(), key));
-  write_text(folder.path() / key.hex(), "");  // as a process leaves it that is killed
-  CHECK_FALSE(lease_is_taken(folder.path(), key));
+  CHECK_FALSE(mine.is_taken(key));
+  CHECK(listing(folder.path()).empty());
+  write_text(folder.path() / key.hex(), "");  // as earlier versions left it
+  CHECK_FALSE(mine.is_taken(key));
+  CHECK(mine.try_lease(key).lease);
+  fs::create_directory(folder.path() / key.hex());  // as a process leaves it that is killed while it gives it up
+  CHECK_FALSE(mine.is_taken(key));
+  CHECK(mine.try_lease(key).lease);
 }
 
 TEST_CASE("a run that waits for another one can be cancelled") {
   OneStage s;
-  const LeaseAttempt other = try_lease(s.leases, key_of_slow());
+  Leases theirs(s.leases);
+  const LeaseAttempt other = theirs.try_lease(key_of_slow());
   Waits waits;
   std::atomic<bool> cancelled{false};
   waits.then = [&] { cancelled = true; };
@@ -195,7 +206,8 @@ TEST_CASE("the lease of a dead process is free, and what it leaves is cleared aw
   CHECK(waits.count == 0);
   CHECK(s.t.runs("sum") == 1);
   CHECK(listing(s.leases) == std::vector<std::string>{"somebody-else"});
-  const LeaseAttempt held = try_lease(s.leases, Digest{1, 2});
+  Leases theirs(s.leases);
+  const LeaseAttempt held = theirs.try_lease(Digest{1, 2});
   s.cache.collect();
   CHECK(listing(s.leases) == std::vector<std::string>{Digest{1, 2}.hex()});
 }
@@ -227,4 +239,85 @@ TEST_CASE("of programs that run one graph at once, one lays it out; killing it m
   CHECK_MESSAGE(r.code == 0, r.err);
   CHECK(r.err.find("\"start\",\"node\":\"layout\"") != std::string::npos);
   CHECK(listing(w.path / "out") == std::vector<std::string>{"base_color.png"});
+}
+
+TEST_CASE("a lease that is not renewed is taken over, and who held it disturbs nobody when it goes on") {
+  using std::chrono::milliseconds;
+  const TemporaryFolder folder;
+  const Digest key{1, 2};
+  const LeaseTimes stopped{std::chrono::hours(1), milliseconds(50)}, lively{milliseconds(5), milliseconds(50)};
+  Leases theirs(folder.path(), stopped), mine(folder.path(), lively), third(folder.path(), lively);
+  LeaseAttempt old = theirs.try_lease(key);
+  REQUIRE(old.lease);
+  CHECK(mine.try_lease(key).taken);  // seen for the first time
+  while (mine.is_taken(key)) std::this_thread::sleep_for(milliseconds(5));
+  const LeaseAttempt taken = mine.try_lease(key);
+  REQUIRE(taken.lease);
+  CHECK(third.try_lease(key).taken);
+  old.lease.reset();
+  CHECK(third.is_taken(key));
+  CHECK(holder_of(folder.path() / key.hex()));
+  CHECK(listing(folder.path()) == std::vector<std::string>{key.hex()});
+}
+
+TEST_CASE("a lease that is renewed is never taken over, however long its stage takes") {
+  using std::chrono::milliseconds;
+  const TemporaryFolder folder;
+  const Digest key{1, 2};
+  Leases theirs(folder.path(), {milliseconds(2), milliseconds(300)});
+  Leases mine(folder.path(), {milliseconds(2), milliseconds(300)});
+  const LeaseAttempt held = theirs.try_lease(key);
+  const auto beat = [&] { return holder_of(folder.path() / key.hex())->beat; };
+  CHECK(mine.is_taken(key));
+  while (beat() < 300) {  // at least 600 ms
+    REQUIRE(mine.is_taken(key));
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+}
+
+TEST_CASE("of many that take over at once, one gets the lease") {
+  const TemporaryFolder folder;
+  const Digest key{1, 2};
+  for (int round = 0; round < 20; round++) {
+    const LeaseHolder dead{process_neighbourhood() + "-999999999-0"};
+    REQUIRE(claim_lease(folder.path() / key.hex(), dead));
+    std::atomic<int> got{0}, arrived{0}, tried{0};
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 6; i++)
+      threads.emplace_back([&] {
+        Leases leases(folder.path());
+        for (arrived++; arrived < 6;) std::this_thread::yield();
+        const LeaseAttempt attempt = leases.try_lease(key);
+        if (attempt.lease) got++;
+        for (tried++; tried < 6;) std::this_thread::yield();
+      });
+    for (std::thread& t : threads) t.join();
+    CHECK(got == 1);
+    CHECK(listing(folder.path()).empty());
+  }
+}
+
+TEST_CASE("a program that is stopped while it lays out holds up another one for no longer than leases hold") {
+  const Workplace w;
+  write_picture(w.path / "maps/stone_basecolor.png", 5);
+  fs::create_directories(w.path / "second");
+  const std::vector<std::string> args = {"synth",      (w.path / "maps").string(),
+                                         "-o",         (w.path / "out").string(),
+                                         "--size",     "1024x1024",
+                                         "--progress", "json",
+                                         "--cache",    (w.path / "shared").string()};
+  StartedProgram first(w.path, args);
+  REQUIRE(first.says("\"start\",\"node\":\"layout\""));
+  first.signal(SIGSTOP);
+  StartedProgram second(w.path / "second", args);
+  REQUIRE(second.says("{\"event\":\"wait\",\"node\":\"layout\"}"));
+  const ProgramRun r = second.wait();
+  CHECK_MESSAGE(r.code == 0, r.err);
+  CHECK(r.err.find("\"start\",\"node\":\"layout\"") != std::string::npos);
+  first.signal(SIGCONT);
+  const ProgramRun woken = first.wait();
+  CHECK_MESSAGE(woken.code == 0, woken.err);
+  CHECK(listing(w.path / "out") == std::vector<std::string>{"base_color.png"});
+  CHECK(listing(w.path / "shared/v1/leases").empty());
+  CHECK(w.run({"cache", "verify", "--cache", "shared"}).out == "every entry is sound\n");
 }

@@ -148,7 +148,7 @@ struct Cached {
 };
 
 inline std::string kind_of(Coordinator& coordinator, int stage) {
-  constexpr std::array<const char*, 5> names = {"idle", "reused", "run", "failed", "unfinished"};
+  constexpr std::array<const char*, 6> names = {"idle", "reused", "run", "failed", "unfinished", "skipped"};
   return names[size_t(coordinator.outcomes().take_stages()[size_t(stage)].kind)];
 }
 

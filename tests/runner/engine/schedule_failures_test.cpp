@@ -1,11 +1,14 @@
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <thread>
 
 #include <doctest/doctest.h>
 
 #include "runner/engine/schedule.h"
+#include "tests/runner/engine/dice.h"
 #include "tests/runner/fakes.h"
 
 /// Runs that go wrong: nodes that fail, that are cancelled, or that cannot be believed.
@@ -174,4 +177,106 @@ TEST_CASE("a node that changes a file it reads is refused, and nothing is filed 
   const RunResult r = run_graph(g, options);
   REQUIRE(r.failures.size() == 1);
   CHECK(r.failures[0].message.find("were changed while it was reading them") != std::string::npos);
+}
+
+namespace {
+
+/// Two branches, "left" and "right", that both read "a"; the left one breaks.
+Graph two_branches(const FakeTypes& t, const std::filesystem::path& folder) {
+  Graph g;
+  add(g, "a", t.number, {{"value", 1.0}});
+  add(g, "left", t.fail, {}, {"a"});
+  add(g, "left2", t.sum, {}, {"left"});
+  add(g, "left_file", t.write, {{"path", (folder / "left.txt").string()}}, {"left2"});
+  add(g, "right", t.sum, {{"plus", 1.0}}, {"a"});
+  add(g, "right_file", t.write, {{"path", (folder / "right.txt").string()}}, {"right"});
+  add(g, "both_file", t.write, {{"path", (folder / "both.txt").string()}}, {"right", "left2"});
+  return g;
+}
+
+struct Skips : RunObserver {
+  std::atomic<int> skips{0};
+  void skipped(const Stage&, const std::string&) override { skips++; }
+};
+
+}  // namespace
+
+TEST_CASE("a run that keeps going makes what does not need a failed node, and says what is skipped because of it") {
+  for (const int threads : {1, 4}) {
+    TemporaryFolder folder;
+    Cache cache(folder.path() / "cache");
+    FakeTypes t;
+    const Graph g = two_branches(t, folder.path());
+    RunOptions options;
+    options.threads = threads;
+    options.cache = &cache;
+    options.keep_going = true;
+    Skips observer;
+    options.observer = &observer;
+    for (const char* right : {"run", "reused"}) {
+      const RunResult r = run_graph(g, options);
+      CHECK_FALSE(r.ok());
+      REQUIRE(r.failures.size() == 1);
+      CHECK(outcome(r, "left") == "failed");
+      CHECK(outcome(r, "right_file") == right);
+      for (const char* skipped : {"left2", "left_file", "both_file"}) CHECK(outcome(r, skipped) == "skipped");
+      CHECK(r.count(StageOutcome::Kind::unfinished) == 0);
+      CHECK(r.summary().find(", 1 failed, 3 skipped because of that, ") != std::string::npos);
+      CHECK(r.skips() == std::vector<std::string>{"skipped, as \"left\" failed: left2, left_file, both_file"});
+    }
+    CHECK(observer.skips == 6);
+    CHECK(listing(folder.path()) == std::vector<std::string>{"cache", "right.txt"});
+  }
+}
+
+TEST_CASE("what does not need a failed node again is taken from the cache") {
+  TemporaryFolder folder;
+  Cache cache(folder.path());
+  FakeTypes t;
+  Graph g;
+  add(g, "a", t.quick, {{"value", 1.0}});
+  add(g, "kept", t.sum, {{"plus", 1.0}}, {"a"});
+  REQUIRE(run_graph(g, keeping({"kept"}, &cache)).ok());
+  t.quick.compute = [](NodeContext&) { throw Error("broken"); };
+  add(g, "new", t.sum, {{"plus", 2.0}}, {"a", "kept"});
+  RunOptions options = keeping({"kept", "new"}, &cache);
+  options.keep_going = true;
+  const RunResult r = run_graph(g, options);
+  CHECK(outcome(r, "kept") == "reused");
+  CHECK(kept_number(r, "kept") == 2);
+  CHECK(outcome(r, "a") == "failed");
+  CHECK(outcome(r, "new") == "skipped");
+}
+
+TEST_CASE("runs that keep going come to an end, whatever fails") {
+  FakeTypes t;
+  for (uint64_t seed = 1; seed <= 40; seed++) {
+    TemporaryFolder folder;
+    Cache cache(folder.path());
+    Dice dice(seed);
+    const NodeType* types[] = {&t.sum, &t.quick_sum, &t.lazy_sum, &t.fail};
+    Graph g;
+    std::set<std::string> ill;
+    for (int i = 0; i < 25; i++) {
+      const std::string name = "n" + std::to_string(i);
+      const NodeType& type = *types[dice.roll(10) == 0 ? 3 : dice.roll(3)];
+      std::vector<std::string> in;
+      for (int k = i == 0 ? 0 : dice.roll(3); k > 0; k--) in.push_back("n" + std::to_string(dice.roll(i)));
+      if (&type == &t.fail || std::any_of(in.begin(), in.end(), [&](const auto& n) { return ill.count(n) == 1; }))
+        ill.insert(name);
+      add(g, name, type, {{"plus", double(i)}}, in);
+    }
+    RunOptions options;
+    options.cache = &cache;
+    options.keep_going = true;
+    for (const GraphNode& n : g.nodes) options.targets.keep.push_back(n.name);
+    for (int round = 0; round < 2; round++) {
+      const RunResult r = run_graph(g, options);
+      CHECK(r.count(StageOutcome::Kind::unfinished) == 0);
+      for (const StageOutcome& s : r.stages) {
+        const bool lost = s.kind == StageOutcome::Kind::failed || s.kind == StageOutcome::Kind::skipped;
+        CHECK_MESSAGE(lost == (ill.count(s.node) == 1), "seed " << seed << " " << s.node);
+      }
+    }
+  }
 }

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include <sys/types.h>
+
+namespace terrazzo {
+
+/// Names the processes whose numbers mean something here: those of this host that are counted together with this one.
+/// Eight hexadecimal digits.
+std::string process_neighbourhood();
+
+/// Whether a process of the neighbourhood runs, or has stopped and may go on.
+bool is_running(pid_t process);
+
+}  // namespace terrazzo

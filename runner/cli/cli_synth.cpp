@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "graphs/document/load.h"
+#include "graphs/document/override.h"
+#include "graphs/document/stock_graphs.h"
+#include "runner/cli/cli_commands.h"
+#include "runner/cli/cli_run.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// An argument of `synth`, and the parameter of the stock graph that it sets.
+struct Argument {
+  std::string name, parameter, value;
+
+  std::string override_text() const { return parameter + "=" + value; }
+};
+
+/// What is wrong, said of the arguments of `synth`, the folder first, instead of the graph that they stand for.
+GraphError about_arguments(const GraphError& error, const std::vector<Argument>& arguments) {
+  std::vector<Problem> problems;
+  for (const Problem& p : error.problems()) {
+    const bool is_source = p.node == "exemplar" || p.node == "weighted";  // the latter looks at the maps' shapes
+    const auto argument = std::find_if(arguments.begin(), arguments.end(), [&](const Argument& a) {
+      return p.where == where_of_override(a.override_text());
+    });
+    if (argument != arguments.end())
+      problems.push_back({{}, argument->name + " " + argument->value, p.message});
+    else if (is_source || p.node == "files")
+      problems.push_back({{}, is_source ? "FOLDER" : "-o", for_command_line(p.message, arguments.front().value)});
+    else
+      return error;
+  }
+  return GraphError("", std::move(problems));
+}
+
+bool same_folder(const std::string& a, const std::string& b) {
+  std::error_code missing;
+  return std::filesystem::equivalent(a, b, missing);
+}
+
+}  // namespace
+
+void add_synth_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
+  struct Flags : RunFlags {
+    std::string folder, out, name, scale, size, seed, quality, blend, join, format, tileable;
+    std::vector<std::string> set;
+  };
+  const auto flags = std::make_shared<Flags>();
+  synth->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
+  synth
+      ->add_option("-o,--out", flags->out,
+                   "The folder to write to; {material}, {width}, {height} and {map} are replaced")
+      ->required()
+      ->type_name("DIR");
+  synth
+      ->add_option("--name", flags->name,
+                   "Which material of a folder that holds several: what the names of its files begin with; '*' takes "
+                   "all files as one")
+      ->type_name("STEM");
+  synth
+      ->add_option("--scale", flags->scale,
+                   "The size of the result: how many times the exemplar in each direction; 2 if not given")
+      ->type_name("FACTOR");
+  synth->add_option("--size", flags->size, "The size of the result in pixels")->type_name("WxH")->excludes("--scale");
+  synth->add_option("--seed", flags->seed, "Another number gives another arrangement")->type_name("N");
+  synth->add_option("--quality", flags->quality, "draft, normal or best: draft is quick, best takes its time")
+      ->type_name("LEVEL");
+  synth
+      ->add_option(
+          "--blend", flags->blend,
+          "How far from a seam pixels are blended, 0 to 8; more is softer, 2 to 3 hides most seams. 0 if not given")
+      ->type_name("PIXELS");
+  synth
+      ->add_option("--join", flags->join,
+                   "How far from a seam heights change so that pieces meet: below 1 a share of the exemplar's shorter "
+                   "side, else pixels; 0 keeps heights exact. 0.03 if not given")
+      ->type_name("REACH");
+  synth
+      ->add_option("--format", flags->format,
+                   "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
+      ->type_name("FORMAT");
+  synth
+      ->add_option("--set", flags->set,
+                   "Sets a parameter of the graph that this stands for (graphs/material.json), or of one of its nodes, "
+                   "as for run; may be given several times")
+      ->type_name("NAME=VALUE")
+      ->take_all()
+      ->expected(1);
+  synth->add_flag("--tileable{xy}", flags->tileable,
+                  "The result wraps around; --tileable=x or --tileable=y in one direction only");
+  add_run_flags(*synth, *flags);
+  synth->footer("Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7");
+  synth->callback([&chosen, flags] {
+    chosen = [flags] {
+      std::vector<Argument> arguments = {{"FOLDER", "material", flags->folder}, {"-o", "out", flags->out}};
+      const auto set_if_given = [&](const char* name, const char* parameter, const std::string& value) {
+        if (!value.empty()) arguments.push_back({name, parameter, value});
+      };
+      set_if_given("--name", "name", flags->name);
+      set_if_given("--scale", "scale", flags->scale);
+      set_if_given("--size", "size", flags->size);
+      set_if_given("--seed", "seed", flags->seed);
+      set_if_given("--quality", "quality", flags->quality);
+      set_if_given("--blend", "blend", flags->blend);
+      set_if_given("--join", "join", flags->join);
+      set_if_given("--format", "format", flags->format);
+      set_if_given("--tileable", "tileable", flags->tileable);
+      std::vector<std::string> set;
+      for (const Argument& a : arguments) set.push_back(a.override_text());
+      set.insert(set.end(), flags->set.begin(), flags->set.end());
+      if (same_folder(flags->folder, flags->out))
+        throw UsageError(
+            fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
+      try {
+        return run_with_flags(
+            [&] { return load_graph_text(stock_graph("material"), "stock graph material.json", set).graph; }, *flags);
+      } catch (const GraphError& e) {
+        throw about_arguments(e, arguments);
+      }
+    };
+  });
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runner/engine/schedule.h"
+
+namespace terrazzo {
+
+/// What a program that started a run wants to know of it afterwards: `run --summary FILE.json`. The members of the file
+/// are described in examples/guide/unattended.md and, for programs, in examples/guide/summary.schema.json.
+struct RunSummary {
+  std::filesystem::path graph;
+  const Plan* plan = nullptr;         ///< null if there was none: the graph is invalid
+  const RunResult* result = nullptr;  ///< null if nothing ran
+  Cache* cache = nullptr;
+  std::vector<std::string> warnings{};    ///< that are not about a node
+  const std::exception* error = nullptr;  ///< why there was no run, or why its results could not be written
+  int exit_code = 0;
+};
+
+/// Where a summary and the times in it come from. Throws FileError.
+void write_run_summary(const RunSummary& summary, const std::filesystem::path& path);
+
+}  // namespace terrazzo

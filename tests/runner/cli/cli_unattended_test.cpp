@@ -1,0 +1,134 @@
+#include <csignal>
+#include <fstream>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/file/file_io.h"
+#include "test_paths.h"
+#include "tests/runner/fakes.h"
+#include "tests/runner/workplace.h"
+
+/// Runs that nobody watches.
+using namespace terrazzo;
+using namespace terrazzo::test;
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+Json json_in(const fs::path& file) {
+  std::ifstream in(file);
+  REQUIRE(in);
+  return Json::parse(in);
+}
+
+/// Two pictures, of which one turns out to be damaged only when it is read.
+struct TwoBranches : Workplace {
+  TwoBranches() {
+    write_text(path / "two.json", R"({"terrazzo": 1, "nodes": {
+  "good": {"type": "load_map", "path": "photo.png"},
+  "bad": {"type": "load_map", "path": "bad.png"},
+  "soft": {"type": "blur", "image": "@bad", "radius": 2},
+  "soft_file": {"type": "export", "material": "@soft", "path": "out/soft_{map}.png"},
+  "good_file": {"type": "export", "material": "@good", "path": "out/good_{map}.png"}
+}})");
+    write_picture(path / "bad.png", 5);
+    std::fstream file(path / "bad.png", std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(int64_t(fs::file_size(path / "bad.png")) / 2);
+    file << "not what was here before";
+  }
+};
+
+/// That a value has the members that the schema lists, and no others; and so on for what it holds.
+void check_members(const Json& value, const Json& schema, const std::string& where) {
+  CAPTURE(where);
+  if (value.is_array())
+    for (const Json& item : value)
+      if (schema.contains("items")) check_members(item, schema["items"], where + "[]");
+  if (!value.is_object()) return;
+  if (schema.contains("required"))
+    for (const Json& name : schema["required"]) CHECK_MESSAGE(value.contains(name.get<std::string>()), name);
+  if (!schema.contains("properties")) return;
+  for (const auto& [name, member] : value.items()) {
+    CHECK_MESSAGE(schema["properties"].contains(name), name);
+    if (schema["properties"].contains(name)) check_members(member, schema["properties"][name], where + "." + name);
+  }
+}
+
+void check_against_schema(const Json& summary) {
+  check_members(summary, json_in(fs::path(TERRAZZO_SOURCE_DIR) / "examples/guide/summary.schema.json"), "summary");
+}
+
+const Json& stage_of(const Json& summary, const std::string& node) {
+  for (const Json& s : summary["stages"])
+    if (s["node"] == node) return s;
+  FAIL("no stage " << node);
+  return summary;
+}
+
+}  // namespace
+
+TEST_CASE("with --keep-going the branch that is sound is made, and exit code and messages tell of the other one") {
+  const TwoBranches w;
+  const ProgramRun r = w.run({"run", "two.json", "--keep-going", "--summary", "sum.json"});
+  REQUIRE_MESSAGE(r.code == 1, r.err);
+  CHECK(listing(w.path / "out") == std::vector<std::string>{"good_base_color.png"});
+  CHECK_MESSAGE(r.err.find("\nskipped, as \"bad\" failed: soft, soft_file\n") != std::string::npos, r.err);
+  CHECK_MESSAGE(r.err.find("1 failed, 2 skipped because of that") != std::string::npos, r.err);
+  const Json summary = json_in(w.path / "sum.json");
+  check_against_schema(summary);
+  CHECK(summary["status"] == "failed");
+  CHECK(summary["exit_code"] == 1);
+  CHECK(summary["counts"]["skipped"] == 2);
+  CHECK(summary["failures"].size() == 1);
+  CHECK(summary["failures"][0]["node"] == "bad");
+  CHECK(stage_of(summary, "soft_file")["did"] == "skipped");
+  CHECK(stage_of(summary, "soft_file")["because"] == "bad");
+}
+
+TEST_CASE("the summary of a run has its files with digests, and of the next one that all was there") {
+  const Workplace w;
+  REQUIRE(w.run({"run", "soft.json", "--summary", "new/one.json"}).code == 0);
+  REQUIRE(w.run({"run", "soft.json", "--summary", "two.json"}).code == 0);
+  const Json one = json_in(w.path / "new/one.json"), two = json_in(w.path / "two.json");
+  for (const Json& summary : {one, two}) {
+    check_against_schema(summary);
+    CHECK(summary["status"] == "done");
+    const Json& file = stage_of(summary, "files")["files"][0];
+    CHECK(file["bytes"] == fs::file_size(file["path"].get<std::string>()));
+    CHECK(file["digest"].get<std::string>() == content_digest(fs::path(file["path"].get<std::string>()))->hex());
+  }
+  CHECK(stage_of(one, "files")["did"] == "run");
+  CHECK(stage_of(two, "files")["did"] == "up to date");
+  CHECK(stage_of(two, "files")["hit"] == true);
+  CHECK(one["stages"].size() == two["stages"].size());
+}
+
+TEST_CASE("a summary is written of an invalid graph and of a run that is cancelled, too") {
+  const Workplace w;
+  CHECK(w.run({"run", "soft.json", "--summary", "sum.json", "--set", "photo.path=none.png"}).code == 2);
+  const Json invalid = json_in(w.path / "sum.json");
+  check_against_schema(invalid);
+  CHECK(invalid["status"] == "invalid");
+  CHECK(invalid["failures"][0]["node"] == "photo");
+
+  write_picture(w.path / "maps/stone_basecolor.png", 5);
+  StartedProgram program(
+      w.path, {"synth", "maps", "-o", "out", "--size", "2048x2048", "--progress", "json", "--summary", "sum.json"});
+  REQUIRE(program.says("\"start\",\"node\":\"layout\""));
+  program.signal(SIGTERM);
+  CHECK(program.wait().code == 130);
+  const Json cancelled = json_in(w.path / "sum.json");
+  check_against_schema(cancelled);
+  CHECK(cancelled["status"] == "cancelled");
+  CHECK(stage_of(cancelled, "layout")["did"] == "not run");
+}
+
+TEST_CASE("a summary that cannot be written is told before anything runs") {
+  const Workplace w;
+  write_text(w.path / "file", "");
+  const ProgramRun r = w.run({"run", "soft.json", "--summary", "file/sum.json"});
+  CHECK(r.code == 2);
+  CHECK_MESSAGE(r.err.find("error: --summary file/sum.json: ") == 0, r.err);
+}
