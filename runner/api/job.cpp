@@ -80,8 +80,20 @@ Job& Job::set(const std::string& name, const ParamValue& value) {
 }
 
 Job& Job::set_text(const std::string& name, const std::string& value) {
-  values_.push_back(name + "=" + value);
+  unset(name);
+  values_.emplace_back(name, value);
   return *this;
+}
+
+Job& Job::unset(const std::string& name) {
+  std::erase_if(values_, [&](const auto& v) { return v.first == name; });
+  return *this;
+}
+
+std::vector<std::string> Job::overrides() const {
+  std::vector<std::string> out;
+  for (const auto& [name, value] : values_) out.push_back(name + "=" + value);
+  return out;
 }
 
 Job& Job::preset(const std::string& name) {
@@ -102,7 +114,7 @@ Job& Job::give(const std::string& name, Value value) {
 
 std::vector<JobParameter> Job::parameters() const {
   const LoadedGraph loaded =
-      load_graph_text(text_, path_, values_, {.presets = presets_, .settings = settings_, .allow_unset = true});
+      load_graph_text(text_, path_, overrides(), {.presets = presets_, .settings = settings_, .allow_unset = true});
   std::vector<JobParameter> out;
   for (const GraphParameter& p : loaded.parameters) out.push_back({p.param, p.group, p.value});
   return out;
@@ -110,7 +122,7 @@ std::vector<JobParameter> Job::parameters() const {
 
 std::vector<Problem> Job::check() const {
   try {
-    checked();
+    make_plan(checked().graph(), nullptr);  // looks at the files too
     return {};
   } catch (const GraphError& e) {
     return e.problems();
@@ -119,13 +131,21 @@ std::vector<Problem> Job::check() const {
   }
 }
 
+std::vector<Problem> Job::warnings() const {
+  if (!check().empty()) return {};
+  const CheckedJob job = checked();
+  std::vector<Problem> out = job.warnings();
+  for (Problem& p : doubts_about(job.graph())) out.push_back(std::move(p));
+  return out;
+}
+
 CheckedJob Job::checked(const std::vector<std::string>& only) const {
   auto state = std::make_shared<CheckedJob::State>();
   LoadOptions options{.presets = presets_, .settings = settings_, .only = only, .look_ahead = preflight_of_nodes};
   for (const auto& [name, value] : given_)
     options.inputs.emplace(
         name, &state->given.emplace_back(given_type(name, {.name = "value", .type = type_of(value)}, value)));
-  state->loaded = load_graph_text(text_, path_, values_, options);
+  state->loaded = load_graph_text(text_, path_, overrides(), options);
   std::vector<GraphNode>& nodes = state->loaded.graph.nodes;
   std::vector<std::string> names;
   for (const GraphNode& n : nodes) names.push_back(n.name);

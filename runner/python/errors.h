@@ -1,0 +1,29 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "runner/api/job.h"
+
+/// From C++ exceptions to those of the package, which are in terrazzo/_errors.py.
+namespace terrazzo::python {
+
+/// A list of Problem objects.
+pybind11::list problems_of(const std::vector<Problem>& problems, const Job& job, const char* severity);
+
+/// Raises GraphError, whose problems have JSON pointers. Needs Python's lock.
+[[noreturn]] void raise(const GraphError& error, const Job& job);
+
+/// What `work` gives; it does without Python's lock.
+template <typename Work>
+auto for_job(const Job& job, const Work& work) {
+  try {
+    const pybind11::gil_scoped_release free;
+    return work();
+  } catch (const GraphError& e) {
+    raise(e, job);
+  }
+}
+
+void register_exceptions();
+
+}  // namespace terrazzo::python

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "runner/api/job.h"
+
+namespace terrazzo::python {
+
+/// A checked graph, and the job it is of for messages.
+struct CheckedHandle {
+  CheckedJob checked;
+  Job job;
+};
+
+/// What a parameter is, as a dictionary.
+pybind11::dict description_of(const Param& param);
+
+void bind_graphs(pybind11::module_& module);
+
+}  // namespace terrazzo::python

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+
+#include <pybind11/numpy.h>
+
+/// Images and their pixels as arrays.
+namespace terrazzo::python {
+
+/// An object that keeps something alive, for arrays that look into it.
+template <typename T>
+pybind11::capsule owner_of(const std::shared_ptr<T>& kept) {
+  return pybind11::capsule(new std::shared_ptr<T>(kept), [](void* p) { delete static_cast<std::shared_ptr<T>*>(p); });
+}
+
+inline pybind11::array read_only(pybind11::array array) {
+  pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+void bind_images(pybind11::module_& module);
+
+}  // namespace terrazzo::python

@@ -1,0 +1,18 @@
+#include <pybind11/pybind11.h>
+
+#include "runner/api/plugin.h"
+#include "runner/python/bindings.h"
+#include "runner/python/errors.h"
+#include "runner/python/graphs.h"
+#include "runner/python/values.h"
+
+/// The compiled part of the Python package; what people use is in terrazzo/.
+PYBIND11_MODULE(_terrazzo, module) {
+  terrazzo::python::register_exceptions();
+  terrazzo::python::bind_values(module);
+  terrazzo::python::bind_graphs(module);
+  terrazzo::python::bind_sessions(module);
+  terrazzo::python::bind_nodes(module);
+  module.def("load_plugin", [](const std::string& file) { return terrazzo::load_plugin(file).types; });
+  terrazzo::load_plugins_of_environment();
+}

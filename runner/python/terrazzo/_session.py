@@ -1,0 +1,320 @@
+"""Sessions: a cache that is open, and runs."""
+
+from __future__ import annotations
+
+import itertools
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, Union
+
+from . import _terrazzo
+from ._errors import Cancelled, Failure, RunError, UnknownName
+from ._graph import Graph, PathLike, _checked, _unknown, _with
+from ._nodes import _cause_of
+
+Names = Union[str, Sequence[str]]
+
+
+def _list(names: Names) -> list[str]:
+    return [names] if isinstance(names, str) else list(names)
+
+
+@dataclass(frozen=True)
+class Event:
+    """What a progress function gets, always on the thread that called run."""
+
+    #: planned, started, waits, progress, note, finished, reused, spared or failed
+    kind: str
+    node: str
+    #: of notes and failures; of planned, the plan in a few words
+    message: str
+    #: of the node, 0 to 1
+    fraction: float
+    #: that the node took, once it has finished
+    seconds: float
+    #: how many nodes are done, of how many
+    done: int
+    total: int
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A node in a plan."""
+
+    node: str
+    #: not needed, cached, up to date, derived, depends or run
+    state: str
+    #: why it has to run
+    why: str
+    #: that it will take, as far as earlier runs tell
+    seconds: float
+
+
+class Plan(Sequence[Stage]):
+    """What a run would do. Printed, a table: node, state, why."""
+
+    def __init__(self, plan: dict[str, Any]) -> None:
+        self._stages = [Stage(*s) for s in plan["stages"]]
+        self._table: str = plan["table"]
+        #: "12 stages: 9 cached, 3 to run"
+        self.summary: str = plan["summary"]
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, str):
+            for s in self._stages:
+                if s.node == index:
+                    return s
+            raise _unknown("the plan has no node", index, [s.node for s in self._stages])
+        return self._stages[index]
+
+    def __len__(self) -> int:
+        return len(self._stages)
+
+    def __str__(self) -> str:
+        return self._table.rstrip("\n")
+
+    def __repr__(self) -> str:
+        return f"<Plan {self.summary}>"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a node in a run."""
+
+    node: str
+    #: idle (not needed), reused, run, failed or unfinished
+    kind: str
+    #: why it had to run, if the plan could not know
+    why: str
+    seconds: float
+    notes: list[str]
+    #: that it has written, in this run or before
+    files: list[Path]
+
+
+class Result(Mapping[str, Any]):
+    """What a run gave: values by node. A node with one output gives it; of others, all by name."""
+
+    def __init__(self, raw: dict[str, Any]) -> None:
+        self._kept: dict[str, dict[str, Any]] = raw["kept"]
+        #: of every node, in the graph's order
+        self.outcomes: list[Outcome] = [Outcome(*s) for s in raw["stages"]]
+        self.seconds: float = raw["seconds"]
+        #: "8 stages: 5 cached, 3 run, 1.84 s"
+        self.summary: str = raw["summary"]
+
+    @property
+    def files(self) -> list[Path]:
+        """All that its sinks have written, in this run or before."""
+        return [f for o in self.outcomes for f in o.files]
+
+    @property
+    def notes(self) -> list[str]:
+        """What nodes had to say: "node: what"."""
+        return [f"{o.node}: {n}" for o in self.outcomes for n in o.notes]
+
+    def __getitem__(self, name: str) -> Any:
+        if name in self._kept:
+            ports = self._kept[name]
+            return next(iter(ports.values())) if len(ports) == 1 else dict(ports)
+        node, dot, port = name.rpartition(".")
+        if dot and node in self._kept:
+            if port in self._kept[node]:
+                return self._kept[node][port]
+            raise _unknown(f'node "{node}" has no output', port, list(self._kept[node]))
+        if any(o.node == name for o in self.outcomes):
+            raise UnknownName(f'the value of "{name}" has not been kept: run with keep=["{name}"]')
+        raise _unknown("the graph has no node", name, [o.node for o in self.outcomes])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._kept)
+
+    def __len__(self) -> int:
+        return len(self._kept)
+
+    def __repr__(self) -> str:
+        return f"<Result {self.summary}>"
+
+
+class _Progress:
+    """Counts what is done, and calls the user's function."""
+
+    def __init__(self, tell: Callable[[Event], Any]) -> None:
+        self._tell = tell
+        self._done = self._total = 0
+
+    def __call__(self, kind: str, node: str, message: str, fraction: float, seconds: float, total: int) -> None:
+        if kind == "planned":
+            self._total = total
+        elif kind in ("finished", "reused", "failed"):
+            self._done += 1
+            self._total = max(self._total, self._done)
+        self._tell(Event(kind, node, message, fraction, seconds, self._done, self._total))
+
+
+class Session:
+    """A cache that is open, and how to run. Threads may share one; each run has the session's threads and memory.
+
+    cache: its folder; None for the usual one, False for none. threads: 0 for one per core. memory: a budget in bytes;
+    0 for half of the machine's."""
+
+    def __init__(self, cache: PathLike | bool | None = None, threads: int = 0, memory: int = 0) -> None:
+        folder = Path() if cache is None or isinstance(cache, bool) else Path(cache)
+        self._session = _terrazzo.Session(folder, cache is not False, threads, memory)
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Closes the cache. Values stay valid; runs that are under way end first."""
+        self._session.close()
+
+    def cancel(self) -> None:
+        """Ends all runs of this session, from any thread; they raise Cancelled."""
+        self._session.cancel()
+
+    def take_warnings(self) -> list[str]:
+        """What only cost time since the last call, such as a full disk."""
+        return self._session.take_warnings()
+
+    def plan(self, graph: Graph, only: Names = ()) -> Plan:
+        """What a run would do, and why. Raises GraphError."""
+        return Plan(self._session.plan(_checked(graph, _list(only)), _list(only)))
+
+    def run(
+        self,
+        graph: Graph,
+        only: Names = (),
+        *,
+        keep: Names = (),
+        progress: Callable[[Event], Any] | None = None,
+    ) -> Result:
+        """Runs what must run. With `only`, these nodes and what they need, and their values come back; else all sinks
+        or, in a graph without, what nothing reads, whose values come back. `keep` names more values to bring back.
+
+        `progress` is called on this thread; what it raises ends the run. So does Ctrl-C. Raises GraphError before
+        anything runs, RunError if a node failed, and Cancelled."""
+        only = _list(only)
+        tell = None if progress is None else _Progress(progress)
+        raw = self._session.run(_checked(graph, only), only, _list(keep), tell)
+        result = Result(raw)
+        if raw["failures"]:
+            failures = [Failure(*f) for f in raw["failures"]]
+            raise RunError("\n".join(f.message for f in failures), failures, result) from _cause_of(failures)
+        if raw["cancelled"]:
+            raise Cancelled("the run was cancelled")
+        return result
+
+    def sweep(
+        self,
+        graph: Graph,
+        values: Mapping[str, Iterable[Any]] | Iterable[Mapping[str, Any]] | None = None,
+        *,
+        progress: Callable[[Event], Any] | None = None,
+        **more: Iterable[Any],
+    ) -> Iterator[Variation]:
+        """The graph with every combination of several values: sweep(g, seed=range(64)), or {"lattice.mode": [...]} for
+        names with dots; the last changes fastest. A list of dictionaries is a table with a row for each variation.
+
+        All variations are checked before the first is there. Each runs when something of it is asked for; what they
+        share is in the cache."""
+        rows = [dict(r) for r in values] if values is not None and not isinstance(values, Mapping) else [{}]
+        columns = {**(values if isinstance(values, Mapping) else {}), **more}
+        lists = [list(v) for v in columns.values()]
+        combinations = [dict(zip(columns, c)) for c in itertools.product(*lists)]
+        all_values = [{**row, **c} for row in rows for c in combinations]
+        graphs = [_with(graph, v) for v in all_values]
+        for g in graphs:
+            _checked(g, ())
+        return (Variation(self, g, v, progress) for g, v in zip(graphs, all_values))
+
+
+def _shown(value: Any) -> str:
+    return "x".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
+
+
+class Variation:
+    """One of a sweep: a graph, its values, and what a run of it gives."""
+
+    def __init__(
+        self, session: Session, graph: Graph, values: dict[str, Any], progress: Callable[[Event], Any] | None
+    ) -> None:
+        self._session = session
+        self._progress = progress
+        self._results: dict[str, Result] = {}
+        #: with the values set
+        self.graph = graph
+        #: by name
+        self.values = values
+
+    @property
+    def label(self) -> str:
+        """ "seed=3, size=512x512" """
+        return ", ".join(f"{name}={_shown(value)}" for name, value in self.values.items())
+
+    def run(self, only: Names = (), *, keep: Names = ()) -> Result:
+        return self._session.run(self.graph, only, keep=keep, progress=self._progress)
+
+    def __getitem__(self, name: str) -> Any:
+        """The value of a node, which runs for it if it has not yet."""
+        node = name if name in self.graph else name.rpartition(".")[0] or name
+        if node not in self._results:
+            self._results[node] = self.run([node])
+        return self._results[node][name]
+
+    def _filled(self, path: PathLike) -> str:
+        """A path with {seed} and so on; {label} is all of them. Other names in braces are for the export node."""
+        text = os.fspath(path).replace("{label}", self.label)
+        for name, value in self.values.items():
+            text = text.replace("{" + name + "}", _shown(value))
+        return text
+
+    def export(self, path: PathLike, node: str | None = None) -> list[Path]:
+        """Writes maps: of the node's material or, without one, what the graph's first export would write, as it would
+        write it. A path that does not end like a picture's is a folder. {seed}, {label} and so on stand for the values."""
+        pattern = self._filled(path)
+        if node is not None:
+            return export(self[node], pattern, session=self._session)
+        sinks = [n for n in self.graph if self.graph._outline()["nodes"][n]["type"] == "export"]
+        if not sinks:
+            raise UnknownName('the graph has no export node: say which node to export, as in v.export(path, "result")')
+        graph = self.graph.copy()
+        graph.set(f"{sinks[0]}.path", _pattern(pattern))
+        return self._session.run(graph, sinks[:1], progress=self._progress).files
+
+    def __repr__(self) -> str:
+        return f"<Variation {self.label}>"
+
+
+_PICTURES = (".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".tga", ".tx")
+
+
+def _pattern(path: str) -> str:
+    return path if path.lower().endswith(_PICTURES) else os.path.join(path, "{map}.png")
+
+
+_EXPORT = """{
+  "terrazzo": 1,
+  "inputs": {"value": {"type": "%s"}},
+  "nodes": {"files": {"type": "export", "%s": "@value"}}
+}"""
+
+
+def export(value: Any, path: PathLike, *, session: Session | None = None, **params: Any) -> list[Path]:
+    """Writes the maps of a material or image, or a UV map: to a folder, or to a pattern such as "out/{map}.exr". More
+    arguments are parameters of the export node, such as depth="half". Gives the files."""
+    is_map = isinstance(value, _terrazzo.UvMap)
+    port, kind = ("uv", "uv_map") if is_map else ("material", "material")
+    graph = Graph.loads(_EXPORT % (kind, port)).give("value", value)
+    node = graph["files"]
+    node["uv_path" if is_map else "path"] = os.fspath(path) if is_map else _pattern(os.fspath(path))
+    for name, setting in params.items():
+        node[name] = setting
+    if session is not None:
+        return session.run(graph).files
+    with Session(cache=False) as own:
+        return own.run(graph).files

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+#include "core/node/node.h"
+
+/// Images, materials and other values as Python objects.
+namespace terrazzo::python {
+
+/// An image, and its pixels as long as somebody looks at them.
+struct ImageHandle {
+  ImagePtr image;
+  std::weak_ptr<const Image> pulled{};
+};
+using ImageHandlePtr = std::shared_ptr<ImageHandle>;
+
+struct MaterialHandle {
+  MaterialPtr material;
+  std::vector<std::pair<std::string, ImageHandlePtr>> maps;
+};
+
+struct ReportHandle {
+  ReportPtr report;
+};
+
+struct UvMapHandle {
+  UvMapPtr map;
+};
+
+/// What Python has no use for but to hand it on: features, an appearance, an index.
+struct OtherValue {
+  Value value;
+};
+
+pybind11::object to_python(const Value& value);
+/// Throws TypeError if it is no value, or none of that type.
+Value from_python(const pybind11::handle& object);
+Value from_python(const pybind11::handle& object, ValueType type);
+pybind11::object to_python(const ParamValue& value);
+
+/// The node that this thread computes; null outside of nodes.
+const NodeContext* current_node();
+NodeContext* current_node_to_note();
+
+/// Makes a node the one that this thread computes, for as long as it lives.
+class Computes {
+ public:
+  explicit Computes(NodeContext& node);
+  ~Computes();
+  Computes(const Computes&) = delete;
+  Computes& operator=(const Computes&) = delete;
+
+ private:
+  NodeContext* before_;
+};
+
+void bind_values(pybind11::module_& module);
+
+}  // namespace terrazzo::python
