@@ -65,7 +65,7 @@ _terrazzo() {
   local values=${_terrazzo_values["$path $prev"]:-} IFS=$' \t\n'
   COMPREPLY=()
   case $values in
-    =files) compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
+    =files) compopt -o filenames 2>/dev/null || true; mapfile -t COMPREPLY < <(compgen -f -- "$cur"); return ;;
     =text) return ;;
     ?*) mapfile -t COMPREPLY < <(compgen -W "$values" -- "$cur"); return ;;
   esac
@@ -74,7 +74,7 @@ _terrazzo() {
   elif [[ -n ${_terrazzo_commands[$path]:-} ]]; then
     mapfile -t COMPREPLY < <(compgen -W "${_terrazzo_commands[$path]:-}" -- "$cur")
   else
-    compopt -o filenames 2>/dev/null
+    compopt -o filenames 2>/dev/null || true
     mapfile -t COMPREPLY < <(compgen -f -- "$cur")
   fi
 }

@@ -33,7 +33,7 @@ struct Stones : Workplace {
 
   ProgramRun lay_out(const std::string& analysis, const std::string& material) const {
     return run({"run", graphs + "from_analysis.json", "--set", "size=128", "--set", "quality=draft", "--set",
-                "analysis=" + analysis, "--set", "material=" + material});
+                "analysis=" + analysis, "--set", "material=" + material, "--set", "out=out"});
   }
 };
 
@@ -63,7 +63,7 @@ TEST_CASE("an analysis is refused for another material, and for what takes none"
   CHECK(run.code == 1);
   CHECK(contains(run.err, "this is not the exemplar that was analysed"));
   CHECK(w.run({"run", graphs + "from_analysis.json", "--set", "analysis=library:stone/gravel", "--set",
-               "material=bricks", "--set", "result.other_material=true", "--set", "quality=draft"})
+               "material=bricks", "--set", "result.other_material=true", "--set", "quality=draft", "--set", "out=out"})
             .code == 0);
   const ProgramRun unknown = w.lay_out("library:stone/gravle", "gravel");
   CHECK(unknown.code == 2);
