@@ -269,7 +269,8 @@ FileInfo info_of(const OpenFile& file, const std::string& layer) {
 void require_image_file(const fs::path& path) {
   std::error_code failure;
   const fs::file_status status = fs::status(path, failure);
-  if (fs::is_directory(status)) fail(path, "it is a folder; expected an image file");
+  if (const std::string kind = irregular_kind(status.type()); !kind.empty())
+    fail(path, fmt::format("it is {}; expected an image file", kind));
   if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(path, failure)))
     fail(path, fmt::format("it is a link to {}, which does not exist", fs::read_symlink(path, failure).string()));
   if (status.type() == fs::file_type::none) throw_system_error("read", path, failure.value());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -58,11 +57,19 @@ std::string difference(const Ingredient& before, const Ingredient& now) {
   return fmt::format("{} changed from {} to {}", now.what, before.shown, now.shown);
 }
 
+std::string text_or_nothing(const fs::path& path) {
+  try {
+    return read_file(path);
+  } catch (const FileError&) {
+    return "";  // a history that is missing costs reasons only
+  }
+}
+
 }  // namespace
 
 History::History(const fs::path& folder, const fs::path& graph_file)
     : path_(folder / "history" / (Hasher().add(fs::weakly_canonical(graph_file).string()).digest().hex() + ".txt")) {
-  std::ifstream in(path_);
+  std::istringstream in(text_or_nothing(path_));
   std::string line;
   if (!std::getline(in, line) || (line != first_line && line != first_line_before_seconds)) return;
   while (std::getline(in, line)) {
@@ -119,7 +126,9 @@ void History::save() const {
   for (const auto& [node, seconds] : seconds_)
     text += fmt::format("{}\t{}\t{}\t{:.3g}\n", on_one_line(node), seconds_line, Digest().hex(), seconds);
   try {
-    write_whole_file(path_, text);
+    std::error_code failure;
+    fs::create_directories(path_.parent_path(), failure);
+    write_whole_file(path_, text, temporary_beside(path_));  // never in place: a pipe there would wait for a reader
   } catch (const FileError&) {
     // Without it, plans cannot say what has changed since.
   }
