@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include "core/base/printable.h"
 #include "core/base/text.h"
 #include "graphs/document/problem.h"
 
@@ -232,7 +233,8 @@ class PlainProgress : public Progress {
 
  private:
   void line(const Stage& s, const std::string& what) {
-    out_ << fmt::format("[{}/{}] {} ({}) {}", count_.settled(), count_.all(), s.node->name, s.type().name, what)
+    out_ << printable(
+                fmt::format("[{}/{}] {} ({}) {}", count_.settled(), count_.all(), s.node->name, s.type().name, what))
          << std::endl;
   }
   std::ostream& out_;
@@ -332,7 +334,7 @@ void write_warning(ProgressMode mode, std::ostream& out, const std::string& mess
   if (mode == ProgressMode::json)
     write_event(out, {{"event", "warning"}, {"message", message}});
   else
-    out << "warning: " << message << std::endl;
+    out << "warning: " << printable(message) << std::endl;
 }
 
 namespace {
@@ -359,7 +361,7 @@ void write_error(ProgressMode mode, std::ostream& out, const std::exception& err
     if (mode == ProgressMode::json)
       write_event(out, error_event(file, p));
     else
-      out << "error: " << describe(file, p) << std::endl;
+      out << "error: " << printable(describe(file, p)) << std::endl;
   }
 }
 
