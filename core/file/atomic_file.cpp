@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <climits>
 #include <cstdlib>
 #include <optional>
 #include <vector>
@@ -78,8 +79,35 @@ int error_of_making(bool file, const fs::path& folder) {
 
 }  // namespace
 
+namespace {
+
+/// The nearest folder of a path that is there.
+fs::path existing_above(fs::path folder) {
+  std::error_code failure;
+  while (!fs::exists(folder, failure) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+/// Why the file system takes no such names; empty if it does. `there` is a folder that exists.
+std::string too_long(const fs::path& there, const fs::path& path) {
+  const long asked = ::pathconf(there.c_str(), _PC_NAME_MAX);
+  const size_t most = asked > 0 ? size_t(asked) : 255;
+  for (const fs::path& part : path)
+    if (part.native().size() > most)
+      return fmt::format("the name {} is too long: {} bytes; names have at most {} here", part.string(),
+                         part.native().size(), most);
+  std::error_code failure;
+  const size_t whole = fs::absolute(path, failure).native().size();
+  if (whole >= PATH_MAX)
+    return fmt::format("the path {} is too long: {} bytes; paths have at most {}", path.string(), whole, PATH_MAX - 1);
+  return "";
+}
+
+}  // namespace
+
 std::string why_not_writable(const fs::path& folder, const std::string& name) {
   fs::path there = folder.empty() ? fs::path(".") : folder;
+  if (const std::string trouble = too_long(existing_above(there), folder / name); !trouble.empty()) return trouble;
   std::error_code failure;
   fs::file_status status = fs::status(there, failure);
   const bool is_there = fs::exists(status);
@@ -103,10 +131,11 @@ std::string why_not_writable(const fs::path& folder, const std::string& name) {
 
 fs::path temporary_beside(const fs::path& target) {
   static std::atomic<unsigned> count{0};
-  // Names have at most 255 bytes; the beginning is for people only.
+  // Names have at most 255 bytes; the beginning is for people only, and no format has a long extension.
   const std::string beginning = target.stem().string().substr(0, 100);
-  return target.parent_path() / fmt::format(".{}.{}-{}-{}-{}{}", beginning, mark, process_neighbourhood(), ::getpid(),
-                                            count++, target.extension().string());
+  const std::string extension = target.extension().string().substr(0, 50);
+  return target.parent_path() /
+         fmt::format(".{}.{}-{}-{}-{}{}", beginning, mark, process_neighbourhood(), ::getpid(), count++, extension);
 }
 
 void publish_file(const fs::path& temporary, const fs::path& target, bool sync) {

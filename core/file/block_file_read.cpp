@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cerrno>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <xxhash.h>
 #include <zstd.h>
@@ -48,12 +47,6 @@ Header parse_header(const std::array<uint8_t, header_bytes>& bytes, size_t size)
   if (in.get<uint64_t>() != checksum(bytes.data(), header_bytes - sizeof(uint64_t)))
     throw DamagedFile("the checksum of its header is wrong");
   return h;
-}
-
-File open_to_read(const std::filesystem::path& path) {
-  File file = File::open(path, O_RDONLY | O_NONBLOCK);
-  if (!file.ok()) throw_system_error("read", path, errno);
-  return file;
 }
 
 /// Of a file that is as long as its header says.

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <vector>
+
+#include <zlib.h>
+
+#include "core/file/file_io.h"
+#include "core/file/picture_ends.h"
 
 namespace terrazzo {
 
@@ -46,6 +50,30 @@ class Numbers {
   bool is_big_endian_ = true;
 };
 
+/// The bytes of a file, of which it holds a part; past the end they are 0.
+class Window {
+ public:
+  explicit Window(const std::filesystem::path& path)
+      : path_(path), file_(open_to_read(path)), size_(file_.size(path)) {}
+  uint64_t size() const { return size_; }
+  uint8_t byte(uint64_t at) {
+    if (at < begin_ || at >= begin_ + part_.size()) {
+      begin_ = at;
+      part_.resize(most_);
+      part_.resize(file_.read_at(at, part_.data(), most_, path_));
+    }
+    return part_.empty() ? uint8_t{0} : part_[size_t(at - begin_)];
+  }
+
+ private:
+  static constexpr size_t most_ = size_t{1} << 16;
+  const std::filesystem::path& path_;
+  File file_;
+  uint64_t size_;
+  uint64_t begin_ = 0;
+  std::vector<uint8_t> part_;
+};
+
 constexpr uint64_t png_signature = 0x89504e470d0a1a0a;
 
 /// "II" or "MM" and 42, or 43 for BigTIFF, in the byte order that the letters say.
@@ -73,21 +101,19 @@ std::vector<uint64_t> entry_numbers(Numbers& file, uint64_t entry, bool is_big_t
 
 }  // namespace
 
-JpegFacts read_jpeg_facts(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
+JpegFacts read_jpeg_facts(const std::filesystem::path& path, bool to_its_end) {
   JpegFacts facts;
-  if (in.get() != 0xff || in.get() != start_of_image) return facts;
-  const std::vector<char> file((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  const auto byte = [&](size_t i) { return static_cast<uint8_t>(file[i]); };
-  const auto word = [&](size_t i) { return byte(i) << 8 | byte(i + 1); };
-  size_t i = 0;
+  Window file(path);
+  if (file.byte(0) != 0xff || file.byte(1) != start_of_image) return facts;
+  const auto word = [&](uint64_t i) { return file.byte(i) << 8 | file.byte(i + 1); };
+  uint64_t i = 0;
   while (i + 1 < file.size()) {
     // Outside segments lies entropy-coded data, in which 0xff is followed by 0.
-    if (byte(i) != 0xff || byte(i + 1) == 0 || byte(i + 1) == 0xff) {
+    if (file.byte(i) != 0xff || file.byte(i + 1) == 0 || file.byte(i + 1) == 0xff) {
       i++;
       continue;
     }
-    const uint8_t marker = byte(i + 1);
+    const uint8_t marker = file.byte(i + 1);
     i += 2;
     if (marker == end_of_image) {
       facts.complete = true;
@@ -96,12 +122,13 @@ JpegFacts read_jpeg_facts(const std::filesystem::path& path) {
     if (stands_alone(marker)) continue;
     if (i + 1 >= file.size()) break;
     if (is_frame_header(marker) && i + 7 < file.size()) {
-      facts.bits = byte(i + 2);
+      facts.bits = file.byte(i + 2);
       facts.size = {word(i + 5), word(i + 3)};
-      facts.components = byte(i + 7);
+      facts.components = file.byte(i + 7);
+      if (!to_its_end) break;
     }
     facts.has_exif |= marker == app1;
-    i += size_t(word(i));
+    i += uint64_t(word(i));
   }
   return facts;
 }
@@ -118,23 +145,75 @@ bool png_is_complete(const std::filesystem::path& path) {
   return false;
 }
 
-bool tiff_is_complete(const std::filesystem::path& path) {
-  Numbers file(path);
+namespace {
+
+/// Where the strips or tiles of the first image lie.
+struct TiffPieces {
+  std::vector<uint64_t> offsets, byte_counts;
+  uint64_t compression = 1;
+};
+
+TiffPieces tiff_pieces(Numbers& file) {
+  TiffPieces out;
   file.set_big_endian(file.number(0, 1) == 'M');
   const bool is_big_tiff = file.number(2, 2) == 43;
   const uint64_t directory = is_big_tiff ? file.number(8, 8) : file.number(4, 4);
   const uint64_t entries = file.number(directory, is_big_tiff ? 8 : 2);
   const uint64_t first = directory + (is_big_tiff ? 8 : 2), entry_size = is_big_tiff ? 20 : 12;
-  if (entries > file.size() / entry_size) return false;
-  std::vector<uint64_t> offsets, byte_counts;
+  if (entries > file.size() / entry_size || first + entries * entry_size > file.size()) return out;
   for (uint64_t i = 0; i < entries; i++) {
     const uint64_t entry = first + i * entry_size;
     const uint64_t tag = file.number(entry, 2);
-    if (tag == 273 || tag == 324) offsets = entry_numbers(file, entry, is_big_tiff);
-    if (tag == 279 || tag == 325) byte_counts = entry_numbers(file, entry, is_big_tiff);
+    if (tag == 273 || tag == 324) out.offsets = entry_numbers(file, entry, is_big_tiff);
+    if (tag == 279 || tag == 325) out.byte_counts = entry_numbers(file, entry, is_big_tiff);
+    if (tag == 259) out.compression = file.number(entry + (is_big_tiff ? 12 : 8), 2);
   }
-  for (size_t i = 0; i < offsets.size(); i++)
-    if (offsets[i] > file.size() || (i < byte_counts.size() && byte_counts[i] > file.size() - offsets[i])) return false;
+  return out;
+}
+
+/// Whether these bytes are one whole zlib stream whose checksum fits.
+bool is_sound_stream(std::vector<uint8_t>& bytes) {
+  std::vector<uint8_t> unpacked(size_t{1} << 16);
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) return true;
+  stream.next_in = bytes.data();
+  stream.avail_in = uInt(bytes.size());
+  int result = Z_OK;
+  while (result == Z_OK) {
+    stream.next_out = unpacked.data();
+    stream.avail_out = uInt(unpacked.size());
+    result = inflate(&stream, Z_NO_FLUSH);
+  }
+  inflateEnd(&stream);
+  return result == Z_STREAM_END;
+}
+
+}  // namespace
+
+bool tiff_is_complete(const std::filesystem::path& path) {
+  Numbers file(path);
+  const TiffPieces pieces = tiff_pieces(file);
+  if (pieces.offsets.empty()) return false;
+  for (size_t i = 0; i < pieces.offsets.size(); i++)
+    if (pieces.offsets[i] > file.size() ||
+        (i < pieces.byte_counts.size() && pieces.byte_counts[i] > file.size() - pieces.offsets[i]))
+      return false;
+  return true;
+}
+
+bool tiff_is_sound(const std::filesystem::path& path) {
+  constexpr uint64_t deflate = 8, old_deflate = 32946;
+  Numbers numbers(path);
+  const TiffPieces pieces = tiff_pieces(numbers);
+  if (pieces.compression != deflate && pieces.compression != old_deflate) return true;
+  const File file = open_to_read(path);
+  for (size_t i = 0; i < std::min(pieces.offsets.size(), pieces.byte_counts.size()); i++) {
+    if (pieces.byte_counts[i] == 0) continue;  // what was never written reads as 0
+    if (pieces.byte_counts[i] > numbers.size()) return false;
+    std::vector<uint8_t> bytes(pieces.byte_counts[i]);
+    bytes.resize(file.read_at(pieces.offsets[i], bytes.data(), bytes.size(), path));
+    if (!is_sound_stream(bytes)) return false;
+  }
   return true;
 }
 
@@ -143,7 +222,7 @@ bool seems_complete(const std::filesystem::path& path) {
   if (file.number(0, 8) == png_signature) return png_is_complete(path);
   if (file.number(0, 2) == (0xff00 | start_of_image))
     return file.number(file.size() - 2, 2) == (0xff00 | end_of_image) || read_jpeg_facts(path).complete;
-  return !is_tiff(file.number(0, 4)) || tiff_is_complete(path);
+  return is_tiff(file.number(0, 4)) ? tiff_is_complete(path) : has_its_end(path);
 }
 
 }  // namespace terrazzo

@@ -15,7 +15,8 @@ struct JpegFacts {
   bool has_exif = false;  ///< it may have to be turned
   bool complete = false;  ///< the end-of-image marker is there
 };
-JpegFacts read_jpeg_facts(const std::filesystem::path& path);
+/// Unless `to_its_end`, reads up to the frame header, and does not look whether it is complete.
+JpegFacts read_jpeg_facts(const std::filesystem::path& path, bool to_its_end = true);
 
 /// Whether the chunks of a PNG file go on to its end mark.
 bool png_is_complete(const std::filesystem::path& path);
@@ -23,8 +24,13 @@ bool png_is_complete(const std::filesystem::path& path);
 /// Whether all strips or tiles of a TIFF or BigTIFF file's first image lie inside the file.
 bool tiff_is_complete(const std::filesystem::path& path);
 
-/// False if the end of a PNG, JPEG or TIFF file is missing. Reads little, and so takes a cut-off JPEG file that by
-/// chance ends like a whole one for whole; true for files of other formats.
+/// Whether the checksums of a TIFF file's deflated strips or tiles fit; decoders do not look at them. True for other
+/// compressions, which have none.
+bool tiff_is_sound(const std::filesystem::path& path);
+
+/// False if the end of a PNG, JPEG or TIFF file is missing, or of another that core/file/picture_ends.h knows. Reads
+/// little, and so takes a cut-off JPEG file that by chance ends like a whole one for whole; true for files of other
+/// formats.
 bool seems_complete(const std::filesystem::path& path);
 
 }  // namespace terrazzo

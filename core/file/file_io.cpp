@@ -62,6 +62,48 @@ void File::sync_and_close(const std::filesystem::path& path) {
   close(path);
 }
 
+std::string irregular_kind(std::filesystem::file_type type) {
+  using Type = std::filesystem::file_type;
+  switch (type) {
+    case Type::directory:
+      return "a folder";
+    case Type::fifo:
+      return "a pipe";
+    case Type::socket:
+      return "a socket";
+    case Type::character:
+    case Type::block:
+      return "a device";
+    default:
+      return "";
+  }
+}
+
+File open_to_read(const std::filesystem::path& path) {
+  File file = File::open(path, O_RDONLY | O_NONBLOCK);  // which keeps a pipe without a writer from blocking
+  struct stat status;
+  if (!file.ok() || ::fstat(file.descriptor(), &status) != 0) throw_system_error("read", path, errno);
+  if (S_ISREG(status.st_mode)) return file;
+  std::error_code failure;
+  const std::string kind = irregular_kind(std::filesystem::status(path, failure).type());
+  throw FileError(fmt::format("cannot read {}: it is {}; expected a regular file", path.string(), kind), EINVAL);
+}
+
+std::string read_file(const std::filesystem::path& path, uint64_t most) {
+  constexpr size_t piece = size_t{1} << 16;
+  const File file = open_to_read(path);
+  std::string text;
+  for (;;) {  // what the system says of the size does not hold for the files in /proc
+    const size_t before = text.size();
+    text.resize(before + piece);
+    const size_t got = file.read_at(before, text.data() + before, piece, path);
+    text.resize(before + got);
+    if (text.size() > most)
+      throw FileError(fmt::format("cannot read {}: it has more than {} bytes", path.string(), most), EFBIG);
+    if (got < piece) return text;
+  }
+}
+
 void write_file(const std::filesystem::path& path, std::string_view bytes, bool sync) {
   File file = File::open(path, O_WRONLY | O_CREAT | O_TRUNC);
   if (!file.ok()) throw_system_error("write", path, errno);
@@ -92,8 +134,11 @@ std::optional<Digest> content_digest(const File& file, const std::filesystem::pa
 }
 
 std::optional<Digest> content_digest(const std::filesystem::path& path) {
-  const File file = File::open(path, O_RDONLY | O_NONBLOCK);
-  return file.ok() ? content_digest(file, path) : std::nullopt;
+  try {
+    return content_digest(open_to_read(path), path);
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
 }
 
 std::string system_message(int code) {

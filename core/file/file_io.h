@@ -55,6 +55,17 @@ class File {
   int descriptor_ = -1;
 };
 
+/// Opens a regular file for reading. Throws FileError naming `path`, also for what might keep the reader waiting or
+/// never end: pipes and devices.
+File open_to_read(const std::filesystem::path& path);
+
+/// The content of a regular file. Throws FileError naming `path`, also if it is longer than `most` bytes.
+std::string read_file(const std::filesystem::path& path, uint64_t most = UINT64_MAX);
+
+/// What something in the file system is that is no regular file: "a folder", "a pipe", "a device"; empty if it is one,
+/// or if there is nothing.
+std::string irregular_kind(std::filesystem::file_type type);
+
 /// Makes the file or replaces its content, in place: it may be a device or a pipe. If `sync`, the content is on the
 /// disk afterwards. Throws FileError naming `path`.
 void write_file(const std::filesystem::path& path, std::string_view bytes, bool sync = false);

@@ -143,8 +143,7 @@ void TarWriter::add(const std::string& name, std::string_view bytes) {
 }
 
 void TarWriter::add_file(const std::string& name, const fs::path& file) {
-  const File in = File::open(file, 0);
-  if (!in.ok()) throw_system_error("read", file, errno);
+  const File in = open_to_read(file);
   const uint64_t bytes = in.size(file);
   begin(name, bytes);
   std::vector<char> part(1 << 20);
@@ -177,8 +176,7 @@ bool is_tar(const fs::path& file) {
 
 std::vector<TarEntry> tar_entries(const fs::path& archive) {
   const auto refuse = [&](const std::string& what) { return Error(fmt::format("{}: {}", archive.string(), what)); };
-  const File in = File::open(archive, 0);
-  if (!in.ok()) throw_system_error("read", archive, errno);
+  const File in = open_to_read(archive);
   const uint64_t size = in.size(archive);
   std::vector<TarEntry> out;
   std::string long_name;
@@ -209,10 +207,10 @@ std::vector<TarEntry> tar_entries(const fs::path& archive) {
 }
 
 void extract(const fs::path& archive, const TarEntry& entry, const fs::path& target) {
-  const File in = File::open(archive, 0);
+  const File in = open_to_read(archive);
   std::ofstream out(target, std::ios::binary);
   std::vector<char> part(1 << 20);
-  for (uint64_t done = 0; done < entry.bytes && in.ok() && out;) {
+  for (uint64_t done = 0; done < entry.bytes && out;) {
     const size_t read =
         in.read_at(entry.offset + done, part.data(), std::min<uint64_t>(part.size(), entry.bytes - done), archive);
     if (read == 0) throw Error(fmt::format("{} became shorter while it was read", archive.string()));
@@ -220,7 +218,7 @@ void extract(const fs::path& archive, const TarEntry& entry, const fs::path& tar
     done += read;
   }
   out.close();
-  if (!in.ok() || !out) throw_system_error("write", target, errno);
+  if (!out) throw_system_error("write", target, errno);
 }
 
 }  // namespace terrazzo

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <mutex>
 
@@ -12,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/suggest.h"
 #include "core/base/text.h"
+#include "core/file/file_io.h"
 #include "core/image/image_libraries.h"
 
 namespace terrazzo {
@@ -82,9 +82,11 @@ Digest identity_of(const std::string& path) {
   Hasher h;
   h.add("color configuration");
   for (const fs::path& file : color_config_files(path)) {
-    std::ifstream in(file, std::ios::binary);
-    const std::string content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    h.add(content);
+    try {
+      h.add(read_file(file));
+    } catch (const FileError&) {
+      h.add("");  // loading it says what is wrong
+    }
   }
   return h.digest();
 }

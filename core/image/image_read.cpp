@@ -103,7 +103,7 @@ void require_flat_picture(const fs::path& path, const OpenFile& file) {
   refuse_absurd_sizes(path, header);
   if (header.slices > 1) fail(path, fmt::format("it is a volume of {} slices; expected a flat picture", header.slices));
   if (header.deep) fail(path, "it is a deep image (several samples per pixel); expected a flat one");
-  if (header.inks || (header.format == "jpeg" && read_jpeg_facts(path).components == 4))
+  if (header.inks || (header.format == "jpeg" && read_jpeg_facts(path, false).components == 4))
     fail(path,
          "it is CMYK, which has no colours without a printing profile; convert it to RGB in an image editor first");
   // The library reads some of these as zeros.
@@ -133,6 +133,8 @@ void require_complete(const fs::path& path, const OpenFile& file) {
   if ((format == "jpeg" && !read_jpeg_facts(path).complete) || (format == "tiff" && !tiff_is_complete(path)) ||
       (format == "png" && !png_is_complete(path)))
     fail_cut_off(path);
+  if (format == "tiff" && !tiff_is_sound(path))
+    fail(path, "it is damaged: a checksum in it does not fit; get the file again from where it came");
 }
 
 /// The stored pixels in the depth asked for.
@@ -269,7 +271,8 @@ FileInfo info_of(const OpenFile& file, const std::string& layer) {
 void require_image_file(const fs::path& path) {
   std::error_code failure;
   const fs::file_status status = fs::status(path, failure);
-  if (fs::is_directory(status)) fail(path, "it is a folder; expected an image file");
+  if (const std::string kind = irregular_kind(status.type()); !kind.empty())
+    fail(path, fmt::format("it is {}; expected an image file", kind));
   if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(path, failure)))
     fail(path, fmt::format("it is a link to {}, which does not exist", fs::read_symlink(path, failure).string()));
   if (status.type() == fs::file_type::none) throw_system_error("read", path, failure.value());
@@ -300,7 +303,7 @@ void require_readable_image(const fs::path& path) {
 FileInfo read_image_info(const fs::path& path, const std::string& layer) {
   require_image_file(path);
   // Such a file needs no decoder to be known.
-  const JpegFacts jpeg = read_jpeg_facts(path);
+  const JpegFacts jpeg = read_jpeg_facts(path, false);
   if (layer.empty() && (jpeg.components == 1 || jpeg.components == 3) && jpeg.bits == 8 && jpeg.size.area() > 0 &&
       !jpeg.has_exif)
     return {jpeg.size, jpeg.components, Depth::u8};

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
+#include "core/file/file_io.h"
 #include "core/image/image_file.h"
 
 namespace terrazzo {
@@ -42,15 +41,14 @@ std::string read_document(const fs::path& path, const std::string& what) {
   if (fs::is_directory(status)) throw refuse(fmt::format("expected a {}, found a folder", what));
   if (looks_like_image(path))
     throw refuse(fmt::format("expected a {}, found an image; graphs load images by their nodes", what));
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw refuse(fmt::format("the {} cannot be read: {}", what, std::strerror(errno)));
-  std::string text;
-  for (char block[65536]; file.read(block, sizeof block), file.gcount() > 0;) {
-    text.append(block, static_cast<size_t>(file.gcount()));
-    if (text.size() > most) throw refuse(fmt::format("expected a {} of at most 64 MiB, found a larger file", what));
+  if (const std::string kind = irregular_kind(status.type()); !kind.empty())
+    throw refuse(fmt::format("expected a {}, found {}; save it as a file first", what, kind));
+  try {
+    return read_file(path, most);
+  } catch (const FileError& e) {
+    if (e.code() == EFBIG) throw refuse(fmt::format("expected a {} of at most 64 MiB, found a larger file", what));
+    throw refuse(fmt::format("the {} cannot be read: {}", what, system_message(e.code())));
   }
-  if (file.bad()) throw refuse(fmt::format("the {} cannot be read to its end", what));
-  return text;
 }
 
 std::optional<JsonValue> read_json_document(const fs::path& path, const std::string& what,

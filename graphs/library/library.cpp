@@ -27,11 +27,8 @@ constexpr std::string_view prefix = "library:";
 
 /// A small file as text. Throws FileError.
 std::string text_of_file(const fs::path& path) {
-  const File file = File::open(path, O_RDONLY);
-  if (!file.ok()) throw_system_error("read", path, errno);
-  std::string text(file.size(path), '\0');
-  text.resize(file.read_at(0, text.data(), text.size(), path));
-  return text;
+  constexpr uint64_t most = 16 << 20;
+  return read_file(path, most);
 }
 
 /// The names of all entries in a folder, without reading them.

@@ -1,7 +1,27 @@
+#include <fmt/format.h>
+
+#include "core/file/block_file.h"
 #include "core/node/node.h"
 #include "core/node/serialize.h"
 
 namespace terrazzo {
+
+namespace {
+
+/// Any name will do, so a slip would cost whatever lies there.
+void require_no_other_kind(const std::filesystem::path& path) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing) || std::filesystem::file_size(path, missing) == 0) return;
+  try {
+    read_block_file_header(path);
+  } catch (const OutdatedFile&) {
+    return;  // an analysis of an earlier terrazzo
+  } catch (const DamagedFile&) {
+    throw Error("path", fmt::format("{} exists and is no analysis; name another file, or remove it", path.string()));
+  }
+}
+
+}  // namespace
 
 NodeType save_analysis_node() {
   NodeType t;
@@ -20,6 +40,7 @@ NodeType save_analysis_node() {
   };
   t.preflight = [](const Params& params, const InputForecasts&) {
     const std::filesystem::path path = std::get<std::string>(params.at("path"));
+    require_no_other_kind(path);
     return Forecast{.files = {{"path", path.parent_path(), path.filename().string()}}};
   };
   return t;

@@ -27,10 +27,11 @@ namespace {
 /// A file and a layer of it.
 using FilePlace = std::pair<std::string, std::string>;
 
-/// A link to a missing file counts, so that reading it complains: without it the material would silently lack a map.
-bool is_file_or_broken_link(const fs::directory_entry& entry) {
+/// A link to a missing file counts, and so do pipes and devices, so that reading them complains: without it the
+/// material would silently lack a map.
+bool is_no_folder(const fs::directory_entry& entry) {
   std::error_code failure;
-  return entry.is_regular_file(failure) || (entry.is_symlink(failure) && !entry.exists(failure));
+  return !entry.is_directory(failure);
 }
 
 void require_folder(const fs::path& folder) {
@@ -255,7 +256,7 @@ std::vector<std::string> image_names(const fs::path& folder) {
   std::error_code failure;
   for (const fs::directory_entry& e : fs::directory_iterator(folder, failure)) {
     const std::string name = e.path().filename().string();
-    if (name[0] != '.' && is_file_or_broken_link(e) && looks_like_image(e.path())) names.push_back(name);
+    if (name[0] != '.' && is_no_folder(e) && looks_like_image(e.path())) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;

@@ -1,8 +1,6 @@
 #include "nodes/source/material_sidecar.h"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/suggest.h"
+#include "core/file/file_io.h"
 #include "core/image/color.h"
 #include "core/material/file_stems.h"
 #include "core/material/map_names.h"
@@ -143,11 +142,8 @@ Sidecar parsed(const Json& json, const fs::path& folder) {
 }
 
 std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw Error("it cannot be read");
-  return text.str();
+  constexpr uint64_t most = 64 << 20;
+  return read_file(path, most);
 }
 
 /// What nlohmann-json says, without its number for the error.

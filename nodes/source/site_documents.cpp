@@ -1,13 +1,13 @@
 #include "nodes/source/site_documents.h"
 
 #include <algorithm>
-#include <fstream>
 #include <regex>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "core/file/file_io.h"
 #include "nodes/source/material_sidecar.h"
 
 namespace terrazzo {
@@ -39,6 +39,14 @@ PhysicalSize size_said(const json& document) {
   return {};
 }
 
+std::string text_or_nothing(const fs::path& path) {
+  try {
+    return read_file(path);
+  } catch (const FileError&) {
+    return "";
+  }
+}
+
 }  // namespace
 
 std::vector<fs::path> site_documents(const fs::path& folder) {
@@ -55,8 +63,7 @@ std::vector<fs::path> site_documents(const fs::path& folder) {
 
 PhysicalSize metres_in_documents(const fs::path& folder, std::vector<std::string>& notes) {
   for (const fs::path& path : site_documents(folder)) {
-    std::ifstream file(path);
-    const PhysicalSize size = size_said(json::parse(file, nullptr, false));
+    const PhysicalSize size = size_said(json::parse(text_or_nothing(path), nullptr, false));
     if (!size.is_known()) continue;
     notes.push_back(fmt::format("the surface is {:g} x {:g} m, as {} says; `metres` says otherwise", size.width,
                                 size.height, path.filename().string()));

@@ -14,6 +14,8 @@
 
 #include "core/base/error.h"
 #include "core/file/atomic_file.h"
+#include "core/file/bytes.h"
+#include "core/file/file_io.h"
 
 namespace terrazzo {
 
@@ -125,6 +127,7 @@ std::optional<std::vector<uint8_t>> read_small(const std::filesystem::path& path
   const File file = File::open(path, O_RDONLY | O_NONBLOCK);
   if (!file.ok() && errno == ENOENT) return std::nullopt;
   if (!file.ok() || ::fstat(file.descriptor(), &status) != 0) throw_system_error("read", path, errno);
+  if (!S_ISREG(status.st_mode)) throw DamagedFile(fmt::format("{} is no regular file", path.string()));
   std::vector<uint8_t> bytes(size_t(status.st_size));
   bytes.resize(file.read_at(0, bytes.data(), bytes.size(), path));
   return bytes;

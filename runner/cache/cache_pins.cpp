@@ -65,7 +65,7 @@ LivePins read_live_pins(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
     const std::filesystem::path& path = entry.path();
     File file = File::open(path, O_RDWR);
-    if (!file.ok()) file = File::open(path, O_RDONLY);
+    if (!file.ok()) file = File::open(path, O_RDONLY | O_NONBLOCK);
     if (!file.ok()) continue;
     const std::string name = path.filename().string();
     if (!is_alive(file, name)) {

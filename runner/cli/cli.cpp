@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -152,7 +153,6 @@ void check_sheet(const std::string& path) {
   if (!path.empty() && !is_page(path) && !format_from(path))
     throw UsageError(fmt::format(
         "--sheet {}: the extension decides the format; expected .html for a page, or .png, .jpg, .tif or .exr", path));
-  if (is_page(path)) check_writable("--sheet", path);  // the plan looks at pictures
 }
 
 std::string for_command_line(std::string message, const std::string& folder, const std::string& name_option) {
@@ -212,8 +212,16 @@ void add_help_command(CLI::App& app, Chosen& chosen, ProgressMode mode) {
   help->callback([&app, &chosen, words, mode] { chosen = [&app, words, mode] { return help_on(app, *words, mode); }; });
 }
 
+/// Help on what does not exist helps nobody.
+bool names_unknown_command(const CLI::App& command) {
+  const std::vector<std::string> rest = command.remaining();
+  return !command_names(&command).empty() &&
+         std::ranges::any_of(rest, [](const std::string& word) { return !word.starts_with('-'); });
+}
+
 /// Help, or the version; if the command works on a graph and one is named, first what that graph offers.
 int show_help(const CLI::App& app, const CLI::Success& asked, ProgressMode mode) {
+  if (names_unknown_command(*named_command(&app))) return usage_error(app, mode, asked.what());
   try {
     const bool is_help = dynamic_cast<const CLI::CallForVersion*>(&asked) == nullptr;
     const std::string about_graph = is_help ? help_on_graph(*named_command(&app)) : "";
@@ -277,6 +285,7 @@ int obey(int argc, const char* const* argv, ProgressMode mode) {
 
 int run_command_line(int argc, const char* const* argv) {
   keep_standard_streams_apart();
+  std::signal(SIGXFSZ, SIG_IGN);  // what goes beyond `ulimit -f` is then an error of writing, and is told
   if (std::find(argv, argv + argc, std::string_view("--checked")) != argv + argc) start_watching(argv);
   const ProgressMode mode = mode_of(argc, argv);
   CommandLine line;

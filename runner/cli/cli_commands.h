@@ -64,7 +64,7 @@ void add_shell_commands(CLI::App& app, Chosen& chosen, const std::string& versio
 void check_writable(const char* option, const std::string& path);
 /// Whether a contact sheet's name asks for a page, not for a picture.
 bool is_page(const std::filesystem::path& path);
-/// Throws UsageError unless `--sheet` can write that: a page, or a picture in a known format. Accepts an empty `path`.
+/// Throws UsageError unless the name of `--sheet` says a format: a page, or a picture. Accepts an empty `path`.
 void check_sheet(const std::string& path);
 /// Replaces advice for graph authors in a message about a material's `folder` by advice for commands without node
 /// parameters. `name_option`: what picks a material, such as "--name ".

@@ -7,6 +7,7 @@
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
 #include "runner/cli/signals.h"
+#include "runner/cli/written_files.h"
 #include "runner/engine/memory_graph.h"
 #include "runner/engine/schedule.h"
 #include "runner/report/html_report.h"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 struct CompareFlags {
   std::string exemplar, output, uv, sheet, tileable = "auto";
-  bool json = false;
+  bool json = false, force = false;
 };
 
 Graph compare_graph(const CompareFlags& flags) {
@@ -59,6 +60,9 @@ int compare(const CompareFlags& flags) {
   check_sheet(flags.sheet);
   const CancelOnSignal signals;
   const Graph graph = compare_graph(flags);
+  const WrittenFile sheet = {"--sheet", flags.sheet, is_page(flags.sheet) ? WrittenKind::page : WrittenKind::picture};
+  check_kept({sheet}, inputs_of(graph));
+  check_replaced({sheet}, flags.force);
   RunOptions options;
   options.targets.keep = {"figures"};
   options.cancelled = &signals.flag();
@@ -98,6 +102,7 @@ void add_compare_command(CLI::App& app, Chosen& chosen) {
       ->add_option("--sheet", flags->sheet,
                    "Also write both side by side: a picture, or a page with the figures if the name ends in .html")
       ->type_name("FILE");
+  command->add_flag("--force", flags->force, force_help);
   command->footer(
       "Examples:\n"
       "  terrazzo compare bricks/ out/\n"

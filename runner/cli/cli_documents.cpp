@@ -16,6 +16,7 @@
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
+#include "runner/cli/written_files.h"
 
 namespace terrazzo {
 
@@ -26,8 +27,14 @@ namespace fs = std::filesystem;
 struct DocumentFlags : GraphFlags {
   std::string out, name, to;
   std::vector<std::string> nodes;
-  bool check = false;
+  bool check = false, force = false;
 };
+
+/// Throws UsageError unless -o names a file that a graph may be written to.
+void check_out(const DocumentFlags& flags, WrittenKind kind) {
+  check_kept({{"-o", flags.out, kind}}, flags.files());
+  check_replaced({{"-o", flags.out, kind}}, flags.force);
+}
 
 /// Writes a changed graph file to -o, or where it was.
 void write_changed(const DocumentFlags& flags, const std::string& text) {
@@ -37,6 +44,7 @@ void write_changed(const DocumentFlags& flags, const std::string& text) {
 }
 
 int upgrade(const DocumentFlags& flags) {
+  check_out(flags, WrittenKind::graph);
   const std::string before = read_document(flags.graph);
   const std::string after = upgraded(before, flags.graph);
   if (flags.out.empty() && before == after) {
@@ -48,6 +56,7 @@ int upgrade(const DocumentFlags& flags) {
 }
 
 int format(const DocumentFlags& flags) {
+  check_out(flags, WrittenKind::graph);
   const std::string before = read_document(flags.graph);
   const std::string after = upgraded(before, flags.graph);
   if (flags.check && before != after) {
@@ -72,6 +81,7 @@ void compare_seeds(const DocumentFlags& flags, const std::string& before, const 
 }
 
 int regroup(const DocumentFlags& flags, const std::function<std::string(const std::string&)>& rewrite) {
+  check_out(flags, WrittenKind::graph);
   const std::string before = read_document(flags.graph), after = as_usage([&] { return rewrite(before); });
   compare_seeds(flags, before, after);
   write_changed(flags, after);
@@ -80,6 +90,7 @@ int regroup(const DocumentFlags& flags, const std::function<std::string(const st
 
 /// The new graph goes into a file of its own, for other graphs to use.
 int group_to_file(const DocumentFlags& flags) {
+  check_out(flags, WrittenKind::graph);
   if (fs::exists(flags.to)) throw UsageError(fmt::format("--to {}: the file exists; name another", flags.to));
   if (!flags.to.ends_with(".json"))
     throw UsageError(fmt::format("--to {}: expected a name that ends in .json", flags.to));
@@ -116,6 +127,8 @@ int pack(const DocumentFlags& flags) {
   LoadOptions options;
   options.presets = flags.presets;
   options.settings.assign(flags.settings.begin(), flags.settings.end());
+  check_out(flags, WrittenKind::pack);
+  check_kept({{"-o", flags.out, WrittenKind::pack}}, inputs_of(load_graph(flags.graph, flags.set, options).graph));
   const PackedFiles packed = write_pack(flags.graph, flags.set, options, flags.out);
   for (const std::string& file : packed.left_out)
     say("warning: {} is not in the pack: no parameter of a node names it\n", file);
@@ -127,7 +140,9 @@ int draw(const DocumentFlags& flags) {
   const std::string ending = fs::path(flags.out).extension().string();
   if (ending != ".svg" && ending != ".dot")
     throw UsageError(fmt::format("-o takes a file that ends in .svg or .dot; \"{}\" does not", flags.out));
+  check_out(flags, WrittenKind::drawing);
   const Graph graph = flags.load({.allow_unset = true}).graph;
+  check_kept({{"-o", flags.out, WrittenKind::drawing}}, inputs_of(graph));
   write_whole_file(flags.out, ending == ".svg" ? draw_svg(graph) : draw_dot(graph));
   say("wrote {}\n", flags.out);
   return exit_done;
@@ -138,6 +153,7 @@ int draw(const DocumentFlags& flags) {
 void add_document_commands(CLI::App& app, Chosen& chosen) {
   const auto add_out = [](CLI::App* command, DocumentFlags& flags) {
     command->add_option("-o,--out", flags.out, "Write here and leave the graph file as it is")->type_name("FILE.json");
+    command->add_flag("--force", flags.force, force_help);
   };
   const auto add = [&](const char* name, const char* help, const char* footer, int (*act)(const DocumentFlags&)) {
     CLI::App* command = app.add_subcommand(name, help);
@@ -191,6 +207,7 @@ void add_document_commands(CLI::App& app, Chosen& chosen) {
           "  terrazzo pack wall.json --set material=bricks/ -o wall.tzpack && terrazzo run wall.tzpack --set out=there",
           pack);
   pack_command->add_option("-o,--out", pack_flags->out, "The file to write")->required()->type_name("FILE.tzpack");
+  pack_command->add_flag("--force", pack_flags->force, force_help);
   add_value_flags(*pack_command, *pack_flags);
   const auto [draw_command, draw_flags] = add("draw", "Draws a graph file",
                                               "Examples:\n"
@@ -198,6 +215,7 @@ void add_document_commands(CLI::App& app, Chosen& chosen) {
                                               "  terrazzo draw bricks.json -o bricks.dot",
                                               draw);
   draw_command->add_option("-o,--out", draw_flags->out, "The drawing")->required()->type_name("FILE.svg|.dot");
+  draw_command->add_flag("--force", draw_flags->force, force_help);
   add_value_flags(*draw_command, *draw_flags);
 }
 

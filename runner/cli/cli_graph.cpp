@@ -30,6 +30,13 @@ LoadedGraph GraphFlags::load(LoadOptions options) const {
   return load_graph_text(read_document(place / "graph.json"), graph, set, options);
 }
 
+std::vector<KeptFile> GraphFlags::files() const {
+  std::vector<KeptFile> out = {{graph, "it is the graph file"}};
+  out.push_back({std::filesystem::path(graph).replace_extension(".presets.json"), "it holds the graph's presets"});
+  for (const std::string& file : settings) out.push_back({file, "--params reads it"});
+  return out;
+}
+
 void add_graph_argument(CLI::App& command, GraphFlags& flags) {
   command.add_option("GRAPH", flags.graph, "The graph file")->required()->type_name("FILE.json");
 }

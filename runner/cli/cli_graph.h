@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "graphs/document/load.h"
+#include "runner/cli/written_files.h"
 
 namespace CLI {
 class App;
@@ -18,6 +19,8 @@ struct GraphFlags {
 
   /// Loads it; `options` are completed by the presets and settings files. Throws GraphError.
   LoadedGraph load(LoadOptions options) const;
+  /// The files that have been named.
+  std::vector<KeptFile> files() const;
 };
 
 /// The argument GRAPH.

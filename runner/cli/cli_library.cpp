@@ -19,6 +19,7 @@
 #include "runner/cli/console.h"
 #include "runner/cli/library_making.h"
 #include "runner/cli/signals.h"
+#include "runner/cli/written_files.h"
 #include "runner/report/html_report.h"
 
 namespace terrazzo {
@@ -157,12 +158,24 @@ void write_sheet(const std::vector<LibraryEntry>& entries, const fs::path& path)
   say("wrote {}\n", path.string());
 }
 
+/// What the library holds, which no sheet may take the place of.
+std::vector<KeptFile> files_of(const std::vector<LibraryEntry>& entries) {
+  std::vector<KeptFile> out;
+  for (const LibraryEntry& e : entries)
+    for (const fs::path& path : {e.analysis, e.picture, e.library / (e.name + ".json")})
+      out.push_back({path, fmt::format("it belongs to \"library:{}\"", e.name)});
+  return out;
+}
+
 int list(const LibraryFlags& flags) {
   check_sheet(flags.sheet);
   const Library library = flags.open();
   std::vector<std::string> faults;
   std::vector<LibraryEntry> entries = library.entries(faults);
   for (const std::string& fault : faults) say("{}{}\n", warning_mark, fault);
+  const WrittenFile sheet = {"--sheet", flags.sheet, is_page(flags.sheet) ? WrittenKind::page : WrittenKind::picture};
+  check_kept({sheet}, files_of(entries));
+  check_replaced({sheet}, flags.force);
   std::erase_if(entries, [&](const LibraryEntry& e) { return !is_meant(e, flags); });
   if (!flags.sheet.empty()) write_sheet(entries, flags.sheet);
   if (flags.json)
@@ -260,6 +273,7 @@ void add_library_command(CLI::App& app, Chosen& chosen) {
               ->type_name("TAG"));
   listing->add_option("--sheet", flags->sheet, "Write a sheet of their pictures, a picture or a page (.html)")
       ->type_name("FILE");
+  listing->add_flag("--force", flags->force, force_help);
   listing->add_flag("--json", flags->json, "For programs");
 
   sub("check", "Reads every file, and looks whether the maps are still those that were analysed; exit code 1 if not",

@@ -12,6 +12,7 @@
 #include "runner/cli/console.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/starting_graph.h"
+#include "runner/cli/written_files.h"
 #include "runner/engine/memory_graph.h"
 #include "runner/engine/schedule.h"
 
@@ -69,6 +70,8 @@ int make_new(const NewFlags& flags) {
   if (!flags.force && fs::exists(flags.out))
     throw UsageError(fmt::format("{} exists; --force overwrites it", flags.out));
   require_stock_graph(flags);
+  check_kept({{"-o", flags.out, WrittenKind::graph}}, files_at(flags.folder, "it belongs to the exemplar"));
+  check_writable("-o", flags.out);
   const CancelOnSignal signals;
   const Graph graph = looking_graph(flags.folder, flags.name);
   RunOptions options;

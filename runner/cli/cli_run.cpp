@@ -111,6 +111,21 @@ auto summarizing_failure(const RunFlags& flags, const Act& act) {
   }
 }
 
+/// What options write besides the nodes: contact sheets that are pictures are a node's.
+std::vector<WrittenFile> without_pictures(std::vector<WrittenFile> files) {
+  std::erase_if(files, [](const WrittenFile& f) { return f.kind == WrittenKind::picture; });
+  return files;
+}
+
+/// What the options of a run write.
+std::vector<WrittenFile> files_of(const RunFlags& flags) {
+  std::vector<WrittenFile> out = flags.writes;
+  out.push_back({"--report", flags.report, WrittenKind::page});
+  out.push_back({"--trace", flags.trace, WrittenKind::trace});
+  out.push_back({"--summary", flags.summary, WrittenKind::summary});
+  return out;
+}
+
 int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
   std::optional<History> history;
   if (cache && !graph.file.empty()) history.emplace(cache->folder(), graph.file);
@@ -137,6 +152,9 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
       throw UsageError(fmt::format("--only: {}", e.what()));
     }
   });
+  const std::vector<WrittenFile> written = files_of(flags);
+  check_kept(written, inputs_of(graph));
+  check_kept(without_pictures(written), outputs_of(plan));
   if (flags.dry_run) {
     answer("{}", plan.table());
     return exit_done;
@@ -156,6 +174,7 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   RunSummary summary{graph.file, &plan, &result, cache, std::move(warnings)};
   summary.exit_code = result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
   try {
+    check_kept(without_pictures(written), outputs_of(result));  // names that nobody knew before
     if (flags.after) flags.after(result);
     if (!flags.trace.empty()) write_trace(result, flags.trace);
     if (!flags.report.empty()) write_html_report(plan, result, flags.report);
@@ -233,6 +252,7 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
                    "After a failure, go on with everything that does not need the failed node; the exit code is 1 all "
                    "the same");
   command.add_option("--trace", flags.trace, "Write a timeline for chrome://tracing")->type_name("FILE.json");
+  command.add_flag("--force", flags.force, force_help);
   command.add_option("--progress", flags.progress, "auto, bar, plain, json, or none: nothing but warnings and errors")
       ->type_name("MODE")
       ->check(CLI::IsMember(std::vector<std::string>(progress_mode_names.begin(), progress_mode_names.end()),
@@ -246,9 +266,8 @@ int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
   const bool is_device = fs::exists(flags.report, missing) && !fs::is_regular_file(flags.report, missing);
   if (!flags.report.empty() && !is_device && ending != ".html" && ending != ".htm")
     throw UsageError(fmt::format("--report takes a file that ends in .html; \"{}\" does not", flags.report));
-  check_writable("--report", flags.report);
-  check_writable("--trace", flags.trace);
-  check_writable("--summary", flags.summary);
+  check_kept(files_of(flags), flags.reads);
+  check_replaced(files_of(flags), flags.force);
   if (flags.checked && !is_watching()) warn(flags, "what nodes read is not watched: " + why_not_watching());
   const CancelOnSignal signals;
   const std::unique_ptr<Cache> cache = open_cache(flags);
@@ -262,6 +281,9 @@ namespace {
 int run_sweep(const GraphFlags& values, const SweepFlags& asked, const RunFlags& given) {
   Sweep sweep(asked);
   RunFlags flags = given;
+  flags.writes = {{"--sheet", asked.sheet, is_page(asked.sheet) ? WrittenKind::page : WrittenKind::picture},
+                  {"--figures", asked.figures, WrittenKind::table}};
+  if (!asked.table.empty()) flags.reads.push_back({asked.table, "it is the table of --table"});
   flags.after = [&](const RunResult& result) { sweep.report(result); };
   return run_with_flags(
       [&] {
@@ -303,6 +325,7 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   run->callback([&chosen, flags] {
     chosen = [flags] {
       flags->graph = flags->values.graph;
+      flags->reads = flags->values.files();
       if (flags->variations.asked()) return run_sweep(flags->values, flags->variations, *flags);
       for (const std::string* left : {&flags->variations.sheet, &flags->variations.figures, &flags->variations.best})
         if (!left->empty()) throw UsageError("--sheet, --figures and --best go with --sweep or --table");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "graphs/document/graph.h"
+#include "runner/cli/written_files.h"
 #include "runner/engine/schedule.h"
 #include "runner/report/progress.h"
 
@@ -30,7 +31,10 @@ struct RunFlags {
   std::string trace;
   std::string summary;
   bool keep_going = false;
+  bool force = false;
   std::string progress = "auto";
+  std::vector<WrittenFile> writes{};              ///< besides report and trace
+  std::vector<KeptFile> reads{};                  ///< besides the graph and the files of its nodes
   std::vector<std::string> keep{};                ///< more targets, whose values are kept for `after`
   std::function<void(const RunResult&)> after{};  ///< called with the result of each run
 };

@@ -8,12 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "core/base/printable.h"
+
 namespace terrazzo {
 
-/// Writes a message to standard error; ignores errors, so that a closed pipe does not stop a run.
+/// Writes a message to standard error, control characters in it escaped; ignores errors, so that a closed pipe does not
+/// stop a run.
 template <typename... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
-  const std::string message = fmt::format(format, std::forward<Values>(values)...);
+  const std::string message = printable(fmt::format(format, std::forward<Values>(values)...));
   std::fwrite(message.data(), 1, message.size(), stderr);
 }
 

@@ -129,7 +129,10 @@ void History::save() const {
   for (const auto& [node, seconds] : seconds_)
     text += fmt::format("{}\t{}\t{}\t{:.3g}\n", on_one_line(node), seconds_line, Digest().hex(), seconds);
   try {
-    write_whole_file(path_, sealed_history(text));
+    std::error_code failure;
+    fs::create_directories(path_.parent_path(), failure);
+    // Never in place: a pipe there would wait for a reader.
+    write_whole_file(path_, sealed_history(text), temporary_beside(path_));
   } catch (const FileError&) {
     // Without it, plans cannot say what has changed since.
   }

@@ -1,9 +1,12 @@
 #include "runner/engine/preflight.h"
 
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include "core/base/paths.h"
 #include "core/file/atomic_file.h"
@@ -32,8 +35,23 @@ bool are_rounds(const std::string& a, const std::string& b) {
   return a != b && without_rounds(a) == without_rounds(b);
 }
 
+/// By which a file is known through links of all kinds.
+using FileIdentity = std::pair<dev_t, ino_t>;
+
+std::optional<FileIdentity> identity_of(const fs::path& path) {
+  struct stat status;
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return FileIdentity(status.st_dev, status.st_ino);
+}
+
 class Foresight {
  public:
+  Foresight() = default;
+  explicit Foresight(const Graph& graph) {
+    note_source(graph.file, "it is the graph file");
+    for (const fs::path& path : graph.made_from) note_source(path, "the graph is made from it");
+  }
+
   /// Nodes in the order of their wires, each with whether it is going to write.
   std::vector<Problem> look(const std::vector<std::pair<const GraphNode*, bool>>& nodes) {
     for (const auto& [node, writes] : nodes) note_sources(*node);
@@ -44,18 +62,20 @@ class Foresight {
  private:
   void note_sources(const GraphNode& node) {
     if (!node.type->files_read) return;
-    std::error_code missing;
     for (const fs::path& file : node.type->files_read(node.params))
-      if (fs::is_regular_file(file, missing)) readers_.emplace(fs::weakly_canonical(file, missing), node.name);
+      note_source(file, fmt::format("the node \"{}\" reads it", node.name));
+  }
+
+  void note_source(const fs::path& file, const std::string& why) {
+    if (const std::optional<FileIdentity> identity = identity_of(file)) sources_.emplace(*identity, why);
   }
 
   /// A result must never take the place of what it is made from.
   std::string read_by_others(const fs::path& path) const {
-    std::error_code missing;
-    const auto reader = readers_.find(fs::weakly_canonical(path, missing));
-    if (reader == readers_.end()) return {};
-    return fmt::format("{} would be overwritten, but the node \"{}\" reads it; write to another folder", path.string(),
-                       reader->second);
+    const std::optional<FileIdentity> identity = identity_of(path);
+    const auto source = identity ? sources_.find(*identity) : sources_.end();
+    if (source == sources_.end()) return {};
+    return fmt::format("{} would be overwritten, but {}; write to another folder", path.string(), source->second);
   }
 
   void look_at(const GraphNode& node, bool writes) {
@@ -76,12 +96,32 @@ class Foresight {
       problems_.push_back(problem_of(node, e.about(), e.what()));
   }
 
+  /// What is to be a file cannot hold others.
+  std::string folder_and_file(const fs::path& path) const {
+    const fs::path place = place_of_file(path);
+    for (fs::path above = place.parent_path(); above.has_relative_path(); above = above.parent_path())
+      if (const auto writer = writers_.find(above); writer != writers_.end())
+        return fmt::format(
+            "{} would be both a file, which the node \"{}\" writes, and a folder, for {}; name one of "
+            "them otherwise",
+            above.string(), writer->second.node, path.string());
+    const auto below = writers_.upper_bound(place);
+    if (below == writers_.end() ||
+        std::mismatch(place.begin(), place.end(), below->first.begin(), below->first.end()).first != place.end())
+      return {};
+    return fmt::format(
+        "{} would be both a file and a folder, for {}, which the node \"{}\" writes; name one of them "
+        "otherwise",
+        path.string(), below->second.path.string(), below->second.node);
+  }
+
   void check_files(const GraphNode& node, const std::vector<FutureFile>& files) {
     std::set<std::string> said;
     for (const FutureFile& f : files) {
       std::string trouble = why_not_writable(f.folder, f.name);
       const fs::path path = (f.folder / f.name).lexically_normal();
       if (trouble.empty() && !f.name.empty()) trouble = read_by_others(path);
+      if (trouble.empty()) trouble = folder_and_file(path);
       if (trouble.empty() && !f.name.empty()) {
         const auto [at, is_new] = writers_.emplace(place_of_file(path), Writer{node.name, f.what, path});
         const Writer& writer = at->second;
@@ -105,8 +145,8 @@ class Foresight {
   };
 
   Forecasts forecasts_;
-  std::map<fs::path, std::string> readers_;
-  std::map<fs::path, Writer> writers_;  ///< by place_of_file
+  std::map<FileIdentity, std::string> sources_;  ///< why each must stay
+  std::map<fs::path, Writer> writers_;           ///< by place_of_file
   std::set<std::pair<std::vector<Wire>, std::string>> said_;
   std::vector<Problem> problems_;
 };
@@ -117,7 +157,42 @@ std::vector<Problem> preflight_problems(const Plan& plan) {
   std::vector<std::pair<const GraphNode*, bool>> nodes;
   for (const Stage& s : plan.stages)
     if (s.needed) nodes.emplace_back(s.node, s.state != StageState::up_to_date);
-  return Foresight().look(nodes);
+  return Foresight(*plan.graph).look(nodes);
+}
+
+namespace {
+
+/// "out/*.png" of a parameter that says "out/{map}.png".
+std::string pattern_of(const std::string& text) {
+  std::string out;
+  for (size_t i = 0; i < text.size(); i++) {
+    const size_t end = text[i] == '{' ? text.find('}', i) : text.npos;
+    out += end == text.npos ? text[i] : '*';
+    if (end != text.npos) i = end;
+  }
+  return out;
+}
+
+FileToWrite file_to_write(const GraphNode& node, const FutureFile& file) {
+  if (!file.name.empty()) return {file.folder / file.name, false, node.name};
+  const auto param = node.params.find(file.param);
+  const std::string* text = param == node.params.end() ? nullptr : std::get_if<std::string>(&param->second);
+  return {text ? pattern_of(*text) : std::string(), true, node.name};
+}
+
+}  // namespace
+
+std::vector<FileToWrite> files_to_write(const Plan& plan) {
+  std::vector<FileToWrite> out;
+  Forecasts forecasts;
+  for (const Stage& s : plan.stages) {
+    if (!s.needed) continue;
+    if (s.known && s.known->record)
+      for (const OutputFile& f : s.known->record->files) out.push_back({f.path, false, s.node->name});
+    if (const Forecast* forecast = forecasts.add(*s.node))
+      for (const FutureFile& f : forecast->files) out.push_back(file_to_write(*s.node, f));
+  }
+  return out;
 }
 
 std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes) {

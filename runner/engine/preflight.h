@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "graphs/document/problem.h"
@@ -13,6 +15,14 @@ std::vector<Problem> preflight_problems(const Plan& plan);
 
 /// The same for nodes of a document that cannot be planned, see LoadOptions.
 std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes);
+
+struct FileToWrite {
+  std::filesystem::path path;
+  bool is_pattern = false;  ///< its name is not known yet; * stands for what is missing
+  std::string node;
+};
+/// The files that needed stages are going to write, or have written.
+std::vector<FileToWrite> files_to_write(const Plan& plan);
 
 /// What is allowed in a checked graph and hardly meant (see NodeType::doubts).
 std::vector<Problem> doubts_about(const Graph& graph);

@@ -33,10 +33,10 @@ std::string figure_row(const Report::Figure& f) {
 
 std::string page_head(const std::string& title, const std::string& below) {
   return fmt::format(
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{3}\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<meta name=\"color-scheme\" content=\"light dark\">\n"
       "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n{2}",
-      markup(title), page_style, below);
+      markup(title), page_style, below, page_mark);
 }
 
 std::string page_foot(const std::string& data, bool has_viewer) {

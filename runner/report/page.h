@@ -16,6 +16,9 @@ extern const std::string_view page_style;
 extern const std::string_view page_script;
 extern const std::string_view viewer_script;
 
+/// By which a page is known to be one; it stands in its head.
+inline constexpr std::string_view page_mark = "<meta name=\"generator\" content=\"terrazzo\">";
+
 /// Up to the heading and the line below it.
 std::string page_head(const std::string& title, const std::string& below);
 /// What the scripts read, and the scripts. `data` is JSON. `has_viewer`: the page lights materials.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/printable.h"
 #include "core/base/text.h"
 #include "graphs/document/problem.h"
 #include "runner/report/process_usage.h"
@@ -227,7 +228,8 @@ class PlainProgress : public Progress {
 
  private:
   void line(const Stage& s, const std::string& what) {
-    out_ << fmt::format("[{}/{}] {} ({}) {}", count_.settled(), count_.all(), s.node->name, s.type().name, what)
+    out_ << printable(
+                fmt::format("[{}/{}] {} ({}) {}", count_.settled(), count_.all(), s.node->name, s.type().name, what))
          << std::endl;
   }
   std::ostream& out_;
@@ -327,7 +329,7 @@ void write_warning(ProgressMode mode, std::ostream& out, const std::string& mess
   if (mode == ProgressMode::json)
     write_event(out, {{"event", "warning"}, {"message", message}});
   else
-    out << "warning: " << message << std::endl;
+    out << "warning: " << printable(message) << std::endl;
 }
 
 namespace {
@@ -354,7 +356,7 @@ void write_error(ProgressMode mode, std::ostream& out, const std::exception& err
     if (mode == ProgressMode::json)
       write_event(out, error_event(file, problems[i]));
     else
-      out << "error: " << describe(file, problems[i]) << std::endl;
+      out << "error: " << printable(describe(file, problems[i])) << std::endl;
   }
   const std::string more = problems_not_shown(problems.size());
   if (more.empty()) return;

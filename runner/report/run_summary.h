@@ -22,6 +22,9 @@ struct RunSummary {
   int exit_code = 0;
 };
 
+/// Stands near the beginning of every such file.
+inline constexpr std::string_view summary_mark = "\"program\": \"terrazzo ";
+
 /// Where a summary and the times in it come from. Throws FileError.
 void write_run_summary(const RunSummary& summary, const std::filesystem::path& path);
 

@@ -106,7 +106,10 @@ class OiioDecoder final : public ImageDecoder {
 
  private:
   void read_channels(int first, int count, OIIO::TypeDesc type, void* out) {
-    if (!in_->read_image(layer_->part, 0, first, first + count, type, out)) throw Error(in_->geterror());
+    in_->geterror();  // what opening has left
+    const bool done = in_->read_image(layer_->part, 0, first, first + count, type, out);
+    // What decoders make up for damaged data they tell by an error alone.
+    if (const std::string said = in_->geterror(); !done || !said.empty()) throw Error(said);
   }
 
   void find_layers() {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 #include "tests/runner/fakes.h"
 #include "tests/runner/program.h"
@@ -9,6 +10,7 @@
 
 using namespace terrazzo;
 using namespace terrazzo::test;
+namespace fs = std::filesystem;
 
 TEST_CASE("check finds what the plan of a run would refuse, once all parameters are set") {
   const Workplace w;
@@ -141,4 +143,40 @@ TEST_CASE("new finds a folder again whose name holds what means something in doc
     const ProgramRun r = w.run({"run", "graph.json", "--only", "exemplar"});
     CHECK_MESSAGE(r.code == 0, r.err);
   }
+}
+
+TEST_CASE("help on a command that does not exist is an error with a suggestion") {
+  const Workplace w;
+  const ProgramRun run = w.run({"chekc", "--help"});
+  CHECK(run.code == 2);
+  CHECK(run.out.empty());
+  CHECK_MESSAGE(run.err.find("unknown command chekc (did you mean \"check\"?)") != std::string::npos, run.err);
+  CHECK(w.run({"library", "lits", "--help"}).code == 2);
+  CHECK(w.run({"library", "list", "--help"}).code == 0);
+  CHECK(w.run({"run", "soft.json", "--help"}).code == 0);
+}
+
+TEST_CASE("control characters in names do not reach the terminal") {
+  const Workplace w;
+  const ProgramRun run = w.run({"run", "\x1b[31mred\x07.json"});
+  CHECK(run.code == 2);
+  CHECK_MESSAGE(run.err.find("\\x1b[31mred\\x07.json") != std::string::npos, run.err);
+  CHECK(run.err.find('\x1b') == std::string::npos);
+}
+
+TEST_CASE("a file beyond the limit of the system is a failure, not the end of the program") {
+  const Workplace w;
+  write_text(w.path / "noise.json", R"({"terrazzo": 1, "nodes": {
+    "noise": {"type": "noise", "size": 512},
+    "file": {"type": "export", "material": "@noise", "path": "out/noise.png"}}})");
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  rlimit small = before;
+  small.rlim_cur = 16384;
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  const ProgramRun run = w.run({"run", "noise.json", "--no-cache"});
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  CHECK(run.code == 1);
+  CHECK_MESSAGE(run.err.find("File too large") != std::string::npos, run.err);
+  CHECK_FALSE(fs::exists(w.path / "out/noise.png"));
 }

@@ -1,0 +1,199 @@
+#include "core/file/picture_ends.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "core/base/text.h"
+#include "core/file/file_io.h"
+
+namespace terrazzo {
+
+namespace {
+
+/// Numbers in a file, little endian; past its end everything is 0.
+class Bytes {
+ public:
+  explicit Bytes(const std::filesystem::path& path) : path_(path), file_(open_to_read(path)), size_(file_.size(path)) {}
+  uint64_t size() const { return size_; }
+  uint64_t number(uint64_t at, int bytes) const {
+    uint8_t raw[8] = {};
+    if (at <= size_ && uint64_t(bytes) <= size_ - at) file_.read_at(at, raw, size_t(bytes), path_);
+    uint64_t v = 0;
+    for (int i = 0; i < bytes; i++) v |= uint64_t{raw[i]} << 8 * i;
+    return v;
+  }
+  std::string text(uint64_t at, size_t bytes) const {
+    std::string out(bytes, '\0');
+    out.resize(file_.read_at(at, out.data(), bytes, path_));
+    return out;
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  File file_;
+  uint64_t size_;
+};
+
+struct ExrAttribute {
+  uint64_t at = 0, bytes = 0;
+};
+
+/// The attributes of the one header; `end` is where the table of offsets begins. Empty if it is no such header.
+std::map<std::string, ExrAttribute> exr_attributes(const Bytes& file, uint64_t& end) {
+  constexpr size_t longest_name = 256, most_attributes = 10000;
+  std::map<std::string, ExrAttribute> out;
+  uint64_t at = 8;
+  for (size_t i = 0; i < most_attributes && at < file.size(); i++) {
+    const std::string name = file.text(at, longest_name).c_str();
+    at += name.size() + 1;
+    if (name.empty()) {
+      end = at;
+      return out;
+    }
+    at += std::string(file.text(at, longest_name).c_str()).size() + 1;
+    const uint64_t bytes = file.number(at, 4);
+    out[name] = {at + 4, bytes};
+    at += 4 + bytes;
+  }
+  return {};
+}
+
+/// The number of entries in the table of offsets; 0 if it is not told here.
+uint64_t exr_chunks(const Bytes& file, const std::map<std::string, ExrAttribute>& attributes) {
+  const auto window = attributes.find("dataWindow"), compression = attributes.find("compression"),
+             tiles = attributes.find("tiles");
+  if (window == attributes.end() || compression == attributes.end()) return 0;
+  const auto side = [&](uint64_t axis) {
+    const auto least = int32_t(file.number(window->second.at + 4 * axis, 4));
+    const auto most = int32_t(file.number(window->second.at + 8 + 4 * axis, 4));
+    return most < least ? uint64_t{0} : uint64_t(int64_t{most} - least + 1);
+  };
+  if (tiles != attributes.end()) {
+    const uint64_t w = file.number(tiles->second.at, 4), h = file.number(tiles->second.at + 4, 4);
+    const bool has_levels = (file.number(tiles->second.at + 8, 1) & 15) != 0;
+    return has_levels || w == 0 || h == 0 ? 0 : ((side(0) + w - 1) / w) * ((side(1) + h - 1) / h);
+  }
+  // None, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
+  constexpr uint64_t rows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+  const uint64_t kind = file.number(compression->second.at, 1);
+  return kind < std::size(rows) ? (side(1) + rows[kind] - 1) / rows[kind] : 0;
+}
+
+bool exr_has_its_end(const Bytes& file) {
+  constexpr uint64_t deep = 0x800, parts = 0x1000;
+  if ((file.number(4, 4) & (deep | parts)) != 0) return true;
+  uint64_t table = 0;
+  const auto attributes = exr_attributes(file, table);
+  if (attributes.empty()) return false;
+  const uint64_t chunks = exr_chunks(file, attributes);
+  if (chunks > (file.size() - std::min(file.size(), table)) / 8) return false;
+  uint64_t last = 0;
+  const std::string offsets = file.text(table, chunks * 8);
+  for (uint64_t i = 0; i < chunks; i++) {
+    uint64_t offset = 0;
+    for (uint64_t b = 0; b < 8; b++) offset |= uint64_t{static_cast<uint8_t>(offsets[i * 8 + b])} << 8 * b;
+    if (offset == 0) return false;  // what was never written
+    last = std::max(last, offset);
+  }
+  const uint64_t head = attributes.contains("tiles") ? 20 : 8;
+  return chunks == 0 || (last <= file.size() && last + head + file.number(last + head - 4, 4) <= file.size());
+}
+
+bool bmp_has_its_end(const Bytes& file) {
+  const uint64_t packing = file.number(30, 4), bits = file.number(28, 2), width = file.number(18, 4);
+  const auto rows = uint64_t(std::abs(int64_t{int32_t(file.number(22, 4))}));
+  const bool is_packed = packing != 0 && packing != 3;
+  if (file.number(14, 4) < 40 || is_packed) return file.number(2, 4) <= file.size();
+  return file.number(10, 4) + (width * bits + 31) / 32 * 4 * rows <= file.size();
+}
+
+bool tga_has_its_end(const Bytes& file) {
+  const uint64_t kind = file.number(2, 1), bytes = (file.number(16, 1) + 7) / 8;
+  const uint64_t pixels = file.number(12, 2) * file.number(14, 2);
+  uint64_t at = 18 + file.number(0, 1);
+  if (file.number(1, 1) == 1) at += file.number(5, 2) * ((file.number(7, 1) + 7) / 8);
+  if (kind >= 1 && kind <= 3) return at + pixels * bytes <= file.size();
+  if (kind < 9 || kind > 11) return true;
+  const std::string all = file.text(0, file.size());
+  for (uint64_t done = 0; done < pixels;) {
+    if (at >= all.size()) return false;
+    const auto packet = static_cast<uint8_t>(all[at]);
+    const uint64_t count = uint64_t(packet & 127) + 1;
+    at += 1 + bytes * (packet >= 128 ? 1 : count);
+    done += count;
+  }
+  return at <= all.size();
+}
+
+/// Goes from block to block until the first image is over.
+bool gif_has_its_end(const Bytes& file) {
+  const std::string all = file.text(0, file.size());
+  const auto byte = [&](size_t at) { return at < all.size() ? static_cast<uint8_t>(all[at]) : uint8_t{0}; };
+  const auto palette = [](uint8_t flags) { return (flags & 128) != 0 ? size_t{3} << ((flags & 7) + 1) : size_t{0}; };
+  size_t at = 13 + palette(byte(10));
+  while (at < all.size()) {
+    const uint8_t kind = byte(at);
+    if (kind != 0x21 && kind != 0x2c) return false;
+    at += kind == 0x21 ? 2 : 11 + palette(byte(at + 9));
+    while (at < all.size() && byte(at) != 0) at += 1 + size_t(byte(at));
+    if (at >= all.size()) return false;
+    at++;
+    if (kind == 0x2c) return true;
+  }
+  return false;
+}
+
+/// Where the run-length coded rows of a Radiance picture end; `at`: where they begin. 0 if the end is missing.
+size_t end_of_rows(std::string_view all, size_t at, size_t width, size_t rows) {
+  const auto byte = [&](size_t i) { return i < all.size() ? static_cast<uint8_t>(all[i]) : uint8_t{0}; };
+  for (size_t y = 0; y < rows; y++) {
+    const bool is_coded = width >= 8 && width < 32768 && byte(at) == 2 && byte(at + 1) == 2 && byte(at + 2) < 128;
+    if (!is_coded) return at + 4 <= all.size() ? all.size() : 0;  // plain, or the old coding: not told here
+    at += 4;
+    for (size_t done = 0; done < 4 * width;) {
+      if (at >= all.size()) return 0;
+      const size_t count = byte(at);
+      if (count == 0) return 0;
+      at += count > 128 ? 2 : 1 + count;
+      done += count > 128 ? count - 128 : count;
+    }
+  }
+  return at;
+}
+
+bool hdr_has_its_end(const Bytes& file) {
+  const std::string all = file.text(0, file.size());
+  const size_t blank = all.find("\n\n"), line = all.find("-Y ", blank), x = all.find("+X ", line);
+  if (blank == all.npos) return false;
+  if (line != blank + 2 || x == all.npos) return true;  // turned: not told here
+  const auto number = [&](size_t at) {
+    size_t v = 0;
+    std::from_chars(all.data() + at, all.data() + all.size(), v);
+    return v;
+  };
+  const size_t begin = all.find('\n', x);
+  const size_t end = begin == all.npos ? 0 : end_of_rows(all, begin + 1, number(x + 3), number(line + 3));
+  return end != 0 && end <= all.size();
+}
+
+}  // namespace
+
+bool has_its_end(const std::filesystem::path& path) {
+  const Bytes file(path);
+  const std::string start = file.text(0, 12);
+  constexpr uint64_t most_walked = uint64_t{1} << 28;  // of the formats that are read to their ends
+  if (start.starts_with("\x76\x2f\x31\x01")) return exr_has_its_end(file);
+  if (start.starts_with("BM")) return bmp_has_its_end(file);
+  if (start.starts_with("RIFF") && start.ends_with("WEBP")) return file.number(4, 4) + 8 <= file.size();
+  if (file.size() > most_walked) return true;
+  if (start.starts_with("GIF8")) return gif_has_its_end(file);
+  if (start.starts_with("#?")) return hdr_has_its_end(file);
+  return lowercase(path.extension().string()) != ".tga" || tga_has_its_end(file);
+}
+
+}  // namespace terrazzo
