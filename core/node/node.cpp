@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/file/atomic_file.h"
+#include "core/file/write_guard.h"
 
 namespace terrazzo {
 
@@ -108,6 +109,7 @@ void NodeContext::output(std::string_view port, Value value) {
 }
 
 std::filesystem::path NodeContext::stage(const std::filesystem::path& target) {
+  WriteGuard::check(target);
   const std::filesystem::path folder = target.parent_path();
   if (const std::string trouble = why_not_writable(folder, target.filename().string()); !trouble.empty())
     throw Error(trouble);

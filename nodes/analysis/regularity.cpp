@@ -165,7 +165,7 @@ NodeType regularity_node() {
        .unit = "pixels",
        .max_count = 2},
   };
-  t.persist = Persist::digest;
+  t.persist = Persist::payload;
   t.check = check;
   t.compute = compute;
   return t;

@@ -20,6 +20,7 @@
 #include "runner/engine/checked.h"
 #include "runner/engine/history.h"
 #include "runner/engine/preflight.h"
+#include "runner/engine/sandbox.h"
 #include "runner/report/html_report.h"
 #include "runner/report/run_summary.h"
 #include "runner/report/shown_nodes.h"
@@ -126,6 +127,24 @@ std::vector<WrittenFile> files_of(const RunFlags& flags) {
   return out;
 }
 
+/// None if none was asked for. Throws UsageError.
+std::optional<Sandbox> sandbox_of(const RunFlags& flags, const Graph& graph) {
+  if (flags.sandbox.empty()) return std::nullopt;
+  std::error_code missing;
+  if (!fs::is_directory(flags.sandbox, missing))
+    throw UsageError(fmt::format("--sandbox {}: there is no such folder; make it first", flags.sandbox));
+  std::vector<fs::path> named = named_paths(graph, flags.values);
+  named.insert(named.end(), flags.files.begin(), flags.files.end());
+  return Sandbox(flags.sandbox, std::move(named));
+}
+
+/// Throws GraphError, before a plan reads any of the graph's files.
+void check_sandbox(const Graph& graph, const std::optional<Sandbox>& sandbox) {
+  if (!sandbox) return;
+  if (std::vector<Problem> problems = sandbox_problems(graph.nodes, *sandbox); !problems.empty())
+    throw GraphError(graph.file.string(), std::move(problems));
+}
+
 int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
   std::optional<History> history;
   if (cache && !graph.file.empty()) history.emplace(cache->folder(), graph.file);
@@ -140,7 +159,11 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   options.targets.keep = flags.keep;
   options.keep_going = flags.keep_going;
 
+  std::optional<Sandbox> sandbox;
   const Plan plan = summarizing_failure(flags, [&] {
+    sandbox = sandbox_of(flags, graph);
+    check_sandbox(graph, sandbox);
+    options.sandbox = sandbox ? &*sandbox : nullptr;
     try {
       if (!flags.report.empty())
         for (std::string& name : nodes_for_report(graph, flags.only, cache))
@@ -214,6 +237,16 @@ int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cach
 
 }  // namespace
 
+std::vector<Problem> look_ahead(const RunFlags& flags, const std::vector<GraphNode>& nodes) {
+  Graph graph;
+  graph.nodes = nodes;
+  if (const std::optional<Sandbox> sandbox = sandbox_of(flags, graph)) {
+    // What parameters of the graph name is not known here; what that concerns is looked at once the graph is loaded.
+    if (!sandbox_problems(nodes, *sandbox).empty()) return {};
+  }
+  return preflight_of_nodes(nodes);
+}
+
 void add_run_flags(CLI::App& command, RunFlags& flags) {
   command.add_option("--only", flags.only, "Run only this node and what it needs; may be given several times")
       ->type_name("NODE")
@@ -251,6 +284,11 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
   command.add_flag("--keep-going", flags.keep_going,
                    "After a failure, go on with everything that does not need the failed node; the exit code is 1 all "
                    "the same");
+  command
+      .add_option("--sandbox", flags.sandbox,
+                  "Refuse to read or write anything for nodes outside of this folder, but for what --set names; links "
+                  "count as where they lead")
+      ->type_name("DIR");
   command.add_option("--trace", flags.trace, "Write a timeline for chrome://tracing")->type_name("FILE.json");
   command.add_flag("--force", flags.force, force_help);
   command.add_option("--progress", flags.progress, "auto, bar, plain, json, or none: nothing but warnings and errors")
@@ -291,7 +329,8 @@ int run_sweep(const GraphFlags& values, const SweepFlags& asked, const RunFlags&
         Graph graph = sweep.load([&](const std::vector<std::string>& overrides) {
           GraphFlags variation = values;
           variation.set.insert(variation.set.end(), overrides.begin(), overrides.end());
-          LoadedGraph loaded = variation.load({.only = given.only, .look_ahead = preflight_of_nodes});
+          LoadedGraph loaded = variation.load(
+              {.only = given.only, .look_ahead = [&](const auto& nodes) { return look_ahead(given, nodes); }});
           for (const Problem& w : loaded.warnings)
             if (const std::string text = describe(values.graph, w); warned.insert(text).second) warn(flags, text);
           return std::move(loaded.graph);
@@ -309,12 +348,12 @@ int run_sweep(const GraphFlags& values, const SweepFlags& asked, const RunFlags&
 void add_run_command(CLI::App& app, Chosen& chosen) {
   CLI::App* run = app.add_subcommand("run", "Runs a graph: only what has changed since it last ran");
   struct Flags : RunFlags {
-    GraphFlags values;
+    GraphFlags graph_values;
     SweepFlags variations;
   };
   const auto flags = std::make_shared<Flags>();
-  add_graph_argument(*run, flags->values);
-  add_value_flags(*run, flags->values);
+  add_graph_argument(*run, flags->graph_values);
+  add_value_flags(*run, flags->graph_values);
   add_sweep_flags(*run, flags->variations);
   add_run_flags(*run, *flags);
   run->footer(
@@ -324,14 +363,17 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       "  terrazzo run bricks.json --sweep seed=1..8 --set \"out=='out/' + seed\" --sheet sheet.png --best swd");
   run->callback([&chosen, flags] {
     chosen = [flags] {
-      flags->graph = flags->values.graph;
-      flags->reads = flags->values.files();
-      if (flags->variations.asked()) return run_sweep(flags->values, flags->variations, *flags);
+      flags->graph = flags->graph_values.graph;
+      flags->reads = flags->graph_values.files();
+      flags->values = flags->graph_values.set;
+      if (!flags->variations.sheet.empty()) flags->files.push_back(flags->variations.sheet);
+      if (flags->variations.asked()) return run_sweep(flags->graph_values, flags->variations, *flags);
       for (const std::string* left : {&flags->variations.sheet, &flags->variations.figures, &flags->variations.best})
         if (!left->empty()) throw UsageError("--sheet, --figures and --best go with --sweep or --table");
       return run_with_flags(
           [&] {
-            LoadedGraph loaded = flags->values.load({.only = flags->only, .look_ahead = preflight_of_nodes});
+            LoadedGraph loaded = flags->graph_values.load(
+                {.only = flags->only, .look_ahead = [&](const auto& nodes) { return look_ahead(*flags, nodes); }});
             for (const Problem& w : loaded.warnings) warn(*flags, describe(flags->graph, w));
             return std::move(loaded.graph);
           },

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "graphs/document/graph.h"
+#include "graphs/document/problem.h"
 #include "runner/cli/written_files.h"
 #include "runner/engine/schedule.h"
 #include "runner/report/progress.h"
@@ -32,12 +33,18 @@ struct RunFlags {
   std::string summary;
   bool keep_going = false;
   bool force = false;
+  std::string sandbox;
+  std::vector<std::string> values{};  ///< NAME=VALUE of the command line
+  std::vector<std::string> files{};   ///< more files that it names
   std::string progress = "auto";
   std::vector<WrittenFile> writes{};              ///< besides report and trace
   std::vector<KeptFile> reads{};                  ///< besides the graph and the files of its nodes
   std::vector<std::string> keep{};                ///< more targets, whose values are kept for `after`
   std::function<void(const RunResult&)> after{};  ///< called with the result of each run
 };
+
+/// What looks ahead while a graph is loaded: nothing that the sandbox forbids.
+std::vector<Problem> look_ahead(const RunFlags& flags, const std::vector<GraphNode>& nodes);
 
 void add_run_flags(CLI::App& command, RunFlags& flags);
 

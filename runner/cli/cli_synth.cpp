@@ -115,6 +115,7 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       std::vector<std::string> set;
       for (const Argument& a : arguments) set.push_back(a.override_text());
       set.insert(set.end(), flags->set.begin(), flags->set.end());
+      flags->values = set;
       if (same_folder(flags->folder, flags->out))
         throw UsageError(
             fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));

@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include "core/file/write_guard.h"
 #include "graphs/document/problem.h"
 #include "runner/engine/checked.h"
+#include "runner/engine/sandbox.h"
 
 namespace terrazzo {
 
@@ -28,13 +30,14 @@ class StagedFiles {
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  std::vector<OutputFile> put_in_place(Cache* cache) {
+  std::vector<OutputFile> put_in_place(Cache* cache, const Sandbox* sandbox) {
     for (const StagedFile& f : context_.staged())
       if (!fs::exists(f.temporary))
         throw std::logic_error(
             fmt::format("{} announced the file {} and did not write it", context_.type().name, f.target.string()));
     std::vector<OutputFile> files;
     for (const StagedFile& f : context_.staged()) {
+      if (sandbox) sandbox->check("write", f.target);
       std::error_code failure;
       fs::rename(f.temporary, f.target, failure);
       if (failure) throw Error(fmt::format("cannot write {}: {}", f.target.string(), failure.message()));
@@ -76,6 +79,12 @@ void check_repeatable(const Stage& stage, const std::map<std::string, Digest>& n
       stage.type().name));
 }
 
+/// Again: links may have been changed since the plan was made, and may be while the node runs.
+void check_files_in_sandbox(const Stage& stage, const Sandbox* sandbox) {
+  if (!sandbox || !stage.type().files_read) return;
+  for (const fs::path& file : stage.type().files_read(stage.node->params)) sandbox->check("read", file);
+}
+
 void compute(Job& job, const Stage& stage, const RunOptions& options) {
   NodeContext& context = *job.context;
   std::optional<NodeContext> again;
@@ -84,6 +93,10 @@ void compute(Job& job, const Stage& stage, const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   context.task().check();
   if (options.observer) options.observer->started(stage);
+  check_files_in_sandbox(stage, options.sandbox);
+  WriteGuard::Check may_write;
+  if (options.sandbox) may_write = [&](const fs::path& target) { options.sandbox->check("write", target); };
+  const WriteGuard guard(std::move(may_write));
   // Isolated: a thread that waits for this node's inner loops must not pick up another node meanwhile.
   {
     std::optional<WatchedReads> reads;
@@ -96,12 +109,13 @@ void compute(Job& job, const Stage& stage, const RunOptions& options) {
       check_node(stage, context, *again, *reads);
     }
   }
+  check_files_in_sandbox(stage, options.sandbox);
   if (stage.type().files_read) check_files_unchanged(stage, options.cache);
   StageRecord record;
   record.outputs = names_of(stage.type(), stage.known->key, context.outputs());
   check_repeatable(stage, record.outputs);
   record.notes = context.notes();
-  record.files = staged.put_in_place(options.cache);
+  record.files = staged.put_in_place(options.cache, options.sandbox);
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   job.values = std::move(context.outputs());
   job.record = std::move(record);

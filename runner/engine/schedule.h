@@ -11,6 +11,8 @@
 
 namespace terrazzo {
 
+class Sandbox;
+
 /// Receives the events of a run. Calls come from any thread, concurrently, and must return quickly. Every needed stage
 /// gets one of finished, reused, spared, failed and skipped, unless the run ends before.
 class RunObserver {
@@ -41,7 +43,8 @@ struct RunOptions {
   bool checked = false;  ///< each node twice, and watched, see runner/engine/checked.h; takes one thread, no cache
   const std::atomic<bool>* cancelled = nullptr;  ///< set it to stop the run; may be null
   RunObserver* observer = nullptr;
-  bool keep_going = false;  ///< a failure ends only what depends on it
+  const Sandbox* sandbox = nullptr;  ///< keeps nodes from files elsewhere; may be null
+  bool keep_going = false;           ///< a failure ends only what depends on it
 };
 
 /// An activity of a worker, for `write_trace`; times in seconds since the start of the run.

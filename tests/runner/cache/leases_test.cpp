@@ -1,4 +1,6 @@
 #include <csignal>
+#include <map>
+#include <memory>
 #include <thread>
 
 #include <doctest/doctest.h>
@@ -320,4 +322,24 @@ TEST_CASE("a program that is stopped while it lays out holds up another one for 
   CHECK(listing(w.path / "out") == std::vector<std::string>{"base_color.png"});
   CHECK(listing(w.path / "shared/v1/leases").empty());
   CHECK(w.run({"cache", "verify", "--cache", "shared"}).out == "every entry is sound\n");
+}
+
+TEST_CASE("what several programs need at once is made once, if it is small and slow to make") {
+  const Workplace w;
+  write_picture(w.path / "maps/stone_basecolor.png", 5, Semantic::base_color, {128, 128});
+  std::vector<std::unique_ptr<StartedProgram>> programs;
+  for (const char* name : {"one", "two", "three", "four"}) {
+    fs::create_directories(w.path / name);
+    programs.push_back(std::make_unique<StartedProgram>(
+        w.path / name, std::vector<std::string>{"synth", (w.path / "maps").string(), "-o", "out", "--size", "128x128",
+                                                "--progress", "json", "--cache", (w.path / "shared").string()}));
+  }
+  std::map<std::string, int> starts;
+  for (const auto& p : programs) {
+    const ProgramRun r = p->wait();
+    REQUIRE_MESSAGE(r.code == 0, r.err);
+    for (const char* node : {"lattice", "space", "index", "layout"})
+      starts[node] += r.err.find(fmt::format("\"start\",\"node\":\"{}\"", node)) != std::string::npos;
+  }
+  for (const auto& [node, count] : starts) CHECK_MESSAGE(count == 1, node);
 }

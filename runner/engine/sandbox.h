@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "graphs/document/graph.h"
+#include "graphs/document/problem.h"
+
+namespace terrazzo {
+
+/// Keeps the nodes of a graph that one does not trust in a folder: sources read and sinks write only there, and in what
+/// was named on the command line. Paths count as where they lead: links are followed.
+class Sandbox {
+ public:
+  /// Files, and folders with all that is in them.
+  Sandbox(std::filesystem::path folder, std::vector<std::filesystem::path> named);
+
+  const std::filesystem::path& folder() const { return given_; }
+  bool allows(const std::filesystem::path& path) const;
+  /// Throws Error if it does not allow to `verb` ("read", "write") that.
+  void check(const char* verb, const std::filesystem::path& path) const;
+  /// "cannot read /etc/passwd: ..."; empty if that is allowed.
+  std::string trouble_with(const char* verb, const std::filesystem::path& path) const;
+
+ private:
+  std::filesystem::path given_;
+  std::vector<std::filesystem::path> roots_;  ///< where they lead
+};
+
+/// What the graph's nodes would read and write elsewhere. Opens nothing.
+std::vector<Problem> sandbox_problems(const std::vector<GraphNode>& nodes, const Sandbox& sandbox);
+
+/// The files and folders that the command line names in its values of path parameters, "NAME=VALUE".
+std::vector<std::filesystem::path> named_paths(const Graph& graph, const std::vector<std::string>& values);
+
+}  // namespace terrazzo
