@@ -8,7 +8,7 @@ minutes=${1:-10}
 [[ $minutes =~ ^[0-9]+$ ]] || { sed -n '4s/^# //p' "$0" >&2; exit 2; }
 files=("${@:2}")
 
-examples/packages.sh clang-tidy doctest-dev
+examples/packages.sh clang-tidy doctest-dev pybind11-dev python3-dev
 # GCC's precompiled headers mean nothing to clang.
 cmake --preset release -B build-tidy -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
 

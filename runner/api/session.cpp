@@ -27,7 +27,27 @@ Session::Session(SessionOptions options) : options_(std::move(options)) {
     cache_ = std::make_unique<Cache>(options_.cache.empty() ? Cache::default_folder() : options_.cache);
 }
 
-Session::~Session() = default;
+Session::~Session() {
+  if (!cache_ || !has_stored_) return;
+  try {
+    cache_->collect();
+  } catch (const std::exception&) {
+    // The next session will.
+  }
+}
+
+/// It looks at every entry, which takes longer than a run that finds all it needs.
+void Session::collect_at_times() {
+  {
+    const std::lock_guard lock(mutex_);
+    has_stored_ = true;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - collected_ < std::chrono::seconds(10)) return;
+    collected_ = now;
+    has_stored_ = false;
+  }
+  cache_->collect();
+}
 
 Plan Session::plan(const CheckedJob& job, const RunRequest& request) {
   const std::optional<History> history = history_of(job, cache_.get());
@@ -43,7 +63,7 @@ RunResult Session::run(const CheckedJob& job, const RunRequest& request) {
                                                    .memory = options_.memory,
                                                    .cancelled = request.cancelled,
                                                    .observer = request.observer});
-  if (cache_ && result.count(StageOutcome::Kind::run) > 0) cache_->collect();
+  if (cache_ && result.count(StageOutcome::Kind::run) > 0) collect_at_times();
   return result;
 }
 

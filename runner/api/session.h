@@ -1,8 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -29,7 +31,8 @@ struct RunRequest {
 };
 
 /// A cache that is open, and how to run. Jobs may run at the same time, from different threads: they share the cache,
-/// and each has the session's threads and memory. Throws from the constructor only if the cache cannot be opened.
+/// and each has the session's threads and memory. What the cache holds beyond its limit is removed after runs, but no
+/// more than every ten seconds, and at the end. Throws from the constructor only if the cache cannot be opened.
 class Session {
  public:
   explicit Session(SessionOptions options = {});
@@ -47,8 +50,13 @@ class Session {
   std::vector<std::string> take_warnings();
 
  private:
+  void collect_at_times();
+
   SessionOptions options_;
   std::unique_ptr<Cache> cache_;
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point collected_ = std::chrono::steady_clock::now();  ///< guarded by mutex_
+  bool has_stored_ = false;                                                             ///< since then; likewise
 };
 
 }  // namespace terrazzo

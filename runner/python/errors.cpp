@@ -33,7 +33,7 @@ void raise(const GraphError& error, const Job& job) {
 }
 
 void register_exceptions() {
-  py::register_exception_translator([](std::exception_ptr thrown) {
+  py::register_exception_translator([](std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param)
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const GraphError& e) {

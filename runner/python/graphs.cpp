@@ -94,7 +94,7 @@ py::dict description_of(const Param& param) {
 }
 
 void bind_graphs(py::module_& module) {
-  py::class_<CheckedHandle>(module, "Checked");
+  const py::class_<CheckedHandle> checked_type(module, "Checked");
   py::class_<Job>(module, "Job")
       .def_static("open", &Job::open)
       .def_static("from_text", &Job::from_text)

@@ -1,4 +1,6 @@
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include "runner/api/plugin.h"
 #include "runner/python/bindings.h"
@@ -13,6 +15,8 @@ PYBIND11_MODULE(_terrazzo, module) {
   terrazzo::python::bind_graphs(module);
   terrazzo::python::bind_sessions(module);
   terrazzo::python::bind_nodes(module);
-  module.def("load_plugin", [](const std::string& file) { return terrazzo::load_plugin(file).types; });
+  module.def(
+      "load_plugin", [](const std::filesystem::path& file) { return terrazzo::load_plugin(file).types; },
+      pybind11::arg("file"), "Loads a plug-in, a shared library; gives the names of its node types.");
   terrazzo::load_plugins_of_environment();
 }

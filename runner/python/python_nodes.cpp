@@ -154,14 +154,15 @@ const NodeContext& node_here() {
 void bind_nodes(py::module_& module) {
   module.def("register_node", &register_type);
   module.def(
-      "report_progress", [](double fraction) { node_here().task().progress(fraction); }, py::arg("fraction"));
+      "report_progress", [](double fraction) { node_here().task().progress(fraction); }, py::arg("fraction"),
+      "Inside of a node: how far it is, 0 to 1. Raises Cancelled once the run has been cancelled.");
   module.def(
       "add_note",
       [](const std::string& message) {
         node_here();
         current_node_to_note()->note(message);
       },
-      py::arg("message"));
+      py::arg("message"), "Inside of a node: something that its user should know; printed, and kept with the result.");
   module.def("node_type_names", [] {
     std::vector<std::string> out;
     for (const NodeType& t : node_types()) out.push_back(t.name);

@@ -15,6 +15,7 @@ from ._nodes import registered
 if TYPE_CHECKING:
     from ._session import Plan, Session
 
+Value = Union[_terrazzo.Image, _terrazzo.Material, _terrazzo.Report, _terrazzo.UvMap, _terrazzo.Value]
 PathLike = Union[str, "os.PathLike[str]"]
 
 
@@ -96,7 +97,7 @@ class Node:
 
     def _checked(self, name: str) -> str:
         node = self._described()
-        if node and name.split(".")[0] not in self._names() and name not in ("mute", "comment"):
+        if node and name.split(".")[0] not in self._names() and name != "mute":
             raise _unknown(f'node "{self._name}" ({node["type"]}) has no parameter', name, self._names())
         return f"{self._name}.{name}"
 
@@ -131,7 +132,7 @@ class Node:
 class Graph:
     """A graph document with values on top. Copies are independent. Use one from one thread at a time."""
 
-    def __init__(self, job: Any) -> None:
+    def __init__(self, job: _terrazzo.Job) -> None:
         """Use load, loads or stock."""
         self._job = job
         self._known: tuple[int, dict[str, Any]] | None = None
@@ -220,7 +221,7 @@ class Graph:
         self._job.settings(Path(path))
         return self
 
-    def give(self, name: str, value: Any) -> Graph:
+    def give(self, name: str, value: Value) -> Graph:
         """Gives an image, a material or another value to an input of the graph, or in place of what a node makes."""
         self._job.give(name, value)
         return self
@@ -260,7 +261,7 @@ class Graph:
         return f"<Graph {self.path}: {len(self.nodes)} nodes>"
 
 
-def _checked(graph: Graph, only: Sequence[str]) -> Any:
+def _checked(graph: Graph, only: Sequence[str]) -> _terrazzo.Checked:
     registered()
     return graph._job.checked(list(only))
 

@@ -67,7 +67,7 @@ def node(*, version: int = 1, name: str | None = None, uses: Iterable[Any] = ())
             taken = _owners.get(description["name"])
             if taken is None and description["name"] in _terrazzo.node_type_names():
                 raise _fail(function, f'terrazzo or a plug-in has a node "{description["name"]}"')
-            if taken not in (None, owner):
+            if taken is not None and taken != owner:
                 raise _fail(function, f'there is a node "{description["name"]}" in {taken[0]} already')
             _owners[description["name"]] = owner
             _waiting.append((description, function, tuple(uses)))

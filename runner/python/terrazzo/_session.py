@@ -10,7 +10,7 @@ from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, Union
 
 from . import _terrazzo
 from ._errors import Cancelled, Failure, RunError, UnknownName
-from ._graph import Graph, PathLike, _checked, _unknown, _with
+from ._graph import Graph, PathLike, Value, _checked, _unknown, _with
 from ._nodes import _cause_of
 
 Names = Union[str, Sequence[str]]
@@ -304,7 +304,7 @@ _EXPORT = """{
 }"""
 
 
-def export(value: Any, path: PathLike, *, session: Session | None = None, **params: Any) -> list[Path]:
+def export(value: Value, path: PathLike, *, session: Session | None = None, **params: Any) -> list[Path]:
     """Writes the maps of a material or image, or a UV map: to a folder, or to a pattern such as "out/{map}.exr". More
     arguments are parameters of the export node, such as depth="half". Gives the files."""
     is_map = isinstance(value, _terrazzo.UvMap)

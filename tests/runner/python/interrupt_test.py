@@ -26,6 +26,11 @@ print("goes on", flush=True)
 """
 
 
+def limit():
+    """A second, and more on a machine that others keep busy."""
+    return max(1, os.getloadavg()[0] / os.cpu_count())
+
+
 class InterruptTest(Case):
     def test_control_c_from_another_process(self):
         (self.folder / "long.json").write_text(LONG)
@@ -37,7 +42,7 @@ class InterruptTest(Case):
             start = time.monotonic()
             child.send_signal(signal.SIGINT)
             self.assertEqual(child.stdout.readline(), "interrupted\n")
-            self.assertLess(time.monotonic() - start, 1)
+            self.assertLess(time.monotonic() - start, limit())
             self.assertEqual(child.stdout.readline(), "goes on\n")
             self.assertEqual(child.wait(60), 0)
 
@@ -51,7 +56,7 @@ class InterruptTest(Case):
         threading.Timer(0.5, press).start()
         with self.assertRaises(KeyboardInterrupt):
             self.session().run(tz.Graph.loads(LONG))
-        self.assertLess(time.monotonic() - pressed[0], 1)
+        self.assertLess(time.monotonic() - pressed[0], limit())
 
     def test_a_session_cancels_its_runs(self):
         s = self.session()
