@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/image/image_limits.h"
 #include "graphs/document/load.h"
 #include "graphs/document/override.h"
 #include "graphs/document/stock_graphs.h"
@@ -166,6 +167,11 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
   command
       .add_option("--memory", flags.memory, "Memory for running nodes, such as 2G; half of the machine's if not given")
       ->type_name("SIZE");
+  command
+      .add_option("--max-pixels", flags.max_pixels,
+                  "Read no image of more pixels; as many as fit into half of the machine's memory if not given")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
   command.add_flag(
       "--watch", flags.watch,
@@ -188,6 +194,7 @@ int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
   const bool is_device = fs::exists(flags.report, missing) && !fs::is_regular_file(flags.report, missing);
   if (!flags.report.empty() && !is_device && ending != ".html" && ending != ".htm")
     throw UsageError(fmt::format("--report takes a file that ends in .html; \"{}\" does not", flags.report));
+  if (flags.max_pixels > 0) set_most_pixels(flags.max_pixels);
   check_kept(files_of(flags), flags.reads);
   check_replaced(files_of(flags), flags.force);
   const CancelOnSignal signals;

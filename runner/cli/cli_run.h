@@ -28,6 +28,7 @@ struct RunFlags {
   std::string report;
   std::string trace;
   bool force = false;
+  int64_t max_pixels = 0;
   std::string progress = "auto";
   std::vector<WrittenFile> writes{};              ///< besides report and trace
   std::vector<KeptFile> reads{};                  ///< besides the graph and the files of its nodes
