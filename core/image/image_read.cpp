@@ -15,6 +15,7 @@
 #include "core/file/file_io.h"
 #include "core/image/image_file.h"
 #include "core/image/image_libraries.h"
+#include "core/image/image_limits.h"
 #include "core/image/png_codec.h"
 
 namespace terrazzo {
@@ -78,6 +79,8 @@ void refuse_absurd_sizes(const fs::path& path, const StoredImage& header) {
   if (too_many(header.size.width, header.size.height) || too_many(stored.width, stored.height))
     fail(path, fmt::format("its header says {}x{} pixels of {}; at most 2^31 values can be read", stored.width,
                            stored.height, counted(channels, "channel")));
+  require_pixels_fit(path, header.size, channels);
+  require_pixels_fit(path, {stored.width, stored.height}, channels);
 }
 
 /// "albedo", "normal"; the one of channels without a prefix is not shown.
@@ -305,8 +308,10 @@ FileInfo read_image_info(const fs::path& path, const std::string& layer) {
   // Such a file needs no decoder to be known.
   const JpegFacts jpeg = read_jpeg_facts(path, false);
   if (layer.empty() && (jpeg.components == 1 || jpeg.components == 3) && jpeg.bits == 8 && jpeg.size.area() > 0 &&
-      !jpeg.has_exif)
+      !jpeg.has_exif) {
+    require_pixels_fit(path, jpeg.size, jpeg.components);
     return {jpeg.size, jpeg.components, Depth::u8};
+  }
   return info_of(open(path, layer), layer);
 }
 

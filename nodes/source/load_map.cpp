@@ -2,6 +2,7 @@
 
 #include "core/image/color.h"
 #include "core/image/image_file.h"
+#include "core/image/image_limits.h"
 #include "core/image/image_ops.h"
 #include "core/node/node.h"
 #include "nodes/common/color_space.h"
@@ -99,6 +100,8 @@ NodeType load_map_node() {
     out.semantic = semantic_from(std::get<std::string>(p.at("semantic")));
     try {
       out.sizes[""] = read_image_info(path, std::get<std::string>(p.at("layer"))).size;
+    } catch (const TooManyPixels&) {
+      throw;
     } catch (const Error&) {
       // compute reports it
     }

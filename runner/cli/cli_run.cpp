@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/image/image_limits.h"
 #include "graphs/document/load.h"
 #include "runner/cache/cache_limit.h"
 #include "runner/cli/cli_commands.h"
@@ -269,6 +270,11 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
   command.add_flag("--checked", flags.checked,
                    "Run every node twice and watch what it reads: one that is not deterministic, or reads files or "
                    "variables of the environment that its key does not cover, fails. Uses one thread and no cache");
+  command
+      .add_option("--max-pixels", flags.max_pixels,
+                  "Read no image of more pixels; as many as fit into half of the machine's memory if not given")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
   command.add_flag(
       "--watch", flags.watch,
@@ -304,6 +310,7 @@ int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
   const bool is_device = fs::exists(flags.report, missing) && !fs::is_regular_file(flags.report, missing);
   if (!flags.report.empty() && !is_device && ending != ".html" && ending != ".htm")
     throw UsageError(fmt::format("--report takes a file that ends in .html; \"{}\" does not", flags.report));
+  if (flags.max_pixels > 0) set_most_pixels(flags.max_pixels);
   check_kept(files_of(flags), flags.reads);
   check_replaced(files_of(flags), flags.force);
   if (flags.checked && !is_watching()) warn(flags, "what nodes read is not watched: " + why_not_watching());

@@ -36,6 +36,7 @@ struct RunFlags {
   std::string sandbox;
   std::vector<std::string> values{};  ///< NAME=VALUE of the command line
   std::vector<std::string> files{};   ///< more files that it names
+  int64_t max_pixels = 0;
   std::string progress = "auto";
   std::vector<WrittenFile> writes{};              ///< besides report and trace
   std::vector<KeptFile> reads{};                  ///< besides the graph and the files of its nodes

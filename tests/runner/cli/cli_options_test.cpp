@@ -180,3 +180,16 @@ TEST_CASE("a file beyond the limit of the system is a failure, not the end of th
   CHECK_MESSAGE(run.err.find("File too large") != std::string::npos, run.err);
   CHECK_FALSE(fs::exists(w.path / "out/noise.png"));
 }
+
+TEST_CASE("images of more pixels than are allowed are refused before anything runs") {
+  const Workplace w;
+  const ProgramRun few = w.run({"run", "soft.json", "--max-pixels", "767"});
+  CHECK(few.code == 2);
+  CHECK_MESSAGE(
+      few.err.find("its header says 32x24, 768 pixels; --max-pixels allows 767. Scale it down first, or allow "
+                   "it with --max-pixels 768") != std::string::npos,
+      few.err);
+  CHECK_FALSE(fs::exists(w.path / "out"));
+  CHECK(w.run({"run", "soft.json", "--max-pixels", "768"}).code == 0);
+  CHECK(w.run({"run", "soft.json", "--threads", "1024"}).code == 0);
+}
