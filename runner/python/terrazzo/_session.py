@@ -170,7 +170,7 @@ class Session:
         self.close()
 
     def close(self) -> None:
-        """Closes the cache. Values stay valid; runs that are under way end first."""
+        """Closes the cache. Values stay valid; runs that are under way go on, and the last of them closes it."""
         self._session.close()
 
     def cancel(self) -> None:
