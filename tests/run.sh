@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 examples/packages.sh doctest-dev python3-jsonschema dpkg-dev pybind11-dev python3-dev python3-numpy
-cmake --preset release -DTERRAZZO_TESTS=ON
+cmake --preset release -DTERRAZZO_TESTS=ON -DTERRAZZO_PYTHON=ON
 cmake --build build
 log=build/Testing/Temporary/LastTest.log
 rm -f "$log"

@@ -97,7 +97,7 @@ py::dict as_dict(const RunResult& result) {
   return out;
 }
 
-/// A session that may be closed while runs are under way: they end first.
+/// A session that may be closed while runs are under way: the last of them closes the cache.
 class SessionHandle {
  public:
   SessionHandle(std::filesystem::path cache, bool use_cache, int threads, uint64_t memory) {
@@ -150,8 +150,9 @@ class SessionHandle {
   }
   std::vector<std::string> take_warnings() { return open()->take_warnings(); }
   void close() {
+    std::shared_ptr<Session> last = std::move(session_);
     const py::gil_scoped_release free;
-    session_.reset();
+    last.reset();
   }
   bool is_closed() const { return !session_; }
 

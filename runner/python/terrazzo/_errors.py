@@ -60,6 +60,10 @@ class RunError(Error):
         self.failures: list[Failure] = list(failures)
         self.result = result
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """To another process goes all but the values."""
+        return RunError, (str(self), self.failures)
+
 
 class Cancelled(Error):
     """The run was cancelled: by Session.cancel, or by a progress function or a node that raised this."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, Union
 
 from . import _terrazzo
-from ._errors import Cancelled, Failure, RunError, UnknownName
+from ._errors import Cancelled, Failure, GraphError, RunError, UnknownName
 from ._graph import Graph, PathLike, Value, _checked, _unknown, _with
 from ._nodes import _cause_of
 
@@ -170,7 +170,7 @@ class Session:
         self.close()
 
     def close(self) -> None:
-        """Closes the cache. Values stay valid; runs that are under way end first."""
+        """Closes the cache. Values stay valid; runs that are under way go on, and the last of them closes it."""
         self._session.close()
 
     def cancel(self) -> None:
@@ -229,8 +229,17 @@ class Session:
         all_values = [{**row, **c} for row in rows for c in combinations]
         graphs = [_with(graph, v) for v in all_values]
         for g in graphs:
-            _checked(g, ())
+            _check_but_unset(g)
         return (Variation(self, g, v, progress) for g, v in zip(graphs, all_values))
+
+
+def _check_but_unset(graph: Graph) -> None:
+    """What must still be set may not be needed for what will be asked for."""
+    try:
+        _checked(graph, ())
+    except GraphError as error:
+        if any(p.code != "unset" for p in error.problems):
+            raise
 
 
 def _shown(value: Any) -> str:

@@ -5,6 +5,7 @@ import threading
 import time
 import unittest
 
+import numpy as np
 from support import LONG, Case
 
 import terrazzo as tz
@@ -24,6 +25,17 @@ except KeyboardInterrupt:
 s.run(g, "surface")
 print("goes on", flush=True)
 """
+
+
+#: Its pixels are computed when they are read, which takes a while.
+LAZY = """{
+  "terrazzo": 1,
+  "inputs": {"height": {"type": "image"}},
+  "nodes": {
+    "soft":   {"type": "blur", "image": "@height", "radius": 60},
+    "softer": {"type": "blur", "image": "@soft", "radius": 60}
+  }
+}"""
 
 
 def limit():
@@ -57,6 +69,21 @@ class InterruptTest(Case):
         with self.assertRaises(KeyboardInterrupt):
             self.session().run(tz.Graph.loads(LONG))
         self.assertLess(time.monotonic() - pressed[0], limit())
+
+    def test_control_c_while_pixels_are_computed(self):
+        g = tz.Graph.loads(LAZY).give("height", tz.Image.from_numpy(np.zeros((3000, 3000)), "height"))
+        image = self.session(cache=False).run(g, "softer")["softer"]
+        pressed = []
+
+        def press():
+            pressed.append(time.monotonic())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        threading.Timer(0.2, press).start()
+        with self.assertRaises(KeyboardInterrupt):
+            image.numpy()
+        self.assertLess(time.monotonic() - pressed[0], limit())
+        self.assertEqual(image.numpy().shape, (3000, 3000))
 
     def test_a_session_cancels_its_runs(self):
         s = self.session()

@@ -1,5 +1,6 @@
 import gc
 import pathlib
+import pickle
 import threading
 import tracemalloc
 import unittest
@@ -133,6 +134,63 @@ class RunTest(Case):
         with self.assertRaises(tz.Error) as raised:
             self.session().run(g, "height")
         self.assertIn("no_such_map", str(raised.exception))
+
+    def test_other_threads_go_on_during_a_run(self):
+        steps, over = [], threading.Event()
+
+        def count():
+            while not over.wait(0.005):
+                steps.append(None)
+
+        other = threading.Thread(target=count)
+        other.start()
+        g = tz.Graph.loads(UNWRITTEN)
+        g["surface"].size = (1024, 1024)
+        seconds = self.session().run(g, "surface").seconds
+        over.set()
+        other.join()
+        self.assertGreater(len(steps), min(10, seconds / 0.05))
+
+    def test_uv_maps_and_reports(self):
+        g = tz.Graph.loads(
+            """{"terrazzo": 1, "nodes": {
+              "surface": {"type": "pattern", "kind": "gravel", "size": [64, 64]},
+              "weighted": {"type": "weight", "material": "@surface"},
+              "space": {"type": "pca", "features": "@weighted"},
+              "index": {"type": "index", "appearance": "@space"},
+              "layout": {"type": "synthesize", "index": "@index", "size": [80, 48], "quality": "draft"},
+              "result": {"type": "resolve_uv", "uv": "@layout", "material": "@surface", "join": 0},
+              "figures": {"type": "compare", "exemplar": "@surface", "output": "@result", "uv": "@layout"}
+            }}"""
+        )
+        s = self.session()
+        r = s.run(g, ["surface", "layout", "result", "figures", "index"])
+        uv, xy = r["layout"], r["layout"].numpy()
+        self.assertEqual((uv.size, uv.exemplar, xy.shape, xy.dtype), ((80, 48), (64, 64), (48, 80, 2), np.uint16))
+        self.assertFalse(xy.flags.writeable)
+        exemplar, made = r["surface"]["height"].numpy(), r["result"]["height"].numpy()
+        self.assertTrue(np.array_equal(made, exemplar[xy[..., 1], xy[..., 0]]))
+        report = r["figures.report"]
+        self.assertIsInstance(report.figures["swd"], float)
+        self.assertTrue(all(isinstance(p, tz.Image) for p in report.pictures.values()))
+        self.assertEqual(r["index"].type, "index")
+        self.assertEqual([f.name for f in tz.export(uv, "uv.exr", session=s)], ["uv.exr"])
+        for node in ("layout", "index", "surface"):
+            self.assertEqual(s.run(g.copy().give(node, r[node]), node)[node].digest, r[node].digest)
+
+    def test_failures_go_to_other_processes(self):
+        error = tz.RunError("what", [tz.Failure("node", "what")], object)
+        again = pickle.loads(pickle.dumps(error))
+        self.assertEqual((str(again), again.failures, again.result), ("what", error.failures, None))
+        problem = tz.Problem("m", "/p", 1, 2, "c", "n", "f")
+        self.assertEqual(pickle.loads(pickle.dumps(tz.GraphError("m", [problem]))).problems, [problem])
+
+    def test_sweeps_leave_unset_what_they_do_not_need(self):
+        s, g = self.session(), tz.Graph.loads(SMALL.replace(', "default": "out"', ""))
+        for v in s.sweep(g, seed=[1]):
+            self.assertEqual(v["soft"].width, 64)
+            self.assertEqual([f.name for f in v.export("out/{seed}", "soft")], ["height.png"])
+            self.assertRaises(tz.GraphError, v.run)
 
     def test_sweeps(self):
         s, g = self.session(), self.small()
