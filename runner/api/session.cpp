@@ -56,7 +56,7 @@ Plan Session::plan(const CheckedJob& job, const RunRequest& request) {
 
 RunResult Session::run(const CheckedJob& job, const RunRequest& request) {
   std::optional<History> history = history_of(job, cache_.get());
-  const RunResult result = run_graph(job.graph(), {.targets = targets_of(job, request),
+  RunResult result = run_graph(job.graph(), {.targets = targets_of(job, request),
                                                    .cache = cache_.get(),
                                                    .history = history ? &*history : nullptr,
                                                    .threads = options_.threads,
