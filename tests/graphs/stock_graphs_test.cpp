@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 std::vector<fs::path> graphs_in(const std::string& folder) {
   std::vector<fs::path> out;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(TERRAZZO_SOURCE_DIR) / folder))
-    if (entry.path().extension() == ".json") out.push_back(entry.path());
+    if (entry.path().extension() == ".json" && entry.path().stem().extension() != ".schema")
+      out.push_back(entry.path());
   std::sort(out.begin(), out.end());
   return out;
 }
