@@ -57,12 +57,12 @@ Plan Session::plan(const CheckedJob& job, const RunRequest& request) {
 RunResult Session::run(const CheckedJob& job, const RunRequest& request) {
   std::optional<History> history = history_of(job, cache_.get());
   RunResult result = run_graph(job.graph(), {.targets = targets_of(job, request),
-                                                   .cache = cache_.get(),
-                                                   .history = history ? &*history : nullptr,
-                                                   .threads = options_.threads,
-                                                   .memory = options_.memory,
-                                                   .cancelled = request.cancelled,
-                                                   .observer = request.observer});
+                                             .cache = cache_.get(),
+                                             .history = history ? &*history : nullptr,
+                                             .threads = options_.threads,
+                                             .memory = options_.memory,
+                                             .cancelled = request.cancelled,
+                                             .observer = request.observer});
   if (cache_ && result.count(StageOutcome::Kind::run) > 0) collect_at_times();
   return result;
 }
