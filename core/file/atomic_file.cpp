@@ -107,7 +107,7 @@ std::string too_long(const fs::path& there, const fs::path& path) {
 
 std::string why_not_writable(const fs::path& folder, const std::string& name) {
   fs::path there = folder.empty() ? fs::path(".") : folder;
-  if (const std::string trouble = too_long(existing_above(there), folder / name); !trouble.empty()) return trouble;
+  if (std::string trouble = too_long(existing_above(there), folder / name); !trouble.empty()) return trouble;
   std::error_code failure;
   fs::file_status status = fs::status(there, failure);
   const bool is_there = fs::exists(status);

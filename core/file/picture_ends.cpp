@@ -39,6 +39,11 @@ class Bytes {
   uint64_t size_;
 };
 
+/// What stands before the first byte that is zero.
+std::string until_zero(const std::string& bytes) {
+  return bytes.substr(0, bytes.find('\0'));
+}
+
 struct ExrAttribute {
   uint64_t at = 0, bytes = 0;
 };
@@ -49,13 +54,13 @@ std::map<std::string, ExrAttribute> exr_attributes(const Bytes& file, uint64_t& 
   std::map<std::string, ExrAttribute> out;
   uint64_t at = 8;
   for (size_t i = 0; i < most_attributes && at < file.size(); i++) {
-    const std::string name = file.text(at, longest_name).c_str();
+    const std::string name = until_zero(file.text(at, longest_name));
     at += name.size() + 1;
     if (name.empty()) {
       end = at;
       return out;
     }
-    at += std::string(file.text(at, longest_name).c_str()).size() + 1;
+    at += until_zero(file.text(at, longest_name)).size() + 1;
     const uint64_t bytes = file.number(at, 4);
     out[name] = {at + 4, bytes};
     at += 4 + bytes;

@@ -215,7 +215,7 @@ std::string RecognisedMap::place() const {
 }
 
 std::vector<RecognisedMap> recognise_map(const MapFile& file, Stem* stem) {
-  const std::vector<RecognisedMap> named = recognise_name(file, stem);
+  std::vector<RecognisedMap> named = recognise_name(file, stem);
   const std::optional<FileDescription> said = file_description(file.description);
   if (!said || !file.layer.empty() || needs_more_channels(*said, file.channels)) return named;
   const bool is_map_name = names_a_map(file.name, said->maps.front().semantic);

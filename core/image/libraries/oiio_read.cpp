@@ -13,7 +13,7 @@ namespace terrazzo {
 
 namespace {
 
-Depth depth_of(OIIO::TypeDesc type) {
+Depth depth_of(const OIIO::TypeDesc& type) {
   if (type == OIIO::TypeDesc::HALF) return Depth::f16;
   if (type == OIIO::TypeDesc::UINT8) return Depth::u8;
   if (type == OIIO::TypeDesc::UINT16) return Depth::u16;
@@ -105,7 +105,7 @@ class OiioDecoder final : public ImageDecoder {
   }
 
  private:
-  void read_channels(int first, int count, OIIO::TypeDesc type, void* out) {
+  void read_channels(int first, int count, const OIIO::TypeDesc& type, void* out) {
     in_->geterror();  // what opening has left
     const bool done = in_->read_image(layer_->part, 0, first, first + count, type, out);
     // What decoders make up for damaged data they tell by an error alone.
