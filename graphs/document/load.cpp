@@ -9,6 +9,7 @@
 #include "core/base/suggest.h"
 #include "graphs/document/convert.h"
 #include "graphs/document/forecasts.h"
+#include "graphs/document/given_inputs.h"
 #include "graphs/document/level.h"
 #include "graphs/document/read_document.h"
 #include "graphs/document/unused.h"
@@ -47,7 +48,7 @@ class Loader {
       if (std::ranges::find(document_keys(), m.name) == document_keys().end())
         problems_.push_back(
             {m.place, "", fmt::format("unknown key {}{}", in_quotes(m.name), suggestion(m.name, document_keys()))});
-    give_inputs(options.inputs);
+    given_ = give_inputs(document_, options.inputs);
   }
 
   void finish() {
@@ -135,21 +136,6 @@ class Loader {
   }
 
  private:
-  /// Inputs whose values are given become nodes.
-  void give_inputs(const std::map<std::string, const NodeType*>& given) {
-    JsonValue *inputs = document_.find("inputs"), *nodes = document_.find("nodes");
-    for (const auto& [name, type] : given) {
-      if (!inputs || !inputs->find(name) || !nodes || !nodes->is_object()) continue;
-      std::erase_if(inputs->members, [&](const JsonMember& m) { return m.name == name; });
-      JsonValue node = JsonValue::empty_object();
-      node.set("type", JsonValue::of(type->name));
-      nodes->set(name, std::move(node));
-      given_.push_back(name);
-    }
-    if (inputs && inputs->members.empty())
-      std::erase_if(document_.members, [](const JsonMember& m) { return m.name == "inputs"; });
-  }
-
   /// Those of the command line count most, then settings files, then presets.
   std::vector<Override> overrides_from(const std::vector<Preset>& presets, const std::vector<std::string>& texts,
                                        const LoadOptions& options) {
