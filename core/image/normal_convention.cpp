@@ -160,7 +160,9 @@ NormalMisfit misfit_with_height(const Image& normal, const Image& height) {
   const double strong = tuning->strong;
   NormalMisfit best;
   for (const NormalMisfit::Kind kind : {none, turned_90, turned_180, turned_270, mirrored_x, mirrored_y}) {
-    if ((kind == turned_90 || kind == turned_270) && normal.width() != normal.height()) continue;
+    // The grid is not square either where the height has another shape than the normals.
+    const bool is_square = normal.width() == normal.height() && size.width == size.height;
+    if ((kind == turned_90 || kind == turned_270) && !is_square) continue;
     const SlopeFit fit = fit_of(n, h, kind);
     const double straight = std::min(std::abs(fit.red_x), std::abs(fit.green_y));
     const double crossed = std::min(std::abs(fit.red_y), std::abs(fit.green_x));
