@@ -36,7 +36,7 @@ open() {
   local options=(--window-size="$width,900" "$@" --dump-dom "file://$PWD/$page")
   browse "${options[@]}" || browse "${options[@]}" || complain "$page: the browser failed"
   body=$(grep -o '<body[^>]*>' dom || true)
-  console=$(grep ':CONSOLE' log || true)
+  console=$(grep ':CONSOLE' log | grep -v 'GL Driver Message (OpenGL, Performance' || true)
 }
 
 # says NAME VALUE: the page's data attribute has that value.
