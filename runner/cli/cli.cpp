@@ -255,6 +255,7 @@ int obey(int argc, const char* const* argv, ProgressMode mode) {
   add_node_commands(app, chosen);
   add_cache_command(app, chosen);
   add_library_command(app, chosen);
+  add_farm_commands(app, chosen);
   add_compare_command(app, chosen);
   add_shell_commands(app, chosen, "terrazzo " TERRAZZO_VERSION);
   add_help_command(app, chosen, mode);

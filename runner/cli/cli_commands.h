@@ -57,6 +57,7 @@ void add_node_commands(CLI::App& app, Chosen& chosen);
 void add_cache_command(CLI::App& app, Chosen& chosen);
 void add_compare_command(CLI::App& app, Chosen& chosen);
 void add_library_command(CLI::App& app, Chosen& chosen);
+void add_farm_commands(CLI::App& app, Chosen& chosen);
 /// Manual pages and completions, made from all commands; `app` must live as long as `chosen`.
 void add_shell_commands(CLI::App& app, Chosen& chosen, const std::string& version);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -332,16 +331,9 @@ int run_sweep(const GraphFlags& values, const SweepFlags& asked, const RunFlags&
   flags.after = [&](const RunResult& result) { sweep.report(result); };
   return run_with_flags(
       [&] {
-        std::set<std::string> warned;
-        Graph graph = sweep.load([&](const std::vector<std::string>& overrides) {
-          GraphFlags variation = values;
-          variation.set.insert(variation.set.end(), overrides.begin(), overrides.end());
-          LoadedGraph loaded = variation.load(
-              {.only = given.only, .look_ahead = [&](const auto& nodes) { return look_ahead(given, nodes); }});
-          for (const Problem& w : loaded.warnings)
-            if (const std::string text = describe(values.graph, w); warned.insert(text).second) warn(flags, text);
-          return std::move(loaded.graph);
-        });
+        Graph graph = sweep.load(
+            values, {.only = given.only, .look_ahead = [&](const auto& nodes) { return look_ahead(given, nodes); }},
+            [&](const std::string& text) { warn(flags, text); });
         flags.keep = sweep.kept();
         flags.only = sweep.names_of(given.only);
         if (!flags.only.empty()) flags.only.insert(flags.only.end(), sweep.targets().begin(), sweep.targets().end());

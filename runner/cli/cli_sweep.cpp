@@ -54,7 +54,7 @@ std::string first_of(const std::string& type, const Graph& graph) {
 
 }  // namespace
 
-void add_sweep_flags(CLI::App& command, SweepFlags& flags) {
+void add_variation_flags(CLI::App& command, SweepFlags& flags) {
   command
       .add_option("--sweep", flags.sweeps,
                   "Runs the graph with each of several values: seed=1..64, scale=0..1:0.25, size=512,1024; of several "
@@ -67,6 +67,10 @@ void add_sweep_flags(CLI::App& command, SweepFlags& flags) {
                   "Runs the graph with each row of a table: a CSV file whose first line has the names, or a JSON "
                   "list of objects")
       ->type_name("FILE");
+}
+
+void add_sweep_flags(CLI::App& command, SweepFlags& flags) {
+  add_variation_flags(command, flags);
   command
       .add_option("--sheet", flags.sheet, "Of a sweep or table: writes a contact sheet, a picture or a page (.html)")
       ->type_name("FILE");
@@ -115,6 +119,19 @@ Graph Sweep::load(const std::function<Graph(const std::vector<std::string>&)>& l
   if (!flags_.figures.empty() || !flags_.best.empty()) add_comparisons(graphs.front(), nodes, added);
   std::ranges::move(added, std::back_inserter(all.graph.nodes));
   return std::move(all.graph);
+}
+
+Graph Sweep::load(const GraphFlags& values, const LoadOptions& options,
+                  const std::function<void(const std::string&)>& warn) {
+  std::set<std::string> warned;
+  return load([&](const std::vector<std::string>& overrides) {
+    GraphFlags variation = values;
+    variation.set.insert(variation.set.end(), overrides.begin(), overrides.end());
+    LoadedGraph loaded = variation.load(options);
+    for (const Problem& w : loaded.warnings)
+      if (const std::string text = describe(values.graph, w); warned.insert(text).second) warn(text);
+    return std::move(loaded.graph);
+  });
 }
 
 /// Variations must not write over one another's files. Sizes and materials in a path may tell them apart; the plan

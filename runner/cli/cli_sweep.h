@@ -7,6 +7,7 @@
 
 #include "core/node/report.h"
 #include "graphs/document/variations.h"
+#include "runner/cli/cli_graph.h"
 #include "runner/engine/schedule.h"
 
 namespace CLI {
@@ -23,6 +24,9 @@ struct SweepFlags {
   bool asked() const { return !sweeps.empty() || !table.empty(); }
 };
 
+/// --sweep and --table.
+void add_variation_flags(CLI::App& command, SweepFlags& flags);
+/// The same, and what to make of the results.
 void add_sweep_flags(CLI::App& command, SweepFlags& flags);
 
 /// Several variations of a graph, run as one: analyses and whatever else they share are made once.
@@ -34,6 +38,9 @@ class Sweep {
   /// Loads every variation by `load`, which gets its overrides, into one graph; adds what contact sheet and figures
   /// need. Throws GraphError, and UsageError if the graph has nothing to show or to compare.
   Graph load(const std::function<Graph(const std::vector<std::string>&)>& load);
+
+  /// The same for a graph and values of the command line; `warn` gets each warning once.
+  Graph load(const GraphFlags& values, const LoadOptions& options, const std::function<void(const std::string&)>& warn);
 
   /// What these nodes are called in the merged graph, in every variation; and what has to run and to be kept besides.
   std::vector<std::string> names_of(const std::vector<std::string>& nodes) const;

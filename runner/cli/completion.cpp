@@ -4,17 +4,12 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"
+#include "core/base/shell_words.h"
 #include "runner/cli/command_tree.h"
 
 namespace terrazzo {
 
 namespace {
-
-std::string shell_word(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 /// The first sentence: there is little room.
 std::string brief(const std::string& help) {

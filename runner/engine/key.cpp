@@ -16,12 +16,6 @@ namespace fs = std::filesystem;
 /// Raise it whenever keys are made differently.
 constexpr int key_scheme = 1;
 
-/// `file` relative to `path` if it is that path ("." then) or lies under it; else empty.
-fs::path place_under(const fs::path& path, const fs::path& file) {
-  const fs::path relative = file.lexically_normal().lexically_relative(path);
-  return relative.empty() || *relative.begin() == ".." ? fs::path() : relative;
-}
-
 Digest digest_of_param(const std::string& name, const ParamValue& value) {
   Hasher h;
   add_to(h, {{name, value}});
@@ -29,6 +23,11 @@ Digest digest_of_param(const std::string& name, const ParamValue& value) {
 }
 
 }  // namespace
+
+fs::path place_under(const fs::path& path, const fs::path& file) {
+  const fs::path relative = file.lexically_normal().lexically_relative(path);
+  return relative.empty() || *relative.begin() == ".." ? fs::path() : relative;
+}
 
 std::string shown_value(const ParamValue& value) {
   constexpr size_t longest = 48;

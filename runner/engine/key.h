@@ -26,6 +26,9 @@ using InputNames = std::map<std::string, std::vector<Digest>>;
 std::vector<Ingredient> ingredients_of(const GraphNode& node, const InputNames& inputs,
                                        const std::function<Digest(const std::filesystem::path&)>& file_digest);
 
+/// Where `file` lies below `path`: "." if it is that path; empty if it lies elsewhere.
+std::filesystem::path place_under(const std::filesystem::path& path, const std::filesystem::path& file);
+
 /// The key of a stage made of these ingredients.
 Digest key_of(const std::vector<Ingredient>& ingredients);
 

@@ -258,6 +258,7 @@ Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options, con
   decide_states(plan);
   if (history) add_what_is_known(plan, *history);
   for (Stage& s : plan.stages) s.expected_seconds = expected_seconds(s, history);
+  if (!options.look_ahead) return plan;
   if (std::vector<Problem> problems = preflight_problems(plan); !problems.empty())
     throw GraphError(graph.file.string(), std::move(problems));
   return plan;

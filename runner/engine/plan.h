@@ -53,8 +53,9 @@ struct Stage {
 };
 
 struct PlanOptions {
-  std::vector<std::string> only;  ///< the targets; empty: every sink, or without sinks every node that nothing reads
-  std::vector<std::string> keep;  ///< more targets, whose values are returned in memory
+  std::vector<std::string> only{};  ///< the targets; empty: every sink, or without sinks every node that nothing reads
+  std::vector<std::string> keep{};  ///< more targets, whose values are returned in memory
+  bool look_ahead = true;           ///< false: what is certain to fail is no error yet
 };
 
 /// What a run will do, and why. The graph must outlive it.

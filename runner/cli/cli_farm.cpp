@@ -1,0 +1,46 @@
+#include "runner/cli/cli_farm.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace terrazzo {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr UnitState all_states[] = {UnitState::done,    UnitState::unneeded, UnitState::running,
+                                    UnitState::waiting, UnitState::failed,   UnitState::lost};
+
+}  // namespace
+
+std::string state_line(const JobState& state) {
+  std::string line = fmt::format("{} of {} done", state.count(UnitState::done), state.units.size());
+  for (const UnitState s : all_states)
+    if (const int count = state.count(s); s != UnitState::done && count > 0)
+      line += fmt::format(", {} {}", count, name_of(s));
+  return line;
+}
+
+std::string state_json(const std::filesystem::path& folder, const FarmJob& job, const JobState& state) {
+  Json counts = Json::object(), units = Json::array();
+  for (const UnitState s : all_states) counts[std::string(name_of(s))] = state.count(s);
+  for (size_t i = 0; i < job.units.size(); i++) {
+    const Unit& u = job.units[i];
+    Json unit = {{"name", u.name}, {"state", name_of(state.units[i])}, {"needs", u.needs}, {"nodes", u.nodes}};
+    if (const auto task = state.tasks.find(u.name); task != state.tasks.end()) unit["task"] = task->second.id;
+    if (const auto failure = state.failures.find(u.name); failure != state.failures.end())
+      unit["message"] = failure->second;
+    units.push_back(std::move(unit));
+  }
+  const Json json = {{"job", job.name},
+                     {"graph", job.graph},
+                     {"folder", folder.string()},
+                     {"complete", state.is_complete()},
+                     {"moving", state.is_moving()},
+                     {"counts", counts},
+                     {"units", units}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace terrazzo

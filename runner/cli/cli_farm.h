@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "runner/cli/cli_commands.h"
+#include "runner/farm/job_state.h"
+
+/// What the commands for farms share.
+namespace terrazzo {
+
+void add_submit_command(CLI::App& app, Chosen& chosen);
+void add_task_command(CLI::App& app, Chosen& chosen);
+
+/// "41 of 65 done, 4 running, 20 waiting".
+std::string state_line(const JobState& state);
+/// The same and all units, as compact JSON.
+std::string state_json(const std::filesystem::path& folder, const FarmJob& job, const JobState& state);
+
+}  // namespace terrazzo

@@ -1,0 +1,324 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/text.h"
+#include "core/file/atomic_file.h"
+#include "graphs/document/load.h"
+#include "runner/api/plugin.h"
+#include "runner/cli/cli_commands.h"
+#include "runner/cli/cli_farm.h"
+#include "runner/cli/cli_graph.h"
+#include "runner/cli/cli_sweep.h"
+#include "runner/cli/console.h"
+#include "runner/cli/signals.h"
+#include "runner/engine/history.h"
+#include "runner/engine/preflight.h"
+#include "runner/farm/openjd.h"
+#include "runner/farm/submission.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SubmitFlags : GraphFlags {
+  SweepFlags variations;
+  std::vector<std::string> only;
+  std::string cache, openjd, memory, program;
+  bool print = false, status = false, cancel = false, wait = false, json = false;
+  int retries = 2;
+  ArrayOptions arrays;
+  SlurmOptions slurm;
+};
+
+void tell(const std::string& text) {
+  say("{}\n", text);
+}
+
+Graph graph_of(const SubmitFlags& flags, std::vector<std::string>& only) {
+  const LoadOptions options{.only = flags.only, .look_ahead = preflight_of_nodes};
+  only = flags.only;
+  if (!flags.variations.asked()) {
+    LoadedGraph loaded = flags.load(options);
+    for (const Problem& w : loaded.warnings) tell("warning: " + describe(flags.graph, w));
+    return std::move(loaded.graph);
+  }
+  Sweep sweep(flags.variations);
+  Graph graph = sweep.load(flags, options, [](const std::string& text) { tell("warning: " + text); });
+  only = sweep.names_of(flags.only);
+  return graph;
+}
+
+/// The job that the flags stand for, not written yet.
+PreparedJob prepared_job(const SubmitFlags& flags, Cache& cache) {
+  std::vector<std::string> only;
+  const Graph graph = graph_of(flags, only);
+  const History history(cache.folder(), graph.file);
+  const PlanOptions targets{.only = nodes_meant(graph, only)};
+  const Plan plan = as_usage([&] { return make_plan(graph, &cache, targets, &history); });
+  std::vector<std::string> plugins;
+  for (const LoadedPlugin& p : loaded_plugins()) plugins.push_back(fs::absolute(p.file).string());
+  return prepared(plan, cache, plugins);
+}
+
+/// "1.5 GiB", "12 s"; what Slurm will be asked for.
+Table table_of(const std::vector<TaskArray>& arrays, const std::vector<std::string>& ids) {
+  Table table = {{"array", "tasks", "cores", "memory", "after", "expected"}};
+  if (!ids.empty()) table.front().push_back("batch job");
+  for (size_t i = 0; i < arrays.size(); i++) {
+    const TaskArray& a = arrays[i];
+    std::vector<std::string> needs;
+    for (const size_t n : a.needs) needs.push_back(std::to_string(n + 1));
+    table.push_back({fmt::format("{} {}", i + 1, a.label), std::to_string(a.tasks.size()), std::to_string(a.cores),
+                     shown_bytes(a.memory), fmt::format("{}", fmt::join(needs, ", ")),
+                     a.seconds > 0 ? fmt::format("{:.0f} s", std::max(1.0, a.seconds)) : ""});
+    if (!ids.empty()) table.back().push_back(ids[i]);
+  }
+  return table;
+}
+
+/// The arrays that would be handed over, if nothing is in the queue.
+std::vector<TaskArray> arrays_of_job(const PreparedJob& prepared, const SubmitFlags& flags, const Slurm& slurm) {
+  ArrayOptions options = flags.arrays;
+  options.max_tasks = slurm.max_array_size();
+  return arrays_of(prepared.job.units, prepared.due, FarmFolder::of_job(prepared.folder).costs(), {}, options);
+}
+
+int print_scripts(const PreparedJob& prepared, const SubmitFlags& flags, const Slurm& slurm) {
+  const std::vector<TaskArray> arrays = arrays_of_job(prepared, flags, slurm);
+  for (size_t i = 0; i < arrays.size(); i++) {
+    std::vector<std::string> after;
+    for (const size_t n : arrays[i].needs) after.push_back(fmt::format("<job of array {}>", n + 1));
+    answer("# array {}\n{}\n", i + 1, slurm_script(prepared.job, arrays[i], prepared.folder, after, flags.slurm));
+  }
+  if (arrays.empty()) answer("nothing to do: all of it has been made\n");
+  return exit_done;
+}
+
+int write_openjd(const PreparedJob& prepared, const SubmitFlags& flags, Cache& cache, const Slurm& slurm) {
+  const std::vector<TaskArray> arrays = arrays_of_job(prepared, flags, slurm);
+  if (arrays.empty()) {
+    answer("nothing to do: all of it has been made\n");
+    return exit_done;
+  }
+  write_job(prepared, cache);
+  for (const TaskArray& a : arrays) write_array(prepared.folder, a);
+  write_whole_file(flags.openjd, openjd_template(prepared.job, arrays, prepared.folder, flags.slurm.program));
+  tell("wrote " + flags.openjd);
+  return exit_done;
+}
+
+int code_of(const JobState& state) {
+  return state.is_complete() || state.is_moving() ? exit_done : exit_failed;
+}
+
+void show(const fs::path& folder, const FarmJob& job, const JobState& state, bool as_json) {
+  if (as_json) {
+    answer("{}\n", state_json(folder, job, state));
+    return;
+  }
+  answer("job     {}\ngraph   {}\nfolder  {}\nunits   {}\n", job.name, job.graph, folder.string(), state_line(state));
+  Table table = {{"unit", "state", "task", "where or why"}};
+  for (size_t i = 0; i < job.units.size(); i++) {
+    const std::string& name = job.units[i].name;
+    if (state.units[i] == UnitState::done || state.units[i] == UnitState::unneeded) continue;
+    const auto task = state.tasks.find(name);
+    const auto failure = state.failures.find(name);
+    table.push_back({name, std::string(name_of(state.units[i])), task == state.tasks.end() ? "" : task->second.id,
+                     failure != state.failures.end() ? failure->second
+                     : task == state.tasks.end()     ? ""
+                                                     : task->second.reason});
+  }
+  if (table.size() > 1) answer("\n{}", aligned(table));
+  if (!state.is_moving() && !state.is_complete())
+    answer("\nlogs are in {}; submit the same again to make what is missing\n", (folder / "logs").string());
+}
+
+int wait_until_done(const fs::path& folder, const FarmJob& job, const SubmitFlags& flags, Cache& cache,
+                    const Slurm& slurm, const std::atomic<bool>& cancelled) {
+  std::string line;
+  const auto looked = [&](const JobState& state) {
+    if (const std::string now = state_line(state); now != line) tell(line = now);
+  };
+  try {
+    const JobState state =
+        wait_for(folder, job, cache, slurm, [&] { hand_over(folder, job, cache, slurm, flags.arrays, flags.slurm); },
+                 {.retries = flags.retries, .cancelled = &cancelled, .looked = looked, .told = tell});
+    if (state.is_complete()) {
+      tell("done: " + job.name);
+      return exit_done;
+    }
+    show(folder, job, state, flags.json);
+    return exit_failed;
+  } catch (const Cancelled&) {
+    tell(fmt::format("the job goes on; `terrazzo submit --wait {0}` waits again, `--cancel` ends it", job.name));
+    return exit_cancelled;
+  }
+}
+
+int submit_graph(const PreparedJob& prepared, const SubmitFlags& flags, Cache& cache, const Slurm& slurm,
+                 const std::atomic<bool>& cancelled) {
+  if (std::ranges::none_of(prepared.due, [](bool is_due) { return is_due; })) {
+    answer("nothing to do: all of it has been made\n");
+    return exit_done;
+  }
+  write_job(prepared, cache);
+  const FarmJob job = read_farm_job(prepared.folder);
+  const std::vector<HandedOver> handed = hand_over(prepared.folder, job, cache, slurm, flags.arrays, flags.slurm);
+  answer("job {}\n", job.name);
+  if (handed.empty()) {
+    answer("handed over before; nothing was added\n");
+  } else {
+    std::vector<TaskArray> arrays;
+    std::vector<std::string> ids;
+    for (const HandedOver& h : handed) {
+      arrays.push_back(h.array);
+      ids.push_back(h.id);
+    }
+    answer("{}", aligned(table_of(arrays, ids)));
+  }
+  return flags.wait ? wait_until_done(prepared.folder, job, flags, cache, slurm, cancelled) : exit_done;
+}
+
+int list_jobs(const FarmFolder& farm, Cache& cache, const Slurm& slurm) {
+  Table table = {{"job", "units"}};
+  for (const std::string& name : farm.job_names()) {
+    const FarmJob job = read_farm_job(farm.jobs() / name);
+    table.push_back({name, state_line(look_at_job(farm.jobs() / name, job, cache, slurm.queued(name)))});
+  }
+  if (table.size() == 1)
+    answer("no jobs in {}\n", farm.root().string());
+  else
+    answer("{}", aligned(table));
+  return exit_done;
+}
+
+int work_on_job(const fs::path& folder, const SubmitFlags& flags, Cache& cache, const Slurm& slurm,
+                const std::atomic<bool>& cancelled) {
+  const FarmJob job = read_farm_job(folder);
+  if (flags.cancel) {
+    slurm.cancel(job.name);
+    answer("cancelled {}; what has been made stays in the cache\n", job.name);
+    return exit_done;
+  }
+  if (flags.wait) return wait_until_done(folder, job, flags, cache, slurm, cancelled);
+  const JobState state = look_at_job(folder, job, cache, slurm.queued(job.name));
+  show(folder, job, state, flags.json);
+  return code_of(state);
+}
+
+int submit(SubmitFlags& flags) {
+  const CancelOnSignal signals;
+  Cache cache(as_usage([&] { return flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache); }));
+  const Slurm slurm(tell, &signals.flag());
+  const FarmFolder farm(cache.folder());
+  if (!flags.memory.empty()) flags.arrays.memory = parse_bytes(flags.memory, "--memory");
+  flags.slurm.program = flags.program.empty() ? fs::read_symlink("/proc/self/exe") : fs::path(flags.program);
+  std::error_code missing;
+  const bool names_a_graph = fs::is_regular_file(flags.graph, missing);
+  const bool is_about_a_job = flags.status || flags.cancel || (flags.wait && !names_a_graph);
+  if (flags.graph.empty()) {
+    if (!flags.status) throw UsageError("which graph? `terrazzo submit GRAPH`; --status alone lists the jobs");
+    return list_jobs(farm, cache, slurm);
+  }
+  if (!is_about_a_job && !names_a_graph && flags.graph.find('.') == std::string::npos)
+    if (const auto names = farm.job_names(); std::ranges::find(names, flags.graph) != names.end())
+      throw UsageError(
+          fmt::format("\"{}\" is a job: add --status, --wait or --cancel; or submit its graph again", flags.graph));
+  if (is_about_a_job && !names_a_graph)
+    return work_on_job(as_usage([&] { return farm.find_job(flags.graph); }), flags, cache, slurm, signals.flag());
+  const PreparedJob job = prepared_job(flags, cache);
+  if (is_about_a_job) {
+    if (!fs::exists(job.folder / "job.json", missing))
+      throw UsageError(fmt::format("{} has not been submitted with these values", flags.graph));
+    return work_on_job(job.folder, flags, cache, slurm, signals.flag());
+  }
+  if (flags.print) return print_scripts(job, flags, slurm);
+  if (!flags.openjd.empty()) return write_openjd(job, flags, cache, slurm);
+  return submit_graph(job, flags, cache, slurm, signals.flag());
+}
+
+void add_choices(CLI::App& command, SubmitFlags& flags) {
+  CLI::Option* print =
+      command.add_flag("--print", flags.print, "Print the scripts that would be handed over; write and submit nothing");
+  CLI::Option* openjd = command.add_option(
+      "--openjd", flags.openjd, "Write an Open Job Description template instead, for Deadline Cloud and others");
+  openjd->type_name("FILE.json")->excludes(print);
+  CLI::Option* status =
+      command.add_flag("--status", flags.status, "Say how far a job is; without a name, list all jobs");
+  CLI::Option* cancel = command.add_flag("--cancel", flags.cancel, "End a job's tasks");
+  CLI::Option* wait = command.add_flag(
+      "--wait", flags.wait,
+      "Wait until the job is done; tasks that get lost are handed over again. Ctrl-C ends the waiting, not the job");
+  for (CLI::Option* o : {status, cancel, wait}) o->excludes(print)->excludes(openjd);
+  cancel->excludes(status)->excludes(wait);
+  command.add_flag("--json", flags.json, "With --status: for programs")->needs(status);
+  command.add_option("--retries", flags.retries, "With --wait: how often what got lost is handed over again")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
+}
+
+void add_demands(CLI::App& command, SubmitFlags& flags) {
+  command.add_option("--partition", flags.slurm.partition, "Slurm's partition")->type_name("NAME");
+  command.add_option("--account", flags.slurm.account, "Whom Slurm charges")->type_name("NAME");
+  command.add_option("--time", flags.slurm.time, "Slurm's time limit of a task, such as 2:00:00")->type_name("TIME");
+  command.add_option("--sbatch", flags.slurm.more, "A further option of sbatch, such as --sbatch=--nice=100")
+      ->type_name("OPTION")
+      ->take_all()
+      ->expected(1);
+  command
+      .add_option("--cores", flags.arrays.cores,
+                  "Cores of each task; if not given, as many as earlier ones of its kind have used")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--memory", flags.memory, "Memory of each task, such as 4G; if not given, likewise")
+      ->type_name("SIZE");
+  command
+      .add_option("--pack", flags.arrays.pack_seconds,
+                  "Short work is put into one task until it takes about this many seconds")
+      ->type_name("SECONDS")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--program", flags.program, "Where terrazzo is on the farm's machines, if not where it is here")
+      ->type_name("FILE");
+}
+
+}  // namespace
+
+void add_submit_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("submit", "Hands a graph to a farm: Slurm, or an Open Job Description");
+  const auto flags = std::make_shared<SubmitFlags>();
+  command->add_option("GRAPH", flags->graph, "The graph file; or a job, with --status, --wait or --cancel")
+      ->type_name("FILE.json");
+  add_value_flags(*command, *flags);
+  add_variation_flags(*command, flags->variations);
+  command->add_option("--only", flags->only, "Make only this node and what it needs; may be given several times")
+      ->type_name("NODE")
+      ->take_all()
+      ->expected(1);
+  command
+      ->add_option("--cache", flags->cache,
+                   "Folder of the cache, which all machines must share; jobs are kept in its folder farm")
+      ->type_name("DIR");
+  add_choices(*command, *flags);
+  add_demands(*command, *flags);
+  command->footer(
+      "Examples:\n"
+      "  terrazzo submit bricks.json --sweep seed=1..64 --set \"out=='/projects/bricks/' + seed\" --wait\n"
+      "  terrazzo submit bricks.json --print            the scripts, without Slurm\n"
+      "  terrazzo submit --status                       all jobs\n"
+      "  terrazzo submit bricks-1a2b --cancel           a job by the beginning of its name");
+  command->callback([&chosen, flags] { chosen = [flags] { return submit(*flags); }; });
+}
+
+void add_farm_commands(CLI::App& app, Chosen& chosen) {
+  add_submit_command(app, chosen);
+  add_task_command(app, chosen);
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,180 @@
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/prctl.h>
+
+#include "core/base/suggest.h"
+#include "core/file/atomic_file.h"
+#include "graphs/document/load.h"
+#include "runner/cli/cli_commands.h"
+#include "runner/cli/cli_farm.h"
+#include "runner/cli/console.h"
+#include "runner/cli/signals.h"
+#include "runner/farm/farm_folder.h"
+#include "runner/farm/supervisor.h"
+#include "runner/farm/unit_run.h"
+#include "runner/report/progress.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TaskFlags {
+  std::string job, array, cache, memory, stamp;
+  std::vector<std::string> units;
+  int index = 0, threads = 0;
+  bool list = false, in_process = false;
+
+  fs::path folder() const {
+    std::error_code missing;
+    const fs::path path(job);
+    if (fs::exists(path / "job.json", missing)) return fs::absolute(path);
+    return as_usage([&] { return FarmFolder(Cache::default_folder()).find_job(job); });
+  }
+  /// The job lies in the cache that it works with.
+  fs::path cache_of(const fs::path& folder) const {
+    return cache.empty() ? FarmFolder::of_job(folder).root().parent_path() : fs::path(cache);
+  }
+};
+
+using Json = nlohmann::ordered_json;
+
+/// What was made, by content alone: a task that is run again writes the same.
+void write_stamp(const fs::path& path, const Unit& unit, const UnitResult& result) {
+  Json made = Json::object();
+  for (const auto& [node, record] : result.made) {
+    Json outputs = Json::object(), files = Json::array();
+    for (const auto& [port, value] : record.outputs) outputs[port] = value.hex();
+    for (const OutputFile& f : record.files)
+      files.push_back({{"path", f.path.string()}, {"bytes", f.bytes}, {"digest", f.content.hex()}});
+    made[node] = {{"outputs", outputs}, {"files", files}};
+  }
+  write_whole_file(path, Json{{"unit", unit.name}, {"made", made}}.dump(1) + "\n");
+}
+
+/// One unit in this process, which another looks after.
+int run_here(const TaskFlags& flags, const fs::path& folder, const FarmJob& job) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would look after it
+  const Unit& unit = *job.find(flags.units.front());
+  const CancelOnSignal signals;
+  const std::unique_ptr<Progress> progress = make_progress(ProgressMode::plain, std::cerr, false);
+  UnitRunOptions options{.cache = flags.cache_of(folder), .threads = flags.threads};
+  options.memory = flags.memory.empty() ? 0 : parse_bytes(flags.memory, "--memory");
+  options.cancelled = &signals.flag();
+  options.observer = progress.get();
+  try {
+    const UnitResult result = run_unit(folder, job, unit, options);
+    progress->closed(result.run);
+    if (result.run.cancelled) return exit_cancelled;
+    if (!result.run.ok()) throw Error(result.run.failures.front().message);
+    if (!flags.stamp.empty()) write_stamp(flags.stamp, unit, result);
+    return exit_done;
+  } catch (const Error& e) {
+    write_failure(folder, unit.name, {e.what(), 0});
+    throw;
+  }
+}
+
+/// The program and its options, for a process that makes one unit.
+std::vector<std::string> words_for_unit(const TaskFlags& flags, const fs::path& cache, const FarmJob& job) {
+  std::vector<std::string> words = {fs::read_symlink("/proc/self/exe").string()};
+  for (const std::string& p : job.plugins) words.insert(words.end(), {"--plugin", p});
+  words.insert(words.end(), {"task", "--in-process", "--cache", cache.string()});
+  if (flags.threads > 0) words.insert(words.end(), {"--threads", std::to_string(flags.threads)});
+  if (!flags.memory.empty()) words.insert(words.end(), {"--memory", flags.memory});
+  if (!flags.stamp.empty()) words.insert(words.end(), {"--stamp", flags.stamp});
+  return words;
+}
+
+/// What Slurm gives a task, in bytes; 0 if that is not known.
+uint64_t memory_given() {
+  const char* megabytes = std::getenv("SLURM_MEM_PER_NODE");
+  return megabytes ? std::strtoull(megabytes, nullptr, 10) << 20 : 0;
+}
+
+int list_units(const fs::path& folder, const FarmJob& job, const fs::path& cache_folder) {
+  Cache cache(cache_folder);
+  const LoadedGraph loaded = load_graph(folder / "graph.json");
+  const Plan plan = make_plan(loaded.graph, &cache, {.only = job.targets, .look_ahead = false});
+  answer("{}\n", state_json(folder, job, state_of(folder, job, plan, {})));
+  return exit_done;
+}
+
+std::vector<std::string> units_meant(const TaskFlags& flags, const fs::path& folder, const FarmJob& job) {
+  std::vector<std::string> units = flags.units;
+  if (!flags.array.empty()) {
+    const auto tasks = read_array(folder, flags.array);
+    if (tasks.empty()) throw UsageError(fmt::format("{} has no array {}", folder.string(), flags.array));
+    if (size_t(flags.index) >= tasks.size())
+      throw UsageError(fmt::format("--index {}: the array has tasks 0 to {}", flags.index, tasks.size() - 1));
+    units = tasks[size_t(flags.index)];
+  }
+  if (units.empty()) throw UsageError("which unit? `terrazzo task JOB --list` says what there is");
+  std::vector<std::string> names;
+  for (const Unit& u : job.units) names.push_back(u.name);
+  for (const std::string& u : units)
+    if (!job.find(u)) throw UsageError(fmt::format("job {} has no unit \"{}\"{}", job.name, u, suggestion(u, names)));
+  if (!flags.stamp.empty() && units.size() != 1) throw UsageError("--stamp goes with one unit");
+  return units;
+}
+
+int run_task(const TaskFlags& flags) {
+  const fs::path folder = flags.folder();
+  const FarmJob job = read_farm_job(folder);
+  const fs::path cache = flags.cache_of(folder);
+  if (flags.list) return list_units(folder, job, cache);
+  const std::vector<std::string> units = units_meant(flags, folder, job);
+  if (flags.in_process) return run_here(flags, folder, job);
+  const CancelOnSignal signals;
+  Supervision how{.words = words_for_unit(flags, cache, job), .costs = FarmFolder::of_job(folder).costs()};
+  how.memory = memory_given();
+  how.cancelled = &signals.flag();
+  how.told = [](const std::string& text) { say("{}\n", text); };
+  return run_units(folder, job, units, how);
+}
+
+}  // namespace
+
+void add_task_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command =
+      app.add_subcommand("task", "Makes a part of a job that `submit` has frozen: for schedulers, which call it");
+  const auto flags = std::make_shared<TaskFlags>();
+  command->add_option("JOB", flags->job, "The job's folder or name")->required()->type_name("JOB");
+  CLI::Option* units =
+      command->add_option("UNIT", flags->units, "What to make; --list says what there is, and what needs what");
+  units->type_name("UNIT");
+  CLI::Option* array =
+      command->add_option("--array", flags->array, "What to make, as a task of one of the job's arrays");
+  array->type_name("ID")->excludes(units);
+  command->add_option("--index", flags->index, "The number of the task in the array")
+      ->type_name("N")
+      ->needs(array)
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--list", flags->list, "Print the job's units, what they need and their states, as JSON");
+  command
+      ->add_option("--stamp", flags->stamp, "When it is made, write what it is, by digest, for Snakemake or Nextflow")
+      ->type_name("FILE.json");
+  command->add_option("--cache", flags->cache, "Folder of the cache, if not the one that the job lies in")
+      ->type_name("DIR");
+  command->add_option("--threads", flags->threads, "Threads to use; one per core if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--memory", flags->memory,
+                   "Memory for running nodes, such as 2G; half of the machine's if not given")
+      ->type_name("SIZE");
+  command->add_flag("--in-process", flags->in_process)->group("");
+  command->footer(
+      "Examples:\n"
+      "  terrazzo task bricks-1a2b3c4d5e6f --list\n"
+      "  terrazzo task bricks-1a2b3c4d5e6f index --stamp done/index.json");
+  command->callback([&chosen, flags] { chosen = [flags] { return run_task(*flags); }; });
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runner/cache/cache.h"
+#include "runner/farm/frozen_graph.h"
+#include "runner/farm/units.h"
+
+/// A graph that was handed over to a farm: what does not change while it is worked on. What has been done is not
+/// stored; the cache tells.
+namespace terrazzo {
+
+struct FarmJob {
+  std::string name;                              ///< "walls-1a2b3c4d", after the graph file and the content
+  std::string graph;                             ///< the file that was frozen, for messages
+  std::string program;                           ///< "terrazzo 0.1.0", that froze it
+  std::vector<std::string> targets;              ///< nodes
+  std::map<std::string, std::string> variables;  ///< of the environment, as tasks are to have them
+  std::vector<std::string> plugins;              ///< files
+  std::vector<Unit> units;                       ///< in an order in which they can be made
+  std::map<std::string, Digest> keys;            ///< of nodes whose keys were known when it was frozen
+
+  const Unit* find(std::string_view unit) const;
+};
+
+/// The name of a job.
+std::string job_name(const std::filesystem::path& graph, const Digest& id);
+
+/// Throws FileError.
+void write_farm_job(const FarmJob& job, const std::filesystem::path& folder);
+/// Throws Error if the folder holds none, or it is damaged.
+FarmJob read_farm_job(const std::filesystem::path& folder);
+
+/// Why a unit could not be made, or how often its process died: for people, and for the units that need it.
+struct UnitFailure {
+  std::string message;
+  uint64_t memory = 0;  ///< bytes that it was given when it was killed; 0 if it was not
+};
+
+/// None if it has not failed since it was last handed over.
+std::optional<UnitFailure> failure_of(const std::filesystem::path& folder, const std::string& unit);
+void write_failure(const std::filesystem::path& folder, const std::string& unit, const UnitFailure& failure);
+/// Also if there is none.
+void forget_failure(const std::filesystem::path& folder, const std::string& unit);
+
+}  // namespace terrazzo

@@ -1,0 +1,174 @@
+#include "runner/farm/frozen_graph.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/paths.h"
+#include "core/file/atomic_file.h"
+#include "core/file/file_io.h"
+#include "graphs/document/convert.h"
+#include "graphs/document/format.h"
+#include "runner/engine/key.h"
+#include "runner/farm/farm_folder.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names of nodes that a document may have in wires: "layout [seed=3]" becomes "layout_seed_3".
+class PlainNames {
+ public:
+  std::string of(const std::string& name) {
+    std::string plain;
+    for (const char c : name)
+      if (std::isalnum(static_cast<unsigned char>(c)) || c == '-')
+        plain += c;
+      else if (!plain.empty() && plain.back() != '_')
+        plain += '_';
+    while (plain.ends_with('_')) plain.pop_back();
+    if (plain.empty()) plain = "node";
+    std::string unique = plain;
+    for (int count = 2; !used_.insert(unique).second; count++) unique = fmt::format("{}_{}", plain, count);
+    return unique;
+  }
+
+ private:
+  std::set<std::string> used_;
+};
+
+/// A text as a document writes it so that it means itself, not a wire, an expression or a parameter.
+std::string plainly(const std::string& text) {
+  std::string out;
+  if (text.starts_with('@') || text.starts_with('=')) out += text.front();
+  for (const char c : text) out += c == '$' ? "$$" : std::string(1, c);
+  return out;
+}
+
+void write_plainly(JsonValue& value) {
+  if (value.is_text()) value.text = plainly(value.text);
+  for (JsonValue& item : value.items) write_plainly(item);
+  for (JsonMember& member : value.members) write_plainly(member.value);
+}
+
+/// Makes the document node by node.
+class Freezer {
+ public:
+  Freezer(const Plan& plan, Cache* cache) : plan_(plan), cache_(cache) {}
+
+  FrozenGraph made() {
+    for (const Stage& s : plan_.stages)
+      if (s.needed) out_.names.emplace(s.node->name, names_.of(s.node->name));
+    JsonValue nodes = JsonValue::empty_object();
+    for (const Stage& s : plan_.stages) {
+      if (!s.needed) continue;
+      const std::string& name = out_.names.at(s.node->name);
+      nodes.set(name, entry_of(*s.node));
+      if (s.target) out_.targets.push_back(name);
+    }
+    JsonValue document = JsonValue::empty_object();
+    document.set("terrazzo", JsonValue::of(int64_t{1}));
+    if (!plan_.graph->summary.empty()) document.set("summary", JsonValue::of(plan_.graph->summary));
+    document.set("nodes", std::move(nodes));
+    out_.text = formatted(document);
+    Hasher h;
+    h.add("frozen graph").add(out_.text);
+    for (const std::string& t : out_.targets) h.add(t);
+    for (const FrozenInput& f : out_.inputs) h.add(f.to.string()).add(f.content);
+    out_.id = h.digest();
+    return std::move(out_);
+  }
+
+ private:
+  JsonValue entry_of(const GraphNode& node) {
+    JsonValue entry = JsonValue::empty_object();
+    entry.set("type", JsonValue::of(node.type->name));
+    for (const auto& [port, wires] : node.inputs) entry.set(port, wires_of(wires, node.type->find_input(port)->list));
+    const std::vector<fs::path> files =
+        node.type->files_read ? node.type->files_read(node.params) : std::vector<fs::path>();
+    for (const auto& [name, value] : node.params) {
+      const Param* param = node.type->find_param(name);
+      if (param && param->fallback && *param->fallback == value) continue;
+      JsonValue json = json_of(value);
+      if (param && param->type == ParamType::path && !node.type->is_sink())
+        json = JsonValue::of(frozen_path(std::get<std::string>(value), files));
+      write_plainly(json);
+      entry.set(name, std::move(json));
+    }
+    return entry;
+  }
+
+  JsonValue wires_of(const std::vector<Wire>& wires, bool is_list) const {
+    JsonValue list;
+    list.kind = JsonValue::Kind::list;
+    for (const Wire& w : wires) list.items.push_back(JsonValue::of("@" + out_.names.at(w.node) + "." + w.port));
+    return is_list ? list : list.items.front();
+  }
+
+  /// The path's copy, as the document names it: a folder named by content, in it what the path names, by its own name,
+  /// which may mean something. A path that none of the files lies under (it may be a pattern) has theirs beside it.
+  std::string frozen_path(const std::string& text, const std::vector<fs::path>& files) {
+    const fs::path path = without_trailing_slash(text);
+    std::vector<std::pair<fs::path, fs::path>> copies;  // from, and where below the folder
+    for (const fs::path& f : files)
+      if (const fs::path place = place_under(path, f); !place.empty())
+        copies.emplace_back(f, place == "." ? path.filename() : path.filename() / place);
+    if (copies.empty())
+      for (const fs::path& f : files)
+        if (f.parent_path() == path.parent_path()) copies.emplace_back(f, f.filename());
+    std::erase_if(copies, [](const auto& copy) {
+      std::error_code missing;
+      return !fs::is_regular_file(copy.first, missing);
+    });
+    if (copies.empty()) return text;
+
+    Hasher h;
+    std::vector<Digest> contents;
+    for (const auto& [from, place] : copies) {
+      contents.push_back(digest_of_file(cache_, from));
+      h.add(place.generic_string()).add(contents.back());
+    }
+    const fs::path folder = h.digest().hex();
+    for (size_t i = 0; i < copies.size(); i++) {
+      const fs::path to = folder / copies[i].second;
+      if (std::ranges::find(out_.inputs, to, &FrozenInput::to) == out_.inputs.end())
+        out_.inputs.push_back({copies[i].first, to, contents[i]});
+    }
+    return (inputs_from_job() / folder / path.filename()).generic_string();
+  }
+
+  const Plan& plan_;
+  Cache* cache_;
+  PlainNames names_;
+  FrozenGraph out_;
+};
+
+}  // namespace
+
+FrozenGraph frozen(const Plan& plan, Cache* cache) {
+  return Freezer(plan, cache).made();
+}
+
+void write_frozen(const FrozenGraph& graph, const fs::path& job) {
+  for (const FrozenInput& f : graph.inputs) {
+    const fs::path to = FarmFolder::of_job(job).inputs() / f.to;
+    if (content_digest(to) == f.content) continue;
+    fs::create_directories(to.parent_path());
+    const fs::path temporary = temporary_beside(to);
+    std::error_code failure;
+    fs::copy_file(f.from, temporary, fs::copy_options::overwrite_existing, failure);
+    if (failure) throw_system_error("copy", f.from, failure.value());
+    if (content_digest(temporary) != f.content) {
+      fs::remove(temporary, failure);
+      throw FileError(fmt::format("{} has changed while it was copied; submit again", f.from.string()), 0);
+    }
+    publish_file(temporary, to, true);
+  }
+  write_whole_file(job / "graph.json", graph.text);
+}
+
+}  // namespace terrazzo

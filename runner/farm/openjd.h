@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runner/farm/arrays.h"
+#include "runner/farm/farm_job.h"
+
+namespace terrazzo {
+
+/// A job as an Open Job Description template, for Deadline Cloud and other schedulers that take these (Open Job
+/// Description specification, "2023-09 Template Schemas"): a step for each array, a task for each of its members. As
+/// JSON.
+std::string openjd_template(const FarmJob& job, const std::vector<TaskArray>& arrays,
+                            const std::filesystem::path& folder, const std::filesystem::path& program);
+
+}  // namespace terrazzo

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runner/farm/arrays.h"
+#include "runner/farm/farm_job.h"
+
+/// Slurm, by its command-line tools.
+namespace terrazzo {
+
+struct SlurmOptions {
+  std::string partition, account, time;  ///< as sbatch takes them; empty: as the cluster has it
+  std::vector<std::string> more{};       ///< further options of sbatch, such as --constraint=avx2
+  std::filesystem::path program;         ///< of tasks; absolute
+};
+
+/// A task that Slurm knows and that has not ended.
+struct QueuedTask {
+  std::string id;     ///< "17_3"
+  std::string array;  ///< TaskArray::id(), as hexadecimal digits
+  int index = 0;
+  bool is_running = false;
+  std::string reason;  ///< why it waits, in Slurm's words; or the node that it runs on
+};
+
+/// What a batch job of this array runs. `after`: ids of jobs that must have ended before.
+std::string slurm_script(const FarmJob& job, const TaskArray& array, const std::filesystem::path& folder,
+                         const std::vector<std::string>& after, const SlurmOptions& options);
+
+/// What is asked of Slurm. A controller that is busy or being restarted is asked again, for some minutes; `told` gets a
+/// line for people when that begins. All functions throw Error with Slurm's own message. Thread-safe.
+class Slurm {
+ public:
+  /// `cancelled` ends waiting early, with Cancelled; may be null.
+  explicit Slurm(std::function<void(const std::string&)> told = {}, const std::atomic<bool>* cancelled = nullptr);
+
+  /// How many tasks an array may have; that of Slurm's default configuration if there is no Slurm.
+  int max_array_size() const;
+  /// The tasks of a job that have not ended.
+  std::vector<QueuedTask> queued(const std::string& job) const;
+  /// Hands a script over; returns the id of the batch job. If the controller's answer is lost, the queue tells whether
+  /// it has been taken, so that it is never handed over twice.
+  std::string submit(const std::filesystem::path& script, const std::string& job, const std::string& array) const;
+  /// Ends all tasks of a job.
+  void cancel(const std::string& job) const;
+
+ private:
+  std::string ask(const std::vector<std::string>& words,
+                  const std::function<std::string()>& is_done_already = {}) const;
+
+  std::function<void(const std::string&)> told_;
+  const std::atomic<bool>* cancelled_;
+};
+
+}  // namespace terrazzo

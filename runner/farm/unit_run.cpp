@@ -1,0 +1,127 @@
+#include "runner/farm/unit_run.h"
+
+#include <algorithm>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "core/file/file_io.h"
+#include "graphs/document/load.h"
+
+namespace terrazzo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const Stage* stage_of(const Plan& plan, const std::string& node) {
+  const auto at = std::ranges::find_if(plan.stages, [&](const Stage& s) { return s.node->name == node; });
+  return at == plan.stages.end() ? nullptr : &*at;
+}
+
+/// The same inputs must give the same results everywhere, or a retry would not be one.
+void check_keys(const FarmJob& job, const Plan& plan) {
+  for (const Stage& s : plan.stages) {
+    const auto frozen = job.keys.find(s.node->name);
+    if (!s.needed || !s.known || frozen == job.keys.end() || s.known->key == frozen->second) continue;
+    throw Error(fmt::format(
+        "node \"{}\" ({}) has another key here than when {} froze it: this is terrazzo {}; version, plug-ins "
+        "and $OCIO must be the same on all machines. Or submit again from here",
+        s.node->name, s.type().name, job.program, TERRAZZO_VERSION));
+  }
+}
+
+/// Throws Error if one that this unit needs could not be made and still is not there.
+void check_failures(const fs::path& folder, const FarmJob& job, const Unit& unit, const Plan& plan) {
+  for (const std::string& name : unit.needs) {
+    const Unit* needed = job.find(name);
+    if (!needed || is_done(*needed, plan)) continue;
+    if (const auto failure = failure_of(folder, name))
+      throw Error(fmt::format("skipped, as \"{}\" failed: {}", name, failure->message));
+  }
+}
+
+bool has_all_it_needs(const FarmJob& job, const Unit& unit, const Plan& plan) {
+  return std::ranges::all_of(unit.needs, [&](const std::string& name) {
+    const Unit* needed = job.find(name);
+    return !needed || is_done(*needed, plan);
+  });
+}
+
+/// Opens what was made: a listing may lie, a checksum does not. Throws Error if it cannot be read.
+StageRecord verified(const Stage& stage, Cache& cache) {
+  if (!stage.known || !stage.known->record) throw Error("its record is not in the cache");
+  for (const OutputFile& f : stage.known->record->files)
+    if (content_digest(f.path) != f.content) throw Error(fmt::format("{} is not what was written", f.path.string()));
+  if (stage.type().persist == Persist::payload)
+    for (const auto& [port, value] : stage.known->record->outputs)
+      if (!cache.load_value(value)) throw Error(fmt::format("its output {} cannot be read", port));
+  return *stage.known->record;
+}
+
+void pause_for(std::chrono::milliseconds time, const std::atomic<bool>* cancelled) {
+  constexpr std::chrono::milliseconds step{50};
+  for (auto left = time; left.count() > 0; left -= step) {
+    if (cancelled && *cancelled) throw Cancelled();
+    std::this_thread::sleep_for(std::min(left, step));
+  }
+}
+
+/// Calls `look` until it returns true or patience ends, with longer and longer pauses; returns what it returned last.
+template <typename Look>
+bool look_for(std::chrono::milliseconds patience, const std::atomic<bool>* cancelled, const Look& look) {
+  std::chrono::milliseconds pause{100}, waited{0};
+  for (;;) {
+    if (look()) return true;
+    if (waited >= patience) return false;
+    pause_for(pause, cancelled);
+    waited += pause;
+    pause *= 2;
+  }
+}
+
+}  // namespace
+
+UnitResult run_unit(const fs::path& folder, const FarmJob& job, const Unit& unit, const UnitRunOptions& options) {
+  const LoadedGraph loaded = load_graph(folder / "graph.json");
+  Cache cache(options.cache);
+  RunOptions run;
+  run.targets.only = unit.targets;
+  run.cache = &cache;
+  run.threads = options.threads;
+  run.memory = options.memory;
+  run.cancelled = options.cancelled;
+  run.observer = options.observer;
+
+  PlanOptions with_needs = run.targets;
+  with_needs.look_ahead = false;
+  with_needs.only.insert(with_needs.only.end(), unit.needs.begin(), unit.needs.end());
+  look_for(options.patience, options.cancelled, [&] {
+    const Plan plan = make_plan(loaded.graph, &cache, with_needs);
+    check_keys(job, plan);
+    if (is_done(unit, plan)) return true;
+    check_failures(folder, job, unit, plan);
+    return has_all_it_needs(job, unit, plan);
+  });
+
+  UnitResult result{.run = run_graph(loaded.graph, run)};
+  if (!result.run.ok()) return result;
+  std::string trouble;
+  const bool is_there = look_for(options.patience, options.cancelled, [&] {
+    try {
+      const Plan plan = make_plan(loaded.graph, &cache, run.targets);
+      for (const std::string& target : unit.targets) result.made[target] = verified(*stage_of(plan, target), cache);
+      return true;
+    } catch (const Error& e) {
+      trouble = e.what();
+      return false;
+    }
+  });
+  if (!is_there)
+    throw Error(fmt::format("\"{}\" was made, but {}; is the cache {} full, or not the same on all machines?",
+                            unit.name, trouble, options.cache.string()));
+  cache.collect_if_due();
+  return result;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,118 @@
+#!/usr/bin/env bash
+# 64 variations through a real Slurm (tests/slurm_cluster.sh) while everything goes wrong: the same job is handed over
+# twice at once, a task's process and a whole task are killed, a node is lost half-way, the controller is started anew.
+# The result must be complete, the same bytes as those of `run`, and each stage made once but for what was killed while
+# it ran. Prints the table of batch jobs. Exit code 77, a skipped test, if there is no Slurm, or no root to start it.
+# Usage: tests/slurm_test.sh SOURCE_FOLDER PROGRAM [VARIATIONS]
+set -euo pipefail
+source=$(realpath "${1:?usage: slurm_test.sh SOURCE_FOLDER PROGRAM [VARIATIONS]}")
+program=$(realpath "${2:?usage: slurm_test.sh SOURCE_FOLDER PROGRAM [VARIATIONS]}")
+count=${3:-64}
+for tool in slurmctld slurmd munged sbatch; do
+  command -v $tool >/dev/null || { echo "skipped: there is no $tool (apt-get install munge slurm-wlm)"; exit 77; }
+done
+[ "$(id -u)" -eq 0 ] || { echo "skipped: only root can start Slurm's daemons"; exit 77; }
+
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/terrazzo-slurm.XXXXXX")
+cluster=("$source/tests/slurm_cluster.sh")
+trap '"${cluster[@]}" stop "$scratch/slurm" >/dev/null 2>&1 || true; rm -rf "$scratch"' EXIT
+cd "$scratch"
+setting=$("${cluster[@]}" start "$scratch/slurm")
+export "${setting?}"
+export TERRAZZO_CACHE=$scratch/cache
+failed=0
+
+complain() {
+  echo "$1" >&2
+  failed=1
+}
+
+state() {
+  "$program" submit --status --json "$job" | python3 -c "import json, sys; print(json.load(sys.stdin)['counts']['$1'])"
+}
+
+# until STATE NUMBER: waits until so many units are in that state, for a minute at most.
+until_state() {
+  for _ in $(seq 300); do [ "$(state "$1")" -lt "$2" ] || return 0; sleep 0.2; done
+  complain "there were never $2 units in state $1"
+}
+
+# kill_one PATTERN: the first process that has this in its command line.
+kill_one() {
+  for _ in $(seq 2000); do ! pkill -KILL -f -o -- "$1" || return 0; sleep 0.01; done
+  complain "no process $1 could be killed"
+}
+
+"$program" run "$source/graphs/generate-exemplar.json" --set type=bricks --set size=256x256 --set out=bricks --progress none
+cp "$source/graphs/material.json" walls.json
+values=(walls.json --set material=bricks --set size=512x512 --sweep "seed=1..$count")
+arguments=("${values[@]}" --set "out=='farm/' + seed" --pack 2 --cores 1 --memory 500M)
+
+# Twice at once: one of them hands over, the other finds that done.
+"$program" submit "${arguments[@]}" >first.txt &
+"$program" submit "${arguments[@]}" >second.txt
+wait $!
+job=$(sed -n 's/^job //p' first.txt)
+[ "$(sed -n 's/^job //p' second.txt)" = "$job" ] || complain "the second submission is another job"
+[ "$(cat first.txt second.txt | grep -c 'handed over before')" = 1 ] || complain "it was not handed over exactly once"
+cat first.txt second.txt | grep -v 'handed over before' | grep -v '^job' | sort -u
+tasks=$(squeue --array --noheader --name="$job" | wc -l)
+[ "$tasks" -le $((count + 1)) ] || complain "there are $tasks tasks in the queue"
+
+"$program" submit "$job" --wait >waited.txt 2>&1 &
+waiting=$!
+
+# The process that makes a unit: it is started again. The task that looks after it: it gets lost, and is handed over
+# again by --wait.
+until_state done 3
+kill_one "task --in-process"
+until_state done 6
+kill_one "task $scratch.*--array"
+until_state done $((count / 4))
+echo "before the node is lost: $(state done) of $((count + 1)) units"
+"${cluster[@]}" lose-node n2 "$scratch/slurm"
+until_state done $((count / 3))
+"${cluster[@]}" restart-controller "$scratch/slurm"
+sleep 2
+"${cluster[@]}" return-node n2 "$scratch/slurm"
+wait $waiting || { complain "waiting failed"; cat waited.txt >&2; "$program" submit --status "$job" >&2; }
+cat waited.txt | tail -5
+
+# Complete and right.
+"$program" run "${values[@]}" --set "out=='here/' + seed" --no-cache --progress none
+[ "$(find farm -type f | wc -l)" = "$(find here -type f | wc -l)" ] || complain "files are missing"
+diff -r farm here >/dev/null || complain "a farm's bytes are not those of one process"
+
+# Each analysis once.
+logs=$TERRAZZO_CACHE/farm/jobs/$job/logs
+for stage in index space lattice weighted guides; do
+  made=$(cat "$logs"/*.log | grep -cE "\] $stage \([a-z_]+\) [0-9.]+ s" || true)
+  [ "$made" = 1 ] || complain "$stage was made $made times"
+done
+layouts=$(cat "$logs"/*.log | grep -cE '\] layout_seed_[0-9]+ \(synthesize\) [0-9.]+ s' || true)
+echo "$layouts syntheses for $count variations"
+[ "$layouts" -le $((count + 6)) ] || complain "too many were made again"
+grep -q 'starting it again' "$logs"/*.log || complain "no log says that a process was started again"
+
+# Again: nothing to do. Something else: only that.
+[ "$("$program" submit "${arguments[@]}")" = "nothing to do: all of it has been made" ] || complain "it would be made again"
+"$program" submit walls.json --set material=bricks --set size=512x512 --set seed=$((count + 1)) --set out=more --wait \
+  >more.txt 2>&1 || complain "one more failed"
+! grep -q ' index ' more.txt || complain "the analysis was handed over again"
+
+# A unit that fails says why, the others are made; an input that is gone after the submission is not missed.
+"$program" submit walls.json --set material=bricks --set seed=900 --sweep size=64x64,96x96 --set "out=='sized/' + size.x" \
+  --pack 0 >sized.txt
+rm -r bricks
+mkdir -p sized && touch sized/64
+job=$(sed -n 's/^job //p' sized.txt)
+code=0
+"$program" submit --wait "$job" >sized-waited.txt 2>&1 || code=$?
+[ $code = 1 ] || complain "a failed unit gave exit code $code"
+grep -q 'failed.*sized/64' sized-waited.txt || { complain "it does not say why"; cat sized-waited.txt >&2; }
+[ -s sized/96/height.png ] || complain "the other unit was not made"
+
+echo "batch jobs:"
+scontrol --oneliner show job | grep -oE '^JobId=[0-9]+|ArrayJobId=[0-9]+|JobState=[A-Z_]+|Restarts=[1-9][0-9]*' | paste -sd' ' |
+  sed 's/ JobId=/\nJobId=/g' | grep -oE 'ArrayJobId=[0-9]+.*' | sort | uniq -c | sort -rn | head -12
+exit $failed
