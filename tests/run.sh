@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Installs missing packages, builds, and runs every test: one run of the test program for each room. Arguments go to
-# ctest: tests/run.sh -R runner/cache. With -C long it also runs what needs Blender or Godot. A single test is quicker
-# without it, and -d tells how long each takes:
+# ctest: tests/run.sh -R runner/cache. With -C long it also runs what needs Blender or Godot, and
+# 64 variations through Slurm. A single test is quicker without it, and -d tells how long each takes:
 #   build/tests/terrazzo_tests -d -tc="*cache*"
 # Under the sanitizers: tests/sanitize.sh.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-examples/packages.sh doctest-dev python3-jsonschema dpkg-dev pybind11-dev python3-dev python3-numpy
+examples/packages.sh doctest-dev python3-jsonschema dpkg-dev pybind11-dev python3-dev python3-numpy munge slurm-wlm
 cmake --preset release -DTERRAZZO_TESTS=ON -DTERRAZZO_PYTHON=ON
 cmake --build build
 log=build/Testing/Temporary/LastTest.log

@@ -38,6 +38,7 @@ AuthInfo=socket=$folder/munge.sock
 ProctrackType=proctrack/pgid
 TaskPlugin=task/none
 SchedulerType=sched/builtin
+SchedulerParameters=sched_interval=2,sched_min_interval=200000,batch_sched_delay=0
 SelectType=select/cons_res
 SelectTypeParameters=CR_Core_Memory
 MaxArraySize=$max_array_size

@@ -112,6 +112,28 @@ code=0
 grep -q 'failed.*sized/64' sized-waited.txt || { complain "it does not say why"; cat sized-waited.txt >&2; }
 [ -s sized/96/height.png ] || complain "the other unit was not made"
 
+# The commands of the guide that need Slurm.
+mkdir -p tree/bin
+cp -r "$source/graphs" tree
+ln -s "$program" tree/bin/terrazzo
+awk '/^```bash/ { open = 1; next } /^```/ { open = 0 } open' "$source/examples/guide/farms.md" >tree/commands.sh
+grep -q 'submit' tree/commands.sh || complain "the guide has no commands to run"
+(cd tree && PATH=$PWD/bin:$PATH bash -euo pipefail commands.sh) >guide.txt 2>&1 || { complain "the guide's commands fail"; cat guide.txt >&2; }
+[ -s tree/out/farm/walls/8/height.png ] || complain "the guide's commands make no walls"
+
+# Snakemake makes a job by its stamps.
+if command -v snakemake >/dev/null; then
+  cp -r tree/out/farm/bricks .
+  "$program" submit walls.json --set material=bricks --set size=128x128 --sweep seed=1..3 --set "out=='snake/' + seed" \
+    --openjd snake.json
+  job=$(python3 -c 'import json; print(json.load(open("snake.json"))["name"])')
+  snakemake --quiet --snakefile "$source/examples/farm/Snakefile" --config job="$job" program="$program" --cores 2 \
+    >snake.txt 2>&1 || { complain "snakemake failed"; cat snake.txt >&2; }
+  [ "$(find snake stamps -name 'height.png' -o -name '*.json' | wc -l)" = 7 ] || complain "snakemake made something else"
+else
+  echo "skipped: snakemake (apt-get install snakemake)"
+fi
+
 echo "batch jobs:"
 scontrol --oneliner show job | grep -oE '^JobId=[0-9]+|ArrayJobId=[0-9]+|JobState=[A-Z_]+|Restarts=[1-9][0-9]*' | paste -sd' ' |
   sed 's/ JobId=/\nJobId=/g' | grep -oE 'ArrayJobId=[0-9]+.*' | sort | uniq -c | sort -rn | head -12

@@ -1,0 +1,168 @@
+#include "runner/farm/slurm.h"
+
+#include <cstdlib>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "runner/farm/openjd.h"
+#include "runner/farm/run_tool.h"
+#include "tests/run_node.h"
+#include "tests/texts.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Programs of a test's own, found before the machine's.
+class Tools {
+ public:
+  Tools() : path_(std::getenv("PATH")) { ::setenv("PATH", (folder_.path().string() + ":" + path_).c_str(), 1); }
+  ~Tools() { ::setenv("PATH", path_.c_str(), 1); }
+  Tools(const Tools&) = delete;
+  Tools& operator=(const Tools&) = delete;
+
+  void add(const std::string& name, const std::string& script) const {
+    const fs::path file = folder_.path() / name;
+    write_text(file, "#!/bin/sh\ncd '" + folder_.path().string() + "'\n" + script);
+    fs::permissions(file, fs::perms::owner_all);
+  }
+  std::string text(const std::string& name) const { return read_text(folder_.path() / name); }
+
+ private:
+  TemporaryFolder folder_;
+  std::string path_;
+};
+
+TaskArray array_of(std::vector<std::vector<std::string>> tasks) {
+  TaskArray a{.label = "layout", .tasks = std::move(tasks)};
+  a.cores = 3;
+  a.memory = uint64_t{500} << 20;
+  return a;
+}
+
+}  // namespace
+
+TEST_CASE("a tool's output, its messages and its end") {
+  CHECK(run_tool({"sh", "-c", "echo out; echo err >&2; exit 3"}).exit_code == 3);
+  CHECK(run_tool({"sh", "-c", "echo out; echo err >&2; exit 3"}).out == "out\n");
+  CHECK(run_tool({"sh", "-c", "echo out; echo err >&2; exit 3"}).err == "err\n");
+  CHECK(run_tool({"sh", "-c", "kill -9 $$"}).exit_code == 128 + 9);
+  CHECK(run_tool({"no-such-tool"}).exit_code == 127);
+  // More than a pipe holds, on both.
+  const ToolResult much = run_tool({"sh", "-c", "seq 100000 >&2; seq 100000"});
+  CHECK(much.out.size() == much.err.size());
+  CHECK(much.out.size() > 500000);
+}
+
+TEST_CASE("a script asks for what its tasks need, and calls the program with its task") {
+  FarmJob job;
+  job.name = "walls-1";
+  job.graph = "/projects/walls.json";
+  SlurmOptions options{.partition = "night", .account = "", .time = "1:00:00", .program = "/opt/terra zzo"};
+  options.more = {"--nice=5"};
+  const TaskArray array = array_of({{"a"}, {"b", "c"}});
+  const std::string script = slurm_script(job, array, "/cache/it's/walls-1", {"7", "8"}, options);
+  for (const char* line :
+       {"#SBATCH --job-name=walls-1\n", "#SBATCH --array=0-1\n", "--cpus-per-task=3\n", "--mem=500M\n",
+        "--dependency=afterany:7:8\n", "--partition=night\n", "--time=1:00:00\n", "--nice=5\n", "--requeue"})
+    CHECK_MESSAGE(script.find(line) != script.npos, line);
+  CHECK(script.find("--account") == script.npos);
+  CHECK(script.find("exec '/opt/terra zzo' task '/cache/it'\\''s/walls-1' --array " + array.id().hex() +
+                    " --index \"$SLURM_ARRAY_TASK_ID\"") != script.npos);
+  const TemporaryFolder folder;
+  write_text(folder.path() / "script.sh", script);
+  CHECK(run_tool({"bash", "-n", (folder.path() / "script.sh").string()}).ok());
+}
+
+TEST_CASE("what is in the queue") {
+  const Tools tools;
+  tools.add("squeue",
+            "echo \"$@\" > asked; printf '17_3|3|R|terrazzo:abc|n1|None\\n17_4|4|PD|terrazzo:abc||Resources\\n"
+            "9|N/A|R|other|n2|None\\n'");
+  const auto tasks = Slurm().queued("walls-1");
+  CHECK(tools.text("asked").find("--name=walls-1") != std::string::npos);
+  REQUIRE(tasks.size() == 2);
+  CHECK(tasks[0].id == "17_3");
+  CHECK(tasks[0].array == "abc");
+  CHECK(tasks[0].index == 3);
+  CHECK(tasks[0].is_running);
+  CHECK(tasks[0].reason == "n1");
+  CHECK_FALSE(tasks[1].is_running);
+  CHECK(tasks[1].reason == "Resources");
+}
+
+TEST_CASE("a controller that is busy is asked again; what it has taken is not handed over twice") {
+  const Tools tools;
+  std::vector<std::string> told;
+  const Slurm slurm([&](const std::string& text) { told.push_back(text); });
+  SUBCASE("busy") {
+    tools.add("sbatch",
+              "echo >> count; [ $(wc -l < count) -gt 1 ] || { echo 'sbatch: error: Socket timed out' >&2; exit 1; }; "
+              "echo '12;cluster'");
+    tools.add("squeue", "true");
+    CHECK(slurm.submit("x.sh", "job", "abc") == "12");
+    CHECK(told.size() == 1);
+  }
+  SUBCASE("its answer got lost") {
+    tools.add("sbatch", "echo >> count; echo 'sbatch: error: Socket timed out' >&2; exit 1");
+    tools.add("squeue", "printf '31_0|0|PD|terrazzo:abc||None\\n'");
+    CHECK(slurm.submit("x.sh", "job", "abc") == "31");
+    CHECK(tools.text("count") == "\n");
+  }
+  SUBCASE("it refuses") {
+    tools.add("sbatch", "echo 'sbatch: error: invalid partition specified: nigth' >&2; exit 1");
+    CHECK_THROWS_WITH_AS(slurm.submit("x.sh", "job", "abc"), doctest::Contains("invalid partition specified: nigth"),
+                         Error);
+    CHECK(told.empty());
+  }
+  SUBCASE("there is none") {
+    ::setenv("PATH", "/nowhere", 1);
+    CHECK_THROWS_WITH_AS(slurm.queued("job"), doctest::Contains("must be on $PATH"), Error);
+    CHECK(slurm.max_array_size() == 1001);
+  }
+  SUBCASE("cancelled while it waits") {
+    tools.add("squeue", "echo 'Unable to contact slurm controller' >&2; exit 1");
+    const std::atomic<bool> cancelled = true;
+    CHECK_THROWS_AS(Slurm({}, &cancelled).queued("job"), Cancelled);
+  }
+}
+
+TEST_CASE("how many tasks an array may have") {
+  const Tools tools;
+  tools.add("scontrol", "echo 'MaxArraySize            = 21'");
+  CHECK(Slurm().max_array_size() == 21);
+}
+
+TEST_CASE("a template keeps the rules of the Open Job Description specification, 2023-09") {
+  FarmJob job;
+  job.name = "walls-1";
+  job.graph = "walls.json";
+  job.program = "terrazzo 1.0";
+  std::vector<TaskArray> arrays = {array_of({{"index"}}), array_of({{"a"}, {"b"}, {"c"}})};
+  arrays[1].label = std::string(200, 'x');
+  arrays[1].needs = {0};
+  const auto json =
+      nlohmann::json::parse(openjd_template(job, arrays, "/cache/farm/jobs/walls-1", "/usr/bin/terrazzo"));
+  CHECK(json.at("specificationVersion") == "jobtemplate-2023-09");
+  CHECK(json.at("name").get<std::string>().size() <= 128);
+  std::set<std::string> parameters, steps;
+  for (const auto& p : json.at("parameterDefinitions")) parameters.insert(p.at("name").get<std::string>());
+  for (const auto& step : json.at("steps")) {
+    const auto name = step.at("name").get<std::string>();
+    CHECK(name.size() <= 64);
+    if (step.contains("dependencies"))
+      for (const auto& d : step.at("dependencies")) CHECK(steps.contains(d.at("dependsOn").get<std::string>()));
+    CHECK(steps.insert(name).second);
+    const auto& run = step.at("script").at("actions").at("onRun");
+    CHECK(run.at("command") == "{{Param.Program}}");
+    CHECK(run.at("args").at(1) == "{{Param.JobFolder}}");
+    CHECK(run.at("args").at(5) == "{{Task.Param.Task}}");
+    CHECK(step.at("hostRequirements").at("amounts").at(1).at("min") == 500);
+  }
+  CHECK(parameters == std::set<std::string>{"JobFolder", "Program"});
+  CHECK(json.at("steps").at(1).at("parameterSpace").at("taskParameterDefinitions").at(0).at("range") == "0-2");
+  CHECK(json.at("steps").at(1).contains("dependencies"));
+}
