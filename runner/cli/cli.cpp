@@ -19,6 +19,7 @@
 #include "graphs/document/problem.h"
 #include "nodes/source/material_folder.h"
 #include "runner/cache/cache_limit.h"
+#include "runner/cli/built_with.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
@@ -239,7 +240,7 @@ int show_help(const CLI::App& app, const CLI::Success& asked, ProgressMode mode)
 int obey(int argc, const char* const* argv, ProgressMode mode) {
   CLI::App app("terrazzo turns a small PBR material into as much new, non-repeating material as a scene needs.",
                "terrazzo");
-  app.set_version_flag("--version", "terrazzo " TERRAZZO_VERSION);
+  app.set_version_flag("--version", built_with());
   app.footer(examples);
   std::string plugin;  // taken before, see plugin_flag.h; here for the help
   app.add_option("--plugin", plugin, "Loads node types from a shared library; several times, and behind commands too")
