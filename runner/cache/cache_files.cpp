@@ -1,10 +1,8 @@
-#include <algorithm>
 #include <cerrno>
 #include <optional>
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include "core/file/bytes.h"
 #include "core/file/file_io.h"
@@ -14,26 +12,6 @@
 namespace terrazzo {
 
 namespace {
-
-/// Two changes may fall into one tick of a file system's clock: what changed this recently may change unseen.
-constexpr int64_t unsettled_ns = 2 * ns_per_second;
-
-std::optional<FileStamp> stamp_of(const struct stat& status) {
-  if (!S_ISREG(status.st_mode)) return std::nullopt;
-  return FileStamp{uint64_t(status.st_size), ns_of(status.st_mtim), ns_of(status.st_ctim), uint64_t(status.st_ino)};
-}
-
-std::optional<FileStamp> stamp_of(const File& file) {
-  struct stat status;
-  if (!file.ok() || ::fstat(file.descriptor(), &status) != 0) return std::nullopt;
-  return stamp_of(status);
-}
-
-std::optional<FileStamp> stamp_of(const std::filesystem::path& path) {
-  struct stat status;
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return stamp_of(status);
-}
 
 Digest missing_digest() {
   return Hasher().add("missing file").digest();
@@ -63,11 +41,10 @@ Digest Cache::file_digest(const std::filesystem::path& path) {
   const File file = File::open(absolute, O_RDONLY | O_NONBLOCK);
   const std::optional<FileStamp> before = stamp_of(file);
   if (!before) return missing_digest();
-  const int64_t begun = now_ns();
+  const int64_t begun = wall_clock_ns();
   const std::optional<Digest> content = content_digest(file, absolute);
   if (!content) return missing_digest();
-  const bool settled = std::max(before->modified_ns, before->changed_ns) + unsettled_ns < begun;
-  if (settled && stamp_of(file) == before) {
+  if (before->is_settled(begun) && stamp_of(file) == before) {
     try {
       state_->folder.write(memo_path, memo_to_bytes(name, {*before, *content}), state_->pins.owner(), false);
     } catch (const Error& e) {

@@ -4,20 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "core/file/file_stamp.h"
 #include "runner/cache/cache.h"
 #include "runner/cache/cache_total.h"
 
 /// The cache's small files: a magic word, a version, the content and a checksum.
 namespace terrazzo {
 
-/// Identifies a version of a file: while it is equal, the memoised digest is valid.
-struct FileStamp {
-  uint64_t bytes = 0;
-  int64_t modified_ns = 0;
-  int64_t changed_ns = 0;  ///< of the inode: moves even when a tool sets the modification time back
-  uint64_t inode = 0;
-  bool operator==(const FileStamp&) const = default;
-};
 struct FileMemo {
   FileStamp stamp;
   Digest content;
