@@ -1,6 +1,7 @@
 #include "core/image/image_limits.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <utility>
 
@@ -33,13 +34,17 @@ uint64_t half_of_memory() {
 }
 
 std::string shown(double bytes) {
-  const bool is_small = bytes < 1024.0 * double(mib);
-  return fmt::format("{:.1f} {}", bytes / double(mib) / (is_small ? 1 : 1024), is_small ? "MiB" : "GiB");
+  double value = bytes / 1024;
+  size_t unit = 0;
+  constexpr std::array units = {"KiB", "MiB", "GiB", "TiB"};
+  for (; value >= 1024 && unit + 1 < units.size(); unit++) value /= 1024;
+  return fmt::format("{:.1f} {}", value, units[unit]);
 }
 
-/// A budget that suffices, as --memory takes it.
-std::string as_flag(uint64_t bytes) {
-  return fmt::format("--memory {}M", (bytes + mib - 1) / mib);
+/// A size that suffices, as options take it.
+std::string as_option(const char* option, uint64_t bytes) {
+  return bytes < mib ? fmt::format("{} {}K", option, (bytes + 1023) / 1024)
+                     : fmt::format("{} {}M", option, (bytes + mib - 1) / mib);
 }
 
 }  // namespace
@@ -89,9 +94,9 @@ void require_bytes_fit(const std::filesystem::path& path, uint64_t bytes) {
   const uint64_t most = given > 0 ? uint64_t(given) : std::max(least_most_bytes, memory_budget() / share_of_a_file);
   if (bytes <= most) return;
   throw TooManyPixels(fmt::format(
-      "cannot read {}: the file has {} bytes ({}); at most {} are read{}. Scale it down first, or allow it with "
-      "--max-bytes {}",
-      path.string(), bytes, shown(double(bytes)), most, given > 0 ? ", as --max-bytes says" : "", bytes));
+      "cannot read {}: the file has {} bytes; at most {} are read{}. Scale it down first, or allow it with {}",
+      path.string(), bytes, shown(double(most)), given > 0 ? ", as --max-bytes says" : "",
+      as_option("--max-bytes", bytes)));
 }
 
 void require_decoding_fits(const std::filesystem::path& path, uint64_t bytes, const char* kind) {
@@ -99,7 +104,7 @@ void require_decoding_fits(const std::filesystem::path& path, uint64_t bytes, co
   throw TooManyPixels(fmt::format(
       "cannot read {} with --memory {:.0f}M: {}, so all of it has to be in memory while it is decoded, {}. Give {}, or "
       "save it as a plain PNG, TIFF or EXR file, which are read by rows",
-      path.string(), double(memory_budget()) / double(mib), kind, shown(double(bytes)), as_flag(bytes)));
+      path.string(), double(memory_budget()) / double(mib), kind, shown(double(bytes)), as_option("--memory", bytes)));
 }
 
 PixelRoom::PixelRoom(uint64_t bytes) : bytes_(bytes) {

@@ -11,6 +11,7 @@
 
 #include "core/base/paths.h"
 #include "core/file/atomic_file.h"
+#include "core/image/image_file.h"
 #include "core/image/image_limits.h"
 #include "graphs/document/forecasts.h"
 
@@ -182,6 +183,22 @@ class Foresight {
 };
 
 }  // namespace
+
+std::vector<Problem> oversize_problems(const Plan& plan) {
+  std::vector<Problem> problems;
+  std::set<fs::path> said;
+  for (const Stage& s : plan.stages) {
+    if (!s.needed || !s.type().files_read) continue;
+    for (const fs::path& file : s.type().files_read(s.node->params)) try {
+        std::error_code missing;
+        const uintmax_t bytes = looks_like_image(file) ? fs::file_size(file, missing) : 0;
+        if (!missing) require_bytes_fit(file, bytes);
+      } catch (const TooManyPixels& e) {
+        if (said.insert(file).second) problems.push_back(problem_of(*s.node, "path", e.what()));
+      }
+  }
+  return problems;
+}
 
 std::vector<Problem> preflight_problems(const Plan& plan) {
   std::vector<Foresight::Future> nodes;
