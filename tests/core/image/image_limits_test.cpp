@@ -1,8 +1,12 @@
 #include "core/image/image_limits.h"
 
+#include <algorithm>
+#include <memory>
+
 #include <doctest/doctest.h>
 
 #include "core/image/kept_pixels.h"
+#include "core/image/resample.h"
 
 using namespace terrazzo;
 
@@ -66,6 +70,30 @@ TEST_CASE("what cannot be decoded by rows has to fit into the budget") {
   CHECK(error_of([] { require_decoding_fits("a.png", 100 * mib, "it is interlaced"); }) ==
         "cannot read a.png with --memory 64M: it is interlaced, so all of it has to be in memory while it is decoded, "
         "100.0 MiB. Give --memory 100M, or save it as a plain PNG, TIFF or EXR file, which are read by rows");
+}
+
+namespace {
+
+/// Pixels that lie nowhere; knows the largest region that has been read.
+class Watched : public PixelSource {
+ public:
+  void read(const Rect& region, float* out) const override {
+    largest = std::max(largest, region.area());
+    std::fill_n(out, region.area(), 0.5f);
+  }
+  mutable int64_t largest = 0;
+};
+
+}  // namespace
+
+TEST_CASE("what is scaled down is read in strips that the budget allows") {
+  const auto watched = std::make_shared<Watched>();
+  const ImageInfo info{.size = {4096, 4096}, .channels = 1};
+  const ImagePtr image = Image::with_digest(info, Digest(), watched);
+  const Budget budget(16 * mib);
+  resampled(image, {512, 512}, "lanczos3", Outside::clamp, Digest())->pixels();
+  CHECK(watched->largest > 0);
+  CHECK(watched->largest <= int64_t(16 * mib) / 16);
 }
 
 TEST_CASE("room for pixels is given back with what has taken it") {
