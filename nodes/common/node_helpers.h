@@ -65,6 +65,8 @@ struct AnalysisMemory {
 };
 /// Of finding the lattice, which also tells whether an exemplar tiles.
 inline constexpr AnalysisMemory lattice_memory{32, 6};
+/// Of an index, with what making it and synthesis from it hold besides.
+inline constexpr AnalysisMemory index_memory{48, 0};
 /// The preflight and memory_hint of nodes that look at features.
 void set_memory_of_features(NodeType& type, const AnalysisMemory& memory);
 

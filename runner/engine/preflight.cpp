@@ -109,13 +109,16 @@ class Foresight {
     Size size{};
     for (const auto& [map, of_map] : forecast.sizes)
       if (of_map.area() > size.area()) size = of_map;
-    const double takes = double(forecast.memory) / mib, shrink = std::sqrt(double(memory_budget()) / mib / takes);
+    const double takes = std::ceil(double(forecast.memory) / mib), gives = double(memory_budget()) / mib;
+    const double shrink = std::sqrt(gives / takes);
+    const bool has_size = size.area() > 0;
     memory_problem_ = problem_of(
         node, "",
-        fmt::format("it takes about {:.0f} MiB for an exemplar of {}, and --memory gives {:.0f} MiB. Give --memory "
-                    "{:.0f}M, or scale the exemplar to {}x{} first, as the node type \"resize\" does",
-                    takes, describe(size), double(memory_budget()) / mib, std::ceil(takes), int(size.width * shrink),
-                    int(size.height * shrink)));
+        fmt::format("it takes about {:.0f} MiB{}, and --memory gives {:.0f} MiB. Give --memory {:.0f}M{}", takes,
+                    has_size ? " for an exemplar of " + describe(size) : "", gives, takes,
+                    has_size ? fmt::format(", or scale the exemplar to {}x{} first, as the node type \"resize\" does",
+                                           int(size.width * shrink), int(size.height * shrink))
+                             : ", or make a smaller result, or one from a smaller exemplar"));
   }
 
   void complain(const GraphNode& node, const Error& e) {

@@ -107,4 +107,14 @@ TEST_CASE("an analysis that needs more than the budget is refused with what it n
   CHECK_MESSAGE(says(run, "and --memory gives 64 MiB. Give --memory 1"), run.err);
   CHECK(w.run({"check", "large.json", "--memory", "64M"}).code == 2);
   CHECK(w.run({"check", "large.json", "--memory", "256M"}).code == 0);
+  write_text(w.path / "made.json", R"({"terrazzo": 1, "nodes": {
+    "maps":  {"type": "pattern", "kind": "bricks", "size": 128},
+    "weighted": {"type": "weight", "material": "@maps"},
+    "space": {"type": "pca", "features": "@weighted"},
+    "index": {"type": "index", "appearance": "@space"},
+    "layout": {"type": "synthesize", "index": "@index", "size": 8192},
+    "file":  {"type": "export", "uv": "@layout", "uv_path": "uv.exr"}}})");
+  const ProgramRun made = w.run({"check", "made.json", "--memory", "64M"});
+  CHECK(made.code == 2);
+  CHECK_MESSAGE(says(made, "node \"layout\" (synthesize): it takes about"), made.err);
 }
