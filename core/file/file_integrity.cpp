@@ -122,6 +122,8 @@ JpegFacts read_jpeg_facts(const std::filesystem::path& path, bool to_its_end) {
     if (stands_alone(marker)) continue;
     if (i + 1 >= file.size()) break;
     if (is_frame_header(marker) && i + 7 < file.size()) {
+      constexpr uint8_t progressive_frames[] = {0xc2, 0xc6, 0xca, 0xce};
+      facts.progressive = std::ranges::find(progressive_frames, marker) != std::end(progressive_frames);
       facts.bits = file.byte(i + 2);
       facts.size = {word(i + 5), word(i + 3)};
       facts.components = file.byte(i + 7);
@@ -171,15 +173,21 @@ TiffPieces tiff_pieces(Numbers& file) {
   return out;
 }
 
-/// Whether these bytes are one whole zlib stream whose checksum fits.
-bool is_sound_stream(std::vector<uint8_t>& bytes) {
-  std::vector<uint8_t> unpacked(size_t{1} << 16);
+/// Whether these bytes of a file are one whole zlib stream whose checksum fits.
+bool is_sound_stream(const File& file, const std::filesystem::path& path, uint64_t at, uint64_t count) {
+  constexpr size_t most_at_once = size_t{1} << 18;
+  std::vector<uint8_t> packed(size_t(std::min<uint64_t>(count, most_at_once))), unpacked(size_t{1} << 16);
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) return true;
-  stream.next_in = bytes.data();
-  stream.avail_in = uInt(bytes.size());
   int result = Z_OK;
   while (result == Z_OK) {
+    if (stream.avail_in == 0 && count > 0) {
+      const size_t got = file.read_at(at, packed.data(), size_t(std::min<uint64_t>(count, packed.size())), path);
+      at += got;
+      count = got > 0 ? count - got : 0;
+      stream.next_in = packed.data();
+      stream.avail_in = uInt(got);
+    }
     stream.next_out = unpacked.data();
     stream.avail_out = uInt(unpacked.size());
     result = inflate(&stream, Z_NO_FLUSH);
@@ -210,9 +218,7 @@ bool tiff_is_sound(const std::filesystem::path& path) {
   for (size_t i = 0; i < std::min(pieces.offsets.size(), pieces.byte_counts.size()); i++) {
     if (pieces.byte_counts[i] == 0) continue;  // what was never written reads as 0
     if (pieces.byte_counts[i] > numbers.size()) return false;
-    std::vector<uint8_t> bytes(pieces.byte_counts[i]);
-    bytes.resize(file.read_at(pieces.offsets[i], bytes.data(), bytes.size(), path));
-    if (!is_sound_stream(bytes)) return false;
+    if (!is_sound_stream(file, path, pieces.offsets[i], pieces.byte_counts[i])) return false;
   }
   return true;
 }

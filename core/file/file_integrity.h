@@ -9,11 +9,12 @@ namespace terrazzo {
 
 /// What the markers of a JPEG file (ITU T.81, annex B) say; decoders fill in for missing data without a word.
 struct JpegFacts {
-  int components = 0;     ///< 1 grey, 3 colour, 4 CMYK; 0 if no frame header was found
-  int bits = 0;           ///< of each component
-  Size size{};            ///< as stored, before it is turned
-  bool has_exif = false;  ///< it may have to be turned
-  bool complete = false;  ///< the end-of-image marker is there
+  int components = 0;        ///< 1 grey, 3 colour, 4 CMYK; 0 if no frame header was found
+  int bits = 0;              ///< of each component
+  Size size{};               ///< as stored, before it is turned
+  bool has_exif = false;     ///< it may have to be turned
+  bool progressive = false;  ///< decoders hold all of it at once
+  bool complete = false;     ///< the end-of-image marker is there
 };
 /// Unless `to_its_end`, reads up to the frame header, and does not look whether it is complete.
 JpegFacts read_jpeg_facts(const std::filesystem::path& path, bool to_its_end = true);

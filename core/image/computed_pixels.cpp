@@ -11,6 +11,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/base/tuning.h"
+#include "core/image/image_limits.h"
 #include "core/image/kept_pixels.h"
 #include "core/image/pull_plan.h"
 
@@ -60,6 +61,16 @@ constexpr auto patience = std::chrono::milliseconds(50);  ///< until a waiting t
 
 int rows_of(Size size, int channels, int64_t values) {
   return int(std::max<int64_t>(tuning->strip_rows, values / (int64_t{size.width} * channels)));
+}
+
+}  // namespace
+
+namespace {
+
+/// The pulls of all threads together, of a few images each, are to take a part of the memory budget only.
+int64_t most_values_at_once() {
+  constexpr uint64_t share = 64;
+  return std::min<int64_t>(tuning->most_values_at_once, int64_t(memory_budget() / share));
 }
 
 }  // namespace
@@ -157,7 +168,7 @@ void ComputedPixels::read(const Rect& region, float* out) const {
 int ComputedPixels::rows_at_once(PullPlan& plan, const Rect& region) const {
   if (plan.length() == 1) return region.height;
   int rows = std::min(region.height, rows_of({region.width, 1}, channels_, tuning->values_at_once));
-  while (rows > 1 && plan.most_values({region.x, region.y, region.width, rows}) > tuning->most_values_at_once)
+  while (rows > 1 && plan.most_values({region.x, region.y, region.width, rows}) > most_values_at_once())
     rows = (rows + 1) / 2;
   return rows;
 }

@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/computed_pixels.h"
+#include "core/image/image_limits.h"
 
 namespace terrazzo {
 
@@ -20,7 +21,10 @@ namespace {
 class FloatPixels : public PixelSource {
  public:
   FloatPixels(const ImageInfo& info, std::vector<float> pixels)
-      : stride_(size_t(info.size.width) * info.channels), channels_(info.channels), pixels_(std::move(pixels)) {}
+      : stride_(size_t(info.size.width) * info.channels),
+        channels_(info.channels),
+        pixels_(std::move(pixels)),
+        room_(pixels_.size() * sizeof(float)) {}
   void read(const Rect& r, float* out) const override {
     const size_t row = size_t(r.width) * channels_;
     for (int y = 0; y < r.height; y++)
@@ -32,12 +36,16 @@ class FloatPixels : public PixelSource {
   size_t stride_;
   int channels_;
   std::vector<float> pixels_;
+  PixelRoom room_;
 };
 
 class HalfPixels : public PixelSource {
  public:
   HalfPixels(const ImageInfo& info, std::vector<uint16_t> pixels)
-      : stride_(size_t(info.size.width) * info.channels), channels_(info.channels), pixels_(std::move(pixels)) {}
+      : stride_(size_t(info.size.width) * info.channels),
+        channels_(info.channels),
+        pixels_(std::move(pixels)),
+        room_(pixels_.size() * sizeof(uint16_t)) {}
   void read(const Rect& r, float* out) const override {
     const size_t row = size_t(r.width) * channels_;
     for (int y = 0; y < r.height; y++) {
@@ -50,6 +58,7 @@ class HalfPixels : public PixelSource {
   size_t stride_;
   int channels_;
   std::vector<uint16_t> pixels_;
+  PixelRoom room_;
 };
 
 void check(const ImageInfo& info) {

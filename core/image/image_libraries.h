@@ -29,6 +29,7 @@ struct StoredImage {
   bool exact = true;          ///< the stored values are of just that depth
   bool deep = false;          ///< several samples per pixel
   bool inks = false;          ///< the colours are printing inks
+  bool by_rows = false;       ///< decoded row by row: a decoder holds little of it at once
   std::string description{};  ///< as write_image stores it; empty if there is none
 };
 
@@ -46,6 +47,10 @@ class ImageDecoder {
   virtual void select(size_t) {}
   /// Reads the stored pixels of the selected layer, all channels of each together.
   virtual void read(Depth as, void* out) = 0;
+  /// Reads the next rows of them, from `first` on up to `end`: top to bottom, a multiple of row_step() at a time but
+  /// for the last. Only if the header says `by_rows`.
+  virtual void read_rows(int first, int end, Depth as, void* out) = 0;
+  virtual int row_step() const { return 1; }
 };
 
 /// Where an encoder puts bytes; it may go back to what it has written.

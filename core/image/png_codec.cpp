@@ -51,6 +51,7 @@ class PngDecoder final : public ImageDecoder {
     header_.stored = whole(header_.size);
     header_.channels.resize(png_get_channels(png_, info_));
     header_.depth = png_get_bit_depth(png_, info_) == 16 ? Depth::u16 : Depth::u8;
+    header_.by_rows = png_get_interlace_type(png_, info_) == PNG_INTERLACE_NONE;
     png_textp texts = nullptr;
     int count = 0;
     png_get_text(png_, info_, &texts, &count);
@@ -65,11 +66,14 @@ class PngDecoder final : public ImageDecoder {
     const size_t row = png_get_rowbytes(png_, info_);
     std::vector<png_bytep> rows(size_t(header_.size.height));
     for (size_t y = 0; y < rows.size(); y++) rows[y] = static_cast<png_bytep>(out) + y * row;
-    if (!read_rows(rows.data())) throw Error(reason_.data());
+    if (!read_all(rows.data())) throw Error(reason_.data());
+  }
+  void read_rows(int first, int end, Depth, void* out) override {
+    if (!read_some(static_cast<png_bytep>(out), end - first, end == header_.size.height)) throw Error(reason_.data());
   }
 
  private:
-  // Nothing in these two needs destroying when libpng jumps out of them.
+  // Nothing in these three needs destroying when libpng jumps out of them.
   bool read_info() {
     if (setjmp(png_jmpbuf(png_))) return false;
     png_init_io(png_, file_.get());
@@ -83,10 +87,17 @@ class PngDecoder final : public ImageDecoder {
     png_read_update_info(png_, info_);
     return true;
   }
-  bool read_rows(png_bytepp rows) {
+  bool read_all(png_bytepp rows) {
     if (setjmp(png_jmpbuf(png_))) return false;
     png_read_image(png_, rows);
     png_read_end(png_, nullptr);
+    return true;
+  }
+  bool read_some(png_bytep out, int rows, bool to_the_end) {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    const size_t row_bytes = png_get_rowbytes(png_, info_);
+    for (int y = 0; y < rows; y++) png_read_row(png_, out + size_t(y) * row_bytes, nullptr);
+    if (to_the_end) png_read_end(png_, nullptr);
     return true;
   }
 

@@ -168,10 +168,24 @@ void PullPlan::pull(const Rect& region, float* out) {
   }
 }
 
+/// Of images that are neither computed nor in memory.
+int64_t PullPlan::values_read(const Step& step) {
+  int64_t values = 0;
+  for (size_t i = 0; i < step.sources.size(); i++) {
+    const Image& source = *step.operation->sources[i];
+    if (step.sources[i] >= 0 || source.in_memory()) continue;
+    for (const Rect& part : step.parts) values += area_of(parts_read(*step.operation, i, part)) * source.channels();
+  }
+  return values;
+}
+
 int64_t PullPlan::most_values(const Rect& region) {
   demand(region);
   int64_t most = 0;
-  for (const Step& step : steps_) most = std::max(most, area_of(step.parts) * step.image->channels());
+  for (const Step& step : steps_) {
+    most = std::max(most, area_of(step.parts) * step.image->channels());
+    most = std::max(most, values_read(step) / read_for_one);
+  }
   return most;
 }
 

@@ -28,7 +28,7 @@ class PullPlan {
   void keep_pixels();
   /// Computes a region of the image.
   void pull(const Rect& region, float* out);
-  /// The most values that it computes of one image for a region.
+  /// The most values that it computes of one image for a region, or a quarter of those that it reads from disk for one.
   int64_t most_values(const Rect& region);
   /// How many times more work it is to pull the image by strips of so many rows than to compute every image once.
   double work_by_strips(int rows);
@@ -44,6 +44,10 @@ class PullPlan {
     int open_readers = 0;  ///< that have not been computed yet
   };
 
+  /// Reading again what strips have in common takes longer than computing it again.
+  static constexpr int64_t read_for_one = 4;
+
+  static int64_t values_read(const Step& step);
   void order(const ComputedPixels& image, Until until);
   void demand(const Rect& region);
   void compute(Step& step, float* out);

@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/base/tuning.h"
 #include "core/image/color.h"
+#include "core/image/file_pixels.h"
 
 namespace terrazzo {
 
@@ -42,13 +43,7 @@ bool channel_is(const Image& image, int c, float tolerance, Value value) {
 ImagePtr channels_of(const ImagePtr& image, ImageInfo info, const std::vector<int>& channels, bool inverted) {
   info.channels = int(channels.size());
   if (!inverted && info.channels == image->channels()) return Image::redescribed(image, info);
-  std::vector<float> out;
-  out.reserve(size_t(info.size.area()) * channels.size());
-  for_each_strip(*image, [&](const Rect& r, const float* p) {
-    for (int64_t i = 0; i < r.area(); i++, p += image->channels())
-      for (const int c : channels) out.push_back(inverted ? 1.0f - p[c] : p[c]);
-  });
-  return Image::from_floats(info, std::move(out));
+  return chosen_channels(image, info, channels, inverted);
 }
 
 int index_of_channel(char c) {

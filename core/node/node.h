@@ -115,6 +115,7 @@ struct Forecast {
   std::map<std::string, Size> sizes{};  ///< of maps, where they are known; of an image under ""
   std::optional<Semantic> semantic{};   ///< of an image
   std::vector<FutureFile> files{};      ///< of a sink
+  uint64_t memory = 0;                  ///< bytes that making them takes at least, at its peak; 0 if not known
 };
 /// By connected port, one for each wire.
 using InputForecasts = std::map<std::string, std::vector<Forecast>>;

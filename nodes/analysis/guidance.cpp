@@ -34,6 +34,8 @@ void compute(NodeContext& node) {
     node.note(fmt::format("edges are where strength exceeds {:.3f} (chosen automatically)", edges.threshold));
 }
 
+constexpr AnalysisMemory memory{.per_pixel = 16, .per_value = 8};
+
 }  // namespace
 
 NodeType guidance_node() {
@@ -83,8 +85,11 @@ NodeType guidance_node() {
   };
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
+  t.memory_hint = [](const NodeContext& node) { return memory.of(*node.input<Material>("material")); };
   t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    return preflight_analysis("maps", std::get<Texts>(params.at("maps")), inputs);
+    Forecast out = preflight_analysis("maps", std::get<Texts>(params.at("maps")), inputs);
+    out.memory = memory.of(inputs.at("material").front());
+    return out;
   };
   return t;
 }

@@ -1,5 +1,6 @@
 #include "core/analysis/space/k_coherence.h"
 #include "core/node/node.h"
+#include "nodes/common/node_helpers.h"
 
 namespace terrazzo {
 
@@ -22,6 +23,10 @@ NodeType index_node() {
                .max = most_similar}};
   t.compute = [](NodeContext& node) {
     node.output("index", make_index(node.input<Appearance>("appearance"), int(node.integer("similar")), node.task()));
+  };
+  t.preflight = [](const Params&, const InputForecasts& inputs) {
+    const Forecast& exemplar = inputs.at("appearance").front();
+    return Forecast{.maps = exemplar.maps, .sizes = exemplar.sizes, .memory = index_memory.of(exemplar)};
   };
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Appearance>("appearance")->size().area()) * 140;

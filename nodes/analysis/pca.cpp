@@ -3,6 +3,7 @@
 #include "core/analysis/space/appearance_space.h"
 #include "core/base/text.h"
 #include "core/node/node.h"
+#include "nodes/common/node_helpers.h"
 
 namespace terrazzo {
 
@@ -64,10 +65,7 @@ NodeType pca_node() {
        .max = 100},
   };
   t.compute = compute;
-  t.memory_hint = [](const NodeContext& node) {
-    const auto features = node.input<Features>("features");
-    return size_t(features->size().area()) * (8 * features->channel_count() + 48);
-  };
+  set_memory_of_features(t, {.per_pixel = 48, .per_value = 6});
   return t;
 }
 

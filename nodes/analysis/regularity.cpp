@@ -7,6 +7,7 @@
 
 #include "core/analysis/repeats/part_lattices.h"
 #include "core/node/node.h"
+#include "nodes/common/node_helpers.h"
 
 namespace terrazzo {
 
@@ -167,6 +168,7 @@ NodeType regularity_node() {
   };
   t.persist = Persist::payload;
   t.check = check;
+  set_memory_of_features(t, lattice_memory);
   t.compute = compute;
   return t;
 }

@@ -68,6 +68,7 @@ NodeType weight_node() {
         out.push_back(fmt::format("\"weights.{0}\": the weight of {0} is 0: nothing in it is looked at", name));
     return out;
   };
+  t.memory_hint = [](const NodeContext& node) { return lattice_memory.of(*node.input<Material>("material")); };
   t.preflight = [](const Params& params, const InputForecasts& inputs) {
     check_all(
         [&] {
@@ -83,7 +84,8 @@ NodeType weight_node() {
           if (!missing.empty()) throw Errors(missing);
         },
         [&] { preflight_one_shape("material", inputs); });
-    return Forecast{};
+    const Forecast& material = inputs.at("material").front();
+    return Forecast{.maps = material.maps, .sizes = material.sizes, .memory = lattice_memory.of(material)};
   };
   return t;
 }

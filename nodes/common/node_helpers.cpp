@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"
+#include "core/exemplar/features.h"
 #include "core/image/color.h"
 #include "core/material/map_names.h"
 
@@ -133,6 +134,37 @@ void preflight_one_shape(const std::string& port, const InputForecasts& inputs) 
   for (const std::string& name : material.maps)
     if (const auto size = material.sizes.find(name); size != material.sizes.end()) maps.push_back(*size);
   if (!maps.empty()) require_one_shape(port, maps);
+}
+
+size_t AnalysisMemory::of(const Material& exemplar) const {
+  int values = 0;
+  for (const Map& map : exemplar.maps()) values += map.image->channels();
+  return size_t(exemplar.size().area()) * (per_pixel + uint64_t(values) * per_value);
+}
+
+size_t AnalysisMemory::of(const Features& features) const {
+  return size_t(features.size().area()) * (per_pixel + uint64_t(features.channel_count()) * per_value);
+}
+
+uint64_t AnalysisMemory::of(const Forecast& exemplar) const {
+  int64_t pixels = 0, values = 0;
+  for (const std::string& map : exemplar.maps) {
+    const auto size = exemplar.sizes.find(map);
+    if (size == exemplar.sizes.end()) return 0;
+    const std::optional<Semantic> semantic = semantic_from(map);
+    const bool is_vector = semantic && (is_color(*semantic) || *semantic == Semantic::normal);
+    pixels = std::max(pixels, size->second.area());
+    values += is_vector ? 3 : 1;
+  }
+  return uint64_t(pixels) * (per_pixel + uint64_t(values) * per_value);
+}
+
+void set_memory_of_features(NodeType& type, const AnalysisMemory& memory) {
+  type.preflight = [memory](const Params&, const InputForecasts& inputs) {
+    const Forecast& exemplar = inputs.at("features").front();
+    return Forecast{.maps = exemplar.maps, .sizes = exemplar.sizes, .memory = memory.of(exemplar)};
+  };
+  type.memory_hint = [memory](const NodeContext& node) { return memory.of(*node.input<Features>("features")); };
 }
 
 Forecast preflight_analysis(const std::string& param, const std::vector<std::string>& wanted,

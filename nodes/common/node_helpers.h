@@ -53,6 +53,23 @@ void preflight_maps(const std::string& param, const std::vector<std::string>& wa
 /// For preflights: throws Error about `port` if its material's maps certainly differ in aspect ratio.
 void preflight_one_shape(const std::string& port, const InputForecasts& inputs);
 
+/// What an analysis holds at its peak, in bytes for each pixel of the exemplar and for each value of a pixel in all
+/// maps together. Measured with tests/bench/memory_budget.sh.
+struct AnalysisMemory {
+  uint64_t per_pixel = 0, per_value = 0;
+
+  size_t of(const Material& exemplar) const;
+  size_t of(const Features& features) const;
+  /// 0 if the sizes of the maps are not known yet.
+  uint64_t of(const Forecast& exemplar) const;
+};
+/// Of finding the lattice, which also tells whether an exemplar tiles.
+inline constexpr AnalysisMemory lattice_memory{32, 6};
+/// Of an index, with what making it and synthesis from it hold besides.
+inline constexpr AnalysisMemory index_memory{48, 0};
+/// The preflight and memory_hint of nodes that look at features.
+void set_memory_of_features(NodeType& type, const AnalysisMemory& memory);
+
 /// The preflight of nodes that analyse maps of their "material" together. `param` names those `wanted`.
 Forecast preflight_analysis(const std::string& param, const std::vector<std::string>& wanted,
                             const InputForecasts& inputs);

@@ -4,6 +4,7 @@
 
 #include "core/image/image_ops.h"
 #include "core/synthesis/steps.h"
+#include "nodes/common/node_helpers.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -109,6 +110,10 @@ NodeType synthesize_node() {
   t.steps = described_synthesis_steps();
   t.compute = compute;
   t.memory_hint = memory;
+  t.preflight = [](const Params& params, const InputForecasts& inputs) {
+    const uint64_t held = index_memory.of(inputs.at("index").front());
+    return Forecast{.memory = held > 0 ? held + synthesis_memory(std::get<Size>(params.at("size"))) : 0};
+  };
   return t;
 }
 

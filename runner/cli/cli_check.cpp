@@ -10,6 +10,7 @@
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
+#include "runner/cli/limit_flags.h"
 #include "runner/engine/preflight.h"
 #include "runner/engine/schedule.h"
 
@@ -21,6 +22,7 @@ using Json = nlohmann::ordered_json;
 
 struct CheckFlags : GraphFlags {
   bool json = false;
+  LimitFlags limits;
 };
 
 /// What a check has found.
@@ -113,6 +115,7 @@ void answer_json(const CheckFlags& flags, const Findings& found) {
 }
 
 int check(const CheckFlags& flags) {
+  flags.limits.apply();
   if (flags.json) {
     Findings found;
     try {
@@ -151,6 +154,7 @@ void add_check_command(CLI::App& app, Chosen& chosen) {
   const auto flags = std::make_shared<CheckFlags>();
   add_graph_argument(*command, *flags);
   add_value_flags(*command, *flags);
+  add_limit_flags(*command, flags->limits);
   command->add_flag("--json", flags->json,
                     "Print the problems, of each severity the first hundred, as JSON: severity, code, file, line, "
                     "column, JSON pointer, node, message");

@@ -6,6 +6,7 @@
 #include "nodes/sink/export_report.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
+#include "runner/cli/limit_flags.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/written_files.h"
 #include "runner/engine/memory_graph.h"
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 struct CompareFlags {
   std::string exemplar, output, uv, sheet, tileable = "auto";
   bool json = false, force = false;
+  LimitFlags limits{};
 };
 
 Graph compare_graph(const CompareFlags& flags) {
@@ -57,6 +59,7 @@ std::string as_table(const Report& report) {
 }
 
 int compare(const CompareFlags& flags) {
+  flags.limits.apply();
   check_sheet(flags.sheet);
   const CancelOnSignal signals;
   const Graph graph = compare_graph(flags);
@@ -66,6 +69,7 @@ int compare(const CompareFlags& flags) {
   RunOptions options;
   options.targets.keep = {"figures"};
   options.cancelled = &signals.flag();
+  options.memory = flags.limits.budget();
   const RunResult result = run_graph(graph, options);
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
   if (result.cancelled) return exit_cancelled;
@@ -103,6 +107,7 @@ void add_compare_command(CLI::App& app, Chosen& chosen) {
                    "Also write both side by side: a picture, or a page with the figures if the name ends in .html")
       ->type_name("FILE");
   command->add_flag("--force", flags->force, force_help);
+  add_limit_flags(*command, flags->limits);
   command->footer(
       "Examples:\n"
       "  terrazzo compare bricks/ out/\n"

@@ -18,6 +18,7 @@
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
 #include "runner/cli/library_making.h"
+#include "runner/cli/limit_flags.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/written_files.h"
 #include "runner/report/html_report.h"
@@ -35,6 +36,7 @@ struct LibraryFlags {
   std::string summary, sheet;
   LibraryAddition addition;
   bool force = false, json = false;
+  LimitFlags limits;
 
   Library open() const { return folder.empty() ? Library() : Library({fs::absolute(folder).lexically_normal()}); }
 };
@@ -62,6 +64,7 @@ class WorkFolder {
 };
 
 int add(const LibraryFlags& flags) {
+  flags.limits.apply();
   const Library library = flags.open();
   const std::string& name = flags.name;
   as_usage([&] { require_library_name(name); });
@@ -72,7 +75,9 @@ int add(const LibraryFlags& flags) {
   RunResult result;
   std::optional<LibraryEntry> entry;
   try {
-    entry = made_entry(flags.addition, work.path(), signals.flag(), result);
+    LibraryAddition addition = flags.addition;
+    addition.memory = flags.limits.budget();
+    entry = made_entry(addition, work.path(), signals.flag(), result);
   } catch (const GraphError& e) {
     std::vector<Problem> problems;
     for (const Problem& p : e.problems())
@@ -168,6 +173,7 @@ std::vector<KeptFile> files_of(const std::vector<LibraryEntry>& entries) {
 }
 
 int list(const LibraryFlags& flags) {
+  flags.limits.apply();
   check_sheet(flags.sheet);
   const Library library = flags.open();
   std::vector<std::string> faults;
@@ -265,6 +271,7 @@ void add_library_command(CLI::App& app, Chosen& chosen) {
                            "Sets a parameter of a node of the stock graph analyse.json, such as "
                            "weighted.weights.height=2; may be given several times")
               ->type_name("NAME=VALUE"));
+  add_limit_flags(*adding, flags->limits);
   adding->add_flag("--force", flags->force, "Replace the one that has this name");
 
   CLI::App* listing = sub("list", "Lists analyses: all, or those with these words in name, summary or tags", list);
@@ -273,6 +280,7 @@ void add_library_command(CLI::App& app, Chosen& chosen) {
               ->type_name("TAG"));
   listing->add_option("--sheet", flags->sheet, "Write a sheet of their pictures, a picture or a page (.html)")
       ->type_name("FILE");
+  add_limit_flags(*listing, flags->limits);
   listing->add_flag("--force", flags->force, force_help);
   listing->add_flag("--json", flags->json, "For programs");
 

@@ -10,6 +10,7 @@
 #include "graphs/document/stock_graphs.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
+#include "runner/cli/limit_flags.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/starting_graph.h"
 #include "runner/cli/written_files.h"
@@ -28,6 +29,7 @@ struct NewFlags {
   std::string name;
   std::string like = "material";
   bool force = false;
+  LimitFlags limits{};
 };
 
 /// The folder as a graph file in `beside` should name it.
@@ -67,6 +69,7 @@ void require_stock_graph(const NewFlags& flags) {
 }
 
 int make_new(const NewFlags& flags) {
+  flags.limits.apply();
   if (!flags.force && fs::exists(flags.out))
     throw UsageError(fmt::format("{} exists; --force overwrites it", flags.out));
   require_stock_graph(flags);
@@ -77,6 +80,7 @@ int make_new(const NewFlags& flags) {
   RunOptions options;
   options.targets.keep = {"exemplar", "lattice"};
   options.cancelled = &signals.flag();
+  options.memory = flags.limits.budget();
   const RunResult result = run_on_folder(graph, options, flags.folder);
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
   if (!result.ok()) return result.cancelled ? exit_cancelled : exit_failed;
@@ -107,6 +111,7 @@ void add_new_command(CLI::App& app, Chosen& chosen) {
       ->type_name("STEM");
   command->add_option("--like", flags->like, "The stock graph (graphs/NAME.json) to begin with; material if not given")
       ->type_name("NAME");
+  add_limit_flags(*command, flags->limits);
   command->add_flag("--force", flags->force, "Overwrite the graph file if it exists");
   command->footer(
       "It looks at the maps, weights them, looks for what repeats, and says in comments what it chose and why.\n"

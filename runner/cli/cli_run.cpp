@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "core/image/image_limits.h"
 #include "graphs/document/load.h"
 #include "runner/cache/cache_limit.h"
 #include "runner/cli/cli_commands.h"
@@ -154,7 +153,7 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   options.history = history ? &*history : nullptr;
   options.threads = flags.checked ? 1 : flags.threads;
   options.checked = flags.checked;
-  options.memory = flags.memory.empty() ? 0 : parse_bytes(flags.memory, "--memory");
+  options.memory = flags.limits.budget();
   options.cancelled = &cancelled;
   options.targets.keep = flags.keep;
   options.keep_going = flags.keep_going;
@@ -263,17 +262,10 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
   command.add_option("--threads", flags.threads, "Threads to use; one per core if not given")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  command
-      .add_option("--memory", flags.memory, "Memory for running nodes, such as 2G; half of the machine's if not given")
-      ->type_name("SIZE");
+  add_limit_flags(command, flags.limits);
   command.add_flag("--checked", flags.checked,
                    "Run every node twice and watch what it reads: one that is not deterministic, or reads files or "
                    "variables of the environment that its key does not cover, fails. Uses one thread and no cache");
-  command
-      .add_option("--max-pixels", flags.max_pixels,
-                  "Read no image of more pixels; as many as fit into half of the machine's memory if not given")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
   command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
   command.add_flag(
       "--watch", flags.watch,
@@ -303,13 +295,12 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
 }
 
 int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
-  if (!flags.memory.empty()) parse_bytes(flags.memory, "--memory");
+  flags.limits.apply();
   const std::string ending = fs::path(flags.report).extension().string();
   std::error_code missing;
   const bool is_device = fs::exists(flags.report, missing) && !fs::is_regular_file(flags.report, missing);
   if (!flags.report.empty() && !is_device && ending != ".html" && ending != ".htm")
     throw UsageError(fmt::format("--report takes a file that ends in .html; \"{}\" does not", flags.report));
-  if (flags.max_pixels > 0) set_most_pixels(flags.max_pixels);
   check_kept(files_of(flags), flags.reads);
   check_replaced(files_of(flags), flags.force);
   if (flags.checked && !is_watching()) warn(flags, "what nodes read is not watched: " + why_not_watching());

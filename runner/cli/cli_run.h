@@ -6,6 +6,7 @@
 
 #include "graphs/document/graph.h"
 #include "graphs/document/problem.h"
+#include "runner/cli/limit_flags.h"
 #include "runner/cli/written_files.h"
 #include "runner/engine/schedule.h"
 #include "runner/report/progress.h"
@@ -24,7 +25,7 @@ struct RunFlags {
   std::string cache_size;
   bool no_cache = false;
   int threads = 0;
-  std::string memory;
+  LimitFlags limits;
   bool dry_run = false;
   bool watch = false;
   bool checked = false;
@@ -36,7 +37,6 @@ struct RunFlags {
   std::string sandbox;
   std::vector<std::string> values{};  ///< NAME=VALUE of the command line
   std::vector<std::string> files{};   ///< more files that it names
-  int64_t max_pixels = 0;
   std::string progress = "auto";
   std::vector<WrittenFile> writes{};              ///< besides report and trace
   std::vector<KeptFile> reads{};                  ///< besides the graph and the files of its nodes

@@ -247,6 +247,8 @@ Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options, con
   choose_targets(plan, places, options);
   mark_needed(plan);
   link_readers(plan, places);
+  if (std::vector<Problem> problems = oversize_problems(plan); !problems.empty())
+    throw GraphError(graph.file.string(), std::move(problems));
   for (size_t i = 0; i < plan.stages.size(); i++) {
     Stage& s = plan.stages[i];
     const bool ready = s.needed && std::all_of(s.sources.begin(), s.sources.end(), [&](int source) {

@@ -1,6 +1,7 @@
 #include "runner/engine/preflight.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -10,6 +11,8 @@
 
 #include "core/base/paths.h"
 #include "core/file/atomic_file.h"
+#include "core/image/image_file.h"
+#include "core/image/image_limits.h"
 #include "graphs/document/forecasts.h"
 
 namespace terrazzo {
@@ -52,10 +55,16 @@ class Foresight {
     for (const fs::path& path : graph.made_from) note_source(path, "the graph is made from it");
   }
 
-  /// Nodes in the order of their wires, each with whether it is going to write.
-  std::vector<Problem> look(const std::vector<std::pair<const GraphNode*, bool>>& nodes) {
-    for (const auto& [node, writes] : nodes) note_sources(*node);
-    for (const auto& [node, writes] : nodes) look_at(*node, writes);
+  struct Future {
+    const GraphNode* node = nullptr;
+    bool writes = false;    ///< it is going to write its files
+    bool computes = false;  ///< its results are going to be computed
+  };
+  /// Nodes in the order of their wires.
+  std::vector<Problem> look(const std::vector<Future>& nodes) {
+    for (const Future& future : nodes) note_sources(*future.node);
+    for (const Future& future : nodes) look_at(future);
+    if (memory_problem_) problems_.push_back(std::move(*memory_problem_));
     return std::move(problems_);
   }
 
@@ -78,15 +87,38 @@ class Foresight {
     return fmt::format("{} would be overwritten, but {}; write to another folder", path.string(), source->second);
   }
 
-  void look_at(const GraphNode& node, bool writes) {
+  void look_at(const Future& future) {
+    const GraphNode& node = *future.node;
     try {
       const Forecast* forecast = forecasts_.add(node);
-      if (forecast && writes) check_files(node, forecast->files);
+      if (forecast && future.writes) check_files(node, forecast->files);
+      if (forecast && future.computes) check_memory(node, *forecast);
     } catch (const Errors& all) {
       for (const Error& e : all.all()) complain(node, e);
     } catch (const Error& e) {
       complain(node, e);
     }
+  }
+
+  /// The budget holds for what cannot be done by parts too, which is said now rather than found out by the machine. One
+  /// node says it: that which takes most.
+  void check_memory(const GraphNode& node, const Forecast& forecast) {
+    if (!memory_budget_is_set() || forecast.memory <= memory_budget() || forecast.memory <= most_memory_) return;
+    most_memory_ = forecast.memory;
+    constexpr double mib = 1 << 20;
+    Size size{};
+    for (const auto& [map, of_map] : forecast.sizes)
+      if (of_map.area() > size.area()) size = of_map;
+    const double takes = std::ceil(double(forecast.memory) / mib), gives = double(memory_budget()) / mib;
+    const double shrink = std::sqrt(gives / takes);
+    const bool has_size = size.area() > 0;
+    memory_problem_ = problem_of(
+        node, "",
+        fmt::format("it takes about {:.0f} MiB{}, and --memory gives {:.0f} MiB. Give --memory {:.0f}M{}", takes,
+                    has_size ? " for an exemplar of " + describe(size) : "", gives, takes,
+                    has_size ? fmt::format(", or scale the exemplar to {}x{} first, as the node type \"resize\" does",
+                                           int(size.width * shrink), int(size.height * shrink))
+                             : ", or make a smaller result, or one from a smaller exemplar"));
   }
 
   void complain(const GraphNode& node, const Error& e) {
@@ -149,14 +181,34 @@ class Foresight {
   std::map<fs::path, Writer> writers_;           ///< by place_of_file
   std::set<std::pair<std::vector<Wire>, std::string>> said_;
   std::vector<Problem> problems_;
+  uint64_t most_memory_ = 0;
+  std::optional<Problem> memory_problem_;
 };
 
 }  // namespace
 
+std::vector<Problem> oversize_problems(const Plan& plan) {
+  std::vector<Problem> problems;
+  std::set<fs::path> said;
+  for (const Stage& s : plan.stages) {
+    if (!s.needed || !s.type().files_read) continue;
+    for (const fs::path& file : s.type().files_read(s.node->params)) try {
+        std::error_code missing;
+        const uintmax_t bytes = looks_like_image(file) ? fs::file_size(file, missing) : 0;
+        if (!missing) require_bytes_fit(file, bytes);
+      } catch (const TooManyPixels& e) {
+        if (said.insert(file).second) problems.push_back(problem_of(*s.node, "path", e.what()));
+      }
+  }
+  return problems;
+}
+
 std::vector<Problem> preflight_problems(const Plan& plan) {
-  std::vector<std::pair<const GraphNode*, bool>> nodes;
-  for (const Stage& s : plan.stages)
-    if (s.needed) nodes.emplace_back(s.node, s.state != StageState::up_to_date);
+  std::vector<Foresight::Future> nodes;
+  for (const Stage& s : plan.stages) {
+    const bool computes = s.state == StageState::run || s.state == StageState::depends;
+    if (s.needed) nodes.push_back({s.node, s.state != StageState::up_to_date, computes});
+  }
   return Foresight(*plan.graph).look(nodes);
 }
 
@@ -196,8 +248,8 @@ std::vector<FileToWrite> files_to_write(const Plan& plan) {
 }
 
 std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes) {
-  std::vector<std::pair<const GraphNode*, bool>> all;
-  for (const GraphNode& n : nodes) all.emplace_back(&n, true);
+  std::vector<Foresight::Future> all;
+  for (const GraphNode& n : nodes) all.push_back({&n, true, false});
   return Foresight().look(all);
 }
 

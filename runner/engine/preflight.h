@@ -13,7 +13,11 @@ namespace terrazzo {
 /// Stages whose files are up to date write none.
 std::vector<Problem> preflight_problems(const Plan& plan);
 
-/// The same for nodes of a document that cannot be planned, see LoadOptions.
+/// Images that needed stages read and that are larger than may be read, told from the size of the files alone: to be
+/// asked before a plan reads them for its keys.
+std::vector<Problem> oversize_problems(const Plan& plan);
+
+/// The same as preflight_problems for nodes of a document that cannot be planned, see LoadOptions.
 std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes);
 
 struct FileToWrite {

@@ -1,9 +1,12 @@
 #include "tests/runner/program.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -65,6 +68,19 @@ bool StartedProgram::says(const std::string& text) const {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return false;
+}
+
+long StartedProgram::watch_memory() const {
+  const std::string status = fmt::format("/proc/{}/status", pid_), mark = "VmHWM:";
+  long peak = 0;
+  siginfo_t ended{};
+  while (::waitid(P_PID, id_t(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0) {
+    const std::string text = read_text(status);
+    if (text.starts_with("Name:\tterrazzo\n"))  // and no longer this program
+      if (const size_t at = text.find(mark); at != text.npos) peak = std::max(peak, std::atol(&text[at + mark.size()]));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return peak;
 }
 
 ProgramRun StartedProgram::wait() {

@@ -27,6 +27,9 @@ class StartedProgram {
   /// Waits until its standard error contains the text, or a long time has passed.
   bool says(const std::string& text) const;
   ProgramRun wait();
+  /// Watches it until it ends: the most memory that it has had at once, in KiB. What the system counts itself includes
+  /// the memory of this process, which it was forked from.
+  long watch_memory() const;
 
  private:
   std::filesystem::path folder_;

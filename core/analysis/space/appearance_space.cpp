@@ -154,7 +154,6 @@ AppearanceLevel make_level(const Planes& planes, std::vector<uint8_t> usable, co
 
 /// The features' channels with the guidance's behind them, scaled.
 Planes joined(const Planes& features, const Planes& guidance, double weight) {
-  if (guidance.channels == 0 || weight <= 0) return features;
   Planes out{features.size, features.channels + guidance.channels, features.wraps, {}};
   out.values.reserve(size_t(out.size.area()) * out.channels);
   for (int64_t i = 0; i < out.size.area(); i++) {
@@ -191,8 +190,11 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
   std::vector<AppearanceLevel> levels;
   for (int l = 0; l < count; l++) {
     const double fade = count > 1 ? double(l) / (count - 1) : 1.0;
-    levels.push_back(make_level(joined(planes, guides, options.guidance_weight * fade),
-                                usable_pixels(allowed, size, l, features.wraps()), options, task));
+    const double weight = options.guidance_weight * fade;
+    const bool guided = guides.channels > 0 && weight > 0;
+    const Planes both = guided ? joined(planes, guides, weight) : Planes();
+    levels.push_back(
+        make_level(guided ? both : planes, usable_pixels(allowed, size, l, features.wraps()), options, task));
     if (l + 1 < count) {
       planes = halved(planes);
       guides = halved(guides);

@@ -48,11 +48,11 @@ std::vector<float> binomial_kernel(double deviation) {
   return {k.begin(), k.end()};
 }
 
-Planes smoothed(const Planes& in, double deviation) {
+Planes smoothed(Planes in, double deviation) {
   const std::vector<float> kernel = binomial_kernel(deviation);
   const int reach = int(kernel.size()) / 2, n = in.channels;
   if (reach == 0) return in;
-  Planes across = in, out = in;
+  Planes across = in;
   const auto pass = [&](const Planes& from, Planes& to, bool horizontal) {
     tbb::parallel_for(0, in.size.height, [&](int y) {
       for (int x = 0; x < in.size.width; x++) {
@@ -66,8 +66,8 @@ Planes smoothed(const Planes& in, double deviation) {
     });
   };
   pass(in, across, true);
-  pass(across, out, false);
-  return out;
+  pass(across, in, false);
+  return in;
 }
 
 /// Scharr's operator on one channel.

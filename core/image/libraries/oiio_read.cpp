@@ -53,6 +53,7 @@ StoredImage describe(const OIIO::ImageSpec& spec, const std::string& format, con
   header.exact = header.depth != Depth::f32 || type == OIIO::TypeDesc::FLOAT;
   header.deep = spec.deep;
   header.inks = says_inks(spec);
+  header.by_rows = format == "openexr" || format == "tiff" || format == "jpeg";
   header.description = std::string(spec.get_string_attribute("ImageDescription"));
   return header;
 }
@@ -86,30 +87,49 @@ class OiioDecoder final : public ImageDecoder {
     header_ = describe(in_->spec(), in_->format_name(), layer_->channels);
   }
   void read(Depth as, void* out) override {
+    read_layer(as, header_.stored.height, out, [&](int begin, int end, const OIIO::TypeDesc& type, void* to) {
+      return in_->read_image(layer_->part, 0, begin, end, type, to);
+    });
+  }
+  void read_rows(int first, int end, Depth as, void* out) override {
+    const OIIO::ImageSpec& spec = in_->spec();
+    const int top = spec.y + first, bottom = spec.y + end;
+    read_layer(as, end - first, out, [&](int begin, int last, const OIIO::TypeDesc& type, void* to) {
+      if (spec.tile_width > 0)
+        return in_->read_tiles(layer_->part, 0, spec.x, spec.x + spec.width, top, bottom, spec.z, spec.z + 1, begin,
+                               last, type, to);
+      return in_->read_scanlines(layer_->part, 0, top, bottom, spec.z, begin, last, type, to);
+    });
+  }
+  int row_step() const override { return std::max(1, in_->spec().tile_height); }
+
+ private:
+  /// Reads rows of the layer's channels by means of `read`, which reads a range of channels.
+  template <typename Read>
+  void read_layer(Depth as, int rows, void* out, const Read& read) {
     constexpr std::array types = {OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16, OIIO::TypeDesc::HALF,
                                   OIIO::TypeDesc::FLOAT};
     const OIIO::TypeDesc type = types[static_cast<size_t>(as)];
     const std::vector<int>& channels = layer_->channels;
     const auto [least, most] = std::minmax_element(channels.begin(), channels.end());
     const int first = *least, count = *most + 1 - first;
+    const auto read_channels = [&](void* to) {
+      in_->geterror();  // what opening has left
+      const bool done = read(first, first + count, type, to);
+      // What decoders make up for damaged data they tell by an error alone.
+      if (const std::string said = in_->geterror(); !done || !said.empty()) throw Error(said);
+    };
     const bool in_order = std::is_sorted(channels.begin(), channels.end()) && count == int(channels.size());
-    if (in_order) return read_channels(first, count, type, out);
-    std::vector<uint8_t> all(size_t(header_.stored.area()) * count * type.size());
-    read_channels(first, count, type, all.data());
+    if (in_order) return read_channels(out);
+    const int64_t pixels = int64_t{header_.stored.width} * rows;
+    std::vector<uint8_t> all(size_t(pixels) * count * type.size());
+    read_channels(all.data());
     auto* to = static_cast<uint8_t*>(out);
-    for (int64_t i = 0; i < header_.stored.area(); i++)
+    for (int64_t i = 0; i < pixels; i++)
       for (const int c : channels) {
         std::memcpy(to, &all[(size_t(i) * count + (c - first)) * type.size()], type.size());
         to += type.size();
       }
-  }
-
- private:
-  void read_channels(int first, int count, const OIIO::TypeDesc& type, void* out) {
-    in_->geterror();  // what opening has left
-    const bool done = in_->read_image(layer_->part, 0, first, first + count, type, out);
-    // What decoders make up for damaged data they tell by an error alone.
-    if (const std::string said = in_->geterror(); !done || !said.empty()) throw Error(said);
   }
 
   void find_layers() {

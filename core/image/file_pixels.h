@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/image/image.h"
+#include "core/image/image_limits.h"
+
+/// Pixels of image files that do not fit into their share of the memory budget.
+namespace terrazzo {
+
+/// How an image lies in a file.
+struct PixelLayout {
+  Depth depth = Depth::u8;  ///< of the values that are kept
+  Rect stored;              ///< in the image's coordinates; what is not stored is 0
+  Size size;                ///< of the image as stored, before it is turned
+  int orientation = 1;      ///< as in EXIF
+  int channels = 1;
+
+  bool is_turned() const { return orientation >= 5; }
+  Size upright() const { return is_turned() ? Size{size.height, size.width} : size; }
+};
+
+/// An image's stored values in a scratch file, from which they are read as floats, upright: of 8 bits k / 255, of 16
+/// bits k / 65535. Thread-safe for reading once all are written. Throws Error if the disk fails.
+class FilePixels : public PixelSource {
+ public:
+  /// Null if there is no room on disk.
+  static std::shared_ptr<FilePixels> make(const PixelLayout& layout);
+  ~FilePixels() override;
+  FilePixels(const FilePixels&) = delete;
+  FilePixels& operator=(const FilePixels&) = delete;
+
+  /// Stored rows from `first` on, values of the layout's depth.
+  void write_rows(int first, int rows, const void* values);
+  /// From now on values come as v * 0.5 + 0.5, as normals are encoded.
+  void encode() { encodes_ = true; }
+  void read(const Rect& region, float* out) const override;
+  /// The image of all that has been written; digest as Image::from_halfs gives for halfs, else Image::from_floats.
+  static ImagePtr image(const ImageInfo& info, const std::shared_ptr<const FilePixels>& pixels);
+
+ private:
+  FilePixels(const PixelLayout& layout, uint64_t at) : layout_(layout), at_(at) {}
+  uint64_t bytes() const;
+  Rect as_stored(const Rect& region) const;
+  template <typename T>
+  void read_stored(const Rect& region, T* out) const;
+  template <typename T>
+  void read_upright(const Rect& region, T* out) const;
+  template <typename T, typename Convert>
+  void read_as(const Rect& region, float* out, const Convert& convert) const;
+
+  const PixelLayout layout_;
+  const uint64_t at_;  ///< where they begin in the scratch file
+  bool encodes_ = false;
+};
+
+/// An image of pixels that `source` has and that are read once now, strip by strip, for the digest: the same as
+/// Image::from_floats gives.
+ImagePtr image_of_source(ImageInfo info, std::shared_ptr<const PixelSource> source);
+
+/// Some channels of an image, in that order, each value v as 1 - v if `inverted`. In memory if they fit into their
+/// share of the budget, else read from the image when asked for.
+ImagePtr chosen_channels(const ImagePtr& image, ImageInfo info, const std::vector<int>& channels, bool inverted);
+
+}  // namespace terrazzo

@@ -1,0 +1,40 @@
+#include "runner/cli/limit_flags.h"
+
+#include <CLI/CLI.hpp>
+
+#include "core/image/image_limits.h"
+#include "runner/cli/cli_commands.h"
+
+namespace terrazzo {
+
+uint64_t LimitFlags::budget() const {
+  return memory.empty() ? 0 : parse_bytes(memory, "--memory");
+}
+
+void LimitFlags::apply() const {
+  if (!memory.empty()) set_memory_budget(budget());
+  if (max_pixels > 0) set_most_pixels(max_pixels);
+  if (!max_bytes.empty()) set_most_bytes(int64_t(parse_bytes(max_bytes, "--max-bytes")));
+}
+
+void add_limit_flags(CLI::App& command, LimitFlags& flags) {
+  command
+      .add_option("--memory", flags.memory,
+                  "Memory to stay within, such as 2G; half of the machine's if not given. Images that do not fit are "
+                  "read into a temporary file")
+      ->type_name("SIZE");
+  command
+      .add_option(
+          "--max-pixels", flags.max_pixels,
+          "Read no image of more pixels; as many as fit into half of the machine's memory if not given, or into "
+          "16 times what --memory says")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--max-bytes", flags.max_bytes,
+                  "Read no image file of more bytes, such as 2G; an eighth of the memory to stay within if not given, "
+                  "but at least 256M")
+      ->type_name("SIZE");
+}
+
+}  // namespace terrazzo

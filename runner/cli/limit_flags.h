@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace terrazzo {
+
+/// How much a command may take: options of every command that reads images.
+struct LimitFlags {
+  std::string memory;      ///< as given; empty: none
+  int64_t max_pixels = 0;  ///< 0: not given
+  std::string max_bytes;
+
+  /// The budget in bytes; 0 if none is given. Throws UsageError.
+  uint64_t budget() const;
+  /// Makes them hold for this process. Throws UsageError.
+  void apply() const;
+};
+
+/// --memory, --max-pixels and --max-bytes.
+void add_limit_flags(CLI::App& command, LimitFlags& flags);
+
+}  // namespace terrazzo
