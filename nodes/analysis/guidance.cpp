@@ -7,6 +7,7 @@
 #include "core/material/map_names.h"
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -14,7 +15,6 @@ namespace {
 
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
-  require_one_shape("material", *material);
   EdgeOptions options;
   options.maps = node.texts("maps");
   if (node.number("threshold") > 0) options.threshold = node.number("threshold");
@@ -32,6 +32,14 @@ void compute(NodeContext& node) {
   node.output("edges", Image::from_floats(mask, {edges.mask.begin(), edges.mask.end()}));
   if (!options.threshold)
     node.note(fmt::format("edges are where strength exceeds {:.3f} (chosen automatically)", edges.threshold));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  require_analysable_maps("maps", std::get<Texts>(params.at("maps")), inputs);
+  const std::optional<Size> size = material_size(inputs.at("material").front());
+  return {{"distance", forecast_of_image(values_facts(size, Semantic::guidance))},
+          {"edges", forecast_of_image(values_facts(size, Semantic::mask))},
+          {"gradients", forecast_of_image(values_facts(size, Semantic::guidance, 2))}};
 }
 
 }  // namespace
@@ -83,9 +91,7 @@ NodeType guidance_node() {
   };
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    return preflight_analysis("maps", std::get<Texts>(params.at("maps")), inputs);
-  };
+  t.infer = infer;
   return t;
 }
 

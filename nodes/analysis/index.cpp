@@ -23,6 +23,9 @@ NodeType index_node() {
   t.compute = [](NodeContext& node) {
     node.output("index", make_index(node.input<Appearance>("appearance"), int(node.integer("similar")), node.task()));
   };
+  t.infer = [](const Params&, const InputForecasts& inputs) {
+    return OutputForecasts{{"index", {.size = inputs.at("appearance").front().size}}};
+  };
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Appearance>("appearance")->size().area()) * 140;
   };

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include "core/analysis/space/appearance_space.h"
+#include "core/analysis/space/planes.h"
 #include "core/base/text.h"
 #include "core/node/node.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -21,6 +23,13 @@ void compute(NodeContext& node) {
                         counted(l.dimensions, "dimension"), l.dimensions == 1 ? "keeps" : "keep", 100 * l.retained);
   node.note(text);
   node.output("appearance", appearance);
+}
+
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+  const std::optional<Size> size = inputs.at("features").front().size;
+  if (size) require_analysable(*size);
+  for (size_t i = 0; i < wires_at(inputs, "guidance"); i++) require_guidance(image_at(inputs, "guidance", i), size);
+  return {{"appearance", {.size = size}}};
 }
 
 }  // namespace
@@ -63,6 +72,7 @@ NodeType pca_node() {
        .min = 0,
        .max = 100},
   };
+  t.infer = infer;
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
     const auto features = node.input<Features>("features");

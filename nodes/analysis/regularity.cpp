@@ -7,6 +7,7 @@
 
 #include "core/analysis/repeats/part_lattices.h"
 #include "core/node/node.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -167,6 +168,12 @@ NodeType regularity_node() {
   };
   t.persist = Persist::payload;
   t.check = check;
+  t.infer = [](const Params& params, const InputForecasts& inputs) {
+    const std::optional<Size> size = inputs.at("features").front().size;
+    if (std::get<std::string>(params.at("mode")) != "off" && wires_at(inputs, "labels") > 0)
+      require_labels(image_at(inputs, "labels"), size);
+    return OutputForecasts{{"features", {.size = size}}};
+  };
   t.compute = compute;
   return t;
 }

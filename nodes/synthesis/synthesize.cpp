@@ -107,6 +107,12 @@ NodeType synthesize_node() {
         .max_count = 2}});
   t.check = check;
   t.steps = described_synthesis_steps();
+  t.infer = [](const Params& params, const InputForecasts& inputs) {
+    const Numbers& origin = std::get<Numbers>(params.at("origin"));
+    const Rect part = part_of(std::get<Size>(params.at("size")), std::get<Size>(params.at("surface")), origin).region;
+    return OutputForecasts{
+        {"uv", {.size = Size{part.width, part.height}, .exemplar = inputs.at("index").front().size}}};
+  };
   t.compute = compute;
   t.memory_hint = memory;
   return t;
