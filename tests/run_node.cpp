@@ -43,13 +43,17 @@ NodeRun run_node(const std::string& type_name, const Params& params,
     for (const Value& v : list) key.add(name).add(digest_of(v));
   NodeContext context(*type, all, values, key.digest(), Task());
   try {
-    type->compute(context);
+    context.compute();
   } catch (...) {
     for (const StagedFile& f : context.staged()) std::filesystem::remove(f.temporary);
     throw;
   }
   for (const StagedFile& f : context.staged()) std::filesystem::rename(f.temporary, f.target);
   for (const Port& p : type->outputs) REQUIRE_MESSAGE(context.outputs().count(p.name), p.name);
+  for (const auto& [port, forecast] : context.inferred()) {
+    REQUIRE_MESSAGE(context.outputs().count(port), port);
+    CHECK_MESSAGE(contradiction(forecast, context.outputs().at(port)) == "", type_name << "." << port);
+  }
   return {context.outputs(), context.notes()};
 }
 

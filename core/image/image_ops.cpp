@@ -2,44 +2,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include "core/base/error.h"
-#include "core/base/text.h"
-
 namespace terrazzo {
-
-std::string describe(const Image& image) {
-  return fmt::format("a {} map of {} pixels and {}", name_of(image.info().semantic), describe(image.size()),
-                     counted(image.channels(), "channel"));
-}
-
-void require_one_channel(const std::string& port, const Image& image) {
-  if (image.channels() == 1) return;
-  throw Error(port, fmt::format("expected an image of 1 channel, found {}; put \"grayscale\" or \"channel_split\" "
-                                "before it",
-                                describe(image)));
-}
-
-void require_no_normals(const std::string& port, const Image& image) {
-  if (image.info().semantic != Semantic::normal) return;
-  throw Error(port, fmt::format("expected independent channels, found {}: its channels form vectors; use \"blend\" or "
-                                "\"normalize\" for normals, or \"channel_split\" to take them apart",
-                                describe(image)));
-}
-
-void require_same_size(const std::string& port, const Image& image, const std::string& other_port, const Image& other) {
-  if (image.size() == other.size()) return;
-  throw Error(
-      port, fmt::format("expected the same size as \"{}\", {}, found {}; put \"resize\" or \"crop\" before one of them",
-                        other_port, describe(other.size()), describe(image.size())));
-}
-
-void require_shape(const std::string& port, const Image& image, const std::string& of, Size size) {
-  if (same_shape(image.size(), size)) return;
-  throw Error(port, fmt::format("expected an image with the aspect ratio of {}, {} pixels, at any scale; found {}", of,
-                                describe(size), describe(image)));
-}
 
 ImagePtr nearest_at_size(const ImagePtr& image, Size size) {
   if (image->size() == size) return image;

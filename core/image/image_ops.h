@@ -5,24 +5,22 @@
 #include <string>
 #include <vector>
 
-#include "core/image/image.h"
+#include "core/image/image_facts.h"
 
 /// What operations on images share: checks whose messages say what was found, and images computed pixel by pixel when
 /// they are pulled. Thread-safe.
 namespace terrazzo {
 
-/// "a height map of 256x128 pixels and 1 channel"
-std::string describe(const Image& image);
-
-/// Throws Error about `port` unless the image has one channel.
-void require_one_channel(const std::string& port, const Image& image);
-/// Throws Error about `port` if the image holds normals, whose channels mean nothing by themselves.
-void require_no_normals(const std::string& port, const Image& image);
-/// Throws Error about `port` unless both images have the same size.
-void require_same_size(const std::string& port, const Image& image, const std::string& other_port, const Image& other);
-
-/// Throws Error about `port` unless the image has the same shape as what it belongs to, to a pixel.
-void require_shape(const std::string& port, const Image& image, const std::string& of, Size size);
+/// For images that are there: what core/image/image_facts.h says and checks.
+inline std::string describe(const Image& image) {
+  return describe(facts_of(image.info()));
+}
+inline void require_one_channel(const std::string& port, const Image& image) {
+  require_one_channel(port, facts_of(image.info()));
+}
+inline void require_shape(const std::string& port, const Image& image, const std::string& of, Size size) {
+  require_shape(port, facts_of(image.info()), of, size);
+}
 
 /// The image at another size by nearest samples: keeps maps of different sizes aligned. Computed when pulled.
 ImagePtr nearest_at_size(const ImagePtr& image, Size size);

@@ -73,6 +73,12 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
 
 }  // namespace
 
+int channels_of_map(const RecognisedMap& source, int file_channels) {
+  if (!source.channels.empty()) return int(source.channels.size());
+  if (is_one_value(source.semantic)) return 1;
+  return file_channels % 2 == 0 ? file_channels - 1 : file_channels;
+}
+
 void require_channels(const RecognisedMap& source, int file_channels) {
   for (const char c : source.channels)
     if (index_of_channel(c) >= file_channels)

@@ -9,6 +9,9 @@
 /// From the pixels of a file to its maps.
 namespace terrazzo {
 
+/// How many channels map_of_file makes of a file with `file_channels`.
+int channels_of_map(const RecognisedMap& source, int file_channels);
+
 /// Throws Error about "maps" unless a file with `file_channels` channels has those that `source` names.
 void require_channels(const RecognisedMap& source, int file_channels);
 

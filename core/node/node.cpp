@@ -100,6 +100,16 @@ const ParamValue& NodeContext::value(std::string_view param) const {
   return at->second;
 }
 
+void NodeContext::compute() {
+  if (type_.infer) {
+    InputForecasts known;
+    for (const auto& [port, values] : inputs_)
+      for (const Value& v : values) known[port].push_back(forecast_of(v));
+    inferred_ = type_.infer(params_, known);
+  }
+  type_.compute(*this);
+}
+
 void NodeContext::output(std::string_view port, Value value) {
   const Port* declared = type_.find_output(port);
   if (!declared || declared->type != type_of(value))

@@ -12,6 +12,7 @@
 #include "core/base/number_map.h"
 #include "core/base/task.h"
 #include "core/base/text.h"
+#include "core/image/image_facts.h"
 #include "core/node/value.h"
 
 /// The node interface. A node type is one descriptor; validation, the JSON schema, the printed reference and the cache
@@ -107,18 +108,30 @@ struct FutureFile {
   std::string what{};  ///< its content, for messages
 };
 
-/// What is known of a node's results before anything runs.
+/// What is known of a value before it is there; what is empty is not known.
 struct Forecast {
-  std::vector<std::string> maps{};  ///< of its material
+  std::vector<std::string> maps{};  ///< that a material certainly has
   /// Maps that it may also have; nullopt if not known.
   std::optional<std::vector<std::string>> possible_maps{};
-  std::map<std::string, Size> sizes{};  ///< of maps, where they are known; of an image under ""
-  std::optional<Semantic> semantic{};   ///< of an image
-  std::vector<FutureFile> files{};      ///< of a sink
-  uint64_t memory = 0;                  ///< bytes that making them takes at least, at its peak; 0 if not known
+  std::map<std::string, ImageFacts> images{};  ///< of maps by name, certain and possible ones; of an image under ""
+  /// Pixels of a uv map; for features, appearance and index those of the exemplar.
+  std::optional<Size> size{};
+  int values = 0;                   ///< that features, appearance and index have at a pixel of the maps; 0: not known
+  std::optional<Size> exemplar{};   ///< that a uv map was made for
+  std::vector<FutureFile> files{};  ///< of a sink
 };
 /// By connected port, one for each wire.
 using InputForecasts = std::map<std::string, std::vector<Forecast>>;
+/// By output port; ports of which nothing is known may be left out.
+using OutputForecasts = std::map<std::string, Forecast>;
+
+/// All that there is to know of a value that is there.
+Forecast forecast_of(const Value& value);
+/// What is known of a value once it has come through a wire to a port of another type, see `converts`.
+Forecast converted(const Forecast& forecast, ValueType from, ValueType to);
+/// Empty unless the value may be what the forecast says; else what differs, such as `an image of 64x64 pixels and 1
+/// channel, where an image of 3 channels was foreseen`.
+std::string contradiction(const Forecast& forecast, const Value& value);
 
 class NodeContext;
 
@@ -146,12 +159,21 @@ struct NodeType {
   std::function<std::vector<std::filesystem::path>(const Params&)> files_read;
   /// Estimated bytes that compute needs besides its inputs, for the memory budget.
   std::function<size_t(const NodeContext&)> memory_hint;
+  /// Bytes that compute takes at least, at its peak, as far as that is known before anything runs; else 0. A budget
+  /// that is smaller is refused then.
+  std::function<uint64_t(const Params&, const InputForecasts&)> memory_ahead;
   /// Checks of several parameters together; one message per problem, starting with the parameter's name in quotes.
   /// Called when a document is checked, before anything runs.
   std::function<std::vector<std::string>(const Params&)> check;
-  /// Runs while a plan is made, so that mistakes are found before hours of work: throws Error, or Errors, for what
-  /// compute would refuse (such as a missing folder), and returns what is certain about the results. Must be fast; may
-  /// read files that `files_read` names.
+  /// The rule of shapes: what is known of the outputs, given the parameters and what is known of the inputs. Throws
+  /// Error, or Errors, about the port or parameter for what certainly cannot work; what is not known is no mistake.
+  /// Called while a document is checked and a plan is made, and once more right before compute with all that the inputs
+  /// are, so that compute need not check them again. A pure function: reads no files; thread-safe.
+  std::function<OutputForecasts(const Params&, const InputForecasts&)> infer;
+  /// Runs while a plan is made, after `infer`, so that mistakes are found before hours of work: throws Error, or
+  /// Errors, for what compute would refuse (such as a missing folder), and returns what else is certain: what is known
+  /// of its material, or of its only output, and the files of a sink. Must be fast; may read files that `files_read`
+  /// names.
   std::function<Forecast(const Params&, const InputForecasts&)> preflight;
   /// What is allowed and hardly meant, for the command `check`: one message each, starting with the name of a parameter
   /// or port in quotes if it is about one. May read files that `files_read` names; ports that are open are not there.
@@ -226,6 +248,10 @@ class NodeContext {
   std::filesystem::path stage(const std::filesystem::path& target);
 
   // For the runner.
+  /// Checks the inputs by the type's `infer`, and calls its compute.
+  void compute();
+  /// What `infer` said of the outputs in `compute`.
+  const OutputForecasts& inferred() const { return inferred_; }
   std::map<std::string, Value>& outputs() { return outputs_; }
   const std::vector<std::string>& notes() const { return notes_; }
   const std::vector<StagedFile>& staged() const { return staged_; }
@@ -246,6 +272,7 @@ class NodeContext {
   std::map<std::string, std::vector<Value>> inputs_;
   Digest key_;
   Task task_;
+  OutputForecasts inferred_;
   std::map<std::string, Value> outputs_;
   std::vector<std::string> notes_;
   std::vector<StagedFile> staged_;

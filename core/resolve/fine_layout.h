@@ -23,7 +23,11 @@ class FineLayout {
   FineLayout(UvMapPtr uv, Size exemplar, double radius);
 
   /// Size of the output: the uv map's, times exemplar size over analysed size.
-  Size size() const { return {x_.length(uv_->size().width), y_.length(uv_->size().height)}; }
+  Size size() const { return size_of(uv_->size(), uv_->exemplar(), exemplar_); }
+  static Size size_of(Size uv, Size analysed, Size exemplar) {
+    return {Scale{exemplar.width, analysed.width}.length(uv.width),
+            Scale{exemplar.height, analysed.height}.length(uv.height)};
+  }
   Size exemplar() const { return exemplar_; }
   double radius() const { return radius_; }
   /// How many pixels of the uv map a fine pixel sees to each side of its own.

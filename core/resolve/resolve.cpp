@@ -197,22 +197,6 @@ bool fits(Size exemplar, Size analysed, double scale) {
          std::abs(analysed.height * scale - exemplar.height) <= off;
 }
 
-void check_scale(Size exemplar, Size analysed, double scale) {
-  const double found = double(exemplar.width) / analysed.width;
-  const bool enlarged = found >= 1 && found <= largest_scale && fits(exemplar, analysed, found);
-  if (scale == 0 ? enlarged : fits(exemplar, analysed, scale)) return;
-  const std::string hint = enlarged && found > 1 && scale != 0
-                               ? fmt::format("; set \"scale\" to {:.6g} to enlarge the result accordingly", found)
-                               : "";
-  if (scale == 0 || scale == 1)
-    throw Error("material", fmt::format("the uv map was made for an exemplar of {}x{} pixels, this one has {}x{}{}",
-                                        analysed.width, analysed.height, exemplar.width, exemplar.height, hint));
-  throw Error("material", fmt::format("the uv map was made for an exemplar of {}x{} pixels; a scale of {} needs one of "
-                                      "{:.0f}x{:.0f}, this one has {}x{}{}",
-                                      analysed.width, analysed.height, scale, analysed.width * scale,
-                                      analysed.height * scale, exemplar.width, exemplar.height, hint));
-}
-
 /// What is kept of a map of heights.
 KeptHeights kept_heights(const ResolveOptions& options, const std::string& map, const FineLayout& layout) {
   if (!options.kept) return {};
@@ -234,10 +218,30 @@ bool can_blend(Semantic semantic) {
   return semantic != Semantic::mask && semantic != Semantic::data;
 }
 
+void require_scale(Size exemplar, Size analysed, double scale) {
+  const double found = double(exemplar.width) / analysed.width;
+  const bool enlarged = found >= 1 && found <= largest_scale && fits(exemplar, analysed, found);
+  if (scale == 0 ? enlarged : fits(exemplar, analysed, scale)) return;
+  const std::string hint = enlarged && found > 1 && scale != 0
+                               ? fmt::format("; set \"scale\" to {:.6g} to enlarge the result accordingly", found)
+                               : "";
+  if (scale == 0 || scale == 1)
+    throw Error("material", fmt::format("the uv map was made for an exemplar of {}x{} pixels, this one has {}x{}{}",
+                                        analysed.width, analysed.height, exemplar.width, exemplar.height, hint));
+  throw Error("material", fmt::format("the uv map was made for an exemplar of {}x{} pixels; a scale of {} needs one of "
+                                      "{:.0f}x{:.0f}, this one has {}x{}{}",
+                                      analysed.width, analysed.height, scale, analysed.width * scale,
+                                      analysed.height * scale, exemplar.width, exemplar.height, hint));
+}
+
+Size resolved_size(Size uv, Size analysed, Size exemplar) {
+  return FineLayout::size_of(uv, analysed, exemplar);
+}
+
 MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const ResolveOptions& options, const Task& task) {
   const Size size = exemplar.size();
   require_one_shape("material", exemplar);
-  check_scale(size, uv->exemplar(), options.scale);
+  require_scale(size, uv->exemplar(), options.scale);
   const auto exact = std::make_shared<FineLayout>(uv, size, 0);
   const auto blended = options.blend > 0 ? std::make_shared<FineLayout>(uv, size, options.blend) : exact;
   const Size analysed = uv->exemplar();

@@ -46,4 +46,9 @@ bool can_blend(Semantic semantic);
 MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const ResolveOptions& options = {},
                      const Task& task = {});
 
+/// Throws Error about "material" unless an exemplar of that size is the `analysed` one at that scale; 0: at any.
+void require_scale(Size exemplar, Size analysed, double scale);
+/// The size of all maps that are resolved through a uv map for the `analysed` exemplar.
+Size resolved_size(Size uv, Size analysed, Size exemplar);
+
 }  // namespace terrazzo

@@ -1,14 +1,27 @@
 #include "graphs/document/forecasts.h"
 
+#include <algorithm>
+
 namespace terrazzo {
 
 const Forecast* Forecasts::add(const GraphNode& node) {
-  if (!node.type->preflight) return nullptr;
-  const Forecast& forecast = nodes_[node.name] = node.type->preflight(node.params, inputs_of(node));
-  // Of several outputs it is about the material.
-  for (const Port& p : node.type->outputs)
-    if (p.type == ValueType::material || node.type->outputs.size() == 1) outputs_[{node.name, p.name}] = forecast;
-  return &forecast;
+  const NodeType& type = *node.type;
+  if (!type.infer && !type.preflight) return nullptr;
+  const InputForecasts inputs = inputs_of(node);
+  OutputForecasts outputs;
+  if (type.infer) outputs = type.infer(node.params, inputs);
+  Forecast whole;
+  if (type.preflight) whole = type.preflight(node.params, inputs);
+  // Of several outputs a preflight is about the material.
+  auto main = std::ranges::find(type.outputs, ValueType::material, &Port::type);
+  if (main == type.outputs.end()) main = type.outputs.begin();
+  if (main != type.outputs.end()) {
+    Forecast& known = outputs.emplace(main->name, whole).first->second;
+    known.files = std::move(whole.files);
+    whole = known;
+  }
+  for (auto& [port, forecast] : outputs) outputs_[{node.name, port}] = {type.find_output(port)->type, forecast};
+  return &(nodes_[node.name] = std::move(whole));
 }
 
 const Forecast* Forecasts::find(const std::string& node) const {
@@ -16,12 +29,19 @@ const Forecast* Forecasts::find(const std::string& node) const {
   return at == nodes_.end() ? nullptr : &at->second;
 }
 
+const Forecast* Forecasts::find_output(const Wire& output) const {
+  const auto at = outputs_.find(output);
+  return at == outputs_.end() ? nullptr : &at->second.forecast;
+}
+
 InputForecasts Forecasts::inputs_of(const GraphNode& node) const {
   InputForecasts inputs;
   for (const auto& [port, wires] : node.inputs)
     for (const Wire& w : wires) {
       const auto known = outputs_.find(w);
-      inputs[port].push_back(known == outputs_.end() ? Forecast{} : known->second);
+      inputs[port].push_back(known == outputs_.end() ? Forecast{}
+                                                     : converted(known->second.forecast, known->second.type,
+                                                                 node.type->find_input(port)->type));
     }
   return inputs;
 }

@@ -14,19 +14,22 @@ namespace {
 
 /// The size of one map or, as a material has it, of the largest.
 ExpressionValue size_in(const Forecast& forecast, const Node& fact) {
-  if (forecast.sizes.empty())
-    throw Error(fmt::format("the size of what \"{}\" gives is not known before it runs", fact.name));
+  std::map<std::string, Size> sizes;
+  for (const auto& [map, facts] : forecast.images)
+    if (facts.size) sizes[map] = *facts.size;
+  if (sizes.empty() && forecast.size) sizes[""] = *forecast.size;
+  if (sizes.empty()) throw Error(fmt::format("the size of what \"{}\" gives is not known before it runs", fact.name));
   if (!fact.detail.empty()) {
-    const auto at = forecast.sizes.find(fact.detail);
+    const auto at = sizes.find(fact.detail);
     std::vector<std::string> maps;
-    for (const auto& [map, size] : forecast.sizes) maps.push_back(map);
-    if (at == forecast.sizes.end())
+    for (const auto& [map, size] : sizes) maps.push_back(map);
+    if (at == sizes.end())
       throw Error(fmt::format("\"{}\" gives no map \"{}\" whose size is known{}", fact.name, fact.detail,
                               suggestion(fact.detail, maps)));
     return {at->second, "pixels"};
   }
-  Size largest = forecast.sizes.begin()->second;
-  for (const auto& [map, size] : forecast.sizes)
+  Size largest = sizes.begin()->second;
+  for (const auto& [map, size] : sizes)
     if (size.area() > largest.area()) largest = size;
   return {largest, "pixels"};
 }

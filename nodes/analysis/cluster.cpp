@@ -7,6 +7,7 @@
 #include "core/image/color.h"
 #include "core/image/image_ops.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -33,18 +34,26 @@ Planes planes_of(const NodeContext& node) {
   const auto features = node.optional_input<Features>("features");
   std::vector<ImagePtr> images;
   for (const ImagePtr& image : node.list<Image>("images")) images.push_back(analysis_image(image));
-  require_any(features != nullptr, !images.empty());
   const Size size = features ? features->size() : images.front()->size();
-  for (const ImagePtr& image : images)
-    if (image->size() != size)
-      throw Error("images", fmt::format("expected {}, the size of the {}; found {}", describe(size),
-                                        features ? "features" : "first image", describe(*image)));
   if (images.empty()) return weighted_planes(*features, node.task());
   std::vector<FeatureImage> channels;
   for (const ImagePtr& image : images) channels.push_back({image, std::vector<double>(size_t(image->channels()), 1.0)});
   const bool wraps = features && features->wraps();
   const Planes of_images = weighted_planes(*Features::make(size, std::move(channels), wraps), node.task());
   return features ? joined(weighted_planes(*features, node.task()), of_images) : of_images;
+}
+
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+  const Forecast* features = forecast_at(inputs, "features");
+  const size_t images = wires_at(inputs, "images");
+  require_any(features != nullptr, images > 0);
+  const std::optional<Size> size = features ? features->size : image_at(inputs, "images").size;
+  for (size_t i = 0; i < images; i++)
+    if (const ImageFacts image = image_at(inputs, "images", i); size && image.size && *image.size != *size)
+      throw Error("images", fmt::format("expected {}, the size of the {}; found {}", describe(*size),
+                                        features ? "features" : "first image", describe(image)));
+  const Forecast out = forecast_of_image(values_facts(size, Semantic::guidance));
+  return {{"labels", out}, {"distance", out}};
 }
 
 std::string described(const Clusters& clusters) {
@@ -117,10 +126,7 @@ NodeType cluster_node() {
                .min = 0}};
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
-  t.preflight = [](const Params&, const InputForecasts& inputs) {
-    require_any(inputs.contains("features"), inputs.contains("images"));
-    return Forecast{};
-  };
+  t.infer = infer;
   return t;
 }
 

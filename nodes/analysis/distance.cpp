@@ -5,6 +5,7 @@
 #include "core/image/image_ops.h"
 #include "core/numeric/distance_transform.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -29,7 +30,6 @@ std::vector<float> distances(const std::vector<uint8_t>& set, Size size, bool wr
 
 void compute(NodeContext& node) {
   const ImagePtr mask = node.input<Image>("mask");
-  require_one_channel("mask", *mask);
   const std::vector<uint8_t> set = set_pixels(*mask, float(node.number("threshold")));
   if (std::find(set.begin(), set.end(), 1) == set.end())
     node.note(
@@ -47,6 +47,12 @@ void compute(NodeContext& node) {
   }
   const ImageInfo info{.size = mask->size(), .channels = 1, .semantic = Semantic::guidance};
   node.output("distance", Image::from_floats(info, std::move(out)));
+}
+
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+  const ImageFacts mask = image_at(inputs, "mask");
+  require_one_channel("mask", mask);
+  return {{"distance", forecast_of_image(values_facts(mask.size, Semantic::guidance))}};
 }
 
 }  // namespace
@@ -82,6 +88,7 @@ NodeType distance_node() {
                "pixels."},
       edges_param()};
   t.memory_hint = [](const NodeContext& node) { return size_t(node.input<Image>("mask")->size().area()) * 32; };
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

@@ -6,6 +6,7 @@
 #include "core/material/map_names.h"
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -16,13 +17,12 @@ ImagePtr grey_map(const NodeContext& node, const Material& material) {
   const std::string& name = node.text("map");
   ImagePtr map = name.empty() ? material.find(Semantic::base_color) : require_map("map", material, name);
   if (!map) map = material.maps().front().image;
-  require_no_normals("map", *map);
+  require_no_normals("map", facts_of(map->info()));
   return analysis_image(map);
 }
 
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
-  require_one_shape("material", *material);
   const bool wraps = exemplar_tiles(node, *material);
   const ImagePtr grey = nearest_at_size(grey_map(node, *material), material->size());
   std::vector<double> first_only(size_t(grey->channels()), 0.0);
@@ -35,6 +35,17 @@ void compute(NodeContext& node) {
   node.output("bars", Image::from_floats(info, std::move(responses.bars)));
   info.channels = 2;
   node.output("blobs", Image::from_floats(info, std::move(responses.blobs)));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const std::string& map = std::get<std::string>(params.at("map"));
+  const Forecast& material = inputs.at("material").front();
+  require_analysable_maps("map", map.empty() ? Texts{} : Texts{map}, inputs);
+  if (!map.empty()) require_no_normals("map", map_of(material, map));
+  const auto responses = [size = material_size(material)](int channels) {
+    return forecast_of_image(values_facts(size, Semantic::guidance, channels));
+  };
+  return {{"edges", responses(3)}, {"bars", responses(3)}, {"blobs", responses(2)}};
 }
 
 }  // namespace
@@ -77,10 +88,7 @@ NodeType filter_bank_node() {
     return size_t(19 * 16 * side * side) + size_t(node.input<Material>("material")->size().area()) * 40;
   };
   t.compute = compute;
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    const std::string& map = std::get<std::string>(params.at("map"));
-    return preflight_analysis("map", map.empty() ? Texts{} : Texts{map}, inputs);
-  };
+  t.infer = infer;
   return t;
 }
 

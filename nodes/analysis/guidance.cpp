@@ -5,8 +5,10 @@
 #include "core/image/color.h"
 #include "core/image/image_ops.h"
 #include "core/material/map_names.h"
+#include "nodes/common/analysis_memory.h"
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -14,7 +16,6 @@ namespace {
 
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
-  require_one_shape("material", *material);
   EdgeOptions options;
   options.maps = node.texts("maps");
   if (node.number("threshold") > 0) options.threshold = node.number("threshold");
@@ -34,7 +35,13 @@ void compute(NodeContext& node) {
     node.note(fmt::format("edges are where strength exceeds {:.3f} (chosen automatically)", edges.threshold));
 }
 
-constexpr AnalysisMemory memory{.per_pixel = 16, .per_value = 8};
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  require_analysable_maps("maps", std::get<Texts>(params.at("maps")), inputs);
+  const std::optional<Size> size = material_size(inputs.at("material").front());
+  return {{"distance", forecast_of_image(values_facts(size, Semantic::guidance))},
+          {"edges", forecast_of_image(values_facts(size, Semantic::mask))},
+          {"gradients", forecast_of_image(values_facts(size, Semantic::guidance, 2))}};
+}
 
 }  // namespace
 
@@ -85,12 +92,8 @@ NodeType guidance_node() {
   };
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
-  t.memory_hint = [](const NodeContext& node) { return memory.of(*node.input<Material>("material")); };
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    Forecast out = preflight_analysis("maps", std::get<Texts>(params.at("maps")), inputs);
-    out.memory = memory.of(inputs.at("material").front());
-    return out;
-  };
+  t.infer = infer;
+  set_analysis_memory(t, "material", {.per_pixel = 16, .per_value = 8});
   return t;
 }
 

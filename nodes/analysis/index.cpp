@@ -1,6 +1,6 @@
 #include "core/analysis/space/k_coherence.h"
 #include "core/node/node.h"
-#include "nodes/common/node_helpers.h"
+#include "nodes/common/analysis_memory.h"
 
 namespace terrazzo {
 
@@ -24,9 +24,11 @@ NodeType index_node() {
   t.compute = [](NodeContext& node) {
     node.output("index", make_index(node.input<Appearance>("appearance"), int(node.integer("similar")), node.task()));
   };
-  t.preflight = [](const Params&, const InputForecasts& inputs) {
-    const Forecast& exemplar = inputs.at("appearance").front();
-    return Forecast{.maps = exemplar.maps, .sizes = exemplar.sizes, .memory = index_memory.of(exemplar)};
+  t.infer = [](const Params&, const InputForecasts& inputs) {
+    return OutputForecasts{{"index", {.size = inputs.at("appearance").front().size}}};
+  };
+  t.memory_ahead = [](const Params&, const InputForecasts& inputs) {
+    return index_memory.of(inputs.at("appearance").front());
   };
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Appearance>("appearance")->size().area()) * 140;

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include "core/analysis/space/appearance_space.h"
+#include "core/analysis/space/planes.h"
 #include "core/base/text.h"
 #include "core/node/node.h"
-#include "nodes/common/node_helpers.h"
+#include "nodes/common/analysis_memory.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -22,6 +24,14 @@ void compute(NodeContext& node) {
                         counted(l.dimensions, "dimension"), l.dimensions == 1 ? "keeps" : "keep", 100 * l.retained);
   node.note(text);
   node.output("appearance", appearance);
+}
+
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+  const Forecast& features = inputs.at("features").front();
+  const std::optional<Size> size = features.size;
+  if (size) require_analysable(*size);
+  for (size_t i = 0; i < wires_at(inputs, "guidance"); i++) require_guidance(image_at(inputs, "guidance", i), size);
+  return {{"appearance", {.size = size, .values = features.values}}};
 }
 
 }  // namespace
@@ -64,8 +74,9 @@ NodeType pca_node() {
        .min = 0,
        .max = 100},
   };
+  t.infer = infer;
   t.compute = compute;
-  set_memory_of_features(t, {.per_pixel = 48, .per_value = 6});
+  set_analysis_memory(t, "features", {.per_pixel = 48, .per_value = 6});
   return t;
 }
 

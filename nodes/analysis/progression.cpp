@@ -6,6 +6,7 @@
 #include "core/material/map_names.h"
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -13,12 +14,17 @@ namespace {
 
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
-  require_one_shape("material", *material);
   const NumberMap weights = weights_of_chosen(*material, node.texts("maps"));
   const FeaturesPtr features = weighted_features(*material, weights, exemplar_tiles(node, *material));
   const Size size = material->size();
   const double deviation = node.number("radius") * std::min(size.width, size.height);
   node.output("progression", progression_of(*features, deviation, node.flag("inverted"), node.task()));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  require_analysable_maps("maps", std::get<Texts>(params.at("maps")), inputs);
+  const std::optional<Size> size = material_size(inputs.at("material").front());
+  return {{"progression", forecast_of_image(values_facts(size, Semantic::guidance))}};
 }
 
 }  // namespace
@@ -57,9 +63,7 @@ NodeType progression_node() {
     return size_t(node.input<Material>("material")->size().area()) * 20 * sizeof(float);
   };
   t.compute = compute;
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    return preflight_analysis("maps", std::get<Texts>(params.at("maps")), inputs);
-  };
+  t.infer = infer;
   return t;
 }
 

@@ -7,7 +7,8 @@
 
 #include "core/analysis/repeats/part_lattices.h"
 #include "core/node/node.h"
-#include "nodes/common/node_helpers.h"
+#include "nodes/common/analysis_memory.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -168,7 +169,13 @@ NodeType regularity_node() {
   };
   t.persist = Persist::payload;
   t.check = check;
-  set_memory_of_features(t, lattice_memory);
+  set_analysis_memory(t, "features", lattice_memory);
+  t.infer = [](const Params& params, const InputForecasts& inputs) {
+    const Forecast& features = inputs.at("features").front();
+    if (std::get<std::string>(params.at("mode")) != "off" && wires_at(inputs, "labels") > 0)
+      require_labels(image_at(inputs, "labels"), features.size);
+    return OutputForecasts{{"features", {.size = features.size, .values = features.values}}};
+  };
   t.compute = compute;
   return t;
 }

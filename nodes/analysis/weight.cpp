@@ -6,8 +6,10 @@
 #include "core/image/color.h"
 #include "core/image/image_ops.h"
 #include "core/material/map_names.h"
+#include "nodes/common/analysis_memory.h"
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -20,7 +22,6 @@ bool may_be_absent(const std::string& map) {
 
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
-  require_one_shape("material", *material);
   const bool wraps = exemplar_tiles(node, *material);
   NumberMap weights = node.number_map("weights");
   for (auto at = weights.begin(); at != weights.end();) {
@@ -29,6 +30,26 @@ void compute(NodeContext& node) {
     at = is_idle ? weights.erase(at) : std::next(at);
   }
   node.output("features", weighted_features(*material, weights, wraps, node.optional_input<Image>("mask")));
+}
+
+/// What certainly cannot be weighted, each about its weight.
+void require_weighted_maps(const Params& params, const Forecast& material) {
+  std::vector<Error> missing;
+  for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) {
+    if (may_be_absent(name)) continue;
+    try {
+      preflight_maps("weights." + name, {name}, material);
+    } catch (const Error& e) {
+      missing.push_back(e);
+    }
+  }
+  if (!missing.empty()) throw Errors(missing);
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const Forecast& material = inputs.at("material").front();
+  check_all([&] { require_weighted_maps(params, material); }, [&] { require_analysable_maps("material", {}, inputs); });
+  return {{"features", {.size = material_size(material), .values = values_of(material)}}};
 }
 
 }  // namespace
@@ -68,25 +89,8 @@ NodeType weight_node() {
         out.push_back(fmt::format("\"weights.{0}\": the weight of {0} is 0: nothing in it is looked at", name));
     return out;
   };
-  t.memory_hint = [](const NodeContext& node) { return lattice_memory.of(*node.input<Material>("material")); };
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    check_all(
-        [&] {
-          std::vector<Error> missing;
-          for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) {
-            if (may_be_absent(name)) continue;
-            try {
-              preflight_maps("weights." + name, {name}, inputs.at("material").front());
-            } catch (const Error& e) {
-              missing.push_back(e);
-            }
-          }
-          if (!missing.empty()) throw Errors(missing);
-        },
-        [&] { preflight_one_shape("material", inputs); });
-    const Forecast& material = inputs.at("material").front();
-    return Forecast{.maps = material.maps, .sizes = material.sizes, .memory = lattice_memory.of(material)};
-  };
+  t.infer = infer;
+  set_analysis_memory(t, "material", lattice_memory);
   return t;
 }
 

@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 #include "core/image/image_ops.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -43,10 +44,21 @@ void output_atlas(NodeContext& node, const std::vector<Exemplar>& exemplars, con
   node.output("labels", atlas.labels);
 }
 
-Exemplar masked_exemplar(const MaterialPtr& material, const std::string& port, const ImagePtr& mask) {
+void require_mask_of(const InputForecasts& inputs, const std::string& port, size_t wire, const Forecast& material) {
+  const ImageFacts mask = image_at(inputs, port, wire);
+  require_one_channel(port, mask);
+  require_shape(port, mask, "its material", material_size(material));
+}
+
+OutputForecasts atlas_forecast(const Forecast& first) {
+  const auto without_size = [](const std::string&, ImageFacts& facts) { facts.size.reset(); };
+  return {{"material", with_facts_changed(first, without_size)},
+          {"mask", forecast_of_image(values_facts({}, Semantic::mask))},
+          {"labels", forecast_of_image(values_facts({}, {}))}};
+}
+
+Exemplar masked_exemplar(const MaterialPtr& material, const ImagePtr& mask) {
   if (!mask) return {material, nullptr};
-  require_one_channel(port, *mask);
-  require_shape(port, *mask, "its material", material->size());
   ImageInfo info = mask->info();
   info.semantic = Semantic::mask;
   return {material, Image::redescribed(mask, info)};

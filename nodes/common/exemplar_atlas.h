@@ -13,8 +13,11 @@ std::vector<Param> atlas_params();
 /// Sets the outputs from the exemplars and parameters. If the atlas is large, a note recommends `how_to_shrink` ("fewer
 /// exemplars").
 void output_atlas(NodeContext& node, const std::vector<Exemplar>& exemplars, const std::string& how_to_shrink);
-/// The material with the mask of `port`, or null. Throws Error unless the mask has one channel and the material's
-/// aspect ratio.
-Exemplar masked_exemplar(const MaterialPtr& material, const std::string& port, const ImagePtr& mask);
+/// For rules of shapes: throws Error unless the mask at that wire, if there is one, may be one of the material's.
+void require_mask_of(const InputForecasts& inputs, const std::string& port, size_t wire, const Forecast& material);
+/// What is known of the outputs for exemplars like the first.
+OutputForecasts atlas_forecast(const Forecast& first);
+/// The material with its mask, which may be null.
+Exemplar masked_exemplar(const MaterialPtr& material, const ImagePtr& mask);
 
 }  // namespace terrazzo

@@ -9,6 +9,7 @@
 #include "core/exemplar/features.h"
 #include "core/image/color.h"
 #include "core/material/map_names.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -83,8 +84,10 @@ Param generated_semantic_param(const std::string& fallback, std::vector<std::str
           .choices = std::move(choices)};
 }
 
-Forecast forecast_of_generated(const Params& params, const InputForecasts&) {
-  return {.sizes = {{"", std::get<Size>(params.at("size"))}}};
+OutputForecasts forecast_of_generated(const Params& params, int channels) {
+  const Semantic semantic = *semantic_from(std::get<std::string>(params.at("semantic")));
+  return {{"image", forecast_of_image({std::get<Size>(params.at("size")), channels, semantic,
+                                       assumed_color_space(semantic, Depth::u16)})}};
 }
 
 ImageInfo generated_info(const NodeContext& node, int channels) {
@@ -106,13 +109,6 @@ Port material_port(const std::string& name, const std::string& help) {
   return {.name = name, .type = ValueType::material, .help = help};
 }
 
-std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const std::string& port) {
-  return [port](const Params&, const InputForecasts& inputs) {
-    const Forecast& input = inputs.at(port).front();
-    return Forecast{.maps = input.maps, .possible_maps = input.possible_maps};
-  };
-}
-
 void preflight_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
                     const std::string& whose) {
   if (!material.possible_maps) return;
@@ -132,46 +128,15 @@ void preflight_one_shape(const std::string& port, const InputForecasts& inputs) 
   const Forecast& material = inputs.at(port).front();
   std::vector<std::pair<std::string, Size>> maps;
   for (const std::string& name : material.maps)
-    if (const auto size = material.sizes.find(name); size != material.sizes.end()) maps.push_back(*size);
+    if (const std::optional<Size> size = map_of(material, name).size) maps.emplace_back(name, *size);
   if (!maps.empty()) require_one_shape(port, maps);
 }
 
-size_t AnalysisMemory::of(const Material& exemplar) const {
-  int values = 0;
-  for (const Map& map : exemplar.maps()) values += map.image->channels();
-  return size_t(exemplar.size().area()) * (per_pixel + uint64_t(values) * per_value);
-}
-
-size_t AnalysisMemory::of(const Features& features) const {
-  return size_t(features.size().area()) * (per_pixel + uint64_t(features.channel_count()) * per_value);
-}
-
-uint64_t AnalysisMemory::of(const Forecast& exemplar) const {
-  int64_t pixels = 0, values = 0;
-  for (const std::string& map : exemplar.maps) {
-    const auto size = exemplar.sizes.find(map);
-    if (size == exemplar.sizes.end()) return 0;
-    const std::optional<Semantic> semantic = semantic_from(map);
-    const bool is_vector = semantic && (is_color(*semantic) || *semantic == Semantic::normal);
-    pixels = std::max(pixels, size->second.area());
-    values += is_vector ? 3 : 1;
-  }
-  return uint64_t(pixels) * (per_pixel + uint64_t(values) * per_value);
-}
-
-void set_memory_of_features(NodeType& type, const AnalysisMemory& memory) {
-  type.preflight = [memory](const Params&, const InputForecasts& inputs) {
-    const Forecast& exemplar = inputs.at("features").front();
-    return Forecast{.maps = exemplar.maps, .sizes = exemplar.sizes, .memory = memory.of(exemplar)};
-  };
-  type.memory_hint = [memory](const NodeContext& node) { return memory.of(*node.input<Features>("features")); };
-}
-
-Forecast preflight_analysis(const std::string& param, const std::vector<std::string>& wanted,
-                            const InputForecasts& inputs) {
-  check_all([&] { preflight_maps(param, wanted, inputs.at("material").front()); },
-            [&] { preflight_one_shape("material", inputs); });
-  return {};
+void require_analysable_maps(const std::string& param, const std::vector<std::string>& wanted,
+                             const InputForecasts& inputs) {
+  const Forecast& material = inputs.at("material").front();
+  check_all([&] { preflight_maps(param, wanted, material); }, [&] { preflight_one_shape("material", inputs); },
+            [&] { require_shape("mask", image_at(inputs, "mask"), "the exemplar", material_size(material)); });
 }
 
 Digest map_recipe(const NodeContext& node, const Image& map) {
@@ -227,8 +192,8 @@ MaterialPtr with_maps_changed(const MaterialPtr& material, const Texts& maps,
   return Material::make(material->name(), std::move(changed), material->metres());
 }
 
-std::vector<double> per_channel(const NodeContext& node, const std::string& param, int channels) {
-  const Numbers& given = node.numbers(param);
+std::vector<double> per_channel(const Params& params, const std::string& param, int channels) {
+  const Numbers& given = std::get<Numbers>(params.at(param));
   if (given.size() == 1) return std::vector<double>(channels, given.front());
   if (int(given.size()) == channels) return given;
   throw Error(param,

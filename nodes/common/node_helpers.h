@@ -26,10 +26,10 @@ Param sample_param(const std::string& name, double fallback, const std::string& 
 /// What a map may be used as, for parameters.
 std::vector<std::string> semantic_choices();
 
-/// Parameters "size" and "semantic" of nodes that generate an image, and their preflight, which knows the size.
+/// Parameters "size" and "semantic" of nodes that generate an image, and what these and the channels say of it.
 Param generated_size_param();
 Param generated_semantic_param(const std::string& fallback, std::vector<std::string> choices = semantic_choices());
-Forecast forecast_of_generated(const Params& params, const InputForecasts& inputs);
+OutputForecasts forecast_of_generated(const Params& params, int channels);
 /// The image that they describe, in the colour space of files with this semantic.
 ImageInfo generated_info(const NodeContext& node, int channels);
 
@@ -44,35 +44,17 @@ PhysicalSize metres_of(const Numbers& given, Size size);
 Port image_port(const std::string& name, const std::string& help);
 Port material_port(const std::string& name, const std::string& help);
 
-/// The preflight of nodes whose material has the maps of the (first) one at `port`, see NodeType.
-std::function<Forecast(const Params&, const InputForecasts&)> same_maps_as(const std::string& port);
-
-/// For preflights: throws Errors if `param`, a list, names maps that the material certainly lacks, each about its item.
+/// For rules of shapes: throws Errors if `param`, a list, names maps that the material certainly lacks, each about its
+/// item.
 void preflight_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
                     const std::string& whose = "the material");
-/// For preflights: throws Error about `port` if its material's maps certainly differ in aspect ratio.
+/// For rules of shapes: throws Error about `port` if its material's maps certainly differ in aspect ratio.
 void preflight_one_shape(const std::string& port, const InputForecasts& inputs);
 
-/// What an analysis holds at its peak, in bytes for each pixel of the exemplar and for each value of a pixel in all
-/// maps together. Measured with tests/bench/memory_budget.sh.
-struct AnalysisMemory {
-  uint64_t per_pixel = 0, per_value = 0;
-
-  size_t of(const Material& exemplar) const;
-  size_t of(const Features& features) const;
-  /// 0 if the sizes of the maps are not known yet.
-  uint64_t of(const Forecast& exemplar) const;
-};
-/// Of finding the lattice, which also tells whether an exemplar tiles.
-inline constexpr AnalysisMemory lattice_memory{32, 6};
-/// Of an index, with what making it and synthesis from it hold besides.
-inline constexpr AnalysisMemory index_memory{48, 0};
-/// The preflight and memory_hint of nodes that look at features.
-void set_memory_of_features(NodeType& type, const AnalysisMemory& memory);
-
-/// The preflight of nodes that analyse maps of their "material" together. `param` names those `wanted`.
-Forecast preflight_analysis(const std::string& param, const std::vector<std::string>& wanted,
-                            const InputForecasts& inputs);
+/// For the rules of nodes that analyse maps of their "material" together, where their "mask", if they have one, allows
+/// it: throws Errors for what certainly does not fit. `param` names the maps that are `wanted`.
+void require_analysable_maps(const std::string& param, const std::vector<std::string>& wanted,
+                             const InputForecasts& inputs);
 
 /// The recipe digest of one of several lazy maps: the node's type and parameters, and the source map.
 Digest map_recipe(const NodeContext& node, const Image& map);
@@ -90,6 +72,6 @@ void warn_of_smaller_maps(NodeContext& node, const Material& material, const Mat
 ImagePtr require_map(const std::string& param, const Material& material, const std::string& map);
 
 /// A value per channel from a parameter that holds one for all, or one for each. Throws Error about `param`.
-std::vector<double> per_channel(const NodeContext& node, const std::string& param, int channels);
+std::vector<double> per_channel(const Params& params, const std::string& param, int channels);
 
 }  // namespace terrazzo

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/image/image_ops.h"
 #include "core/synthesis/state/jitter.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -161,11 +162,11 @@ SynthesisOptions synthesis_options(const NodeContext& node, const Index& index) 
   return options;
 }
 
-void require_same_exemplar(const UvMap& uv, const Index& index) {
-  const Size analysed = index.appearance()->size();
-  if (uv.exemplar() == analysed) return;
+void require_same_exemplar(const InputForecasts& inputs) {
+  const Forecast *uv = forecast_at(inputs, "uv"), *index = forecast_at(inputs, "index");
+  if (!uv || !index || !uv->exemplar || !index->size || *uv->exemplar == *index->size) return;
   throw Error("uv", fmt::format("expected a uv map for the exemplar of \"index\", {}, found one for an exemplar of {}",
-                                describe(analysed), describe(uv.exemplar())));
+                                describe(*index->size), describe(*uv->exemplar)));
 }
 
 void warn_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,

@@ -29,8 +29,8 @@ std::vector<std::string> check_synthesis_params(const Params& params);
 /// The values of the parameters above; "size", "tileable" and "whole_bricks" if the node has them.
 SynthesisOptions synthesis_options(const NodeContext& node, const Index& index);
 
-/// Throws Error about port "uv" unless the uv map was made for the exemplar of the index.
-void require_same_exemplar(const UvMap& uv, const Index& index);
+/// For rules of shapes: throws Error about port "uv" if its uv map was certainly not made for the exemplar of "index".
+void require_same_exemplar(const InputForecasts& inputs);
 
 /// Warns if a result that wraps does not hold (nearly) a whole number of the exemplar's repeats: states the
 /// `consequence` and names the nearest size that does.

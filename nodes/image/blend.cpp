@@ -7,6 +7,7 @@
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -16,26 +17,31 @@ namespace {
 const std::vector<std::string> mode_names = {"normal",   "multiply",   "screen", "overlay", "add",
                                              "subtract", "difference", "min",    "max"};
 
-bool is_normal_map(const Image& image) {
-  return image.info().semantic == Semantic::normal;
+bool is_normal_map(const ImageFacts& image) {
+  return image.semantic == Semantic::normal;
 }
 
-void check_inputs(const BlendInputs& in) {
-  require_same_size("top", *in.top, "base", *in.base);
-  if (in.mask) {
-    require_same_size("mask", *in.mask, "base", *in.base);
-    require_one_channel("mask", *in.mask);
-  }
-  if (is_normal_map(*in.base) != is_normal_map(*in.top))
-    throw Error("top", fmt::format("expected normals over normals or values over values, found {} over {}",
-                                   describe(*in.top), describe(*in.base)));
-  if (is_normal_map(*in.base) && std::min(in.base->channels(), in.top->channels()) < 3)
-    throw Error("top",
-                fmt::format("expected normals of 3 channels, found {} over {}", describe(*in.top), describe(*in.base)));
-  if (!is_normal_map(*in.base) && in.top->channels() != 1 && in.top->channels() != in.base->channels())
-    throw Error("top", fmt::format("expected 1 channel or as many as the base, {}; found {}", describe(*in.base),
-                                   describe(*in.top)));
-  const std::string &base_space = in.base->info().color_space, &top_space = in.top->info().color_space;
+void require_alike(const ImageFacts& base, const ImageFacts& top) {
+  if (!base.semantic || !top.semantic) return;
+  const std::string found = fmt::format("{} over {}", describe(top), describe(base));
+  if (is_normal_map(base) != is_normal_map(top))
+    throw Error("top", "expected normals over normals or values over values, found " + found);
+  if (is_normal_map(base) && std::min(base.channels.value_or(3), top.channels.value_or(3)) < 3)
+    throw Error("top", "expected normals of 3 channels, found " + found);
+}
+
+void require_channels(const ImageFacts& base, const ImageFacts& top) {
+  if (is_normal_map(base) || !base.channels || !top.channels) return;
+  if (!base.semantic && std::min(*base.channels, *top.channels) >= 3) return;  // they may be normals
+  if (*top.channels != 1 && *top.channels != *base.channels)
+    throw Error("top", fmt::format("expected 1 channel or as many as the base, {}; found {}; put \"grayscale\" or "
+                                   "\"channel_split\" before it",
+                                   describe(base), describe(top)));
+}
+
+void require_one_space(const ImageFacts& base, const ImageFacts& top) {
+  if (!base.color_space || !top.color_space) return;
+  const std::string &base_space = *base.color_space, &top_space = *top.color_space;
   if (base_space != top_space && base_space != "raw" && top_space != "raw")
     throw Error("top",
                 fmt::format("expected the base's colour space, {}, or raw; found {}; put \"convert_color\" before "
@@ -43,39 +49,38 @@ void check_inputs(const BlendInputs& in) {
                             base_space, top_space));
 }
 
+/// The mode, where it is not left to the images.
+void require_mode(const std::string& mode, const ImageFacts& base) {
+  if (!base.semantic) return;
+  if (is_normal_map(base) && mode != "auto" && mode != "detail" && mode != "normal")
+    throw Error("mode", fmt::format("expected auto, normal or detail for normal maps, found {}", mode));
+  if (!is_normal_map(base) && mode == "detail")
+    throw Error("mode", fmt::format("detail is for normal maps, found {}; use one of {}", describe(base),
+                                    fmt::join(mode_names, ", ")));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const ImageFacts base = image_at(inputs, "base"), top = image_at(inputs, "top"), mask = image_at(inputs, "mask");
+  require_same_size("top", top, "base", base);
+  require_same_size("mask", mask, "base", base);
+  require_one_channel("mask", mask);
+  require_alike(base, top);
+  require_channels(base, top);
+  require_one_space(base, top);
+  require_mode(std::get<std::string>(params.at("mode")), base);
+  return {{"image", forecast_of_image(base)}};
+}
+
 void compute(NodeContext& node) {
   const BlendInputs in{node.input<Image>("base"), node.input<Image>("top"), node.optional_input<Image>("mask"),
                        node.number("opacity")};
-  check_inputs(in);
-  std::string mode = node.text("mode");
-  if (mode == "auto") mode = is_normal_map(*in.base) ? "detail" : "normal";
-  const auto at = std::find(mode_names.begin(), mode_names.end(), mode);
-  if (is_normal_map(*in.base)) {
-    if (mode != "detail" && mode != "normal")
-      throw Error("mode", fmt::format("expected auto, normal or detail for normal maps, found {}", mode));
-    node.output("image", blend_normals(in, mode == "detail", node.key()));
+  const std::string& mode = node.text("mode");
+  if (in.base->info().semantic == Semantic::normal) {
+    node.output("image", blend_normals(in, mode != "normal", node.key()));
     return;
   }
-  if (at == mode_names.end())
-    throw Error("mode", fmt::format("detail is for normal maps, found {}; use one of {}", describe(*in.base),
-                                    fmt::join(mode_names, ", ")));
+  const auto at = std::find(mode_names.begin(), mode_names.end(), mode == "auto" ? "normal" : mode);
   node.output("image", blend_values(in, BlendMode(at - mode_names.begin()), node.flag("linear"), node.key()));
-}
-
-Forecast preflight(const Params&, const InputForecasts& inputs) {
-  const auto size_of = [&](const char* port) {
-    const auto wires = inputs.find(port);
-    const auto* sizes = wires == inputs.end() ? nullptr : &wires->second.front().sizes;
-    return sizes && sizes->contains("") ? std::optional(sizes->at("")) : std::nullopt;
-  };
-  const std::optional<Size> base = size_of("base");
-  for (const char* port : {"top", "mask"})
-    if (const auto size = size_of(port); size && base && *size != *base)
-      throw Error(port, fmt::format("expected the size of base, {}, found {}; resize brings one to the other",
-                                    describe(*base), describe(*size)));
-  Forecast out = inputs.at("base").front();
-  if (!base) out.sizes.clear();
-  return out;
 }
 
 }  // namespace
@@ -117,7 +122,7 @@ NodeType blend_node() {
        .help = "Colours stored as srgb_texture are blended in linear light; false blends stored values, as most "
                "paint programs do."}};
   t.persist = Persist::derived;
-  t.preflight = preflight;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

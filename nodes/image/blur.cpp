@@ -1,5 +1,6 @@
 #include "core/image/resample.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -34,6 +35,7 @@ NodeType blur_node() {
        .unit = "pixels"},
       edges_param()};
   t.persist = Persist::digest;
+  t.infer = same_image_rule();
   t.compute = compute;
   return t;
 }

@@ -8,6 +8,7 @@
 #include "core/image/image_ops.h"
 #include "nodes/common/color_space.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -22,17 +23,17 @@ struct Source {
   float constant = 0;
 };
 
-int source_channel(const NodeContext& node, const std::string& name, const Image& image) {
-  const TextMap& from = node.text_map("from");
+/// Which channel of the image connected to it goes to channel `name`.
+int source_channel(const Params& params, const std::string& name, const ImageFacts& image) {
+  const TextMap& from = std::get<TextMap>(params.at("from"));
   const auto given = from.find(name);
   if (given == from.end()) return 0;
   const auto at = std::find(channel_names.begin(), channel_names.end(), given->second);
   const int channel = int(at - channel_names.begin());
-  if (channel < image.channels()) return channel;
-  throw Error(
-      "from",
-      fmt::format("expected for {} one of {}, the channels of the image connected to it, found \"{}\"", name,
-                  fmt::join(channel_names.begin(), channel_names.begin() + image.channels(), ", "), given->second));
+  if (channel < image.channels.value_or(4)) return channel;
+  throw Error("from", fmt::format("expected for {} one of {}, the channels of the image connected to it, found \"{}\"",
+                                  name, fmt::join(channel_names.begin(), channel_names.begin() + *image.channels, ", "),
+                                  given->second));
 }
 
 void require_one_number_each(const NumberMap& fill) {
@@ -48,14 +49,13 @@ void require_any(bool connected) {
 /// One per channel of the result, which ends with the last that is connected or filled.
 std::vector<Source> sources_of(const NodeContext& node) {
   const NumberMap& fill = node.number_map("fill");
-  require_one_number_each(fill);
   std::vector<Source> sources;
   size_t used = 0;
   for (const std::string& name : channel_names) {
     Source source;
     source.image = node.optional_input<Image>(name);
     const auto constant = fill.find(name);
-    if (source.image) source.channel = source_channel(node, name, *source.image);
+    if (source.image) source.channel = source_channel(node.params(), name, facts_of(source.image->info()));
     if (constant != fill.end()) source.constant = float(constant->second.front());
     sources.push_back(source);
     if (source.image || constant != fill.end()) used = sources.size();
@@ -67,17 +67,13 @@ std::vector<Source> sources_of(const NodeContext& node) {
 ImageInfo packed_info(const NodeContext& node, const std::vector<Source>& sources) {
   const Image* first = nullptr;
   ImageInfo info;
-  for (size_t c = 0; c < sources.size(); c++) {
-    const Image* image = sources[c].image.get();
+  for (const Source& s : sources) {
+    const Image* image = s.image.get();
     if (!image) continue;
-    if (first)
-      require_same_size(channel_names[c], *image, "the first image", *first);
-    else
-      info = image->info();
-    if (!first) first = image;
+    if (!first) info = image->info();
+    first = first ? first : image;
     info.depth = std::max(info.depth, image->info().depth);
   }
-  require_any(first != nullptr);
   info.channels = int(sources.size());
   info.semantic = *semantic_from(node.text("semantic"));
   info.color_space = color_space_of(node, "color_space");
@@ -99,6 +95,24 @@ void compute(NodeContext& node) {
                     out[i * info.channels + c] = pixels ? pixels[i * s.image->channels() + s.channel] : s.constant;
                 }
               }));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const NumberMap& fill = std::get<NumberMap>(params.at("fill"));
+  check_all([&] { require_one_number_each(fill); }, [&] { require_any(!inputs.empty()); });
+  ImageFacts first, out;
+  for (size_t c = 0; c < channel_names.size(); c++) {
+    const std::string& name = channel_names[c];
+    if (const ImageFacts image = image_at(inputs, name); wires_at(inputs, name) > 0) {
+      require_same_size(name, image, "the first image", first);
+      source_channel(params, name, image);
+      if (!first.size) first = image;
+    }
+    if (wires_at(inputs, name) > 0 || fill.contains(name)) out.channels = int(c) + 1;
+  }
+  out.size = first.size;
+  out.semantic = semantic_from(std::get<std::string>(params.at("semantic")));
+  return {{"image", forecast_of_image(out)}};
 }
 
 }  // namespace
@@ -142,11 +156,7 @@ NodeType channel_pack_node() {
   t.files_read = [](const Params&) { return color_config_files(); };
   t.check = [](const Params& p) { return color_space_problems(p, "color_space"); };
   t.compute = compute;
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    check_all([&] { require_one_number_each(std::get<NumberMap>(params.at("fill"))); },
-              [&] { require_any(!inputs.empty()); });
-    return Forecast{};
-  };
+  t.infer = infer;
   return t;
 }
 

@@ -1,5 +1,6 @@
 #include "core/image/image_ops.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -40,6 +41,12 @@ NodeType channel_split_node() {
   t.outputs = {image_port("r", "first channel"), image_port("g", "second channel, or 0"),
                image_port("b", "third channel, or 0"), image_port("a", "fourth channel, or 1")};
   t.persist = Persist::derived;
+  t.infer = [](const Params&, const InputForecasts& inputs) {
+    OutputForecasts out;
+    for (const char* name : channel_names)
+      out[name] = forecast_of_image({image_at(inputs, "image").size, 1, Semantic::data, "raw"});
+    return out;
+  };
   t.compute = compute;
   return t;
 }

@@ -6,6 +6,7 @@
 #include "core/material/map_names.h"
 #include "nodes/common/exemplar_atlas.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -20,20 +21,19 @@ void require_masks(size_t masks, size_t materials) {
 void compute(NodeContext& node) {
   const auto materials = node.list<Material>("materials");
   const auto masks = node.list<Image>("masks");
-  require_masks(masks.size(), materials.size());
   std::vector<Exemplar> exemplars;
   for (size_t i = 0; i < materials.size(); i++)
-    exemplars.push_back(masked_exemplar(materials[i], "masks", masks.empty() ? nullptr : masks[i]));
+    exemplars.push_back(masked_exemplar(materials[i], masks.empty() ? nullptr : masks[i]));
   output_atlas(node, exemplars, "fewer materials");
 }
 
-Forecast preflight(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
   std::vector<KnownMaps> materials;
   for (const Forecast& f : inputs.at("materials")) materials.push_back({"", f.maps, f.possible_maps});
-  const auto masks = inputs.find("masks");
   check_all([&] { require_same_maps("materials", materials); },
-            [&] { require_masks(masks == inputs.end() ? 0 : masks->second.size(), materials.size()); });
-  return same_maps_as("materials")(params, inputs);
+            [&] { require_masks(wires_at(inputs, "masks"), materials.size()); });
+  for (size_t i = 0; i < materials.size(); i++) require_mask_of(inputs, "masks", i, inputs.at("materials")[i]);
+  return atlas_forecast(inputs.at("materials").front());
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ NodeType combine_node() {
   t.persist = Persist::derived;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute;
-  t.preflight = preflight;
+  t.infer = infer;
   return t;
 }
 

@@ -67,9 +67,12 @@ NodeType contact_sheet_node() {
     return size_t(grid_size(pictures, spec_of(node.params())).area()) * 3 * sizeof(float);
   };
   t.compute = compute;
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    require_grid(inputs.at("images").size(), spec_of(params));
-    return Forecast{};
+  t.infer = [](const Params& params, const InputForecasts& inputs) {
+    const size_t pictures = inputs.at("images").size();
+    require_grid(pictures, spec_of(params));
+    const ImageFacts sheet{
+        .size = grid_size(pictures, spec_of(params)), .channels = 3, .semantic = Semantic::base_color};
+    return OutputForecasts{{"image", {.images = {{"", sheet}}}}};
   };
   return t;
 }

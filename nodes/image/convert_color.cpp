@@ -3,6 +3,7 @@
 #include "core/image/color.h"
 #include "nodes/common/color_space.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -56,12 +57,17 @@ NodeType convert_color_node() {
   t.files_read = [](const Params& params) { return color_config_files(std::get<std::string>(params.at("config"))); };
   t.check = check;
   t.doubts = [](const Params&, const InputForecasts& inputs) {
-    const std::optional<Semantic> semantic = inputs.at("image").front().semantic;
+    const std::optional<Semantic> semantic = image_at(inputs, "image").semantic;
     return semantic && is_data(*semantic)
                ? Texts{fmt::format(
                      "\"image\": a {} map holds {}, not colours; another colour space makes no sense of them",
                      name_of(*semantic), *semantic == Semantic::normal ? "directions" : "values")}
                : Texts{};
+  };
+  t.infer = [](const Params&, const InputForecasts& inputs) {
+    ImageFacts image = image_at(inputs, "image");
+    image.color_space.reset();  // its name is the configuration's
+    return OutputForecasts{{"image", forecast_of_image(image)}};
   };
   t.compute = compute;
   return t;

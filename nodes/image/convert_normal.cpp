@@ -7,6 +7,7 @@
 #include "core/image/normal.h"
 #include "core/image/pixel_space.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -15,8 +16,6 @@ namespace {
 void compute(NodeContext& node) {
   const ImagePtr normal = node.input<Image>("normal");
   ImageInfo info = normal->info();
-  if (info.semantic != Semantic::normal || info.channels < 3)
-    throw Error("normal", fmt::format("expected a normal map of 3 channels, found {}", describe(*normal)));
   const ImagePtr turned = with_normal_y(normal, normal_y_of(node));
   info.normal_y = normal_y_of(node);
   if (!node.flag("renormalize")) {
@@ -27,6 +26,11 @@ void compute(NodeContext& node) {
                 std::copy_n(in[0], count * info.channels, out);
                 to_stored(info, out, count);
               }));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  require_normals("normal", image_at(inputs, "normal"));
+  return same_image_rule("normal", "normal")(params, inputs);
 }
 
 }  // namespace
@@ -48,6 +52,7 @@ NodeType convert_normal_node() {
                .fallback = false,
                .help = "Makes every vector unit length as well, as \"normalize\" does."}};
   t.persist = Persist::digest;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

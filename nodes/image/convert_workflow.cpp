@@ -8,6 +8,7 @@
 #include "core/image/workflow.h"
 #include "core/material/map_names.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -97,23 +98,21 @@ Sources converted(const NodeContext& node, const Sources& sources) {
 }
 
 /// Colours have to be of the same primaries; the sRGB curve does not change them.
-void require_one_space(const Image& base, const Image& specular) {
-  const auto primaries = [](const Image& image) {
-    const std::string& space = image.info().color_space;
-    return space == "srgb_texture" ? std::string("lin_rec709") : space;
+void require_one_space(const ImageFacts& base, const ImageFacts& specular) {
+  if (!base.color_space || !specular.color_space) return;
+  const auto primaries = [](const ImageFacts& image) {
+    return *image.color_space == "srgb_texture" ? std::string("lin_rec709") : *image.color_space;
   };
   if (primaries(base) == primaries(specular)) return;
   throw Error("material", fmt::format("expected base_color and specular of the same primaries, found {} and {}; bring "
                                       "one to the other's colour space with \"convert_color\"",
-                                      base.info().color_space, specular.info().color_space));
+                                      *base.color_space, *specular.color_space));
 }
 
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const Swap swap = swap_of(node.text("to"));
-  require_maps("material", {base_name, swap.from}, names_of(material->maps()));
   const ImagePtr base = material->find(base_name), other = material->find(swap.from);
-  if (swap.from == "specular") require_one_space(*base, *other);
   const Sources made = converted(node, {base, nearest_at_size(other, base->size())});
   std::vector<Map> maps;
   for (const Map& m : material->maps()) {
@@ -128,7 +127,16 @@ void compute(NodeContext& node) {
   node.output("material", Material::make(material->name(), std::move(maps)));
 }
 
-Forecast preflight(const Params& params, const InputForecasts& inputs) {
+ImageFacts converted_facts(const ImageFacts& base, Semantic semantic) {
+  ImageFacts out{.size = base.size, .semantic = semantic};
+  ImageInfo info;
+  info.channels = base.channels.value_or(1);
+  if (base.channels) out.channels = color_info(info, semantic).channels;
+  if (semantic == Semantic::metallic) out.channels = 1;
+  return out;
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
   const Swap swap = swap_of(std::get<std::string>(params.at("to")));
   const Forecast& input = inputs.at("material").front();
   if (input.possible_maps) {
@@ -141,11 +149,16 @@ Forecast preflight(const Params& params, const InputForecasts& inputs) {
     std::erase(maps, swap.to);
     return maps;
   };
-  Forecast out{.maps = swapped(input.maps)};
+  const ImageFacts base = map_of(input, base_name);
+  if (swap.from == "specular") require_one_space(base, map_of(input, swap.from));
+  Forecast out{.maps = swapped(input.maps), .images = input.images};
   if (input.possible_maps) out.possible_maps = swapped(*input.possible_maps);
   for (const std::string& made : {base_name, swap.to})
     if (std::find(out.maps.begin(), out.maps.end(), made) == out.maps.end()) out.maps.push_back(made);
-  return out;
+  out.images.erase(swap.from);
+  out.images[swap.to] = converted_facts(base, *semantic_from(swap.to));
+  out.images[base_name] = converted_facts(base, Semantic::base_color);
+  return {{"material", out}};
 }
 
 }  // namespace
@@ -169,7 +182,7 @@ NodeType convert_workflow_node() {
                .help = "The workflow to convert to. A map of that name that the material already has is replaced.",
                .choices = {"metallic", "specular"}}};
   t.persist = Persist::digest;
-  t.preflight = preflight;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

@@ -6,19 +6,20 @@
 #include "core/base/error.h"
 #include "core/image/image_ops.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
 namespace {
 
 /// The rectangle in pixels of the material's size.
-Rect asked_rect(const NodeContext& node, Size material) {
-  const int x = int(node.integer("x")), y = int(node.integer("y"));
-  const Size size = node.size("size");
+Rect asked_rect(const Params& params, Size material) {
+  const int x = int(std::get<int64_t>(params.at("x"))), y = int(std::get<int64_t>(params.at("y")));
+  const Size size = std::get<Size>(params.at("size"));
   const Rect rect{x, y, size.width ? size.width : material.width - x, size.height ? size.height : material.height - y};
   if (rect.empty())
     throw Error("size", fmt::format("nothing is left of a material of {} from x {}, y {}", describe(material), x, y));
-  if (node.text("edges") == "none" && intersect(rect, whole(material)) != rect)
+  if (std::get<std::string>(params.at("edges")) == "none" && intersect(rect, whole(material)) != rect)
     throw Error("size", fmt::format("expected a rectangle inside the material of {}, found {} at x {}, y {}; set "
                                     "\"edges\" to clamp or wrap to reach beyond its border",
                                     describe(material), describe({rect.width, rect.height}), x, y));
@@ -26,22 +27,26 @@ Rect asked_rect(const NodeContext& node, Size material) {
 }
 
 /// A length in pixels of the material, in pixels of one of its maps.
-int in_map(int length, int map_side, int material_side, const Map& map, Size material) {
+int in_map(int length, int map_side, int material_side, const std::string& map, Size size, Size material) {
   const int64_t product = int64_t{length} * map_side;
   if (product % material_side == 0) return int(product / material_side);
   throw Error("size",
               fmt::format("the rectangle does not fall on whole pixels of map \"{}\", which has {} where the material "
                           "has {}; use multiples of {} pixels, or put \"resize\" before it",
-                          map.name, describe(map.image->size()), describe(material),
-                          material_side / std::gcd(material_side, map_side)));
+                          map, describe(size), describe(material), material_side / std::gcd(material_side, map_side)));
+}
+
+/// The rectangle in pixels of a map.
+Rect rect_in_map(const Rect& rect, const std::string& map, Size size, Size material) {
+  return {in_map(rect.x, size.width, material.width, map, size, material),
+          in_map(rect.y, size.height, material.height, map, size, material),
+          in_map(rect.width, size.width, material.width, map, size, material),
+          in_map(rect.height, size.height, material.height, map, size, material)};
 }
 
 ImagePtr cropped(const NodeContext& node, const Map& map, const Rect& rect, Size material) {
   const Size size = map.image->size();
-  const Rect own{in_map(rect.x, size.width, material.width, map, material),
-                 in_map(rect.y, size.height, material.height, map, material),
-                 in_map(rect.width, size.width, material.width, map, material),
-                 in_map(rect.height, size.height, material.height, map, material)};
+  const Rect own = rect_in_map(rect, map.name, size, material);
   ImageInfo info = map.image->info();
   info.size = {own.width, own.height};
   const Outside outside = edges_of(node);
@@ -57,10 +62,21 @@ ImagePtr cropped(const NodeContext& node, const Map& map, const Rect& rect, Size
 void compute(NodeContext& node) {
   const MaterialPtr material = node.input<Material>("material");
   const Size size = material->size();
-  const Rect rect = asked_rect(node, size);
+  const Rect rect = asked_rect(node.params(), size);
   const MaterialPtr part = with_maps_changed(material, {}, [&](const Map& m) { return cropped(node, m, rect, size); });
   const std::array share = {double(rect.width) / size.width, double(rect.height) / size.height};
   node.output("material", Material::make(part->name(), part->maps(), part->metres() * share));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const Forecast& material = inputs.at("material").front();
+  const std::optional<Size> size = material_size(material);
+  const std::optional<Rect> rect = size ? std::optional(asked_rect(params, *size)) : std::nullopt;
+  return {{"material", with_facts_changed(material, [&](const std::string& map, ImageFacts& facts) {
+             const bool is_known = rect && facts.size && certainly_has(material, map);
+             const Rect own = is_known ? rect_in_map(*rect, map, *facts.size, *size) : Rect();
+             facts.size = is_known ? std::optional(Size{own.width, own.height}) : std::nullopt;
+           })}};
 }
 
 }  // namespace
@@ -107,7 +123,7 @@ NodeType crop_node() {
   };
   t.persist = Persist::derived;
   t.compute = compute;
-  t.preflight = same_maps_as("material");
+  t.infer = infer;
   return t;
 }
 

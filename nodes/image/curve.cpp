@@ -5,6 +5,7 @@
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -19,7 +20,6 @@ std::vector<std::pair<double, double>> points_of(const Params& params) {
 
 void compute(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
-  require_no_normals("image", *image);
   const ImageInfo info = image->info();
   const int channels = info.channels, values = value_channels(info);
   const Curve curve(points_of(node.params()), node.text("interpolation") == "smooth");
@@ -27,6 +27,11 @@ void compute(NodeContext& node) {
                 for (int64_t i = 0; i < count * channels; i++)
                   out[i] = i % channels < values ? float(curve.at(in[0][i])) : in[0][i];
               }));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  require_no_normals("image", image_at(inputs, "image"));
+  return same_image_rule()(params, inputs);
 }
 
 std::vector<std::string> check(const Params& params) {
@@ -67,6 +72,7 @@ NodeType curve_node() {
                .choices = {"smooth", "linear"}}};
   t.persist = Persist::derived;
   t.check = check;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

@@ -1,6 +1,7 @@
 #include "core/image/color.h"
 #include "nodes/common/color_space.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -19,6 +20,21 @@ void compute(NodeContext& node) {
   const std::string& map = node.text("map");
   const bool is_lacking = !node.numbers("otherwise").empty() && !material->find(map);
   node.output("image", is_lacking ? constant(node, material->size()) : require_map("map", *material, map));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const std::string& map = std::get<std::string>(params.at("map"));
+  const Numbers& otherwise = std::get<Numbers>(params.at("otherwise"));
+  const Forecast& material = inputs.at("material").front();
+  ImageFacts image = map_of(material, map);
+  if (otherwise.empty()) {
+    preflight_maps("map", {map}, material);
+    // It must have the map, whatever is known of it.
+    if (const auto facts = material.images.find(map); facts != material.images.end()) image = facts->second;
+  } else if (certainly_lacks(material, map)) {
+    image = values_facts(material_size(material), semantic_from(map).value_or(Semantic::data), int(otherwise.size()));
+  }
+  return {{"image", forecast_of_image(image)}};
 }
 
 }  // namespace
@@ -45,15 +61,7 @@ NodeType get_map_node() {
                .max = 65504,
                .max_count = 4}};
   t.persist = Persist::digest;
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    const std::string& map = std::get<std::string>(params.at("map"));
-    const Forecast& material = inputs.at("material").front();
-    if (std::get<Numbers>(params.at("otherwise")).empty()) preflight_maps("map", {map}, material);
-    Forecast out;
-    out.semantic = semantic_from(map);
-    if (const auto size = material.sizes.find(map); size != material.sizes.end()) out.sizes[""] = size->second;
-    return out;
-  };
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

@@ -7,16 +7,17 @@
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
 namespace {
 
-std::vector<double> weights_of(const NodeContext& node, int channels) {
-  const std::string& method = node.text("method");
+std::vector<double> weights_of(const Params& params, int channels) {
+  const std::string& method = std::get<std::string>(params.at("method"));
   if (method == "luminance" && channels == 3) return {0.2126, 0.7152, 0.0722};
   if (method != "weights") return std::vector<double>(channels, 1.0 / channels);
-  const Numbers& weights = node.numbers("weights");
+  const Numbers& weights = std::get<Numbers>(params.at("weights"));
   if (int(weights.size()) != channels)
     throw Error("weights", fmt::format("expected {}, one for each of the image's channels except alpha; found {}",
                                        counted(channels, "weight"), weights.size()));
@@ -25,9 +26,8 @@ std::vector<double> weights_of(const NodeContext& node, int channels) {
 
 void compute(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
-  require_no_normals("image", *image);
   const ImageInfo from = image->info();
-  const std::vector<double> weights = weights_of(node, value_channels(from));
+  const std::vector<double> weights = weights_of(node.params(), value_channels(from));
   ImageInfo info = from;
   info.channels = 1;
   node.output("image", pixel_by_pixel(info, node.key(), {image}, [=](auto in, float* out, int64_t count) {
@@ -39,6 +39,14 @@ void compute(NodeContext& node) {
                 }
                 to_stored(info, out, count);
               }));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  ImageFacts image = image_at(inputs, "image");
+  require_no_normals("image", image);
+  if (const std::optional<int> channels = value_channels(image)) weights_of(params, *channels);
+  image.channels = 1;
+  return {{"image", forecast_of_image(image)}};
 }
 
 }  // namespace
@@ -66,6 +74,7 @@ NodeType grayscale_node() {
        .help = "With method weights: the factor of each channel.",
        .max_count = 4}};
   t.persist = Persist::derived;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

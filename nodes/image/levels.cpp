@@ -8,6 +8,7 @@
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -26,11 +27,11 @@ struct Level {
 };
 
 std::vector<Level> given_levels(const NodeContext& node, int channels) {
-  const std::vector<double> in_black = per_channel(node, "in_black", channels),
-                            in_white = per_channel(node, "in_white", channels),
-                            gamma = per_channel(node, "gamma", channels),
-                            out_black = per_channel(node, "out_black", channels),
-                            out_white = per_channel(node, "out_white", channels);
+  const std::vector<double> in_black = per_channel(node.params(), "in_black", channels),
+                            in_white = per_channel(node.params(), "in_white", channels),
+                            gamma = per_channel(node.params(), "gamma", channels),
+                            out_black = per_channel(node.params(), "out_black", channels),
+                            out_white = per_channel(node.params(), "out_white", channels);
   std::vector<Level> levels;
   for (int c = 0; c < channels; c++)
     levels.push_back({in_black[c], in_white[c], gamma[c], out_black[c], out_white[c], node.flag("clamp")});
@@ -55,7 +56,6 @@ void find_black_and_white(NodeContext& node, const Image& image, std::vector<Lev
 
 void compute(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
-  require_no_normals("image", *image);
   std::vector<Level> levels = given_levels(node, value_channels(image->info()));
   if (node.text("auto") != "off") find_black_and_white(node, *image, levels);
   for (size_t c = 0; c < levels.size(); c++)
@@ -71,6 +71,15 @@ void compute(NodeContext& node) {
                   }
                 keep_in_range(info, out, count);
               }));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const ImageFacts image = image_at(inputs, "image");
+  require_no_normals("image", image);
+  if (const std::optional<int> channels = value_channels(image))
+    for (const char* param : {"in_black", "in_white", "gamma", "out_black", "out_white"})
+      per_channel(params, param, *channels);
+  return same_image_rule()(params, inputs);
 }
 
 Param level_param(const std::string& name, double fallback, const std::string& help) {
@@ -137,6 +146,7 @@ NodeType levels_node() {
        .help = "Keeps values within [out_black, out_white]. 8- and 16-bit maps stay within [0, 1] anyway."}};
   t.persist = Persist::digest;
   t.check = check;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

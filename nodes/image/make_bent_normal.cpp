@@ -1,5 +1,6 @@
 #include "core/image/image_ops.h"
 #include "nodes/common/horizon_params.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -7,7 +8,6 @@ namespace {
 
 void compute(NodeContext& node) {
   const ImagePtr height = node.input<Image>("height");
-  require_one_channel("height", *height);
   ImageInfo info = height->info();
   info.channels = 3;
   info.semantic = Semantic::normal;
@@ -21,6 +21,12 @@ void compute(NodeContext& node) {
   };
   const ImagePtr normal = Image::computed(info, node.key(), std::move(operation));
   node.output("normal", materialized(normal, node.task()));
+}
+
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+  const ImageFacts height = image_at(inputs, "height");
+  require_one_channel("height", height);
+  return {{"normal", forecast_of_image({height.size, 3, Semantic::normal, "raw"})}};
 }
 
 }  // namespace
@@ -52,6 +58,7 @@ NodeType make_bent_normal_node() {
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Image>("height")->size().area()) * 3 * sizeof(float);
   };
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

@@ -8,6 +8,7 @@
 #include "core/image/pixel_space.h"
 #include "core/image/resample.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -41,9 +42,6 @@ ImagePtr leanings_of(const NodeContext& node, const ImagePtr& image) {
                           [=, channels = from.channels, normal_y = from.normal_y](auto in, float* out, int64_t count) {
                             leanings_from_normals(in[0], channels, normal_y, count, out);
                           });
-  if (from.semantic == Semantic::normal || from.channels != 1)
-    throw Error("image", fmt::format("expected a height map of 1 channel or a normal map of 3 channels, found {}",
-                                     describe(*image)));
   return from_neighbours(node, "leanings", image, 2,
                          [scale = node.number("height_scale"), outside = edges_of(node)](
                              const PixelView& in, const Rect& region, float* out) {
@@ -75,6 +73,17 @@ void compute(NodeContext& node) {
   node.output("curvature", pixel_by_pixel(info, node.key(), {smooth}, [=](auto in, float* out, int64_t count) {
                 for (int64_t i = 0; i < count; i++) out[i] = std::clamp(flat + factor * in[0][i], 0.0f, 1.0f);
               }));
+}
+
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+  const ImageFacts image = image_at(inputs, "image");
+  const bool may_be_height = image.semantic != Semantic::normal && image.channels.value_or(1) == 1;
+  const bool may_be_normals =
+      image.semantic.value_or(Semantic::normal) == Semantic::normal && image.channels.value_or(3) >= 3;
+  if (!may_be_height && !may_be_normals)
+    throw Error("image", fmt::format("expected a height map of 1 channel or a normal map of 3 channels, found {}",
+                                     describe(image)));
+  return {{"curvature", forecast_of_image({image.size, 1, Semantic::data, "raw"})}};
 }
 
 }  // namespace
@@ -117,6 +126,7 @@ NodeType make_curvature_node() {
                .choices = {"both", "convex", "concave"}},
               edges_param()};
   t.persist = Persist::derived;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

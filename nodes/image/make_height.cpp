@@ -7,15 +7,11 @@
 #include "core/image/height_from_normals.h"
 #include "core/image/image_ops.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
 namespace {
-
-void require_normals(const Image& image) {
-  if (image.info().semantic != Semantic::normal || image.channels() < 3)
-    throw Error("normal", fmt::format("expected a normal map of 3 channels, found {}", describe(image)));
-}
 
 /// A surface in pixels as values of a height map, in place.
 void to_range(NodeContext& node, std::vector<float>& heights) {
@@ -49,7 +45,6 @@ void clip(NodeContext& node, std::vector<float>& heights) {
 
 void compute(NodeContext& node) {
   const ImagePtr normal = node.input<Image>("normal");
-  require_normals(*normal);
   const IntegrationOptions options{
       .filter = slope_filter_from(node.text("filter")), .outside = edges_of(node), .flatten = node.number("flatten")};
   std::vector<float> heights = heights_from_normals(*normal, options, node.task());
@@ -61,6 +56,12 @@ void compute(NodeContext& node) {
   if (info.depth == Depth::u8) info.depth = Depth::u16;  // 256 steps would show as terraces
   if (info.depth == Depth::u16) clip(node, heights);
   node.output("height", Image::from_floats(info, std::move(heights)));
+}
+
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+  const ImageFacts normal = image_at(inputs, "normal");
+  require_normals("normal", normal);
+  return {{"height", forecast_of_image({normal.size, 1, Semantic::height, normal.color_space})}};
 }
 
 std::vector<std::string> check(const Params& params) {
@@ -112,6 +113,7 @@ NodeType make_height_node() {
     return size_t(node.input<Image>("normal")->size().area()) * 5 * sizeof(float);
   };
   t.check = check;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/material/map_names.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -52,7 +53,6 @@ ImagePtr with_semantic(const ImagePtr& image, const std::string& semantic) {
 
 void compute(NodeContext& node) {
   const auto images = node.list<Image>("images");
-  require_right_texts(node.params(), images.size());
   const Texts& semantics = node.texts("semantics");
   std::vector<Map> added;
   for (size_t i = 0; i < images.size(); i++) {
@@ -60,7 +60,6 @@ void compute(NodeContext& node) {
     const Texts& names = node.texts("names");
     added.push_back({names.empty() ? std::string(name_of(image->info().semantic)) : names[i], image});
   }
-  require_different(names_of(added));
 
   const MaterialPtr base = node.optional_input<Material>("material");
   std::vector<Map> maps = base ? base->maps() : std::vector<Map>{};
@@ -78,16 +77,36 @@ void compute(NodeContext& node) {
   node.output("material", material);
 }
 
-Forecast preflight(const Params& params, const InputForecasts& inputs) {
-  require_right_texts(params, inputs.at("images").size());
+/// What is known of the i-th of the images, with the semantic that it is given.
+ImageFacts added_facts(const Params& params, const InputForecasts& inputs, size_t i) {
+  ImageFacts image = image_at(inputs, "images", i);
+  const Texts& semantics = std::get<Texts>(params.at("semantics"));
+  if (!semantics.empty() && semantics[i] != "keep") image.semantic = semantic_from(semantics[i]);
+  return image;
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const size_t count = inputs.at("images").size();
+  require_right_texts(params, count);
   const Texts& names = std::get<Texts>(params.at("names"));
   Forecast out{.possible_maps = Texts{}};
-  if (const auto base = inputs.find("material"); base != inputs.end())
-    out = {.maps = base->second.front().maps, .possible_maps = base->second.front().possible_maps};
-  for (const std::string& name : names)
-    if (std::find(out.maps.begin(), out.maps.end(), name) == out.maps.end()) out.maps.push_back(name);
-  if (names.empty()) out.possible_maps.reset();  // what the images mean will name them
-  return out;
+  if (const Forecast* base = forecast_at(inputs, "material")) out = *base;
+  Texts added;
+  for (size_t i = 0; i < count; i++) {
+    const ImageFacts image = added_facts(params, inputs, i);
+    if (names.empty() && !image.semantic) {
+      out.possible_maps.reset();  // what the image means will name it
+      out.images.clear();         // and may replace any
+      continue;
+    }
+    const std::string name = names.empty() ? std::string(name_of(*image.semantic)) : names[i];
+    added.push_back(name);
+    out.images[name] = image;
+    if (std::ranges::find(out.maps, name) == out.maps.end()) out.maps.push_back(name);
+    if (out.possible_maps) std::erase(*out.possible_maps, name);
+  }
+  require_different(added);
+  return {{"material", out}};
 }
 
 }  // namespace
@@ -119,7 +138,7 @@ NodeType make_material_node() {
   };
   t.persist = Persist::digest;
   t.compute = compute;
-  t.preflight = preflight;
+  t.infer = infer;
   return t;
 }
 

@@ -1,6 +1,7 @@
 #include "core/image/image_ops.h"
 #include "core/image/normal.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -8,7 +9,6 @@ namespace {
 
 void compute(NodeContext& node) {
   const ImagePtr height = node.input<Image>("height");
-  require_one_channel("height", *height);
   ImageInfo info = height->info();
   info.channels = 3;
   info.semantic = Semantic::normal;
@@ -25,6 +25,12 @@ void compute(NodeContext& node) {
     normals_from_height(in[0], region, scale, filter, outside, info.normal_y, out);
   };
   node.output("normal", Image::computed(info, node.key(), std::move(operation)));
+}
+
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+  const ImageFacts height = image_at(inputs, "height");
+  require_one_channel("height", height);
+  return {{"normal", forecast_of_image({height.size, 3, Semantic::normal, "raw"})}};
 }
 
 }  // namespace
@@ -49,6 +55,7 @@ NodeType make_normal_node() {
               edges_param(),
               normal_y_param()};
   t.persist = Persist::derived;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

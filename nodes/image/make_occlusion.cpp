@@ -2,6 +2,7 @@
 #include "core/image/occlusion.h"
 #include "nodes/common/horizon_params.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -9,7 +10,6 @@ namespace {
 
 void compute(NodeContext& node) {
   const ImagePtr height = node.input<Image>("height");
-  require_one_channel("height", *height);
   ImageInfo info = height->info();
   info.semantic = Semantic::ambient_occlusion;
   info.color_space = "raw";
@@ -20,6 +20,12 @@ void compute(NodeContext& node) {
   };
   const ImagePtr occlusion = Image::computed(info, node.key(), std::move(operation));
   node.output("occlusion", materialized(occlusion, node.task()));
+}
+
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+  const ImageFacts height = image_at(inputs, "height");
+  require_one_channel("height", height);
+  return {{"occlusion", forecast_of_image({height.size, 1, Semantic::ambient_occlusion, "raw"})}};
 }
 
 }  // namespace
@@ -48,6 +54,7 @@ NodeType make_occlusion_node() {
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Image>("height")->size().area()) * sizeof(float);
   };
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

@@ -5,6 +5,7 @@
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -12,12 +13,8 @@ namespace {
 
 void compute(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image"), reference = node.input<Image>("reference");
-  require_no_normals("image", *image);
   const ImageInfo info = image->info();
   const int channels = value_channels(info);
-  if (value_channels(reference->info()) != channels)
-    throw Error("reference", fmt::format("expected as many channels as \"image\", {}; found {}", describe(*image),
-                                         describe(*reference)));
   const std::vector<Distribution> own = Distribution::of(*image, node.task()),
                                   wanted = Distribution::of(*reference, node.task());
   std::vector<Curve> curves;
@@ -31,6 +28,16 @@ void compute(NodeContext& node) {
                   }
                 keep_in_range(info, out, count);
               }));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const ImageFacts image = image_at(inputs, "image"), reference = image_at(inputs, "reference");
+  require_no_normals("image", image);
+  const std::optional<int> channels = value_channels(image), wanted = value_channels(reference);
+  if (channels && wanted && *channels != *wanted)
+    throw Error("reference", fmt::format("expected as many channels as \"image\", {}; found {}", describe(image),
+                                         describe(reference)));
+  return same_image_rule()(params, inputs);
 }
 
 }  // namespace
@@ -53,6 +60,7 @@ NodeType match_histogram_node() {
                .min = 0,
                .max = 1}};
   t.persist = Persist::digest;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

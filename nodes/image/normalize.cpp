@@ -5,6 +5,7 @@
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -54,8 +55,6 @@ ImagePtr normalized_values(NodeContext& node, const ImagePtr& image) {
 
 ImagePtr unit_vectors(const NodeContext& node, const ImagePtr& image) {
   const ImageInfo info = image->info();
-  if (info.channels < 3)
-    throw Error("image", fmt::format("expected normals of 3 channels, found {}", describe(*image)));
   return pixel_by_pixel(info, node.key(), {image}, [info](auto in, float* out, int64_t count) {
     std::copy_n(in[0], count * info.channels, out);
     to_stored(info, out, count);
@@ -66,6 +65,13 @@ void compute(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
   node.output("image",
               image->info().semantic == Semantic::normal ? unit_vectors(node, image) : normalized_values(node, image));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const ImageFacts image = image_at(inputs, "image");
+  if (image.semantic == Semantic::normal && image.channels.value_or(3) < 3)
+    throw Error("image", fmt::format("expected normals of 3 channels, found {}", describe(image)));
+  return same_image_rule()(params, inputs);
 }
 
 }  // namespace
@@ -100,6 +106,7 @@ NodeType normalize_node() {
                .fallback = true,
                .help = "One stretch for all channels, which keeps hues; false stretches each channel by itself."}};
   t.persist = Persist::digest;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

@@ -8,6 +8,7 @@
 #include "core/image/color.h"
 #include "core/material/map_names.h"
 #include "core/node/node.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -26,17 +27,29 @@ void note_other_shape(NodeContext& node, const PreviewSpec& spec, Size material)
                   describe(Size{spec.size.width, whole})));
 }
 
-PreviewShape shape_of(const NodeContext& node) {
-  return node.text("shape") == "sphere" ? PreviewShape::sphere : PreviewShape::plane;
+PreviewShape shape_of(const Params& params) {
+  return std::get<std::string>(params.at("shape")) == "sphere" ? PreviewShape::sphere : PreviewShape::plane;
+}
+
+Size size_of(const Params& params, Size material) {
+  return completed(std::get<Size>(params.at("size")), shape_of(params), material);
 }
 
 Size size_of(const NodeContext& node) {
-  return completed(node.size("size"), shape_of(node), node.input<Material>("material")->size());
+  return size_of(node.params(), node.input<Material>("material")->size());
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const std::optional<Size> material = material_size(inputs.at("material").front());
+  ImageFacts picture{.channels = 3, .semantic = Semantic::base_color};
+  const bool is_one = std::get<Numbers>(params.at("lights")).size() < 2;
+  if (is_one && material) picture.size = size_of(params, *material);
+  return {{"image", forecast_of_image(picture)}};
 }
 
 void compute(NodeContext& node) {
   PreviewSpec s;
-  s.shape = shape_of(node);
+  s.shape = shape_of(node.params());
   s.size = size_of(node);
   s.lights = node.numbers("lights");
   if (s.lights.empty()) s.lights = {node.number("azimuth")};
@@ -138,6 +151,7 @@ NodeType preview_node() {
     const bool is_nothing = std::get<Size>(params.at("size")) == Size{0, 0};
     return is_nothing ? Texts{"\"size\": expected at most one side of 0, found two"} : Texts{};
   };
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

@@ -3,6 +3,7 @@
 
 #include "core/image/resample.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -13,17 +14,31 @@ int scaled(int length, double factor) {
 }
 
 /// The new size of a map. `material`: the size whose aspect ratio decides sides of 0.
-Size target_size(const NodeContext& node, Size map, Size material) {
-  const Size asked = node.size("size");
+std::optional<Size> target_size(const Params& params, std::optional<Size> map, std::optional<Size> material) {
+  const Size asked = std::get<Size>(params.at("size"));
   if (asked.width && asked.height) return asked;
-  if (asked.width) return {asked.width, scaled(material.height, double(asked.width) / material.width)};
-  if (asked.height) return {scaled(material.width, double(asked.height) / material.height), asked.height};
-  return {scaled(map.width, node.number("scale")), scaled(map.height, node.number("scale"))};
+  if ((asked.width || asked.height) && !material) return std::nullopt;
+  if (asked.width) return Size{asked.width, scaled(material->height, double(asked.width) / material->width)};
+  if (asked.height) return Size{scaled(material->width, double(asked.height) / material->height), asked.height};
+  if (!map) return std::nullopt;
+  const double scale = std::get<double>(params.at("scale"));
+  return Size{scaled(map->width, scale), scaled(map->height, scale)};
 }
 
 ImagePtr resized(const NodeContext& node, const ImagePtr& map, Size material) {
-  return resampled(map, target_size(node, map->size(), material), node.text("filter"), edges_of(node),
+  return resampled(map, *target_size(node.params(), map->size(), material), node.text("filter"), edges_of(node),
                    map_recipe(node, *map));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const Forecast& material = inputs.at("material").front();
+  const Texts& chosen = std::get<Texts>(params.at("maps"));
+  preflight_maps("maps", chosen, material);
+  const std::optional<Size> size = material_size(material);
+  return {{"material", with_facts_changed(material, [&](const std::string& map, ImageFacts& facts) {
+             if (chosen.empty() || std::ranges::find(chosen, map) != chosen.end())
+               facts.size = target_size(params, facts.size, size);
+           })}};
 }
 
 void compute(NodeContext& node) {
@@ -79,10 +94,7 @@ NodeType resize_node() {
   t.persist = Persist::derived;
   t.compute = compute;
   t.check = check;
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    preflight_maps("maps", std::get<Texts>(params.at("maps")), inputs.at("material").front());
-    return same_maps_as("material")(params, inputs);
-  };
+  t.infer = infer;
   return t;
 }
 

@@ -5,6 +5,7 @@
 #include "core/image/distribution.h"
 #include "core/image/image_ops.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -17,7 +18,6 @@ float smooth_step(float t) {
 
 void compute(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
-  require_one_channel("image", *image);
   double value = node.number("value");
   if (node.flag("auto")) {
     value = Distribution::of(*image, node.task()).front().otsu_threshold();
@@ -35,6 +35,12 @@ void compute(NodeContext& node) {
                   out[i] = inverted ? 1 - inside : inside;
                 }
               }));
+}
+
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+  ImageFacts image = image_at(inputs, "image");
+  require_one_channel("image", image);
+  return {{"mask", forecast_of_image({image.size, 1, Semantic::mask, "raw"})}};
 }
 
 }  // namespace
@@ -62,6 +68,7 @@ NodeType threshold_node() {
                .max = largest_sample},
               {.name = "inverted", .type = ParamType::boolean, .fallback = false, .help = "Swaps 0 and 1."}};
   t.persist = Persist::digest;
+  t.infer = infer;
   t.compute = compute;
   return t;
 }

@@ -47,8 +47,7 @@ std::vector<std::string> check(const Params& params) {
 }
 
 void compute(NodeContext& node) {
-  const Exemplar original =
-      masked_exemplar(node.input<Material>("material"), "mask", node.optional_input<Image>("mask"));
+  const Exemplar original = masked_exemplar(node.input<Material>("material"), node.optional_input<Image>("mask"));
   std::vector<Exemplar> exemplars;
   for (const Variant& v : asked_variants(node.params())) exemplars.push_back(varied(original, v, edges_of(node)));
   output_atlas(node, exemplars, "fewer `rotations` or `scales`");
@@ -103,7 +102,11 @@ NodeType variants_node() {
   t.persist = Persist::derived;
   t.check = check;
   t.compute = compute;
-  t.preflight = same_maps_as("material");
+  t.infer = [](const Params&, const InputForecasts& inputs) {
+    const Forecast& material = inputs.at("material").front();
+    require_mask_of(inputs, "mask", 0, material);
+    return atlas_forecast(material);
+  };
   return t;
 }
 

@@ -11,6 +11,7 @@
 #include "core/node/node.h"
 #include "core/picture/contact_sheet.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -78,23 +79,28 @@ void add_wrap_figures(const Material& output, const std::vector<std::string>& ma
   if (wraps.y) out.push_back({"wrap_seam_y", rounded(y.ratio), help("bottom to top", y)});
 }
 
-void check_layout(const UvMap& uv, const Material& exemplar, const Material& output) {
+void check_layout(const Forecast& uv, std::optional<Size> exemplar, std::optional<Size> output) {
+  if (!uv.size || !uv.exemplar || !exemplar || !output) return;
   const auto same_ratio = [](int a, int b, int c, int d) { return int64_t{a} * d == int64_t{b} * c; };
-  const Size from = exemplar.size(), to = output.size();
-  const bool fits = same_ratio(from.width, uv.exemplar().width, to.width, uv.size().width) &&
-                    same_ratio(from.height, uv.exemplar().height, to.height, uv.size().height);
+  const bool fits = same_ratio(exemplar->width, uv.exemplar->width, output->width, uv.size->width) &&
+                    same_ratio(exemplar->height, uv.exemplar->height, output->height, uv.size->height);
   if (!fits)
-    throw Error("uv",
-                fmt::format("the uv map must be the one the output was resolved from; it makes {}x{} out of {}x{} "
-                            "pixels, but the exemplar has {}x{} and the output {}x{}",
-                            uv.size().width, uv.size().height, uv.exemplar().width, uv.exemplar().height, from.width,
-                            from.height, to.width, to.height));
+    throw Error("uv", fmt::format("the uv map must be the one the output was resolved from; it makes {} out of {} "
+                                  "pixels, but the exemplar has {} and the output {}",
+                                  describe(*uv.size), describe(*uv.exemplar), describe(*exemplar), describe(*output)));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const Forecast &exemplar = inputs.at("exemplar").front(), &output = inputs.at("output").front();
+  for (const auto& [side, material] : {std::pair("exemplar", &exemplar), std::pair("output", &output)})
+    preflight_maps("maps", std::get<Texts>(params.at("maps")), *material, fmt::format("the {}", side));
+  if (const Forecast* uv = forecast_at(inputs, "uv")) check_layout(*uv, material_size(exemplar), material_size(output));
+  return {};
 }
 
 void compute(NodeContext& node) {
   const MaterialPtr exemplar = node.input<Material>("exemplar"), output = node.input<Material>("output");
   const UvMapPtr uv = node.optional_input<UvMap>("uv");
-  if (uv) check_layout(*uv, *exemplar, *output);
   const std::vector<std::string> maps = compared_maps(*exemplar, *output, node.texts("maps"));
   ComparedPlanes planes = compared_planes(*exemplar, *output, maps);
   for (const auto& [name, material] : {std::pair("exemplar", exemplar), std::pair("output", output)})
@@ -204,11 +210,7 @@ NodeType compare_node() {
   };
   t.memory_hint = memory_hint;
   t.compute = compute;
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
-    for (const char* side : {"exemplar", "output"})
-      preflight_maps("maps", std::get<Texts>(params.at("maps")), inputs.at(side).front(), fmt::format("the {}", side));
-    return Forecast{};
-  };
+  t.infer = infer;
   return t;
 }
 

@@ -92,7 +92,9 @@ NodeType gradient_node() {
               generated_semantic_param("data")};
   t.persist = Persist::derived;
   t.check = check;
-  t.preflight = forecast_of_generated;
+  t.infer = [](const Params& params, const InputForecasts&) {
+    return forecast_of_generated(params, int(std::get<Numbers>(params.at("from")).size()));
+  };
   t.compute = compute;
   return t;
 }

@@ -97,9 +97,12 @@ NodeType load_map_node() {
     const std::string& path = std::get<std::string>(p.at("path"));
     require_readable_image(path);
     Forecast out;
-    out.semantic = semantic_from(std::get<std::string>(p.at("semantic")));
+    ImageFacts& image = out.images[""];
+    image.semantic = semantic_from(std::get<std::string>(p.at("semantic")));
     try {
-      out.sizes[""] = read_image_info(path, std::get<std::string>(p.at("layer"))).size;
+      const FileInfo file = read_image_info(path, std::get<std::string>(p.at("layer")));
+      image.size = file.size;
+      image.channels = file.channels;
     } catch (const TooManyPixels&) {
       throw;
     } catch (const Error&) {

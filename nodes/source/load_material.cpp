@@ -15,6 +15,7 @@
 #include "nodes/common/color_space.h"
 #include "nodes/common/exemplar_doubts.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 #include "nodes/source/material_folder.h"
 #include "nodes/source/normal_checks.h"
 #include "nodes/source/unnamed_packings.h"
@@ -183,9 +184,11 @@ Forecast preflight(const Params& params, const InputForecasts&) {
     try {
       require_readable_image(folder_of(params) / m.file);
       const FileInfo file = read_image_info(folder_of(params) / m.file, m.layer);
-      out.sizes[m.map] = file.size;
-      if (const auto hidden = hidden_in_alpha(m); hidden && file.channels % 2 == 0)
-        out.possible_maps->emplace_back(name_of(*hidden));
+      out.images[m.map] = {.size = file.size, .channels = channels_of_map(m, file.channels), .semantic = m.semantic};
+      const std::optional<Semantic> hidden = hidden_in_alpha(m);
+      if (!hidden || file.channels % 2 != 0) continue;
+      const std::string& name = out.possible_maps->emplace_back(name_of(*hidden));
+      out.images.emplace(name, values_facts(file.size, *hidden));
     } catch (const Error& e) {
       troubles.insert(e.what());
     }

@@ -1,6 +1,7 @@
 #include "core/exemplar/uv_image.h"
 #include "core/image/image_file.h"
 #include "core/node/node.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -48,9 +49,16 @@ NodeType load_uv_node() {
   t.files_read = [](const Params& params) {
     return std::vector<std::filesystem::path>{std::get<std::string>(params.at("path"))};
   };
-  t.preflight = [](const Params& p, const InputForecasts&) {
-    require_readable_image(std::get<std::string>(p.at("path")));
-    return Forecast{};
+  t.preflight = [](const Params& p, const InputForecasts& inputs) {
+    const std::string& path = std::get<std::string>(p.at("path"));
+    require_readable_image(path);
+    Forecast out{.exemplar = material_size(inputs.at("exemplar").front())};
+    try {
+      out.size = read_image_info(path).size;
+    } catch (const Error&) {
+      // compute reports it
+    }
+    return out;
   };
   t.compute = compute;
   return t;

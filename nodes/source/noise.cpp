@@ -115,7 +115,7 @@ NodeType noise_node() {
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "one channel, 0..1"}};
   t.params = params();
   t.persist = Persist::derived;
-  t.preflight = forecast_of_generated;
+  t.infer = [](const Params& params, const InputForecasts&) { return forecast_of_generated(params, 1); };
   t.compute = compute;
   return t;
 }

@@ -115,11 +115,15 @@ NodeType pattern_node() {
   t.persist = Persist::payload;
   t.check = check;
   t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 9 * sizeof(float); };
-  t.preflight = [](const Params& params, const InputForecasts&) {
+  t.infer = [](const Params& params, const InputForecasts&) {
     Forecast out{.maps = {"base_color", "normal", "height", "roughness", "ambient_occlusion"},
                  .possible_maps = Texts{}};
-    for (const std::string& map : out.maps) out.sizes[map] = std::get<Size>(params.at("size"));
-    return out;
+    for (const std::string& map : out.maps) {
+      const Semantic semantic = *semantic_from(map);
+      const int channels = semantic == Semantic::base_color || semantic == Semantic::normal ? 3 : 1;
+      out.images[map] = {.size = std::get<Size>(params.at("size")), .channels = channels, .semantic = semantic};
+    }
+    return OutputForecasts{{"material", out}};
   };
   t.compute = [](NodeContext& node) { node.output("material", make_pattern(spec_of(node.params()), node.task())); };
   return t;

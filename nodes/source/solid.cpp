@@ -32,7 +32,9 @@ NodeType solid_node() {
               generated_size_param(),
               generated_semantic_param("data")};
   t.persist = Persist::derived;
-  t.preflight = forecast_of_generated;
+  t.infer = [](const Params& params, const InputForecasts&) {
+    return forecast_of_generated(params, int(std::get<Numbers>(params.at("value")).size()));
+  };
   t.compute = compute;
   return t;
 }

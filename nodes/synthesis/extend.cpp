@@ -6,6 +6,7 @@
 #include "core/image/image_ops.h"
 #include "core/synthesis/state/fixed_pixels.h"
 #include "core/synthesis/steps.h"
+#include "nodes/common/shape_rules.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -29,21 +30,32 @@ KeptPixels placed(const UvMap& uv, Size size, std::array<int, 2> at) {
 void compute(NodeContext& node) {
   const auto index = node.input<Index>("index");
   const auto uv = node.input<UvMap>("uv");
-  require_same_exemplar(*uv, *index);
   SynthesisOptions options = synthesis_options(node, *index);
   const Numbers& at = node.numbers("at");
-  const Size room{options.size.width - uv->size().width, options.size.height - uv->size().height};
-  if (room.width < 0 || room.height < 0)
-    throw Error("size", fmt::format("expected at least the size of what is kept, {}; found {}", describe(uv->size()),
-                                    describe(options.size)));
-  if (at[0] > room.width || at[1] > room.height)
-    throw Error("at", fmt::format("expected at most [{}, {}], so that the {} pixels that are kept fit into {}; found "
-                                  "[{}, {}]",
-                                  room.width, room.height, describe(uv->size()), describe(options.size), at[0], at[1]));
   options.origin = {int(at[0]), int(at[1])};
   options.kept = placed(*uv, options.size, options.origin);
   warn_unless_repeats_fit(node, *index, options, "courses or tiles are bent, or cut, where the result wraps");
   node.output("uv", synthesize(*index, options, node.task()));
+}
+
+/// Throws Error unless what is kept fits into the result.
+void require_room(const Params& params, Size kept) {
+  const Size size = std::get<Size>(params.at("size"));
+  const Numbers& at = std::get<Numbers>(params.at("at"));
+  const Size room{size.width - kept.width, size.height - kept.height};
+  if (room.width < 0 || room.height < 0)
+    throw Error("size", fmt::format("expected at least the size of what is kept, {}; found {}", describe(kept),
+                                    describe(size)));
+  if (at[0] > room.width || at[1] > room.height)
+    throw Error("at", fmt::format("expected at most [{}, {}], so that the {} pixels that are kept fit into {}; found "
+                                  "[{}, {}]",
+                                  room.width, room.height, describe(kept), describe(size), at[0], at[1]));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  require_same_exemplar(inputs);
+  if (const std::optional<Size> kept = inputs.at("uv").front().size) require_room(params, *kept);
+  return {{"uv", {.size = std::get<Size>(params.at("size")), .exemplar = inputs.at("index").front().size}}};
 }
 
 std::vector<std::string> check(const Params& params) {
@@ -80,6 +92,7 @@ NodeType extend_node() {
                                     tileable_param()});
   t.check = check;
   t.steps = described_synthesis_steps();
+  t.infer = infer;
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) { return 3 * synthesis_memory(node.size("size")); };
   return t;

@@ -6,6 +6,7 @@
 #include "core/numeric/distance_transform.h"
 #include "core/synthesis/state/fixed_pixels.h"
 #include "core/synthesis/steps.h"
+#include "nodes/common/shape_rules.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -79,12 +80,10 @@ void compute(NodeContext& node) {
   const auto holes = node.input<Image>("mask");
   SynthesisOptions options = synthesis_options(node, *index);
   if (uv) {
-    require_same_exemplar(*uv, *index);
     options.size = uv->size();
     options.tile_x |= uv->wraps().x;
     options.tile_y |= uv->wraps().y;
   }
-  require_shape("mask", *holes, uv ? "the uv map" : "the exemplar", options.size);
   const double margin = node.number("margin");
   options.kept = outside_holes(uv.get(), holes, options.size, options.tile_x && options.tile_y,
                                margin < 1 ? margin * std::min(options.size.width, options.size.height) : margin);
@@ -96,6 +95,15 @@ void compute(NodeContext& node) {
   const UvMapPtr filled = synthesize(*index, options, node.task());
   node.output("filled", new_pixels_mask(*filled, options.kept));
   node.output("uv", filled);
+}
+
+OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+  require_same_exemplar(inputs);
+  const Forecast* uv = forecast_at(inputs, "uv");
+  const std::optional<Size> exemplar = inputs.at("index").front().size, size = uv ? uv->size : exemplar;
+  require_shape("mask", image_at(inputs, "mask"), uv ? "the uv map" : "the exemplar", size);
+  return {{"uv", {.size = size, .exemplar = exemplar}},
+          {"filled", forecast_of_image(values_facts(size, Semantic::mask))}};
 }
 
 }  // namespace
@@ -136,6 +144,7 @@ NodeType inpaint_node() {
        tileable_param()});
   t.check = check_synthesis_params;
   t.steps = described_synthesis_steps();
+  t.infer = infer;
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
     const auto uv = node.optional_input<UvMap>("uv");

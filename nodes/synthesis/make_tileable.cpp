@@ -7,6 +7,7 @@
 #include "core/image/image_ops.h"
 #include "core/synthesis/state/fixed_pixels.h"
 #include "core/synthesis/steps.h"
+#include "nodes/common/shape_rules.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -96,6 +97,15 @@ void compute(NodeContext& node) {
   node.output("uv", uv);
 }
 
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const std::optional<Size> exemplar = inputs.at("index").front().size;
+  // One that repeats may become a little larger or smaller.
+  const bool stays = std::get<std::string>(params.at("fit")) == "size";
+  const std::optional<Size> size = stays ? exemplar : std::nullopt;
+  return {{"uv", {.size = size, .exemplar = exemplar}},
+          {"border", forecast_of_image(values_facts(size, Semantic::mask))}};
+}
+
 std::vector<std::string> check(const Params& params) {
   std::vector<std::string> problems = check_synthesis_params(params);
   const double border = std::get<double>(params.at("border"));
@@ -146,6 +156,7 @@ NodeType make_tileable_node() {
   });
   t.check = check;
   t.steps = described_synthesis_steps();
+  t.infer = infer;
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
     return 3 * synthesis_memory(node.input<Index>("index")->appearance()->size());

@@ -8,6 +8,7 @@
 #include "core/resolve/joined_heights.h"
 #include "core/resolve/resolve.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -121,9 +122,15 @@ void compute(NodeContext& node) {
   node.output("material", std::move(result));
 }
 
-Forecast preflight(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const Forecast &material = inputs.at("material").front(), &uv = inputs.at("uv").front();
   preflight_one_shape("material", inputs);
-  return same_maps_as("material")(params, inputs);
+  const std::optional<Size> exemplar = material_size(material);
+  if (exemplar && uv.exemplar) require_scale(*exemplar, *uv.exemplar, std::get<double>(params.at("scale")));
+  std::optional<Size> size;
+  if (exemplar && uv.exemplar && uv.size) size = resolved_size(*uv.size, *uv.exemplar, *exemplar);
+  return {
+      {"material", with_facts_changed(material, [&](const std::string&, ImageFacts& facts) { facts.size = size; })}};
 }
 
 }  // namespace
@@ -157,7 +164,7 @@ NodeType resolve_uv_node() {
   t.check = check;
   t.memory_hint = memory_hint;
   t.compute = compute;
-  t.preflight = preflight;
+  t.infer = infer;
   return t;
 }
 

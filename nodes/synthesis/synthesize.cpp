@@ -4,7 +4,7 @@
 
 #include "core/image/image_ops.h"
 #include "core/synthesis/steps.h"
-#include "nodes/common/node_helpers.h"
+#include "nodes/common/analysis_memory.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -108,11 +108,17 @@ NodeType synthesize_node() {
         .max_count = 2}});
   t.check = check;
   t.steps = described_synthesis_steps();
+  t.infer = [](const Params& params, const InputForecasts& inputs) {
+    const Numbers& origin = std::get<Numbers>(params.at("origin"));
+    const Rect part = part_of(std::get<Size>(params.at("size")), std::get<Size>(params.at("surface")), origin).region;
+    return OutputForecasts{
+        {"uv", {.size = Size{part.width, part.height}, .exemplar = inputs.at("index").front().size}}};
+  };
   t.compute = compute;
   t.memory_hint = memory;
-  t.preflight = [](const Params& params, const InputForecasts& inputs) {
+  t.memory_ahead = [](const Params& params, const InputForecasts& inputs) {
     const uint64_t held = index_memory.of(inputs.at("index").front());
-    return Forecast{.memory = held > 0 ? held + synthesis_memory(std::get<Size>(params.at("size"))) : 0};
+    return held > 0 ? held + synthesis_memory(std::get<Size>(params.at("size"))) : 0;
   };
   return t;
 }

@@ -26,6 +26,9 @@ NodeType synthesize_coarse_node() {
     const auto index = node.input<Index>("index");
     node.output("uv", coarse_uv(*index, synthesis_options(node, *index), node.task()));
   };
+  t.infer = [](const Params&, const InputForecasts& inputs) {
+    return OutputForecasts{{"uv", {.exemplar = inputs.at("index").front().size}}};
+  };
   t.memory_hint = [](const NodeContext& node) { return coarse_memory(node.size("size")); };
   return t;
 }

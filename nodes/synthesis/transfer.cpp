@@ -5,6 +5,7 @@
 #include "core/material/map_names.h"
 #include "core/synthesis/state/labels.h"
 #include "core/synthesis/steps.h"
+#include "nodes/common/shape_rules.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -26,15 +27,18 @@ void require_pairs(size_t exemplars, size_t targets, size_t strengths) {
       });
 }
 
+Control::Mode mode_of(const Params& params) {
+  return std::get<std::string>(params.at("mode")) == "labels" ? Control::Mode::labels : Control::Mode::values;
+}
+
 std::vector<Control> controls_of(const NodeContext& node) {
   const auto exemplars = node.list<Image>("exemplar_control"), targets = node.list<Image>("target");
   const Numbers& strength = node.numbers("strength");
-  require_pairs(exemplars.size(), targets.size(), strength.size());
   const std::string& match = node.text("match");
   std::vector<Control> controls;
   for (size_t i = 0; i < targets.size(); i++) {
     Control control{.exemplar = exemplars[i], .target = targets[i], .strength = strength[i % strength.size()]};
-    control.mode = node.text("mode") == "labels" ? Control::Mode::labels : Control::Mode::values;
+    control.mode = mode_of(node.params());
     control.leeway = node.number("leeway");
     control.match = match == "none"    ? Control::Match::none
                     : match == "range" ? Control::Match::range
@@ -80,10 +84,13 @@ void compute(NodeContext& node) {
   node.output("uv", uv);
 }
 
-Forecast preflight(const Params& params, const InputForecasts& inputs) {
-  require_pairs(inputs.at("exemplar_control").size(), inputs.at("target").size(),
-                std::get<Numbers>(params.at("strength")).size());
-  return {};
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const size_t controls = wires_at(inputs, "exemplar_control");
+  require_pairs(controls, wires_at(inputs, "target"), std::get<Numbers>(params.at("strength")).size());
+  const std::optional<Size> exemplar = inputs.at("index").front().size;
+  for (size_t i = 0; i < controls; i++)
+    require_control(mode_of(params), image_at(inputs, "exemplar_control", i), image_at(inputs, "target", i), exemplar);
+  return {{"uv", {.size = std::get<Size>(params.at("size")), .exemplar = exemplar}}};
 }
 
 std::vector<Param> params() {
@@ -155,7 +162,7 @@ NodeType transfer_node() {
   t.check = check_synthesis_params;
   t.steps = described_synthesis_steps();
   t.compute = compute;
-  t.preflight = preflight;
+  t.infer = infer;
   t.memory_hint = [](const NodeContext& node) {
     // Bytes of a pixel: of the pyramids of controls, and of distances to labels while those are worked out.
     const auto controls = int64_t(4 * 5 * node.list<Image>("target").size());

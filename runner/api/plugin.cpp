@@ -58,6 +58,7 @@ void guard(NodeType& type) {
   guard(type.files_read, plugin);
   guard(type.memory_hint, plugin);
   guard(type.check, plugin);
+  guard(type.infer, plugin);
   guard(type.preflight, plugin);
   guard(type.doubts, plugin);
 }

@@ -19,7 +19,7 @@
 namespace terrazzo {
 
 /// Raised whenever descriptors, values or contexts change in memory, so that plug-ins must be compiled anew.
-inline constexpr int plugin_abi = 1;
+inline constexpr int plugin_abi = 2;
 
 /// What a plug-in says of itself. The first two members never move.
 struct PluginInfo {

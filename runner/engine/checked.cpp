@@ -108,6 +108,17 @@ void require_declared(const Stage& stage, const NodeContext& context, const Watc
                       type.name, variable));
 }
 
+/// What a graph is checked by must hold.
+void require_foreseen(const NodeContext& node) {
+  for (const auto& [port, forecast] : node.inferred()) {
+    const auto value = const_cast<NodeContext&>(node).outputs().find(port);
+    if (value == const_cast<NodeContext&>(node).outputs().end()) continue;
+    if (const std::string what = contradiction(forecast, value->second); !what.empty())
+      throw Error(
+          fmt::format("checked: the output \"{}\" of {} is {}; mend its `infer`", port, node.type().name, what));
+  }
+}
+
 void require_same_files(const NodeContext& first, const NodeContext& again, const std::string& type) {
   const auto content = [](const StagedFile& f) { return digest_of_file(nullptr, f.temporary); };
   const auto same = [&](const StagedFile& a, const StagedFile& b) {
@@ -186,8 +197,9 @@ WatchedReads::~WatchedReads() {
 void check_node(const Stage& stage, const NodeContext& first, NodeContext& again, const WatchedReads& reads) {
   const std::string& type = stage.type().name;
   require_declared(stage, first, reads);
+  require_foreseen(first);
   try {
-    tbb::this_task_arena::isolate([&] { stage.type().compute(again); });
+    tbb::this_task_arena::isolate([&] { again.compute(); });
     for (const auto& [port, value] : const_cast<NodeContext&>(first).outputs()) {
       const auto at = again.outputs().find(port);
       if (at == again.outputs().end() || content_of(at->second) != content_of(value))

@@ -101,7 +101,7 @@ void compute(Job& job, const Stage& stage, const RunOptions& options) {
   {
     std::optional<WatchedReads> reads;
     if (options.checked) reads.emplace();
-    tbb::this_task_arena::isolate([&] { stage.type().compute(context); });
+    tbb::this_task_arena::isolate([&] { context.compute(); });
     context.task().check();
     check_outputs(context);
     if (reads) {

@@ -14,6 +14,7 @@
 #include "core/image/image_file.h"
 #include "core/image/image_limits.h"
 #include "graphs/document/forecasts.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -92,7 +93,7 @@ class Foresight {
     try {
       const Forecast* forecast = forecasts_.add(node);
       if (forecast && future.writes) check_files(node, forecast->files);
-      if (forecast && future.computes) check_memory(node, *forecast);
+      if (future.computes) check_memory(node);
     } catch (const Errors& all) {
       for (const Error& e : all.all()) complain(node, e);
     } catch (const Error& e) {
@@ -102,14 +103,19 @@ class Foresight {
 
   /// The budget holds for what cannot be done by parts too, which is said now rather than found out by the machine. One
   /// node says it: that which takes most.
-  void check_memory(const GraphNode& node, const Forecast& forecast) {
-    if (!memory_budget_is_set() || forecast.memory <= memory_budget() || forecast.memory <= most_memory_) return;
-    most_memory_ = forecast.memory;
+  void check_memory(const GraphNode& node) {
+    if (!memory_budget_is_set() || !node.type->memory_ahead) return;
+    const InputForecasts inputs = forecasts_.inputs_of(node);
+    const uint64_t least = node.type->memory_ahead(node.params, inputs);
+    if (least <= memory_budget() || least <= most_memory_) return;
+    most_memory_ = least;
     constexpr double mib = 1 << 20;
     Size size{};
-    for (const auto& [map, of_map] : forecast.sizes)
-      if (of_map.area() > size.area()) size = of_map;
-    const double takes = std::ceil(double(forecast.memory) / mib), gives = double(memory_budget()) / mib;
+    for (const auto& [port, wires] : inputs)
+      for (const Forecast& f : wires)
+        if (const Size known = f.size.value_or(material_size(f).value_or(Size{})); known.area() > size.area())
+          size = known;
+    const double takes = std::ceil(double(least) / mib), gives = double(memory_budget()) / mib;
     const double shrink = std::sqrt(gives / takes);
     const bool has_size = size.area() > 0;
     memory_problem_ = problem_of(

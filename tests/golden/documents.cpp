@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "graphs/document/forecasts.h"
 #include "runner/engine/schedule.h"
 #include "test_paths.h"
 #include "tests/golden/inputs.h"
@@ -124,6 +125,7 @@ std::vector<GoldenCase> GoldenSession::run(const GoldenDocument& document) const
 
   std::vector<GoldenCase> out;
   std::map<std::string, bool> decided;
+  Forecasts forecasts;
   for (size_t i = 0; i < loaded.graph.nodes.size(); i++) {
     const GraphNode& node = loaded.graph.nodes[i];
     const NodeType& type = *node.type;
@@ -138,6 +140,10 @@ std::vector<GoldenCase> GoldenSession::run(const GoldenDocument& document) const
     decided[node.name] = c.decided;
     if (type.files_read) c.files_in = type.files_read(node.params);
     const std::string name = document.name + "/" + node.name;
+    forecasts.add(node);
+    for (const Port& p : type.outputs)
+      if (const Forecast* known = forecasts.find_output({node.name, p.name}))
+        CHECK_MESSAGE(contradiction(*known, result.kept.at(node.name).at(p.name)) == "", name << "." << p.name);
     for (const Port& p : type.outputs)
       c.lines.push_back(line_of(name, type, p.name, content_of(result.kept.at(node.name).at(p.name))));
     for (const OutputFile& f : result.stages[i].files) {

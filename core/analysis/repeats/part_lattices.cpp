@@ -136,11 +136,15 @@ BroughtTogether brought_together(const std::vector<ExemplarPart>& parts, const T
   return out;
 }
 
-std::vector<Rect> label_places(const ImagePtr& labels, Size exemplar, const Task& task) {
-  require_one_channel("labels", *labels);
-  if (labels->size() != exemplar)
+void require_labels(const ImageFacts& labels, std::optional<Size> exemplar) {
+  require_one_channel("labels", labels);
+  if (labels.size && exemplar && *labels.size != *exemplar)
     throw Error("labels", fmt::format("expected the size of the exemplar in \"features\", {}, found {}",
-                                      describe(exemplar), describe(labels->size())));
+                                      describe(*exemplar), describe(*labels.size)));
+}
+
+std::vector<Rect> label_places(const ImagePtr& labels, Size exemplar, const Task& task) {
+  require_labels(facts_of(labels->info()), exemplar);
   struct Place {
     Rect bounds;
     int64_t pixels = 0;

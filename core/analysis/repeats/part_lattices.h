@@ -5,6 +5,7 @@
 
 #include "core/analysis/repeats/regularity.h"
 #include "core/exemplar/repeats.h"
+#include "core/image/image_facts.h"
 
 namespace terrazzo {
 
@@ -30,6 +31,8 @@ BroughtTogether brought_together(const std::vector<ExemplarPart>& parts, const T
 /// The rectangle of each label, ordered by value: the exemplars in an atlas. Throws Error about "labels" unless they
 /// have one channel, the exemplar's size, and at most most_lattice_parts rectangles. Throws Cancelled.
 std::vector<Rect> label_places(const ImagePtr& labels, Size exemplar, const Task& task);
+/// What of that can be said without pixels.
+void require_labels(const ImageFacts& labels, std::optional<Size> exemplar);
 
 /// Finds the lattice of one exemplar, or of several of one surface.
 using LatticeFinder = std::function<FoundLattice(const std::vector<ExemplarView>&)>;

@@ -174,13 +174,17 @@ int level_count(Size size) {
 
 }  // namespace
 
+void require_analysable(Size exemplar) {
+  const int smallest_side = tuning->smallest_side;
+  if (std::min(exemplar.width, exemplar.height) < smallest_side || std::max(exemplar.width, exemplar.height) > 65536)
+    throw Error(fmt::format("the exemplar has {} pixels; it needs at least {} and at most 65536 a side",
+                            describe(exemplar), smallest_side));
+}
+
 AppearancePtr make_appearance(const Features& features, const std::vector<ImagePtr>& guidance,
                               const AppearanceOptions& options, const Task& task) {
   const Size size = features.size();
-  const int smallest_side = tuning->smallest_side;
-  if (std::min(size.width, size.height) < smallest_side || std::max(size.width, size.height) > 65536)
-    throw Error(fmt::format("the exemplar has {}x{} pixels; it needs at least {} and at most 65536 a side", size.width,
-                            size.height, smallest_side));
+  require_analysable(size);
   const int count = level_count(size);
   Planes planes = unmasked_planes(features, task);
   auto fingerprint = std::make_shared<Fingerprint>(fingerprint_of(features, planes));

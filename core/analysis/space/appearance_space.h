@@ -14,6 +14,9 @@ struct AppearanceOptions {
   double guidance_weight = 0.25;           ///< at the coarsest level; fades linearly to 0 at the finest
 };
 
+/// Throws Error if an exemplar of that size is too small or too large to be analysed.
+void require_analysable(Size exemplar);
+
 /// Transforms an exemplar into appearance space (Lefebvre & Hoppe, Appearance-space texture synthesis, 2006): per level
 /// of a Gaussian pyramid, Gaussian-weighted 5x5 neighbourhoods of all weighted channels are projected on their
 /// principal components. `guidance`: images of the features' size, any number of channels, that steer coarse levels.

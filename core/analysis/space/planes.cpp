@@ -87,15 +87,18 @@ Planes weighted_planes(const Features& features, const Task& task) {
   return planes;
 }
 
+void require_guidance(const ImageFacts& image, std::optional<Size> features) {
+  if (!image.size || !features || *image.size == *features) return;
+  throw Error("guidance", fmt::format("expected an image of the features' size, {}, found {}; put \"resize\" before it",
+                                      describe(*features), describe(*image.size)));
+}
+
 Planes guidance_planes(const Features& features, const std::vector<ImagePtr>& guidance, const Task& task) {
   const Size size = features.size();
   const std::vector<uint8_t> allowed = allowed_pixels(features);
   int channels = 0;
   for (const ImagePtr& g : guidance) {
-    if (g->size() != size)
-      throw Error("guidance",
-                  fmt::format("expected an image of the features' size, {}x{}, found {}x{}; put \"resize\" before it",
-                              size.width, size.height, g->width(), g->height()));
+    require_guidance(facts_of(g->info()), size);
     channels += g->channels();
   }
   Planes planes = Planes::zeros(size, channels, features.wraps());

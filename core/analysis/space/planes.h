@@ -5,6 +5,7 @@
 #include "core/base/task.h"
 #include "core/exemplar/features.h"
 #include "core/image/float_planes.h"
+#include "core/image/image_facts.h"
 
 namespace terrazzo {
 
@@ -22,6 +23,8 @@ Planes weighted_planes(const Features& features, const Task& task);
 /// The same for guidance images (signed feature distances, control maps), which share one weight. Throws Error about
 /// "guidance" unless they have the features' size.
 Planes guidance_planes(const Features& features, const std::vector<ImagePtr>& guidance, const Task& task);
+/// Throws that for one image that certainly has another size.
+void require_guidance(const ImageFacts& image, std::optional<Size> features);
 
 /// A part of the planes; it clamps at its border, unless it is all of them.
 Planes cropped(const Planes& planes, const Rect& part);

@@ -153,14 +153,6 @@ ControlPlanes halved(const ControlPlanes& in) {
   return out;
 }
 
-void check(const Control& control, Size exemplar) {
-  require_shape("exemplar_control", *control.exemplar, "the exemplar", exemplar);
-  if (control.mode == Control::Mode::values && control.exemplar->channels() != control.target->channels())
-    throw Error("target", fmt::format("expected as many channels as \"exemplar_control\", {}; found {}; put "
-                                      "\"grayscale\" before both, say",
-                                      describe(*control.exemplar), describe(*control.target)));
-}
-
 /// How much the channels [first, end) vary within a feature: their mean deviation in windows of its size.
 double deviation_within_features(const ControlPlanes& planes, int first, int end) {
   const Size size = planes.size;
@@ -199,13 +191,24 @@ double typical_distance(const PaddedLevel& level) {
 
 }  // namespace
 
+void require_control(Control::Mode mode, const ImageFacts& exemplar_control, const ImageFacts& target,
+                     std::optional<Size> exemplar) {
+  require_shape("exemplar_control", exemplar_control, "the exemplar", exemplar);
+  if (mode != Control::Mode::values || !exemplar_control.channels || !target.channels ||
+      *exemplar_control.channels == *target.channels)
+    return;
+  throw Error("target", fmt::format("expected as many channels as \"exemplar_control\", {}; found {}; put "
+                                    "\"grayscale\" before both, say",
+                                    describe(exemplar_control), describe(target)));
+}
+
 ControlPyramid::ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size output, int levels,
                                const Task& task) {
   if (controls.empty()) return;
   int channels = 0;
   std::vector<PaintedLabels> labels;
   for (const Control& control : controls) {
-    check(control, exemplar);
+    require_control(control.mode, facts_of(control.exemplar->info()), facts_of(control.target->info()), exemplar);
     const bool is_labels = control.mode == Control::Mode::labels;
     labels.push_back(is_labels ? painted_labels(control, exemplar, output, task) : PaintedLabels{});
     const int count = is_labels ? labels.back().count : control.exemplar->channels();

@@ -8,7 +8,7 @@
 
 #include "core/analysis/space/padded_level.h"
 #include "core/base/task.h"
-#include "core/image/image.h"
+#include "core/image/image_facts.h"
 
 namespace terrazzo {
 
@@ -31,6 +31,10 @@ struct Control {
   Match match = Match::histogram;  ///< only for values
   double leeway = 0;               ///< only for labels: output pixels by which borders between labels may move
 };
+
+/// Throws Error about "exemplar_control" or "target" if they certainly do not fit the exemplar or one another.
+void require_control(Control::Mode mode, const ImageFacts& exemplar_control, const ImageFacts& target,
+                     std::optional<Size> exemplar);
 
 /// Control values of the exemplar or the output at one level: bytes, all controls' channels interleaved.
 struct ControlPlanes {

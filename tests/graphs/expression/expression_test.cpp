@@ -34,8 +34,12 @@ class Scope : public ExpressionScope {
       {"far", {int64_t{9223372036854775807}}},
   };
   std::map<std::string, Forecast> forecasts = {
-      {"bricks", {.maps = {"height", "normal"}, .sizes = {{"height", {64, 32}}, {"normal", {64, 32}}}}},
-      {"mixed", {.maps = {"height", "normal"}, .sizes = {{"height", {64, 32}}, {"normal", {128, 64}}}}},
+      {"bricks",
+       {.maps = {"height", "normal"},
+        .images = {{"height", {.size = Size{64, 32}}}, {"normal", {.size = Size{64, 32}}}}}},
+      {"mixed",
+       {.maps = {"height", "normal"},
+        .images = {{"height", {.size = Size{64, 32}}}, {"normal", {.size = Size{128, 64}}}}}},
       {"some", {.maps = {"height"}, .possible_maps = std::vector<std::string>{"normal"}}},
       {"nothing", {}}};
 };

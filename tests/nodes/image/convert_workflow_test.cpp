@@ -95,8 +95,8 @@ TEST_CASE("what is lacking, or of other primaries, is said") {
 TEST_CASE("the maps of the result are known before anything runs, and what is certainly lacking is refused") {
   const NodeType* type = find_node_type("convert_workflow");
   const Forecast material{.maps = {"base_color", "specular", "height"}, .possible_maps = Texts{}};
-  const Forecast made = type->preflight({{"to", "metallic"}}, {{"material", {material}}});
+  const Forecast made = type->infer({{"to", "metallic"}}, {{"material", {material}}}).at("material");
   CHECK(made.maps == Texts{"base_color", "height", "metallic"});
-  CHECK_THROWS_AS(type->preflight({{"to", "specular"}}, {{"material", {material}}}), Error);
-  CHECK_NOTHROW(type->preflight({{"to", "specular"}}, {{"material", {Forecast{}}}}));
+  CHECK_THROWS_AS(type->infer({{"to", "specular"}}, {{"material", {material}}}), Error);
+  CHECK_NOTHROW(type->infer({{"to", "specular"}}, {{"material", {Forecast{}}}}));
 }

@@ -85,7 +85,7 @@ TEST_CASE("load_map reads one layer") {
   CHECK(contains(error_of("load_map", {{"path", path}}), "it holds the layers"));
   const Forecast seen =
       find_node_type("load_map")->preflight({{"path", path}, {"layer", "height"}, {"semantic", "height"}}, {});
-  CHECK(seen.sizes.at("") == Size{4, 4});
+  CHECK(seen.images.at("").size == Size{4, 4});
 }
 
 TEST_CASE("<UDIM> in `maps` is the tile that `name` picks") {

@@ -109,3 +109,27 @@ TEST_CASE("nodes that are not needed, and sinks whose files are up to date, are 
   fs::permissions(around.folder.path() / "out", fs::perms(0755));
   CHECK(state(plan, "f") == "up to date");
 }
+
+TEST_CASE("shapes go along the wires, and what is not known is no mistake") {
+  const Surroundings around;
+  const auto chain = [](const char* last) {
+    return document(std::string(R"("m": {"type": "load_material", "path": "maps"},
+      "all": {"type": "resize", "material": "@m", "size": [32, 32]},
+      "color": {"type": "get_map", "material": "@all", "map": "base_color"},
+      "grey": {"type": "grayscale", "image": "@color"},
+      "mask": {"type": "threshold", "image": "@grey"}, )") +
+                    last);
+  };
+  CHECK(around.problems_of(chain(R"("x": {"type": "distance", "mask": "@mask"})")) == "");
+  CHECK(around.problems_of(chain(R"("x": {"type": "distance", "mask": "@color"})"))
+            .find("expected an image of 1 channel, found a base_color map of 32x32 pixels and 3 channels") !=
+        std::string::npos);
+  CHECK(around
+            .problems_of(chain(R"("n": {"type": "noise", "size": [16, 16]},
+                                    "x": {"type": "blend", "base": "@color", "top": "@n", "mask": "@mask"})"))
+            .find("expected the same size as \"base\", 32x32, found 16x16") != std::string::npos);
+  CHECK(around.problems_of(chain(R"("x": {"type": "levels", "image": "@color", "gamma": [1, 2]})"))
+            .find("alpha, 3; found 2") != std::string::npos);
+  CHECK(around.problems_of(chain(R"("x": {"type": "crop", "material": "@all", "size": [48, 8]})"))
+            .find("expected a rectangle inside the material of 32x32") != std::string::npos);
+}
