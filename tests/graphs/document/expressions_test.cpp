@@ -159,7 +159,10 @@ TEST_CASE("an expression cannot ask for what is made from it, nor for what is no
             .find("cycle") != std::string::npos);
   CHECK(problem(R"("a": {"type": "noise", "size": 64}, "b": {"type": "grayscale", "image": "@a"},)"
                 R"("c": {"type": "noise", "size": "=@b.size"})")
-            .find("what \"b\" gives is not known before it runs") != std::string::npos);
+            .find("is not known before it runs") == std::string::npos);
+  CHECK(problem(R"("a": {"type": "pattern", "size": 64}, "b": {"type": "combine", "materials": ["@a"]},)"
+                R"("c": {"type": "noise", "size": "=@b.size"})")
+            .find("the size of what \"b\" gives is not known before it runs") != std::string::npos);
   CHECK(problem(R"("a": {"type": "noise", "size": "=@wrong.size"})").find("@wrong leads to no node") !=
         std::string::npos);
   CHECK(problem(R"("a": {"type": "load_map", "path": "missing.png"}, "b": {"type": "noise", "size": "=@a.size"})")

@@ -93,7 +93,7 @@ TEST_CASE("resize takes a missing side from the material's proportions, and only
 }
 
 TEST_CASE("resize names the maps there are when one is missing") {
-  const std::string message =
-      error_of("resize", {{"maps", Texts{"hight"}}}, {{"material", flat_image({4, 4}, {1}, Semantic::height)}}, "maps");
+  const std::string message = error_of("resize", {{"maps", Texts{"hight"}}},
+                                       {{"material", flat_image({4, 4}, {1}, Semantic::height)}}, "maps.0");
   CHECK(message.find("no map \"hight\" (did you mean \"height\"?); the material has height") != std::string::npos);
 }

@@ -99,7 +99,7 @@ TEST_CASE("compare measures the maps it is told to, else those that both have") 
   CHECK(run({{"maps", Texts{"height"}}}).at("coherence") > run({}).at("coherence"));
   CHECK(run({}).at("coherence") > 0);
   CHECK(error({exemplar}, {output}, {{"maps", Texts{"mask"}}}) ==
-        "maps: there is no map \"mask\"; the output has height, base_color");
+        "maps.0: there is no map \"mask\"; the output has height, base_color");
 }
 
 TEST_CASE("a grey output can be compared with a colour exemplar") {
