@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/file/file_integrity.h"
 #include "core/file/file_io.h"
+#include "core/file/file_stamp.h"
 #include "core/image/image_file.h"
 #include "core/image/image_limits.h"
 #include "core/image/png_codec.h"
@@ -161,9 +162,18 @@ void require_image_file(const fs::path& path) {
   if (!failure) require_bytes_fit(path, bytes);
 }
 
+namespace {
+
+/// A plan looks at the same file several times, and programs plan the same graphs again and again. What is known holds
+/// for as long as the file stays; the limits are asked each time.
+FileFacts<bool> complete_files;
+FileFacts<FileInfo> headers;
+
+}  // namespace
+
 void require_readable_image(const fs::path& path) {
   require_image_file(path);
-  if (!seems_complete(path)) fail_cut_off(path);
+  if (!complete_files.of(path, "", [&] { return seems_complete(path); })) fail_cut_off(path);
   const auto is_plain_png = [&] {
     try {
       return open_png(path) != nullptr;
@@ -184,7 +194,9 @@ FileInfo read_image_info(const fs::path& path, const std::string& layer) {
     if (jpeg.progressive) require_coefficients_fit(path, jpeg.size, jpeg.components);
     return {jpeg.size, jpeg.components, Depth::u8};
   }
-  return info_of(open_image_file(path, layer), layer);
+  FileInfo info = headers.of(path, layer, [&] { return info_of(open_image_file(path, layer), layer); });
+  require_pixels_fit(path, info.size, info.channels);
+  return info;
 }
 
 std::vector<FileInfo> read_layer_infos(const fs::path& path) {

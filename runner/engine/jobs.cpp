@@ -1,11 +1,15 @@
 #include "runner/engine/jobs.h"
 
+#include <algorithm>
 #include <chrono>
 #include <new>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include "core/file/atomic_file.h"
+#include "core/file/file_io.h"
 #include "core/file/write_guard.h"
 #include "graphs/document/problem.h"
 #include "runner/engine/checked.h"
@@ -22,6 +26,11 @@ void remove_staged(const NodeContext& context) {
   for (const StagedFile& f : context.staged()) fs::remove(f.temporary, ignored);
 }
 
+bool describes_others(const fs::path& file) {
+  const std::string ending = file.extension().string();
+  return ending == ".json" || ending == ".gltf" || ending == ".mtlx" || ending == ".usda";
+}
+
 /// Removes a node's temporary files unless they have been put in their places.
 class StagedFiles {
  public:
@@ -30,19 +39,23 @@ class StagedFiles {
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
+  /// All of them are on the disk before the first takes its place, so that a set of maps is torn only by a crash in the
+  /// moment of renaming. Files that describe the others come last; the next run writes a torn set anew.
   std::vector<OutputFile> put_in_place(Cache* cache, const Sandbox* sandbox) {
-    for (const StagedFile& f : context_.staged())
-      if (!fs::exists(f.temporary))
+    std::vector<StagedFile> staged = context_.staged();
+    for (const StagedFile& f : staged) {
+      if (sandbox) sandbox->check("write", f.target);
+      File file = File::open(f.temporary, O_RDONLY);
+      if (!file.ok())
         throw std::logic_error(
             fmt::format("{} announced the file {} and did not write it", context_.type().name, f.target.string()));
-    std::vector<OutputFile> files;
-    for (const StagedFile& f : context_.staged()) {
-      if (sandbox) sandbox->check("write", f.target);
-      std::error_code failure;
-      fs::rename(f.temporary, f.target, failure);
-      if (failure) throw Error(fmt::format("cannot write {}: {}", f.target.string(), failure.message()));
-      files.push_back({f.target, fs::file_size(f.target), digest_of_file(cache, f.target)});
+      file.sync_and_close(f.target);
     }
+    std::ranges::stable_partition(staged, [](const StagedFile& f) { return !describes_others(f.target); });
+    for (const StagedFile& f : staged) publish_file(f.temporary, f.target);
+    std::vector<OutputFile> files;
+    for (const StagedFile& f : context_.staged())
+      files.push_back({f.target, fs::file_size(f.target), digest_of_file(cache, f.target)});
     return files;
   }
 

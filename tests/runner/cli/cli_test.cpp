@@ -22,7 +22,7 @@ TEST_CASE("the program says its version and helps on standard output") {
   const ProgramRun version = w.run({"--version"});
   CHECK(version.code == 0);
   CHECK(version.out.find("terrazzo ") == 0);
-  for (const char* part : {"\nbuilt with ", "OpenImageIO 2.", "oneTBB 20", "plug-in interface 1"})
+  for (const char* part : {"\nbuilt with ", "OpenImageIO 2.", "oneTBB 20", "plug-in interface "})
     CHECK_MESSAGE(version.out.find(part) != std::string::npos, part);
   const ProgramRun help = w.run({"--help"});
   CHECK(help.code == 0);

@@ -102,13 +102,13 @@ TEST_CASE("only what is needed is frozen, and results still go where they did") 
 TEST_CASE("names that wires cannot have, and texts that mean something in documents") {
   const Workplace w;
   write_picture(w.path / "a.png", 1);
-  const auto variation = [&](const std::string& caption) {
+  const auto variation = [&](const std::string& caption, int number) {
     return graph_of(w, R"("a": {"type": "load_map", "path": "a.png"},
       "sheet": {"type": "contact_sheet", "images": ["@a"], "captions": [)" +
-                           caption +
-                           R"(]}, "file": {"type": "export", "material": "@sheet", "path": "s$$/{map}.png"})");
+                           caption + R"(]}, "file": {"type": "export", "material": "@sheet", "path": "s$$/)" +
+                           std::to_string(number) + R"(/{map}.png"})");
   };
-  const MergedGraph all = merged({variation(R"("@@a")"), variation(R"("==1")"), variation(R"("costs $$5")")},
+  const MergedGraph all = merged({variation(R"("@@a")", 1), variation(R"("==1")", 2), variation(R"("costs $$5")", 3)},
                                  {"c=@a, d=0.5", "c==1", "c=$5"});
   const Frozen f(w, all.graph);
   CHECK(f.compared().first.empty());
