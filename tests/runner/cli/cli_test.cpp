@@ -26,7 +26,8 @@ TEST_CASE("the program says its version and helps on standard output") {
     CHECK_MESSAGE(version.out.find(part) != std::string::npos, part);
   const ProgramRun help = w.run({"--help"});
   CHECK(help.code == 0);
-  for (const char* command : {"run", "synth", "new", "check", "upgrade", "draw", "nodes", "schema", "cache", "compare", "submit", "task"})
+  for (const char* command :
+       {"run", "synth", "new", "check", "upgrade", "draw", "nodes", "schema", "cache", "compare", "submit", "task"})
     CHECK_MESSAGE(help.out.find(std::string("  ") + command + " ") != std::string::npos, command);
   const ProgramRun run_help = w.run({"run", "--help"});
   CHECK(run_help.code == 0);
