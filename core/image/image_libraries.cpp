@@ -30,8 +30,8 @@ void release_library_pages() {
       if (segment.p_type != PT_LOAD || (segment.p_flags & PF_W) != 0) continue;
       const uintptr_t begin = (library->dlpi_addr + segment.p_vaddr) / page * page;
       const uintptr_t end = library->dlpi_addr + segment.p_vaddr + segment.p_filesz;
-      ::madvise(reinterpret_cast<void*>(begin), end / page * page - begin,
-                MADV_DONTNEED);  // NOLINT: as the linker does
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): the linker gives addresses as numbers
+      ::madvise(reinterpret_cast<void*>(begin), end / page * page - begin, MADV_DONTNEED);
     }
     return 0;
   };

@@ -7,9 +7,9 @@
 namespace terrazzo {
 
 std::string built_with() {
-  const std::string sanitizers = TERRAZZO_SANITIZERS;
+  const char* sanitizers = TERRAZZO_SANITIZERS;
   return fmt::format("terrazzo {}\nbuilt with {}{}\nplug-in interface {}", TERRAZZO_VERSION, TERRAZZO_BUILT_WITH,
-                     sanitizers.empty() ? "" : "\nsanitizers " + sanitizers, plugin_abi);
+                     *sanitizers == 0 ? "" : fmt::format("\nsanitizers {}", sanitizers), plugin_abi);
 }
 
 }  // namespace terrazzo

@@ -51,7 +51,8 @@ class StagedFiles {
             fmt::format("{} announced the file {} and did not write it", context_.type().name, f.target.string()));
       file.sync_and_close(f.target);
     }
-    std::ranges::stable_partition(staged, [](const StagedFile& f) { return !describes_others(f.target); });
+    std::stable_partition(staged.begin(), staged.end(),
+                          [](const StagedFile& f) { return !describes_others(f.target); });
     for (const StagedFile& f : staged) publish_file(f.temporary, f.target);
     std::vector<OutputFile> files;
     for (const StagedFile& f : context_.staged())

@@ -13,8 +13,6 @@
 
 #include "core/file/file_io.h"
 
-extern char** environ;
-
 namespace terrazzo {
 
 namespace {

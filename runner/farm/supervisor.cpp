@@ -11,11 +11,10 @@
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "core/file/file_io.h"
 #include "runner/farm/costs.h"
-
-extern char** environ;
 
 namespace terrazzo {
 

@@ -114,6 +114,7 @@ class GraphTest(Case):
         self.session().run(self.small())
         text = SMALL.replace('"type": "pattern", "kind": "bricks", "size": [64, 48], "seed": "$seed"',
                              '"type": "load_material", "path": "out"')
+        text = text.replace('"default": "out"', '"default": "result"')
         pathlib.Path("wall.json").write_text(text)
         g = tz.Graph.load("wall.json")
         with warnings.catch_warnings(record=True) as caught:
