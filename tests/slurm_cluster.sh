@@ -68,11 +68,15 @@ case $action in
     slurmctld -c
     start_node n1
     start_node n2
-    for _ in $(seq 100); do
-      [ "$(sinfo --noheader --Node --format=%t 2>/dev/null | grep -c idle)" != 2 ] || break
+    for _ in $(seq 150); do
+      if [ "$(sinfo --noheader --Node --format=%t 2>/dev/null | grep -c idle)" = 2 ]; then
+        echo "SLURM_CONF=$SLURM_CONF"
+        exit 0
+      fi
       sleep 0.2
     done
-    echo "SLURM_CONF=$SLURM_CONF"
+    echo "the nodes do not come up" >&2
+    exit 1
     ;;
   restart-controller)
     kill_of "$folder/controller.pid"
