@@ -102,7 +102,7 @@ LeaseAttempt Leases::try_lease(const Digest& key) {
   for (int i = 0; i < most_tries; i++) {
     if (const std::optional<LeaseHolder> holder = holder_of(path)) {
       if (!state_->is_expired(key, *holder)) return {nullptr, true};
-      take_lease_away(path, holder->who);
+      take_lease_away(path, *holder);
     }
     const LeaseHolder mine{new_lease_holder()};
     if (claim_lease(path, mine)) {
@@ -127,7 +127,7 @@ bool is_a_day_old(const fs::path& path) {
   return !missing && fs::file_time_type::clock::now() - written > std::chrono::hours(24);
 }
 
-/// Who has made a folder for a moment, ".claim-WHO" or ".gone-WHO".
+/// Who has made a folder for a moment, ".claim-WHO", or ".gone-WHO" in earlier versions.
 std::string maker_of(const std::string& name) {
   return name.substr(name.find('-') + 1);
 }
@@ -145,10 +145,12 @@ void Leases::remove_abandoned() {
     const bool is_passing = name.starts_with('.');
     const bool is_free = is_passing ? is_dead(maker_of(name)) : !holder || is_dead(holder->who);
     if (!is_free && !is_a_day_old(path)) continue;
-    if (holder && !is_passing)
-      take_lease_away(path, holder->who);
-    else
+    if (holder && !is_passing) {
+      take_lease_away(path, *holder);
+      fs::remove(path, ended);  // unless another has come
+    } else {
       fs::remove_all(path, ended);
+    }
   }
 }
 

@@ -82,12 +82,8 @@ void release_lease(const fs::path& lease, const LeaseHolder& holder) {
   if (::unlink((lease / holder.file()).c_str()) == 0) ::rmdir(lease.c_str());
 }
 
-void take_lease_away(const fs::path& lease, const std::string& who) {
-  const fs::path aside = lease.parent_path() / fmt::format(".gone-{}", new_lease_holder());
-  if (::rename(lease.c_str(), aside.c_str()) != 0) return;
-  const std::optional<LeaseHolder> taken = holder_of(aside);
-  const bool is_meant = !taken || taken->who == who;
-  if (is_meant || ::rename(aside.c_str(), lease.c_str()) != 0) remove_folder(aside);
+void take_lease_away(const fs::path& lease, const LeaseHolder& seen) {
+  ::unlink((lease / seen.file()).c_str());
 }
 
 }  // namespace terrazzo

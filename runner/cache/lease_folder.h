@@ -31,7 +31,8 @@ bool claim_lease(const std::filesystem::path& lease, const LeaseHolder& holder);
 bool renew_lease(const std::filesystem::path& lease, LeaseHolder& holder);
 /// Gives up the lease if the holder still has it.
 void release_lease(const std::filesystem::path& lease, const LeaseHolder& holder);
-/// Takes the lease from that holder; leaves it if another has come.
-void take_lease_away(const std::filesystem::path& lease, const std::string& who);
+/// Takes the lease from a holder as it was seen; leaves it if that has renewed it since, or another has come. An empty
+/// folder is nobody's.
+void take_lease_away(const std::filesystem::path& lease, const LeaseHolder& seen);
 
 }  // namespace terrazzo
