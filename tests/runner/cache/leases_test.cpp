@@ -277,6 +277,21 @@ TEST_CASE("a lease that is renewed is never taken over, however long its stage t
   }
 }
 
+TEST_CASE("a lease is taken only from a holder that has not renewed it since it was seen") {
+  const TemporaryFolder folder;
+  const std::filesystem::path lease = folder.path() / "lease";
+  LeaseHolder holder{new_lease_holder()};
+  REQUIRE(claim_lease(lease, holder));
+  const LeaseHolder seen = holder_of(lease).value();
+  REQUIRE(renew_lease(lease, holder));
+  take_lease_away(lease, seen);
+  CHECK(holder_of(lease) == holder);
+  take_lease_away(lease, holder);
+  CHECK_FALSE(holder_of(lease));
+  CHECK_FALSE(renew_lease(lease, holder));
+  CHECK(claim_lease(lease, LeaseHolder{new_lease_holder()}));
+}
+
 TEST_CASE("of many that take over at once, one gets the lease") {
   const TemporaryFolder folder;
   const Digest key{1, 2};
