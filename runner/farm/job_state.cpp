@@ -53,11 +53,12 @@ JobState state_of(const fs::path& folder, const FarmJob& job, const Plan& plan, 
     }
   }
   const std::vector<bool> is_due = due(job.units, plan);
+  const std::set<std::string> made = made_nodes(plan);
   for (size_t i = 0; i < job.units.size(); i++) {
     const Unit& unit = job.units[i];
     const auto task = state.tasks.find(unit.name);
     const auto failure = is_due[i] ? failure_of(folder, unit.name) : std::nullopt;
-    UnitState now = is_done(unit, plan) ? UnitState::done : UnitState::unneeded;
+    UnitState now = is_done(unit, made) ? UnitState::done : UnitState::unneeded;
     if (is_due[i]) {
       now = UnitState::lost;
       if (failure)

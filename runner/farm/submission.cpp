@@ -42,14 +42,16 @@ std::string batch_job_of(const QueuedTask& task) {
   return task.id.substr(0, task.id.find('_'));
 }
 
+using Needs = std::map<std::string, const std::vector<std::string>*>;  // by unit
+
 /// Batch jobs that must end before this array can begin: earlier arrays, and tasks that are in the queue already.
-std::vector<std::string> jobs_before(const TaskArray& array, const std::vector<HandedOver>& done, const FarmJob& job,
+std::vector<std::string> jobs_before(const TaskArray& array, const std::vector<HandedOver>& done, const Needs& needs,
                                      const JobState& state) {
   std::set<std::string> ids;
   for (const size_t n : array.needs) ids.insert(done[n].id);
   for (const auto& task : array.tasks)
     for (const std::string& unit : task)
-      for (const std::string& need : job.find(unit)->needs)
+      for (const std::string& need : *needs.at(unit))
         if (const auto queued = state.tasks.find(need); queued != state.tasks.end())
           ids.insert(batch_job_of(queued->second));
   return {ids.begin(), ids.end()};
@@ -106,10 +108,12 @@ std::vector<HandedOver> hand_over(const fs::path& folder, const FarmJob& job, Ca
   const std::shared_ptr<Lease> lease = lease_of(job, cache);
   const JobState state = look_at_job(folder, job, cache, slurm.queued(job.name));
   std::vector<bool> wanted;
+  Needs needs;
   std::map<std::string, uint64_t> too_little;
   for (size_t i = 0; i < job.units.size(); i++) {
     const bool is_wanted = state.units[i] == UnitState::lost || state.units[i] == UnitState::failed;
     wanted.push_back(is_wanted);
+    needs.emplace(job.units[i].name, &job.units[i].needs);
     if (!is_wanted) continue;
     const std::string& name = job.units[i].name;
     if (const auto failure = failure_of(folder, name); failure && failure->memory > 0)
@@ -122,7 +126,7 @@ std::vector<HandedOver> hand_over(const fs::path& folder, const FarmJob& job, Ca
     write_array(folder, array);
     const std::string id = array.id().hex();
     const fs::path script = folder / "arrays" / (id + ".sh");
-    write_whole_file(script, slurm_script(job, array, folder, jobs_before(array, out, job, state), options));
+    write_whole_file(script, slurm_script(job, array, folder, jobs_before(array, out, needs, state), options));
     std::string batch_job = slurm.submit(script, job.name, id);
     out.push_back({std::move(array), std::move(batch_job)});
   }

@@ -32,19 +32,19 @@ void check_keys(const FarmJob& job, const Plan& plan) {
 }
 
 /// Throws Error if one that this unit needs could not be made and still is not there.
-void check_failures(const fs::path& folder, const FarmJob& job, const Unit& unit, const Plan& plan) {
+void check_failures(const fs::path& folder, const FarmJob& job, const Unit& unit, const std::set<std::string>& made) {
   for (const std::string& name : unit.needs) {
     const Unit* needed = job.find(name);
-    if (!needed || is_done(*needed, plan)) continue;
+    if (!needed || is_done(*needed, made)) continue;
     if (const auto failure = failure_of(folder, name))
       throw Error(fmt::format("skipped, as \"{}\" failed: {}", name, failure->message));
   }
 }
 
-bool has_all_it_needs(const FarmJob& job, const Unit& unit, const Plan& plan) {
+bool has_all_it_needs(const FarmJob& job, const Unit& unit, const std::set<std::string>& made) {
   return std::ranges::all_of(unit.needs, [&](const std::string& name) {
     const Unit* needed = job.find(name);
-    return !needed || is_done(*needed, plan);
+    return !needed || is_done(*needed, made);
   });
 }
 
@@ -99,9 +99,10 @@ UnitResult run_unit(const fs::path& folder, const FarmJob& job, const Unit& unit
   look_for(options.patience, options.cancelled, [&] {
     const Plan plan = make_plan(loaded.graph, &cache, with_needs);
     check_keys(job, plan);
-    if (is_done(unit, plan)) return true;
-    check_failures(folder, job, unit, plan);
-    return has_all_it_needs(job, unit, plan);
+    const std::set<std::string> made = made_nodes(plan);
+    if (is_done(unit, made)) return true;
+    check_failures(folder, job, unit, made);
+    return has_all_it_needs(job, unit, made);
   });
 
   UnitResult result{.run = run_graph(loaded.graph, run)};

@@ -120,20 +120,25 @@ std::vector<Unit> units_of(const Plan& plan) {
   return units;
 }
 
-bool is_done(const Unit& unit, const Plan& plan) {
-  return std::ranges::all_of(unit.targets, [&](const std::string& name) {
-    const auto at = std::ranges::find_if(plan.stages, [&](const Stage& s) { return s.node->name == name; });
-    if (at == plan.stages.end()) return false;
-    return at->state == StageState::up_to_date || (at->state == StageState::cached && at->known->stored);
-  });
+std::set<std::string> made_nodes(const Plan& plan) {
+  std::set<std::string> made;
+  for (const Stage& s : plan.stages)
+    if (s.state == StageState::up_to_date || (s.state == StageState::cached && s.known->stored))
+      made.insert(s.node->name);
+  return made;
+}
+
+bool is_done(const Unit& unit, const std::set<std::string>& made) {
+  return std::ranges::all_of(unit.targets, [&](const std::string& name) { return made.contains(name); });
 }
 
 std::vector<bool> due(const std::vector<Unit>& units, const Plan& plan) {
   std::map<std::string, size_t> index;
   for (size_t i = 0; i < units.size(); i++) index.emplace(units[i].name, i);
+  const std::set<std::string> made = made_nodes(plan);
   std::vector<bool> wanted(units.size()), out(units.size());
   for (size_t i = units.size(); i-- > 0;) {
-    if (!(wanted[i] || units[i].is_wanted) || is_done(units[i], plan)) continue;
+    if (!(wanted[i] || units[i].is_wanted) || is_done(units[i], made)) continue;
     out[i] = true;
     for (const std::string& n : units[i].needs) wanted[index.at(n)] = true;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,10 @@ inline constexpr double seconds_worth_a_task = 30;
 /// makes no difference.
 std::vector<Unit> units_of(const Plan& plan);
 
-/// Whether everything that others need of the unit is in the cache, or in its files, unchanged.
-bool is_done(const Unit& unit, const Plan& plan);
+/// The nodes of a plan whose results are in the cache, or in their files, unchanged.
+std::set<std::string> made_nodes(const Plan& plan);
+/// Whether everything that others need of the unit is among them.
+bool is_done(const Unit& unit, const std::set<std::string>& made);
 
 /// Of each unit, whether it has to be made: it is not done, and is wanted or needed by one that has to be made.
 std::vector<bool> due(const std::vector<Unit>& units, const Plan& plan);
