@@ -1,7 +1,6 @@
 #include "core/file/file_stamp.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include <sys/stat.h>
 
@@ -9,12 +8,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int64_t ns_per_second = 1'000'000'000;
 constexpr int64_t unsettled_ns = 2 * ns_per_second;
-
-int64_t ns_of(const timespec& t) {
-  return int64_t(t.tv_sec) * ns_per_second + t.tv_nsec;
-}
 
 std::optional<FileStamp> stamp_in(const struct stat& status) {
   if (!S_ISREG(status.st_mode)) return std::nullopt;
@@ -27,9 +21,14 @@ bool FileStamp::is_settled(int64_t at_ns) const {
   return std::max(modified_ns, changed_ns) + unsettled_ns < at_ns;
 }
 
-int64_t wall_clock_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
+int64_t ns_of(const timespec& t) {
+  return int64_t{t.tv_sec} * ns_per_second + t.tv_nsec;
+}
+
+int64_t now_ns() {
+  timespec t;
+  ::clock_gettime(CLOCK_REALTIME, &t);
+  return ns_of(t);
 }
 
 std::optional<FileStamp> stamp_of(const std::filesystem::path& path) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include <time.h>
+
 #include "core/file/file_io.h"
 
 /// Telling by the file system alone that a file has not changed.
@@ -26,8 +28,10 @@ struct FileStamp {
   bool is_settled(int64_t at_ns) const;
 };
 
-/// Nanoseconds since the epoch.
-int64_t wall_clock_ns();
+inline constexpr int64_t ns_per_second = 1'000'000'000;
+int64_t ns_of(const timespec& t);
+/// Wall-clock time, since the epoch.
+int64_t now_ns();
 
 /// None if it is no regular file.
 std::optional<FileStamp> stamp_of(const std::filesystem::path& path);
@@ -46,7 +50,7 @@ class FileFacts {
       const std::lock_guard lock(mutex_);
       if (const auto at = known_.find(key); at != known_.end() && at->second.first == *stamp) return at->second.second;
     }
-    const int64_t begun = wall_clock_ns();
+    const int64_t begun = now_ns();
     Fact fact = find();
     if (stamp && stamp->is_settled(begun) && stamp_of(path) == stamp) {
       const std::lock_guard lock(mutex_);

@@ -63,10 +63,6 @@ int rows_of(Size size, int channels, int64_t values) {
   return int(std::max<int64_t>(tuning->strip_rows, values / (int64_t{size.width} * channels)));
 }
 
-}  // namespace
-
-namespace {
-
 /// The pulls of all threads together, of a few images each, are to take a part of the memory budget only.
 int64_t most_values_at_once() {
   constexpr uint64_t share = 64;

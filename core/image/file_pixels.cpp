@@ -17,6 +17,10 @@ size_t bytes_of(Depth depth) {
   return depth == Depth::u8 ? 1 : depth == Depth::f32 ? 4 : 2;
 }
 
+uint64_t bytes_of(const PixelLayout& layout) {
+  return uint64_t(layout.stored.area()) * uint64_t(layout.channels) * bytes_of(layout.depth);
+}
+
 int rows_of(int width, int channels) {
   return int(std::max<int64_t>(1, values_at_once / (int64_t{width} * channels)));
 }
@@ -32,13 +36,12 @@ void for_bands(const Rect& region, int channels, const Visit& visit) {
 }  // namespace
 
 std::shared_ptr<FilePixels> FilePixels::make(const PixelLayout& layout) {
-  const uint64_t bytes = uint64_t(layout.stored.area()) * uint64_t(layout.channels) * bytes_of(layout.depth);
-  const std::optional<uint64_t> at = ScratchFile::shared().take(bytes);
+  const std::optional<uint64_t> at = ScratchFile::shared().take(bytes_of(layout));
   return at ? std::shared_ptr<FilePixels>(new FilePixels(layout, *at)) : nullptr;
 }
 
 uint64_t FilePixels::bytes() const {
-  return uint64_t(layout_.stored.area()) * uint64_t(layout_.channels) * bytes_of(layout_.depth);
+  return bytes_of(layout_);
 }
 
 FilePixels::~FilePixels() {

@@ -41,7 +41,7 @@ Digest Cache::file_digest(const std::filesystem::path& path) {
   const File file = File::open(absolute, O_RDONLY | O_NONBLOCK);
   const std::optional<FileStamp> before = stamp_of(file);
   if (!before) return missing_digest();
-  const int64_t begun = wall_clock_ns();
+  const int64_t begun = now_ns();
   const std::optional<Digest> content = content_digest(file, absolute);
   if (!content) return missing_digest();
   if (before->is_settled(begun) && stamp_of(file) == before) {

@@ -64,16 +64,6 @@ void add_to_scan(CacheScan& scan, EntryKind kind, const std::filesystem::path& p
 
 }  // namespace
 
-int64_t ns_of(const timespec& t) {
-  return int64_t{t.tv_sec} * ns_per_second + t.tv_nsec;
-}
-
-int64_t now_ns() {
-  timespec t;
-  ::clock_gettime(CLOCK_REALTIME, &t);
-  return ns_of(t);
-}
-
 uint64_t CacheScan::bytes() const {
   uint64_t sum = 0;
   for (const CacheEntry& e : entries) sum += e.bytes;

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <time.h>
-
 #include "core/base/hash.h"
 #include "core/file/file_io.h"
+#include "core/file/file_stamp.h"
 
 /// The cache's layout on disk:
 ///   v1/values/ab/<digest>.tzv   core/node/serialize.h
@@ -45,11 +44,6 @@ struct CacheScan {
   std::vector<TemporaryEntry> temporaries;
   uint64_t bytes() const;
 };
-
-inline constexpr int64_t ns_per_second = 1'000'000'000;
-int64_t ns_of(const timespec& t);
-/// Wall-clock time, since the epoch.
-int64_t now_ns();
 
 /// Thread-safe.
 class CacheFolder {
