@@ -130,15 +130,17 @@ void write_odd(const std::filesystem::path& path, const OddFile& file, const std
   spec.attribute("oiio:UnassociatedAlpha", 1);
   if (file.mip) spec.attribute("textureformat", "Plain Texture");
   for (const auto& [name, value] : file.attributes) spec.attribute(name, value);
+  if (!file.compression.empty()) spec.attribute("compression", file.compression);
+  std::vector<OIIO::ImageSpec> specs(file.images, spec);
+  for (size_t i = 0; i < file.part_names.size(); i++) specs[i].attribute("oiio:subimagename", file.part_names[i]);
+  for (size_t i = 0; i < file.part_x.size(); i++) specs[i].x = file.part_x[i];
   if (file.images > 1) {
-    std::vector<OIIO::ImageSpec> specs(file.images, spec);
-    for (size_t i = 0; i < file.part_names.size(); i++) specs[i].attribute("oiio:subimagename", file.part_names[i]);
     REQUIRE(out->open(path.string(), file.images, specs.data()));
   } else {
     REQUIRE_MESSAGE(out->open(path.string(), spec), out->geterror());
   }
   for (int i = 0; i < file.images; i++) {
-    if (i) REQUIRE(out->open(path.string(), spec, OIIO::ImageOutput::AppendSubimage));
+    if (i) REQUIRE(out->open(path.string(), specs[size_t(i)], OIIO::ImageOutput::AppendSubimage));
     REQUIRE_MESSAGE(out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()), out->geterror());
   }
   if (file.mip) {

@@ -39,6 +39,8 @@ struct OddFile {
   int tile = 0;                              ///< side of the tiles; 0 = none
   int images = 1;                            ///< so many images, each with the same pixels
   std::vector<std::string> part_names{};     ///< for EXR: one for each of `images`
+  std::vector<int> part_x{};                 ///< for EXR: where the data of each part begins, if not at `x`
+  std::string compression{};                 ///< as OpenImageIO calls it; empty: the format's usual one
   bool mip = false;                          ///< a second, smaller level
 };
 /// Writes floats (0..1 is the range of integer types) through OpenImageIO, in the format of the path's extension.

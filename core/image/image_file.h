@@ -50,13 +50,14 @@ std::vector<FileInfo> read_layer_infos(const std::filesystem::path& path);
 
 /// Reads the first image of the file into memory, or the EXR layer of that name; case does not count. Without a name a
 /// file's only layer is meant, or that of channels without a prefix. 1..4 channels come through; palettes are expanded;
-/// CMYK and images of more channels are refused, as are empty, truncated and absurdly large files (over 2^31 pixel
-/// values). Alpha is never multiplied in or divided out of formats that keep it apart. An EXR file comes as its display
-/// window, an image with an orientation tag as it is meant to be seen. Values of 8 bits are exactly k / 255, of 16 bits
-/// k / 65535; halfs stay halfs; integers of other depths become floats. Pixels that are not finite become 0. Normals
-/// stored as signed numbers are encoded. `warn` is told whatever the user should know, a sentence each, beginning with
-/// warning_mark if it is about values that are lost. `info` gives semantic, colour space and normal convention; size,
-/// channels and depth are taken from the file.
+/// CMYK and images of more channels are refused, as are EXR files whose data window shows nothing, empty, truncated and
+/// absurdly large files (over 2^31 pixel values). Alpha is never multiplied in or divided out of formats that keep it
+/// apart. An EXR file comes as its display window, told if that is not its data window, an image with an orientation
+/// tag as it is meant to be seen. Values of 8 bits are exactly k / 255, of 16 bits k / 65535; halfs stay halfs;
+/// integers of other depths become floats. Pixels that are not finite become 0. Normals stored as signed numbers are
+/// encoded. `warn` is told whatever the user should know, a sentence each, beginning with warning_mark if it is about
+/// values that are lost. `info` gives semantic, colour space and normal convention; size, channels and depth are taken
+/// from the file.
 ImagePtr read_image(const std::filesystem::path& path, const ImageInfo& info,
                     const std::function<void(const std::string&)>& warn, const std::string& layer = "");
 

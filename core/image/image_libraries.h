@@ -18,9 +18,10 @@ namespace terrazzo {
 
 /// What an image file says of itself.
 struct StoredImage {
-  std::string format;  ///< the library's name for it: "png", "jpeg", "tiff", "openexr", ...
-  Rect stored;         ///< the pixels that are stored, in the image's coordinates
-  Size size;           ///< of the image as stored, before it is turned
+  std::string format;           ///< the library's name for it: "png", "jpeg", "tiff", "openexr", ...
+  Rect stored;                  ///< the pixels that are stored, in the image's coordinates
+  bool stored_differs = false;  ///< other parts of the file store other pixels
+  Size size;                    ///< of the image as stored, before it is turned
   int slices = 1;
   int orientation = 1;  ///< as in EXIF
   std::vector<std::string> channels;

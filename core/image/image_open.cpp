@@ -31,6 +31,10 @@ std::string one_line(std::string text) {
   return text.empty() ? "the image library gives no reason" : text;
 }
 
+std::string described_window(const Rect& window) {
+  return fmt::format("{} at ({}, {})", describe(Size{window.width, window.height}), window.x, window.y);
+}
+
 std::string listed_layers(const std::vector<std::string>& layers) {
   std::vector<std::string> names;
   for (const std::string& l : layers)
@@ -65,6 +69,15 @@ void refuse_absurd_sizes(const fs::path& path, const StoredImage& header) {
   require_pixels_fit(path, {stored.width, stored.height}, channels);
 }
 
+void require_visible_pixels(const fs::path& path, const StoredImage& header) {
+  if (!intersect(header.stored, whole(header.size)).empty()) return;
+  fail_to_read(path,
+               fmt::format("its data window, {}, lies wholly outside its display window, {} at (0, 0), so that it "
+                           "shows nothing; save it with a display window that holds the data, with OpenImageIO "
+                           "by \"oiiotool FILE --fullpixels -o FILE\"",
+                           described_window(header.stored), describe(header.size)));
+}
+
 /// Of a progressive JPEG file decoders hold all coefficients.
 void require_coefficients_fit(const fs::path& path, Size size, int components) {
   constexpr uint64_t bytes_per_coefficient = 2;
@@ -94,6 +107,7 @@ size_t index_of_layer(const fs::path& path, const std::vector<std::string>& laye
 void require_flat_picture(const fs::path& path, const OpenFile& file) {
   const StoredImage& header = file.header();
   refuse_absurd_sizes(path, header);
+  require_visible_pixels(path, header);
   const JpegFacts jpeg = header.format == "jpeg" ? read_jpeg_facts(path, false) : JpegFacts();
   if (jpeg.progressive) require_coefficients_fit(path, header.size, file.channels());
   if (!header.by_rows) require_whole_fits(path, header);
@@ -137,7 +151,7 @@ void require_complete(const fs::path& path, const OpenFile& file) {
       (format == "png" && !png_is_complete(path)))
     fail_cut_off(path);
   if (format == "tiff" && !tiff_is_sound(path))
-    fail_to_read(path, "it is damaged: a checksum in it does not fit; get the file again from where it came");
+    fail_to_read(path, "it is damaged: a checksum or a length in it does not fit; get the file again from where it came");
 }
 
 void require_image_file(const fs::path& path) {

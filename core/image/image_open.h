@@ -38,6 +38,9 @@ void require_complete(const std::filesystem::path& path, const OpenFile& file);
 /// "albedo", "normal"; the one of channels without a prefix is not shown.
 std::string listed_layers(const std::vector<std::string>& layers);
 
+/// "32x16 at (-4, 2)".
+std::string described_window(const Rect& window);
+
 /// The library's reason as a part of a sentence.
 std::string one_line(std::string text);
 

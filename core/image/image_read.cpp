@@ -4,6 +4,7 @@
 #include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -111,15 +112,23 @@ void warn_of_signed_normals(const fs::path& path, const Warn& warn) {
                    path.filename().string()));
 }
 
-void warn_of_layout(const fs::path& path, OpenFile& file, const Warn& warn) {
+/// Where all parts have the same window the layer is not named, so that whoever reads several of them says it once.
+void warn_of_window(const fs::path& path, const StoredImage& header, const std::string& layer, const Warn& warn) {
+  const int64_t seen = intersect(header.stored, whole(header.size)).area();
+  std::vector<std::string> what;
+  if (seen < header.size.area()) what.emplace_back("pixels without data are 0");
+  if (seen < header.stored.area()) what.emplace_back("data outside of it is left out");
+  warn(fmt::format("{}{}{}: its data window, {}, is not its display window; the display window of {} was read: {}",
+                   warning_mark, path.filename().string(),
+                   header.stored_differs && !layer.empty() ? fmt::format(" (layer {})", layer) : "",
+                   described_window(header.stored), describe(header.size), fmt::join(what, ", ")));
+}
+
+void warn_of_layout(const fs::path& path, OpenFile& file, const std::string& layer, const Warn& warn) {
   const std::string name = path.filename().string();
   const StoredImage& header = file.header();
   if (!header.exact) warn(fmt::format("{}: values of type {} are converted to 32-bit floats", name, header.type));
-  if (header.stored != whole(header.size))
-    warn(
-        fmt::format("{}: its data window is not its display window; the display window of {}x{} pixels was read, black "
-                    "where there is no data",
-                    name, header.size.width, header.size.height));
+  if (header.stored != whole(header.size)) warn_of_window(path, header, layer, warn);
   if (header.orientation != 1)
     warn(fmt::format("{}: rotated upright, as its orientation tag ({}) says", name, header.orientation));
   if (file.in->has_more_images()) warn(fmt::format("{}: it holds several images; the first was read", name));
@@ -197,12 +206,13 @@ ImagePtr read_to_disk(const fs::path& path, const OpenFile& file, const ImageInf
   return FilePixels::image(info, pixels);
 }
 
-ImagePtr read_opened(const fs::path& path, OpenFile& file, const ImageInfo& given, const Warn& warn) {
+ImagePtr read_opened(const fs::path& path, OpenFile& file, const ImageInfo& given, const std::string& layer,
+                     const Warn& warn) {
   ImageInfo info = given;
   info.size = file.upright();
   info.channels = file.channels();
   info.depth = file.header().depth;
-  warn_of_layout(path, file, warn);
+  warn_of_layout(path, file, layer, warn);
   const uint64_t bytes = uint64_t(info.size.area()) * uint64_t(info.channels) * sizeof(float);
   if (!PixelRoom::has(bytes))
     if (ImagePtr image = read_to_disk(path, file, info, warn)) return image;
@@ -232,7 +242,7 @@ ImagePtr read_image(const fs::path& path, const ImageInfo& info, const Warn& war
   OpenFile file = open_image_file(path, layer);
   warn_of_layers(path, file, layer, warn);
   try {
-    return read_opened(path, file, info, warn);
+    return read_opened(path, file, info, layer, warn);
   } catch (const std::bad_alloc&) {
     fail_to_read(path, fmt::format("{}x{} pixels of {} do not fit in memory", file.header().size.width,
                                    file.header().size.height, counted(file.channels(), "channel")));

@@ -59,8 +59,10 @@ Sources read_sources(NodeContext& node, const fs::path& folder, const std::vecto
     source.image = read_image(
         folder / file, info, [&](const std::string& w) { source.warnings.push_back(w); }, layer);
   });
+  std::set<std::string> said;  // once, what holds for all layers of a file
   for (const auto& [place, source] : sources)
-    for (const std::string& warning : source.warnings) node.note(warning);
+    for (const std::string& warning : source.warnings)
+      if (said.insert(warning).second) node.note(warning);
   return sources;
 }
 

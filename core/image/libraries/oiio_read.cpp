@@ -35,13 +35,18 @@ bool says_inks(const OIIO::ImageSpec& spec) {
          spec.get_string_attribute("oiio:ColorSpace") == "CMYK";
 }
 
+/// The data window of an EXR file, in coordinates of its display window.
+Rect data_window(const OIIO::ImageSpec& spec) {
+  return {spec.x - spec.full_x, spec.y - spec.full_y, spec.width, spec.height};
+}
+
 StoredImage describe(const OIIO::ImageSpec& spec, const std::string& format, const std::vector<int>& channels) {
   StoredImage header;
   header.format = format;
   header.stored = {0, 0, spec.width, spec.height};
   header.size = {spec.width, spec.height};
   if (format == "openexr") {
-    header.stored = {spec.x - spec.full_x, spec.y - spec.full_y, spec.width, spec.height};
+    header.stored = data_window(spec);
     header.size = {spec.full_width, spec.full_height};
   }
   header.slices = spec.depth;
@@ -85,6 +90,7 @@ class OiioDecoder final : public ImageDecoder {
     layer_ = &layers_.at(index);
     in_->seek_subimage(layer_->part, 0);
     header_ = describe(in_->spec(), in_->format_name(), layer_->channels);
+    header_.stored_differs = windows_differ_;
   }
   void read(Depth as, void* out) override {
     read_layer(as, header_.stored.height, out, [&](int begin, int end, const OIIO::TypeDesc& type, void* to) {
@@ -134,11 +140,13 @@ class OiioDecoder final : public ImageDecoder {
 
   void find_layers() {
     std::vector<ExrPart> parts;
+    const Rect first = data_window(in_->spec());
     const bool may_have_layers = std::string_view(in_->format_name()) == "openexr";
     do {
       const OIIO::ImageSpec& spec = in_->spec();
       std::vector<std::string> channels = spec.channelnames;
       channels.resize(std::max(0, spec.nchannels));
+      windows_differ_ |= data_window(spec) != first;
       parts.push_back({std::string(spec.get_string_attribute("oiio:subimagename")), std::move(channels)});
     } while (may_have_layers && in_->seek_subimage(int(parts.size()), 0));
     if (may_have_layers) layers_ = exr_layers(parts);
@@ -150,6 +158,7 @@ class OiioDecoder final : public ImageDecoder {
   std::unique_ptr<OIIO::ImageInput> in_;
   std::vector<ExrLayer> layers_;
   const ExrLayer* layer_ = nullptr;
+  bool windows_differ_ = false;
   StoredImage header_;
 };
 

@@ -289,17 +289,6 @@ TEST_CASE("tiled and mip-mapped files are read like others") {
   CHECK(read(folder.path() / "tiles.exr").image->pixels() == pixels);
 }
 
-TEST_CASE("an EXR file comes as its display window") {
-  const TemporaryFolder folder;
-  const fs::path path = folder.path() / "window.exr";
-  write_odd(path, {.size = {2, 2}, .type = "float", .display = {10, 20, 3, 2}, .x = 11, .y = 19}, {1, 2, 3, 4});
-  const Read r = read(path);
-  CHECK(r.image->size() == Size{3, 2});
-  CHECK(r.image->pixels() == std::vector<float>{0, 3, 4, 0, 0, 0});
-  CHECK(contains(r.warnings, "data window"));
-  CHECK(read_image_info(path).size == Size{3, 2});
-}
-
 TEST_CASE("channels of an EXR file are found by name, single ones whatever they are called") {
   const TemporaryFolder folder;
   for (const std::string name : {"Y", "Z", "height.V"}) {

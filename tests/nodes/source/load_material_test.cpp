@@ -299,3 +299,17 @@ TEST_CASE("the exemplars are recognised, each normal map with the convention tha
       CHECK(m->find("normal")->info().normal_y == NormalY::up);
   }
 }
+
+TEST_CASE("a window that all layers of a file have is told once of a material") {
+  const TemporaryFolder folder;
+  write_odd(folder.path() / "wall.exr",
+            {.size = {2, 2},
+             .channels = 3,
+             .type = "half",
+             .display = {0, 0, 4, 4},
+             .images = 2,
+             .part_names = {"albedo", "normal"}},
+            std::vector<float>(12, 0.5f));
+  const NodeRun run = run_node("load_material", {{"path", folder.path().string()}});
+  CHECK(std::ranges::count_if(run.notes, [](const std::string& n) { return contains(n, "data window"); }) == 1);
+}
