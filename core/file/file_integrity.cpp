@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <span>
 #include <vector>
 
 #include <zlib.h>
 
 #include "core/file/file_io.h"
+#include "core/file/packed_lengths.h"
 #include "core/file/picture_ends.h"
 
 namespace terrazzo {
@@ -81,6 +83,8 @@ bool is_tiff(uint64_t start) {
   return start == 0x49492a00 || start == 0x49492b00 || start == 0x4d4d002a || start == 0x4d4d002b;
 }
 
+constexpr uint64_t lzw = 5, deflate = 8, packbits = 32773, old_deflate = 32946;  // compressions
+
 int bytes_of_type(uint64_t type) {
   constexpr uint64_t tiff_short = 3, tiff_long8 = 16, tiff_ifd8 = 18;
   return type == tiff_short ? 2 : type == tiff_long8 || type == tiff_ifd8 ? 8 : 4;
@@ -149,13 +153,71 @@ bool png_is_complete(const std::filesystem::path& path) {
 
 namespace {
 
-/// Where the strips or tiles of the first image lie.
+/// What a directory says of an image's strips or tiles.
 struct TiffPieces {
   std::vector<uint64_t> offsets, byte_counts;
   uint64_t compression = 1;
+  uint64_t width = 0, height = 0;              ///< of the image
+  uint64_t piece_width = 0, piece_height = 0;  ///< of a tile; of strips the height alone
+  uint64_t bits = 1, samples = 1;              ///< bits of each sample
+  bool by_planes = false;                      ///< a piece holds one sample of each pixel
+  bool subsampled = false;                     ///< it may hold fewer samples than pixels
 };
 
+/// Takes in one entry of a directory.
+void note_entry(TiffPieces& pieces, uint64_t tag, const std::vector<uint64_t>& numbers) {
+  constexpr uint64_t tag_width = 256, tag_height = 257, tag_bits = 258, tag_compression = 259, tag_photometric = 262,
+                     tag_strip_offsets = 273, tag_samples = 277, tag_strip_height = 278, tag_strip_bytes = 279,
+                     tag_planes = 284, tag_tile_width = 322, tag_tile_height = 323, tag_tile_offsets = 324,
+                     tag_tile_bytes = 325;
+  constexpr uint64_t ycbcr = 6, one_plane_each = 2;
+  if (numbers.empty()) return;
+  const uint64_t first = numbers.front();
+  switch (tag) {
+    case tag_width:
+      pieces.width = first;
+      break;
+    case tag_height:
+      pieces.height = first;
+      break;
+    case tag_bits:
+      pieces.bits = first;
+      break;
+    case tag_compression:
+      pieces.compression = first;
+      break;
+    case tag_photometric:
+      pieces.subsampled = first == ycbcr;
+      break;
+    case tag_samples:
+      pieces.samples = first;
+      break;
+    case tag_planes:
+      pieces.by_planes = first == one_plane_each;
+      break;
+    case tag_tile_width:
+      pieces.piece_width = first;
+      break;
+    case tag_strip_height:
+    case tag_tile_height:
+      pieces.piece_height = first;
+      break;
+    case tag_strip_offsets:
+    case tag_tile_offsets:
+      pieces.offsets = numbers;
+      break;
+    case tag_strip_bytes:
+    case tag_tile_bytes:
+      pieces.byte_counts = numbers;
+      break;
+    default:
+      break;
+  }
+}
+
+/// Those of the first image.
 TiffPieces tiff_pieces(Numbers& file) {
+  constexpr uint64_t tag_last_of_use = 325;
   TiffPieces out;
   file.set_big_endian(file.number(0, 1) == 'M');
   const bool is_big_tiff = file.number(2, 2) == 43;
@@ -164,11 +226,8 @@ TiffPieces tiff_pieces(Numbers& file) {
   const uint64_t first = directory + (is_big_tiff ? 8 : 2), entry_size = is_big_tiff ? 20 : 12;
   if (entries > file.size() / entry_size || first + entries * entry_size > file.size()) return out;
   for (uint64_t i = 0; i < entries; i++) {
-    const uint64_t entry = first + i * entry_size;
-    const uint64_t tag = file.number(entry, 2);
-    if (tag == 273 || tag == 324) out.offsets = entry_numbers(file, entry, is_big_tiff);
-    if (tag == 279 || tag == 325) out.byte_counts = entry_numbers(file, entry, is_big_tiff);
-    if (tag == 259) out.compression = file.number(entry + (is_big_tiff ? 12 : 8), 2);
+    const uint64_t entry = first + i * entry_size, tag = file.number(entry, 2);
+    if (tag <= tag_last_of_use) note_entry(out, tag, entry_numbers(file, entry, is_big_tiff));
   }
   return out;
 }
@@ -209,16 +268,44 @@ bool tiff_is_complete(const std::filesystem::path& path) {
   return true;
 }
 
+namespace {
+
+/// Whether a piece of LZW or PackBits stands for just as many bytes as it should.
+bool has_its_length(const TiffPieces& pieces, size_t index, std::span<const uint8_t> packed) {
+  const bool is_tile = pieces.piece_width > 0;
+  const uint64_t samples = pieces.by_planes ? 1 : pieces.samples;
+  const uint64_t row = ((is_tile ? pieces.piece_width : pieces.width) * pieces.bits * samples + 7) / 8;
+  const uint64_t rows = is_tile ? pieces.piece_height : std::min(pieces.piece_height, pieces.height);
+  const auto length = pieces.compression == lzw ? lzw_length(packed) : packbits_length(packed);
+  if (length == row * rows) return true;
+  if (is_tile || rows == 0) return false;
+  // The last strip may be shorter, and need not.
+  const uint64_t strips = (pieces.height + rows - 1) / rows;
+  return length == row * (pieces.height - (strips - 1) * rows) && index % strips == strips - 1;
+}
+
+bool is_sound_piece(const File& file, const std::filesystem::path& path, const TiffPieces& pieces, size_t index) {
+  const uint64_t at = pieces.offsets[index], count = pieces.byte_counts[index];
+  if (pieces.compression == deflate || pieces.compression == old_deflate) return is_sound_stream(file, path, at, count);
+  std::vector<uint8_t> packed(count);
+  packed.resize(file.read_at(at, packed.data(), packed.size(), path));
+  // What libtiff calls old-style LZW: other bit order.
+  const bool is_old_lzw = pieces.compression == lzw && packed.size() > 1 && packed[0] == 0 && (packed[1] & 1) != 0;
+  return is_old_lzw || has_its_length(pieces, index, packed);
+}
+
+}  // namespace
+
 bool tiff_is_sound(const std::filesystem::path& path) {
-  constexpr uint64_t deflate = 8, old_deflate = 32946;
   Numbers numbers(path);
   const TiffPieces pieces = tiff_pieces(numbers);
-  if (pieces.compression != deflate && pieces.compression != old_deflate) return true;
+  const bool has_checksums = pieces.compression == deflate || pieces.compression == old_deflate;
+  const bool has_lengths = (pieces.compression == lzw || pieces.compression == packbits) && !pieces.subsampled;
+  if (!has_checksums && !has_lengths) return true;
   const File file = open_to_read(path);
   for (size_t i = 0; i < std::min(pieces.offsets.size(), pieces.byte_counts.size()); i++) {
     if (pieces.byte_counts[i] == 0) continue;  // what was never written reads as 0
-    if (pieces.byte_counts[i] > numbers.size()) return false;
-    if (!is_sound_stream(file, path, pieces.offsets[i], pieces.byte_counts[i])) return false;
+    if (pieces.byte_counts[i] > numbers.size() || !is_sound_piece(file, path, pieces, i)) return false;
   }
   return true;
 }

@@ -25,8 +25,8 @@ bool png_is_complete(const std::filesystem::path& path);
 /// Whether all strips or tiles of a TIFF or BigTIFF file's first image lie inside the file.
 bool tiff_is_complete(const std::filesystem::path& path);
 
-/// Whether the checksums of a TIFF file's deflated strips or tiles fit; decoders do not look at them. True for other
-/// compressions, which have none.
+/// Whether the checksums of a TIFF file's deflated strips or tiles fit, and whether those in LZW and PackBits, which
+/// have none, stand for as many bytes as they should; decoders look at neither. True for other compressions.
 bool tiff_is_sound(const std::filesystem::path& path);
 
 /// False if the end of a PNG, JPEG or TIFF file is missing, or of another that core/file/picture_ends.h knows. Reads

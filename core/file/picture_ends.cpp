@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/text.h"
 #include "core/file/file_io.h"
@@ -48,40 +50,50 @@ struct ExrAttribute {
   uint64_t at = 0, bytes = 0;
 };
 
-/// The attributes of the one header; `end` is where the table of offsets begins. Empty if it is no such header.
-std::map<std::string, ExrAttribute> exr_attributes(const Bytes& file, uint64_t& end) {
+using ExrHeader = std::map<std::string, ExrAttribute>;
+
+/// The attributes of the header at `at`, which then is where it ends. Nullopt if the file ends before.
+std::optional<ExrHeader> exr_header(const Bytes& file, uint64_t& at) {
   constexpr size_t longest_name = 256, most_attributes = 10000;
-  std::map<std::string, ExrAttribute> out;
-  uint64_t at = 8;
+  ExrHeader out;
   for (size_t i = 0; i < most_attributes && at < file.size(); i++) {
     const std::string name = until_zero(file.text(at, longest_name));
     at += name.size() + 1;
-    if (name.empty()) {
-      end = at;
-      return out;
-    }
+    if (name.empty()) return out;
     at += until_zero(file.text(at, longest_name)).size() + 1;
     const uint64_t bytes = file.number(at, 4);
     out[name] = {at + 4, bytes};
     at += 4 + bytes;
   }
-  return {};
+  return std::nullopt;
 }
 
-/// The number of entries in the table of offsets; 0 if it is not told here.
-uint64_t exr_chunks(const Bytes& file, const std::map<std::string, ExrAttribute>& attributes) {
-  const auto window = attributes.find("dataWindow"), compression = attributes.find("compression"),
-             tiles = attributes.find("tiles");
-  if (window == attributes.end() || compression == attributes.end()) return 0;
+/// The headers of all parts; `at` is then where the tables of offsets begin. Empty if the file ends before.
+std::vector<ExrHeader> exr_headers(const Bytes& file, bool has_parts, uint64_t& at) {
+  constexpr size_t most_parts = 10000;
+  std::vector<ExrHeader> out;
+  while (out.size() < most_parts) {
+    const std::optional<ExrHeader> header = exr_header(file, at);
+    if (!header) return {};
+    if (!header->empty()) out.push_back(*header);
+    if (header->empty() || !has_parts) break;
+  }
+  return out;
+}
+
+/// The number of entries in a part's table of offsets that are of the picture itself, not of smaller levels; these come
+/// after them. 0 if it is not told here.
+uint64_t exr_chunks(const Bytes& file, const ExrHeader& header) {
+  const auto window = header.find("dataWindow"), compression = header.find("compression"), tiles = header.find("tiles");
+  if (window == header.end() || compression == header.end()) return 0;
   const auto side = [&](uint64_t axis) {
     const auto least = int32_t(file.number(window->second.at + 4 * axis, 4));
     const auto most = int32_t(file.number(window->second.at + 8 + 4 * axis, 4));
     return most < least ? uint64_t{0} : uint64_t(int64_t{most} - least + 1);
   };
-  if (tiles != attributes.end()) {
+  if (tiles != header.end()) {
     const uint64_t w = file.number(tiles->second.at, 4), h = file.number(tiles->second.at + 4, 4);
-    const bool has_levels = (file.number(tiles->second.at + 8, 1) & 15) != 0;
-    return has_levels || w == 0 || h == 0 ? 0 : ((side(0) + w - 1) / w) * ((side(1) + h - 1) / h);
+    return w == 0 || h == 0 ? 0 : ((side(0) + w - 1) / w) * ((side(1) + h - 1) / h);
   }
   // None, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
   constexpr uint64_t rows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
@@ -89,13 +101,9 @@ uint64_t exr_chunks(const Bytes& file, const std::map<std::string, ExrAttribute>
   return kind < std::size(rows) ? (side(1) + rows[kind] - 1) / rows[kind] : 0;
 }
 
-bool exr_has_its_end(const Bytes& file) {
-  constexpr uint64_t deep = 0x800, parts = 0x1000;
-  if ((file.number(4, 4) & (deep | parts)) != 0) return true;
-  uint64_t table = 0;
-  const auto attributes = exr_attributes(file, table);
-  if (attributes.empty()) return false;
-  const uint64_t chunks = exr_chunks(file, attributes);
+/// Whether all of a part's picture lies in the file; its table of offsets begins at `table`.
+bool exr_part_has_its_end(const Bytes& file, const ExrHeader& header, uint64_t table, bool has_parts) {
+  const uint64_t chunks = exr_chunks(file, header);
   if (chunks > (file.size() - std::min(file.size(), table)) / 8) return false;
   uint64_t last = 0;
   const std::string offsets = file.text(table, chunks * 8);
@@ -105,8 +113,25 @@ bool exr_has_its_end(const Bytes& file) {
     if (offset == 0) return false;  // what was never written
     last = std::max(last, offset);
   }
-  const uint64_t head = attributes.contains("tiles") ? 20 : 8;
+  // Where it lies, after the number of the part, and then how many bytes follow.
+  const uint64_t head = (header.contains("tiles") ? 20 : 8) + (has_parts ? 4 : 0);
   return chunks == 0 || (last <= file.size() && last + head + file.number(last + head - 4, 4) <= file.size());
+}
+
+bool exr_has_its_end(const Bytes& file) {
+  constexpr uint64_t deep = 0x800, parts = 0x1000;
+  const uint64_t flags = file.number(4, 4);
+  if ((flags & deep) != 0) return true;
+  const bool has_parts = (flags & parts) != 0;
+  uint64_t table = 8;
+  const std::vector<ExrHeader> headers = exr_headers(file, has_parts, table);
+  for (const ExrHeader& header : headers) {
+    if (!exr_part_has_its_end(file, header, table, has_parts)) return false;
+    // Files of several parts say how long the tables are.
+    if (const auto count = header.find("chunkCount"); count != header.end())
+      table += 8 * file.number(count->second.at, 4);
+  }
+  return !headers.empty();
 }
 
 bool bmp_has_its_end(const Bytes& file) {

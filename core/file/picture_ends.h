@@ -6,7 +6,7 @@
 namespace terrazzo {
 
 /// False if the end of an EXR, BMP, TGA, WebP, GIF or Radiance file is missing; true for files of other formats, and
-/// where the structure does not say it (EXR files of several parts, deep ones, and those of several levels).
+/// where the structure does not say it (deep EXR files).
 bool has_its_end(const std::filesystem::path& path);
 
 }  // namespace terrazzo

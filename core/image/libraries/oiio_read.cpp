@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <numeric>
 #include <optional>
+#include <string>
 
 #include <OpenImageIO/imageio.h>
 
@@ -65,7 +67,7 @@ StoredImage describe(const OIIO::ImageSpec& spec, const std::string& format, con
 
 class OiioDecoder final : public ImageDecoder {
  public:
-  explicit OiioDecoder(const std::string& path) {
+  explicit OiioDecoder(const std::string& path) : path_(path) {
     OIIO::ImageSpec wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);
     in_ = OIIO::ImageInput::open(path, &wishes);
@@ -77,9 +79,9 @@ class OiioDecoder final : public ImageDecoder {
   const StoredImage& header() const override { return header_; }
   bool has_more_images() override {
     if (layers_.size() > 1) return false;
-    const bool more = in_->seek_subimage(1, 0);
-    if (more) in_->seek_subimage(0, 0);
-    return more;
+    // Not by `in_`: of a WebP file the library (2.4) says that it cannot be decoded once it has looked for more.
+    const std::unique_ptr<OIIO::ImageInput> again = OIIO::ImageInput::open(path_);
+    return again && again->seek_subimage(1, 0);
   }
   std::vector<std::string> layers() const override {
     std::vector<std::string> names;
@@ -155,6 +157,7 @@ class OiioDecoder final : public ImageDecoder {
     std::iota(layers_.front().channels.begin(), layers_.front().channels.end(), 0);
   }
 
+  std::string path_;
   std::unique_ptr<OIIO::ImageInput> in_;
   std::vector<ExrLayer> layers_;
   const ExrLayer* layer_ = nullptr;

@@ -57,6 +57,25 @@ TEST_CASE("files of all formats that are cut off are found without being decoded
   }
 }
 
+TEST_CASE("the end of an EXR file of several parts, of tiles or of levels is missed") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.exr";
+  const OddFile rows{.size = {64, 32}, .type = "half", .images = 3, .part_names = {"a", "b", "c"}};
+  OddFile tiles = rows;
+  tiles.tile = 16;
+  const OddFile levels{.size = {64, 32}, .type = "half", .tile = 16, .mip = true};
+  for (const OddFile& file : {rows, tiles, levels}) {
+    write_odd(path, file, noise({64, 32}, 1));
+    CHECK(trouble_of(path) == "");
+    Bytes cut = read_bytes(path);
+    CAPTURE(cut.size());
+    // The smaller level may be missing: it is not read.
+    cut.resize(file.mip ? cut.size() * 2 / 3 : cut.size() - 1);
+    write_bytes(path, cut);
+    CHECK(contains(trouble_of(path), "truncated"));
+  }
+}
+
 TEST_CASE("one wrong byte in a compressed TIFF or JPEG file's pixels is no wrong picture") {
   const TemporaryFolder folder;
   const Size size{64, 64};

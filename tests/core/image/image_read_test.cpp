@@ -280,6 +280,21 @@ TEST_CASE("of several images in a file the first is read, with a warning") {
   }
 }
 
+TEST_CASE("formats that are read alone and never written are read too") {
+  const TemporaryFolder folder;
+  std::vector<float> grey(size_t{32} * 16 * 3, 0.5f);
+  for (const char* extension : {"webp", "bmp", "gif", "hdr", "tga"}) {
+    const fs::path path = folder.path() / fmt::format("grey.{}", extension);
+    INFO(path.string());
+    write_odd(path, {.size = {32, 16}, .channels = 3}, grey);
+    const Read r = read(path);
+    CHECK(r.image->size() == Size{32, 16});
+    CHECK(r.image->channels() >= 3);
+    CHECK(r.image->pixels()[0] == doctest::Approx(0.5).epsilon(0.02));
+    CHECK_FALSE(contains(r.warnings, "images"));
+  }
+}
+
 TEST_CASE("tiled and mip-mapped files are read like others") {
   const TemporaryFolder folder;
   const std::vector<float> pixels = ramp(64 * 32);
