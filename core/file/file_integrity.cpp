@@ -157,20 +157,22 @@ namespace {
 struct TiffPieces {
   std::vector<uint64_t> offsets, byte_counts;
   uint64_t compression = 1;
-  uint64_t width = 0, height = 0;              ///< of the image
-  uint64_t piece_width = 0, piece_height = 0;  ///< of a tile; of strips the height alone
-  uint64_t bits = 1, samples = 1;              ///< bits of each sample
-  bool by_planes = false;                      ///< a piece holds one sample of each pixel
-  bool subsampled = false;                     ///< it may hold fewer samples than pixels
+  uint64_t width = 0, height = 0;  ///< of the image
+  uint64_t piece_width = 0;        ///< of tiles; 0 if there are strips
+  uint64_t piece_height = UINT32_MAX;
+  uint64_t bits = 1, samples = 1;  ///< bits of each sample
+  bool by_planes = false;          ///< a piece holds one sample of each pixel
+  bool subsampled = false;         ///< it may hold fewer samples than pixels
+  bool low_bits_first = false;
 };
 
 /// Takes in one entry of a directory.
 void note_entry(TiffPieces& pieces, uint64_t tag, const std::vector<uint64_t>& numbers) {
   constexpr uint64_t tag_width = 256, tag_height = 257, tag_bits = 258, tag_compression = 259, tag_photometric = 262,
-                     tag_strip_offsets = 273, tag_samples = 277, tag_strip_height = 278, tag_strip_bytes = 279,
-                     tag_planes = 284, tag_tile_width = 322, tag_tile_height = 323, tag_tile_offsets = 324,
-                     tag_tile_bytes = 325;
-  constexpr uint64_t ycbcr = 6, one_plane_each = 2;
+                     tag_fill_order = 266, tag_strip_offsets = 273, tag_samples = 277, tag_strip_height = 278,
+                     tag_strip_bytes = 279, tag_planes = 284, tag_tile_width = 322, tag_tile_height = 323,
+                     tag_tile_offsets = 324, tag_tile_bytes = 325;
+  constexpr uint64_t ycbcr = 6, one_plane_each = 2, low_first = 2;
   if (numbers.empty()) return;
   const uint64_t first = numbers.front();
   switch (tag) {
@@ -188,6 +190,9 @@ void note_entry(TiffPieces& pieces, uint64_t tag, const std::vector<uint64_t>& n
       break;
     case tag_photometric:
       pieces.subsampled = first == ycbcr;
+      break;
+    case tag_fill_order:
+      pieces.low_bits_first = first == low_first;
       break;
     case tag_samples:
       pieces.samples = first;
@@ -300,7 +305,8 @@ bool tiff_is_sound(const std::filesystem::path& path) {
   Numbers numbers(path);
   const TiffPieces pieces = tiff_pieces(numbers);
   const bool has_checksums = pieces.compression == deflate || pieces.compression == old_deflate;
-  const bool has_lengths = (pieces.compression == lzw || pieces.compression == packbits) && !pieces.subsampled;
+  const bool has_lengths =
+      (pieces.compression == lzw || pieces.compression == packbits) && !pieces.subsampled && !pieces.low_bits_first;
   if (!has_checksums && !has_lengths) return true;
   const File file = open_to_read(path);
   for (size_t i = 0; i < std::min(pieces.offsets.size(), pieces.byte_counts.size()); i++) {

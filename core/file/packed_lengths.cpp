@@ -22,7 +22,6 @@ class HighBitsFirst {
     held_ -= bits;
     return buffer_ >> held_ & ((uint32_t{1} << bits) - 1);
   }
-  size_t bytes_left() const { return data_.size() - at_; }
 
  private:
   std::span<const uint8_t> data_;
@@ -67,10 +66,7 @@ std::optional<uint64_t> lzw_length(std::span<const uint8_t> data) {
   CodeLengths lengths;
   uint64_t sum = 0;
   while (const std::optional<uint32_t> code = codes.next(lengths.bits())) {
-    if (*code == end_of_information) {
-      constexpr size_t most_padding = 1;
-      return codes.bytes_left() <= most_padding ? std::optional(sum) : std::nullopt;
-    }
+    if (*code == end_of_information) return sum;
     if (*code == clear_table) {
       lengths.clear();
       continue;
@@ -85,9 +81,8 @@ std::optional<uint64_t> lzw_length(std::span<const uint8_t> data) {
 std::optional<uint64_t> packbits_length(std::span<const uint8_t> data) {
   constexpr uint8_t nothing = 128;
   uint64_t sum = 0;
-  for (size_t at = 0; at < data.size();) {
+  for (size_t at = 0; at + 1 < data.size();) {  // a last byte alone is padding
     const uint8_t count = data[at];
-    if (count == nothing && at + 1 == data.size()) return sum;
     at += count == nothing ? 1 : count < nothing ? size_t{count} + 2 : 2;
     if (at > data.size()) return std::nullopt;
     if (count != nothing) sum += count < nothing ? uint64_t{count} + 1 : uint64_t{257} - count;
