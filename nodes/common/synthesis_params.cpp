@@ -239,14 +239,4 @@ ImagePtr new_pixels_mask(const UvMap& result, const KeptPixels& kept) {
   return Image::from_floats({.size = result.size(), .semantic = Semantic::mask, .depth = Depth::u8}, std::move(mask));
 }
 
-size_t synthesis_memory(Size size) {
-  // The pixels, those that a sub-pass has corrected, and the blocks they began with.
-  return size_t(size.area()) * 6 + (size_t{16} << 20);
-}
-
-size_t coarse_memory(Size surface) {
-  // For each block of 2x2 pixels what it shows, leads to, and which piece it is in or how unlike the exemplar.
-  return size_t(surface.area()) / 4 * (2 * sizeof(ExemplarPixel) + 4 * sizeof(int));
-}
-
 }  // namespace terrazzo

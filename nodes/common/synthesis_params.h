@@ -47,9 +47,4 @@ void warn_of_less_surface(NodeContext& node, const Index& index, Size result);
 /// A mask of a result: white where it does not show the kept pixels.
 ImagePtr new_pixels_mask(const UvMap& result, const KeptPixels& kept);
 
-/// Bytes that synthesis of that size needs.
-size_t synthesis_memory(Size size);
-/// Bytes that the coarse levels of a surface need.
-size_t coarse_memory(Size surface);
-
 }  // namespace terrazzo

@@ -58,6 +58,9 @@ NodeType make_bent_normal_node() {
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Image>("height")->size().area()) * 3 * sizeof(float);
   };
+  t.memory_ahead = [](const Params&, const InputForecasts& inputs) {
+    return uint64_t(image_at(inputs, "height").size.value_or(Size{}).area()) * 3 * sizeof(float);
+  };
   t.infer = infer;
   t.compute = compute;
   return t;

@@ -54,6 +54,9 @@ NodeType make_occlusion_node() {
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Image>("height")->size().area()) * sizeof(float);
   };
+  t.memory_ahead = [](const Params&, const InputForecasts& inputs) {
+    return uint64_t(image_at(inputs, "height").size.value_or(Size{}).area()) * sizeof(float);
+  };
   t.infer = infer;
   t.compute = compute;
   return t;

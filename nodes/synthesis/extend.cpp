@@ -7,6 +7,7 @@
 #include "core/synthesis/state/fixed_pixels.h"
 #include "core/synthesis/steps.h"
 #include "nodes/common/shape_rules.h"
+#include "nodes/common/synthesis_memory.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -94,7 +95,10 @@ NodeType extend_node() {
   t.steps = described_synthesis_steps();
   t.infer = infer;
   t.compute = compute;
-  t.memory_hint = [](const NodeContext& node) { return 3 * synthesis_memory(node.size("size")); };
+  t.memory_hint = [](const NodeContext& node) { return size_t(result_kept_memory.of(node.size("size"))); };
+  t.memory_ahead = [](const Params& params, const InputForecasts& inputs) {
+    return synthesis_ahead(inputs, result_kept_memory, std::get<Size>(params.at("size")));
+  };
   return t;
 }
 

@@ -7,6 +7,7 @@
 #include "core/synthesis/state/fixed_pixels.h"
 #include "core/synthesis/steps.h"
 #include "nodes/common/shape_rules.h"
+#include "nodes/common/synthesis_memory.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -148,7 +149,13 @@ NodeType inpaint_node() {
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
     const auto uv = node.optional_input<UvMap>("uv");
-    return 6 * synthesis_memory(uv ? uv->size() : node.input<Index>("index")->appearance()->size());
+    return size_t(uv ? result_filled_memory.of(uv->size())
+                     : exemplar_kept_memory.of(node.input<Index>("index")->appearance()->size()));
+  };
+  t.memory_ahead = [](const Params&, const InputForecasts& inputs) {
+    const Forecast* uv = forecast_at(inputs, "uv");
+    return uv ? synthesis_ahead(inputs, result_filled_memory, uv->size)
+              : synthesis_ahead(inputs, exemplar_kept_memory, inputs.at("index").front().size);
   };
   return t;
 }

@@ -8,6 +8,7 @@
 #include "core/synthesis/state/fixed_pixels.h"
 #include "core/synthesis/steps.h"
 #include "nodes/common/shape_rules.h"
+#include "nodes/common/synthesis_memory.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -159,7 +160,10 @@ NodeType make_tileable_node() {
   t.infer = infer;
   t.compute = compute;
   t.memory_hint = [](const NodeContext& node) {
-    return 3 * synthesis_memory(node.input<Index>("index")->appearance()->size());
+    return size_t(exemplar_kept_memory.of(node.input<Index>("index")->appearance()->size()));
+  };
+  t.memory_ahead = [](const Params&, const InputForecasts& inputs) {
+    return synthesis_ahead(inputs, exemplar_kept_memory, inputs.at("index").front().size);
   };
   return t;
 }

@@ -77,22 +77,47 @@ std::vector<std::string> check(const Params& params) {
   return problems;
 }
 
+/// How many values are held of all maps of the material together, and at each pixel of the result.
+struct Held {
+  double values = 0, per_result_pixel = 0;
+
+  void add(const ImageInfo& map, const Params& params) {
+    const bool joins = std::get<double>(params.at("join")) > 0 && can_join(map);
+    const bool blends = std::get<double>(params.at("blend")) > 0 && !joins && can_blend(map.semantic);
+    // For blending also linear pixels and their local means.
+    values += double(map.size.area()) * map.channels * (blends ? 3 : 1);
+    // The solution and its forces at half the result's size, and those of all coarser levels.
+    if (joins) per_result_pixel += 2.0 / 3;
+  }
+  double bytes(Size result) const { return sizeof(float) * (values + per_result_pixel * double(result.area())); }
+};
+
 size_t memory_hint(const NodeContext& node) {
   const auto material = node.input<Material>("material");
   const auto uv = node.input<UvMap>("uv");
   const auto kept = node.optional_input<Material>("kept");
-  const double pixels = double(uv->size().area()) * double(material->size().area()) / double(uv->exemplar().area());
-  double values = 0;
-  for (const Map& m : material->maps()) {
-    // The exemplar, and for blending its linear pixels and their local means.
-    values += double(m.image->size().area()) * m.image->channels() * (node.number("blend") > 0 ? 3 : 1);
-    // The solution and its forces at half the result's size, and those of all coarser levels.
-    if (node.number("join") > 0 && can_join(m.image->info())) {
-      values += 2 * pixels / 3;
-      if (kept) values += double(kept->size().area()) + pixels / 3;
-    }
+  const Size result = resolved_size(uv->size(), uv->exemplar(), material->size());
+  Held held;
+  for (const Map& m : material->maps()) held.add(m.image->info(), node.params());
+  const double of_kept =
+      kept && held.per_result_pixel > 0 ? sizeof(float) * (double(kept->size().area()) + double(result.area()) / 3) : 0;
+  return size_t(held.bytes(result) + of_kept);
+}
+
+uint64_t memory_ahead(const Params& params, const InputForecasts& inputs) {
+  const Forecast &material = inputs.at("material").front(), &uv = inputs.at("uv").front();
+  const std::optional<Size> size = material_size(material);
+  if (!size || !uv.size || !uv.exemplar) return 0;
+  Held held;
+  for (const std::string& name : material.maps) {
+    const ImageFacts map = map_of(material, name);
+    held.add({.size = map.size.value_or(Size{}),
+              .channels = map.channels.value_or(1),
+              .semantic = map.semantic.value_or(Semantic::data)},
+             params);
   }
-  return size_t(values * sizeof(float));
+  return uint64_t(held.bytes(resolved_size(*uv.size, *uv.exemplar, *size))) +
+         uint64_t(uv.size->area()) * sizeof(ExemplarPixel);
 }
 
 /// Throws Error about "material" if it is certainly not the one that was analysed.
@@ -163,6 +188,7 @@ NodeType resolve_uv_node() {
   t.persist = Persist::derived;
   t.check = check;
   t.memory_hint = memory_hint;
+  t.memory_ahead = memory_ahead;
   t.compute = compute;
   t.infer = infer;
   return t;

@@ -4,7 +4,8 @@
 
 #include "core/image/image_ops.h"
 #include "core/synthesis/steps.h"
-#include "nodes/common/analysis_memory.h"
+#include "nodes/common/shape_rules.h"
+#include "nodes/common/synthesis_memory.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -25,14 +26,15 @@ Part part_of(Size size, Size surface, const Numbers& origin) {
   return {surface, {int(origin.at(0)), int(origin.at(1)), size.width, size.height}};
 }
 
-Part part_of(const NodeContext& node) {
-  return part_of(node.size("size"), node.size("surface"), node.numbers("origin"));
+Part part_of(const Params& params) {
+  return part_of(std::get<Size>(params.at("size")), std::get<Size>(params.at("surface")),
+                 std::get<Numbers>(params.at("origin")));
 }
 
 void compute(NodeContext& node) {
   const auto index = node.input<Index>("index");
   const auto coarse = node.optional_input<UvMap>("coarse");
-  const Part part = part_of(node);
+  const Part part = part_of(node.params());
   SynthesisOptions options = synthesis_options(node, *index);
   options.size = part.surface;
   warn_unless_repeats_fit(node, *index, options, "they are stretched to wrap around and joints may jog");
@@ -52,7 +54,7 @@ std::vector<std::string> check(const Params& params) {
     problems.push_back("\"origin\": expected two whole numbers, [x, y]");
     return problems;
   }
-  const Part part = part_of(std::get<Size>(params.at("size")), std::get<Size>(params.at("surface")), origin);
+  const Part part = part_of(params);
   const Size surface = part.surface;
   if (part.region.width > surface.width || part.region.height > surface.height)
     problems.push_back(fmt::format("\"surface\": expected at least the size of the result, {}, found {}",
@@ -65,10 +67,19 @@ std::vector<std::string> check(const Params& params) {
   return problems;
 }
 
+/// Of the coarse levels, if they are made here.
+uint64_t memory_of_coarse(const Part& part, bool has_coarse) {
+  return part.is_whole() || has_coarse ? 0 : coarse_memory(part.surface);
+}
+
 size_t memory(const NodeContext& node) {
-  const Part part = part_of(node);
-  const bool makes_coarse = !part.is_whole() && !node.optional_input<UvMap>("coarse");
-  return synthesis_memory(node.size("size")) + (makes_coarse ? coarse_memory(part.surface) : 0);
+  return new_pixels_memory.of(node.size("size")) +
+         memory_of_coarse(part_of(node.params()), node.optional_input<UvMap>("coarse") != nullptr);
+}
+
+uint64_t memory_ahead(const Params& params, const InputForecasts& inputs) {
+  const uint64_t least = synthesis_ahead(inputs, new_pixels_memory, std::get<Size>(params.at("size")));
+  return least > 0 ? least + memory_of_coarse(part_of(params), wires_at(inputs, "coarse") > 0) : 0;
 }
 
 }  // namespace
@@ -109,17 +120,13 @@ NodeType synthesize_node() {
   t.check = check;
   t.steps = described_synthesis_steps();
   t.infer = [](const Params& params, const InputForecasts& inputs) {
-    const Numbers& origin = std::get<Numbers>(params.at("origin"));
-    const Rect part = part_of(std::get<Size>(params.at("size")), std::get<Size>(params.at("surface")), origin).region;
+    const Rect part = part_of(params).region;
     return OutputForecasts{
         {"uv", {.size = Size{part.width, part.height}, .exemplar = inputs.at("index").front().size}}};
   };
   t.compute = compute;
   t.memory_hint = memory;
-  t.memory_ahead = [](const Params& params, const InputForecasts& inputs) {
-    const uint64_t held = index_memory.of(inputs.at("index").front());
-    return held > 0 ? held + synthesis_memory(std::get<Size>(params.at("size"))) : 0;
-  };
+  t.memory_ahead = memory_ahead;
   return t;
 }
 

@@ -1,5 +1,7 @@
 #include "core/synthesis/steps.h"
 #include "core/synthesis/synthesize.h"
+#include "nodes/common/analysis_memory.h"
+#include "nodes/common/synthesis_memory.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -29,7 +31,11 @@ NodeType synthesize_coarse_node() {
   t.infer = [](const Params&, const InputForecasts& inputs) {
     return OutputForecasts{{"uv", {.exemplar = inputs.at("index").front().size}}};
   };
-  t.memory_hint = [](const NodeContext& node) { return coarse_memory(node.size("size")); };
+  t.memory_hint = [](const NodeContext& node) { return size_t(coarse_memory(node.size("size"))); };
+  t.memory_ahead = [](const Params& params, const InputForecasts& inputs) {
+    const uint64_t held = index_memory.of(inputs.at("index").front());
+    return held > 0 ? held + coarse_memory(std::get<Size>(params.at("size"))) : 0;
+  };
   return t;
 }
 

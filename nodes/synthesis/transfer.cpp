@@ -6,6 +6,7 @@
 #include "core/synthesis/state/labels.h"
 #include "core/synthesis/steps.h"
 #include "nodes/common/shape_rules.h"
+#include "nodes/common/synthesis_memory.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
 
@@ -93,6 +94,12 @@ OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
   return {{"uv", {.size = std::get<Size>(params.at("size")), .exemplar = exemplar}}};
 }
 
+/// `values`: of a pixel in all targets together.
+SynthesisMemory memory_of(const Params& params, int values) {
+  const uint64_t distances = std::get<double>(params.at("leeway")) > 0 ? label_distances_memory : 0;
+  return {new_pixels_memory.per_pixel + control_value_memory * uint64_t(values) + distances};
+}
+
 std::vector<Param> params() {
   return {
       result_size_param(),
@@ -164,10 +171,15 @@ NodeType transfer_node() {
   t.compute = compute;
   t.infer = infer;
   t.memory_hint = [](const NodeContext& node) {
-    // Bytes of a pixel: of the pyramids of controls, and of distances to labels while those are worked out.
-    const auto controls = int64_t(4 * 5 * node.list<Image>("target").size());
-    const int64_t distances = node.number("leeway") > 0 ? 28 : 0;
-    return synthesis_memory(node.size("size")) + size_t(node.size("size").area() * (controls + distances));
+    int values = 0;
+    for (const ImagePtr& target : node.list<Image>("target")) values += target->channels();
+    return size_t(memory_of(node.params(), values).of(node.size("size")));
+  };
+  t.memory_ahead = [](const Params& params, const InputForecasts& inputs) {
+    int values = 0;
+    for (size_t i = 0; i < wires_at(inputs, "target"); i++)
+      values += image_at(inputs, "target", i).channels.value_or(1);
+    return synthesis_ahead(inputs, memory_of(params, values), std::get<Size>(params.at("size")));
   };
   return t;
 }

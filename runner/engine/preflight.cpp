@@ -1,7 +1,6 @@
 #include "runner/engine/preflight.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,7 +13,7 @@
 #include "core/image/image_file.h"
 #include "core/image/image_limits.h"
 #include "graphs/document/forecasts.h"
-#include "nodes/common/shape_rules.h"
+#include "runner/engine/memory_advice.h"
 
 namespace terrazzo {
 
@@ -109,22 +108,7 @@ class Foresight {
     const uint64_t least = node.type->memory_ahead(node.params, inputs);
     if (least <= memory_budget() || least <= most_memory_) return;
     most_memory_ = least;
-    constexpr double mib = 1 << 20;
-    Size size{};
-    for (const auto& [port, wires] : inputs)
-      for (const Forecast& f : wires)
-        if (const Size known = f.size.value_or(material_size(f).value_or(Size{})); known.area() > size.area())
-          size = known;
-    const double takes = std::ceil(double(least) / mib), gives = double(memory_budget()) / mib;
-    const double shrink = std::sqrt(gives / takes);
-    const bool has_size = size.area() > 0;
-    memory_problem_ = problem_of(
-        node, "",
-        fmt::format("it takes about {:.0f} MiB{}, and --memory gives {:.0f} MiB. Give --memory {:.0f}M{}", takes,
-                    has_size ? " for an exemplar of " + describe(size) : "", gives, takes,
-                    has_size ? fmt::format(", or scale the exemplar to {}x{} first, as the node type \"resize\" does",
-                                           int(size.width * shrink), int(size.height * shrink))
-                             : ", or make a smaller result, or one from a smaller exemplar"));
+    memory_problem_ = problem_of(node, "", memory_advice(*node.type, node.params, inputs, least, memory_budget()));
   }
 
   void complain(const GraphNode& node, const Error& e) {
@@ -209,12 +193,28 @@ std::vector<Problem> oversize_problems(const Plan& plan) {
   return problems;
 }
 
-std::vector<Problem> preflight_problems(const Plan& plan) {
-  std::vector<Foresight::Future> nodes;
-  for (const Stage& s : plan.stages) {
-    const bool computes = s.state == StageState::run || s.state == StageState::depends;
-    if (s.needed) nodes.push_back({s.node, s.state != StageState::up_to_date, computes});
+namespace {
+
+/// Whether each stage is going to be computed: those that run, and derived ones that such a stage reads.
+std::vector<bool> computed_stages(const Plan& plan) {
+  std::vector<bool> computes(plan.stages.size());
+  for (size_t i = plan.stages.size(); i-- > 0;) {
+    const Stage& s = plan.stages[i];
+    computes[i] = s.state == StageState::run || s.state == StageState::depends;
+    if (s.state == StageState::derived)
+      computes[i] = std::ranges::any_of(s.readers, [&](int reader) { return computes[size_t(reader)]; });
   }
+  return computes;
+}
+
+}  // namespace
+
+std::vector<Problem> preflight_problems(const Plan& plan) {
+  const std::vector<bool> computes = computed_stages(plan);
+  std::vector<Foresight::Future> nodes;
+  for (size_t i = 0; i < plan.stages.size(); i++)
+    if (const Stage& s = plan.stages[i]; s.needed)
+      nodes.push_back({s.node, s.state != StageState::up_to_date, computes[i]});
   return Foresight(*plan.graph).look(nodes);
 }
 
