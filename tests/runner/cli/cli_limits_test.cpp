@@ -118,3 +118,21 @@ TEST_CASE("an analysis that needs more than the budget is refused with what it n
   CHECK(made.code == 2);
   CHECK_MESSAGE(says(made, "node \"layout\" (synthesize): it takes about"), made.err);
 }
+
+TEST_CASE("maps that are made on demand are refused too, unless nothing asks for them") {
+  const Workplace w;
+  write_text(w.path / "made.json", R"({"terrazzo": 1, "nodes": {
+    "maps":  {"type": "pattern", "kind": "bricks", "size": 256},
+    "weighted": {"type": "weight", "material": "@maps"},
+    "space": {"type": "pca", "features": "@weighted"},
+    "index": {"type": "index", "appearance": "@space"},
+    "layout": {"type": "synthesize", "index": "@index", "size": 64, "quality": "draft"},
+    "result": {"type": "resolve_uv", "uv": "@layout", "material": "@maps", "blend": 2},
+    "files": {"type": "export", "material": "@result", "path": "out/{map}.png"}}})");
+  REQUIRE(w.run({"run", "made.json"}).code == 0);
+  CHECK(w.run({"run", "made.json", "--memory", "4M"}).code == 0);
+  fs::remove_all(w.path / "out");
+  const ProgramRun run = w.run({"run", "made.json", "--memory", "4M"});
+  CHECK(run.code == 2);
+  CHECK_MESSAGE(says(run, "node \"result\" (resolve_uv): it takes about 7 MiB"), run.err);
+}
