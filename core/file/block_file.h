@@ -87,6 +87,8 @@ class BlockFile {
  public:
   /// Opens and verifies every checksum. Throws DamagedFile, or Error if the file cannot be read.
   static std::shared_ptr<const BlockFile> open(const std::filesystem::path& path);
+  /// Verifies the header and the contents alone; blocks are verified when they are read.
+  static std::shared_ptr<const BlockFile> open_contents(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
   const BlockFileHeader& header() const { return header_; }

@@ -135,7 +135,7 @@ RawBlock BlockFile::read(const StoredBlock& block) const {
   return {block.coding, std::move(raw)};
 }
 
-std::shared_ptr<const BlockFile> BlockFile::open(const std::filesystem::path& path) {
+std::shared_ptr<const BlockFile> BlockFile::open_contents(const std::filesystem::path& path) {
   auto result = std::shared_ptr<BlockFile>(new BlockFile);
   result->path_ = path;
   File file = open_to_read(path);
@@ -149,6 +149,11 @@ std::shared_ptr<const BlockFile> BlockFile::open(const std::filesystem::path& pa
   }
   result->header_ = header.header;
   result->read_contents(header.contents_offset, header.contents_bytes, header.contents_checksum);
+  return result;
+}
+
+std::shared_ptr<const BlockFile> BlockFile::open(const std::filesystem::path& path) {
+  std::shared_ptr<const BlockFile> result = open_contents(path);
   std::vector<uint8_t> buffer;
   for (const BlockStream& stream : result->streams_)
     for (const StoredBlock& block : stream.blocks) result->verify_block(block, buffer);

@@ -31,4 +31,8 @@ struct ValueFileSummary {
 /// Verifies only the header and the length of the file. Throws as load_value.
 ValueFileSummary summarize_value_file(const std::filesystem::path& path);
 
+/// The size of the exemplar that a saved index was made from, without reading more than that. Throws as load_value, for
+/// what it sees of the file.
+Size exemplar_of_index_file(const std::filesystem::path& path);
+
 }  // namespace terrazzo

@@ -43,6 +43,12 @@ class ValueReader {
     return v;
   }
 
+  Size exemplar_of_index() {
+    require(file_->header().type == uint32_t(ValueType::index), "it holds no index");
+    appearance_start();
+    return size();
+  }
+
  private:
   Value any(uint32_t type) {
     require(type < value_type_names.size(), "it holds a value of an unknown type");
@@ -212,19 +218,36 @@ class ValueReader {
     return out;
   }
 
+  /// What stands before an appearance's levels.
+  struct AppearanceStart {
+    int channels = 0;
+    bool wraps = false;
+    Repeats repeats;
+    FingerprintPtr maps;
+    uint32_t levels = 0;
+  };
+
+  AppearanceStart appearance_start() {
+    AppearanceStart a;
+    a.channels = in_.get<int32_t>();
+    require(a.channels > 0, "an appearance has no channels");
+    a.wraps = in_.get_below<uint8_t>(2) != 0;
+    a.repeats = repeats();
+    a.maps = fingerprint();
+    a.levels = in_.get<uint32_t>();
+    require(a.levels > 0, "an appearance has no levels");
+    return a;
+  }
+
   AppearancePtr appearance() {
-    const int channels = in_.get<int32_t>();
-    require(channels > 0, "an appearance has no channels");
-    const bool wraps = in_.get_below<uint8_t>(2) != 0;
-    const Repeats repeated = repeats();
-    FingerprintPtr maps = fingerprint();
-    const auto count = in_.get<uint32_t>();
-    require(count > 0, "an appearance has no levels");
+    AppearanceStart start = appearance_start();
     std::vector<AppearanceLevel> levels;
-    for (uint32_t i = 0; i < count; i++) levels.push_back(level());
-    check_levels(levels, channels);
-    check_repeats(repeated, levels.front().size);
-    return checked([&] { return Appearance::make(std::move(levels), channels, wraps, repeated, std::move(maps)); });
+    for (uint32_t i = 0; i < start.levels; i++) levels.push_back(level());
+    check_levels(levels, start.channels);
+    check_repeats(start.repeats, levels.front().size);
+    return checked([&] {
+      return Appearance::make(std::move(levels), start.channels, start.wraps, start.repeats, std::move(start.maps));
+    });
   }
 
   IndexPtr index() {
@@ -304,6 +327,10 @@ ValueFileSummary summarize_value_file(const std::filesystem::path& path) {
     if (h.type >= value_type_names.size()) throw DamagedFile("it holds a value of an unknown type");
     return ValueFileSummary{static_cast<ValueType>(h.type), h.digest, h.seconds};
   });
+}
+
+Size exemplar_of_index_file(const std::filesystem::path& path) {
+  return naming(path, [&] { return ValueReader(BlockFile::open_contents(path)).exemplar_of_index(); });
 }
 
 }  // namespace terrazzo

@@ -12,12 +12,12 @@ const Tunable<Tuning> tuning("shared_work", {{&Tuning::shortest_brick, "shortest
                                               "lower: bricks that are laid well enough as they are cost time as well",
                                               "not measured: what is shorter looked well enough laid by seams"}});
 
-Size level_size(Size size, int level) {
-  const int round_up = (1 << level) - 1;
-  return {(size.width + round_up) >> level, (size.height + round_up) >> level};
-}
-
 }  // namespace
+
+Size level_size(Size output, int level) {
+  const int round_up = (1 << level) - 1;
+  return {(output.width + round_up) >> level, (output.height + round_up) >> level};
+}
 
 SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
     : index(i),

@@ -27,6 +27,9 @@ inline constexpr int synthesis_version = 21;
 /// on every level but the finest.
 inline constexpr int finest_whole_level = 1;
 
+/// The size of a level of the output.
+Size level_size(Size output, int level);
+
 /// When in the work on a level a step runs.
 enum class Phase : uint8_t {
   costs,         ///< before all else: sets up what counts in the corrections besides how well a candidate fits

@@ -74,10 +74,7 @@ void require_coarse(const SharedWork& s, const UvMap& coarse) {
     throw Error("coarse", fmt::format("expected the coarse levels made from the same index (for an exemplar of {}), "
                                       "found a uv map of an exemplar of {}",
                                       describe(exemplar), describe(coarse.exemplar())));
-  if (coarse.size() != size)
-    throw Error("coarse", fmt::format("a surface of {} has coarse levels of {}, these have {}; give both nodes the "
-                                      "same surface",
-                                      describe(s.options.size), describe(size), describe(coarse.size())));
+  require_coarse_size(s.options.size, size, coarse.size());
   if (coarse.wraps() != wraps)
     throw Error("coarse", fmt::format("these coarse levels wrap around in {}, the result in {}; give both nodes the "
                                       "same \"tileable\"",
@@ -108,6 +105,17 @@ UvMapPtr coarse_uv(const Index& index, const SynthesisOptions& options, const Ta
   Field field = coarse_field(shared);
   return UvMap::make(field.size, shared.exemplar(std::max(0, coarse_level(shared) - 1)).size, std::move(field.pixels),
                      {options.tile_x, options.tile_y, index.appearance()->wraps()}, index.appearance()->fingerprint());
+}
+
+Size coarse_size(Size surface, int levels) {
+  return level_size(surface, std::min(levels - 1, finest_whole_level));
+}
+
+void require_coarse_size(Size surface, Size expected, Size found) {
+  if (found != expected)
+    throw Error("coarse", fmt::format("a surface of {} has coarse levels of {}, these have {}; give both nodes the "
+                                      "same surface",
+                                      describe(surface), describe(expected), describe(found)));
 }
 
 UvMapPtr refine(const Index& index, const UvMap& coarse, const SynthesisOptions& options, const Rect& region,

@@ -51,6 +51,11 @@ UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const T
 /// exemplar pixel of that level which the block's first pixel begins with. Throws as synthesize does.
 UvMapPtr coarse_uv(const Index& index, const SynthesisOptions& options, const Task& task);
 
+/// The size of that uv map; `levels`: of the exemplar.
+Size coarse_size(Size surface, int levels);
+/// Throws Error about "coarse" if coarse levels of size `found` are not of the surface, whose are `expected`.
+void require_coarse_size(Size surface, Size expected, Size found);
+
 /// A part of what synthesize() gives, to the bit: `region` of the surface, which may hang over the right and the bottom
 /// border where it tiles. `coarse` must come from coarse_uv() with the same index and options. The finest level is
 /// worked out for the region and an apron around it, as wide as its corrections look. Throws Cancelled, and Error about

@@ -1,5 +1,8 @@
 #include "nodes/common/exemplar_atlas.h"
 
+#include <algorithm>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "core/base/text.h"
@@ -50,11 +53,59 @@ void require_mask_of(const InputForecasts& inputs, const std::string& port, size
   require_shape(port, mask, "its material", material_size(material));
 }
 
-OutputForecasts atlas_forecast(const Forecast& first) {
-  const auto without_size = [](const std::string&, ImageFacts& facts) { facts.size.reset(); };
-  return {{"material", with_facts_changed(first, without_size)},
-          {"mask", forecast_of_image(values_facts({}, Semantic::mask))},
-          {"labels", forecast_of_image(values_facts({}, {}))}};
+namespace {
+
+/// A material of which nothing but sizes can be asked: maps of labels, which no one needs to convert.
+MaterialPtr stand_in(const Forecast& material, const Texts& maps) {
+  std::vector<Map> out;
+  for (const std::string& map : maps) {
+    const ImageInfo info{.size = material.images.at(map).size.value(), .semantic = Semantic::data};
+    const Digest recipe = Hasher().add("stand-in").add(info.size.width).add(info.size.height).digest();
+    out.push_back({map, Image::computed(info, recipe, [](const Rect&, float*) {})});
+  }
+  return Material::make("", std::move(out));
+}
+
+/// Of an atlas of materials that have these maps; nullopt if a size is not known.
+std::optional<Forecast> sizes_in_atlas(const std::vector<Forecast>& materials, const Texts& maps, int gap,
+                                       const ExemplarsOf& exemplars_of) {
+  const auto has_size = [](const Forecast& material, const std::string& map) {
+    const auto facts = material.images.find(map);
+    return facts != material.images.end() && facts->second.size;
+  };
+  std::vector<MaterialPtr> stand_ins;
+  for (const Forecast& m : materials) {
+    if (maps.empty() || !std::ranges::all_of(maps, [&](const std::string& map) { return has_size(m, map); })) return {};
+    stand_ins.push_back(stand_in(m, maps));
+  }
+  return forecast_of(make_atlas(exemplars_of(stand_ins), gap, Outside::clamp).material);
+}
+
+/// Where maps that there may be decide the size, it is not known.
+Forecast atlas_sizes(const std::vector<Forecast>& materials, int gap, const ExemplarsOf& exemplars_of) {
+  const Forecast& first = materials.front();
+  const auto is_known = [](const Forecast& m) { return m.possible_maps.has_value(); };
+  if (!std::ranges::all_of(materials, is_known)) return {};
+  Texts all = first.maps;
+  for (const Forecast& m : materials)
+    for (const Texts& maps : {m.maps, *m.possible_maps})
+      for (const std::string& map : maps)
+        if (std::ranges::find(all, map) == all.end()) all.push_back(map);
+  const std::optional<Forecast> least = sizes_in_atlas(materials, first.maps, gap, exemplars_of);
+  const std::optional<Forecast> most =
+      all.size() == first.maps.size() ? least : sizes_in_atlas(materials, all, gap, exemplars_of);
+  return least && most && material_size(*least) == material_size(*most) ? *most : Forecast{};
+}
+
+}  // namespace
+
+OutputForecasts atlas_forecast(const std::vector<Forecast>& materials, int gap, const ExemplarsOf& exemplars_of) {
+  const Forecast sizes = atlas_sizes(materials, gap, exemplars_of);
+  const auto with_size = [&](const std::string& map, ImageFacts& facts) { facts.size = map_of(sizes, map).size; };
+  const std::optional<Size> size = material_size(sizes);
+  return {{"material", with_facts_changed(materials.front(), with_size)},
+          {"mask", forecast_of_image(values_facts(size, Semantic::mask))},
+          {"labels", forecast_of_image(values_facts(size, Semantic::guidance))}};
 }
 
 Exemplar masked_exemplar(const MaterialPtr& material, const ImagePtr& mask) {

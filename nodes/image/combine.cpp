@@ -27,13 +27,18 @@ void compute(NodeContext& node) {
   output_atlas(node, exemplars, "fewer materials");
 }
 
-OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
   std::vector<KnownMaps> materials;
   for (const Forecast& f : inputs.at("materials")) materials.push_back({"", f.maps, f.possible_maps});
   check_all([&] { require_same_maps("materials", materials); },
             [&] { require_masks(wires_at(inputs, "masks"), materials.size()); });
   for (size_t i = 0; i < materials.size(); i++) require_mask_of(inputs, "masks", i, inputs.at("materials")[i]);
-  return atlas_forecast(inputs.at("materials").front());
+  return atlas_forecast(inputs.at("materials"), int(std::get<int64_t>(params.at("gap"))),
+                        [](const std::vector<MaterialPtr>& all) {
+                          std::vector<Exemplar> exemplars;
+                          for (const MaterialPtr& m : all) exemplars.push_back({m, nullptr});
+                          return exemplars;
+                        });
 }
 
 }  // namespace

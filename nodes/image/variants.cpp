@@ -46,11 +46,24 @@ std::vector<std::string> check(const Params& params) {
                       most_variants)};
 }
 
+std::vector<Exemplar> varied_exemplars(const Exemplar& original, const Params& params, Outside edges) {
+  std::vector<Exemplar> exemplars;
+  for (const Variant& v : asked_variants(params)) exemplars.push_back(varied(original, v, edges));
+  return exemplars;
+}
+
 void compute(NodeContext& node) {
   const Exemplar original = masked_exemplar(node.input<Material>("material"), node.optional_input<Image>("mask"));
-  std::vector<Exemplar> exemplars;
-  for (const Variant& v : asked_variants(node.params())) exemplars.push_back(varied(original, v, edges_of(node)));
-  output_atlas(node, exemplars, "fewer `rotations` or `scales`");
+  output_atlas(node, varied_exemplars(original, node.params(), edges_of(node)), "fewer `rotations` or `scales`");
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const Forecast& material = inputs.at("material").front();
+  require_mask_of(inputs, "mask", 0, material);
+  return atlas_forecast({material}, int(std::get<int64_t>(params.at("gap"))),
+                        [&](const std::vector<MaterialPtr>& original) {
+                          return varied_exemplars({original.front(), nullptr}, params, Outside::clamp);
+                        });
 }
 
 }  // namespace
@@ -102,11 +115,7 @@ NodeType variants_node() {
   t.persist = Persist::derived;
   t.check = check;
   t.compute = compute;
-  t.infer = [](const Params&, const InputForecasts& inputs) {
-    const Forecast& material = inputs.at("material").front();
-    require_mask_of(inputs, "mask", 0, material);
-    return atlas_forecast(material);
-  };
+  t.infer = infer;
   return t;
 }
 

@@ -68,8 +68,11 @@ NodeType load_analysis_node() {
     return missing ? size_t{0} : size_t(bytes) * 3;
   };
   t.preflight = [](const Params& params, const InputForecasts&) {
-    naming_remedy([&] { require_analysis(std::get<std::string>(params.at("path"))); });
-    return Forecast{};
+    return naming_remedy([&] {
+      const std::filesystem::path path = std::get<std::string>(params.at("path"));
+      require_analysis(path);
+      return Forecast{.size = exemplar_of_index_file(path)};
+    });
   };
   t.compute = compute;
   return t;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/analysis/space/appearance_space.h"
 #include "core/image/image_ops.h"
 #include "core/synthesis/steps.h"
 #include "nodes/common/shape_rules.h"
@@ -82,6 +83,15 @@ uint64_t memory_ahead(const Params& params, const InputForecasts& inputs) {
   return least > 0 ? least + memory_of_coarse(part_of(params), wires_at(inputs, "coarse") > 0) : 0;
 }
 
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const Part part = part_of(params);
+  const std::optional<Size> exemplar = inputs.at("index").front().size;
+  const Forecast* coarse = forecast_at(inputs, "coarse");
+  if (coarse && coarse->size && exemplar)
+    require_coarse_size(part.surface, coarse_size(part.surface, appearance_levels(*exemplar)), *coarse->size);
+  return {{"uv", {.size = Size{part.region.width, part.region.height}, .exemplar = exemplar}}};
+}
+
 }  // namespace
 
 NodeType synthesize_node() {
@@ -119,11 +129,7 @@ NodeType synthesize_node() {
         .max_count = 2}});
   t.check = check;
   t.steps = described_synthesis_steps();
-  t.infer = [](const Params& params, const InputForecasts& inputs) {
-    const Rect part = part_of(params).region;
-    return OutputForecasts{
-        {"uv", {.size = Size{part.width, part.height}, .exemplar = inputs.at("index").front().size}}};
-  };
+  t.infer = infer;
   t.compute = compute;
   t.memory_hint = memory;
   t.memory_ahead = memory_ahead;

@@ -1,3 +1,4 @@
+#include "core/analysis/space/appearance_space.h"
 #include "core/synthesis/steps.h"
 #include "core/synthesis/synthesize.h"
 #include "nodes/common/analysis_memory.h"
@@ -28,8 +29,11 @@ NodeType synthesize_coarse_node() {
     const auto index = node.input<Index>("index");
     node.output("uv", coarse_uv(*index, synthesis_options(node, *index), node.task()));
   };
-  t.infer = [](const Params&, const InputForecasts& inputs) {
-    return OutputForecasts{{"uv", {.exemplar = inputs.at("index").front().size}}};
+  t.infer = [](const Params& params, const InputForecasts& inputs) {
+    const std::optional<Size> exemplar = inputs.at("index").front().size;
+    if (!exemplar) return OutputForecasts{};
+    const Size size = coarse_size(std::get<Size>(params.at("size")), appearance_levels(*exemplar));
+    return OutputForecasts{{"uv", {.size = size, .exemplar = exemplar}}};
   };
   t.memory_hint = [](const NodeContext& node) { return size_t(coarse_memory(node.size("size"))); };
   t.memory_ahead = [](const Params& params, const InputForecasts& inputs) {

@@ -164,15 +164,15 @@ Planes joined(const Planes& features, const Planes& guidance, double weight) {
   return out;
 }
 
-int level_count(Size size) {
+}  // namespace
+
+int appearance_levels(Size exemplar) {
   int count = 1;
-  for (int side_length = std::min(size.width, size.height); side_length >= 2 * tuning->smallest_side;
+  for (int side_length = std::min(exemplar.width, exemplar.height); side_length >= 2 * tuning->smallest_side;
        side_length = (side_length + 1) / 2)
     count++;
   return count;
 }
-
-}  // namespace
 
 void require_analysable(Size exemplar) {
   const int smallest_side = tuning->smallest_side;
@@ -185,7 +185,7 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
                               const AppearanceOptions& options, const Task& task) {
   const Size size = features.size();
   require_analysable(size);
-  const int count = level_count(size);
+  const int count = appearance_levels(size);
   Planes planes = unmasked_planes(features, task);
   auto fingerprint = std::make_shared<Fingerprint>(fingerprint_of(features, planes));
   fill_masked(planes, features);

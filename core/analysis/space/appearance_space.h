@@ -16,6 +16,8 @@ struct AppearanceOptions {
 
 /// Throws Error if an exemplar of that size is too small or too large to be analysed.
 void require_analysable(Size exemplar);
+/// How many levels its appearance has.
+int appearance_levels(Size exemplar);
 
 /// Transforms an exemplar into appearance space (Lefebvre & Hoppe, Appearance-space texture synthesis, 2006): per level
 /// of a Gaussian pyramid, Gaussian-weighted 5x5 neighbourhoods of all weighted channels are projected on their

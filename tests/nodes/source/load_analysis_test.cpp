@@ -10,6 +10,7 @@
 #include "core/exemplar/uv_map.h"
 #include "core/material/material.h"
 #include "core/node/serialize.h"
+#include "nodes/common/registry.h"
 #include "tests/run_node.h"
 #include "tests/sample_values.h"
 #include "tests/texts.h"
@@ -179,4 +180,14 @@ TEST_CASE("an analysis whose checksums are right but whose content cannot be is 
   CHECK(has(about_part([](LatticePart& p) { p.start.x() = 1e12; }), "starts too far away"));
   CHECK(
       has(about_part([](LatticePart& p) { p.start.y() = std::numeric_limits<double>::quiet_NaN(); }), "not a number"));
+}
+
+TEST_CASE("the exemplar's size is known before the file is read, from its contents") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.analysis";
+  save_value(small_index(), path, Task());
+  const NodeType& type = *find_node_type("load_analysis");
+  CHECK(type.preflight({{"path", path.string()}}, {}).size == small_index()->appearance()->size());
+  save_value(layout_from(small_index()), path, Task());
+  CHECK_THROWS_AS(exemplar_of_index_file(path), DamagedFile);
 }
