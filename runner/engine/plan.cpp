@@ -1,6 +1,7 @@
 #include "runner/engine/plan.h"
 
 #include <algorithm>
+#include <array>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -285,21 +286,19 @@ std::string Plan::summary() const {
 }
 
 std::string Plan::table() const {
-  size_t name = 4, type = 4, state = 5;
-  for (const Stage& s : stages) {
-    name = std::max(name, s.node->name.size());
-    type = std::max(type, s.type().name.size());
-    state = std::max(state, name_of(s.state).size());
-  }
-  std::string out = summary() + "\n";
-  const auto line = [&](std::string_view a, std::string_view b, std::string_view c, std::string_view d,
-                        std::string_view e) {
-    std::string row = fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:<8}  {}", a, name, b, type, c, state, d, e);
-    out += row.erase(row.find_last_not_of(' ') + 1) + "\n";
-  };
-  line("node", "type", "state", "key", "why");
+  std::vector<std::array<std::string, 6>> rows = {{"node", "type", "shape", "state", "key", "why"}};
   for (const Stage& s : stages)
-    line(s.node->name, s.type().name, name_of(s.state), s.known ? s.known->key.hex().substr(0, 8) : "-", s.reason);
+    rows.push_back({s.node->name, s.type().name, describe(s.shape), std::string(name_of(s.state)),
+                    s.known ? s.known->key.hex().substr(0, 8) : "-", s.reason});
+  std::array<size_t, 6> widths{};
+  for (const auto& row : rows)
+    for (size_t i = 0; i < row.size(); i++) widths[i] = std::max(widths[i], row[i].size());
+  std::string out = summary() + "\n";
+  for (const auto& row : rows) {
+    std::string line;
+    for (size_t i = 0; i < row.size(); i++) line += fmt::format("  {:<{}}", row[i], widths[i]);
+    out += line.erase(line.find_last_not_of(' ') + 1) + "\n";
+  }
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include "runner/cache/cache.h"
 #include "runner/engine/key.h"
+#include "runner/engine/plan_shapes.h"
 
 namespace terrazzo {
 
@@ -43,6 +44,7 @@ struct Stage {
   std::optional<Resolution> known;        ///< missing while an input has no name
   StageState state = StageState::not_needed;
   std::string reason;
+  PlanShape shape{};            ///< of what it makes, as far as that is known
   double expected_seconds = 0;  ///< of computing it: as earlier runs took, else a second; 0 if that is not expected
 
   const NodeType& type() const { return *node->type; }

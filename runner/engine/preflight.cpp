@@ -14,6 +14,7 @@
 #include "core/image/image_limits.h"
 #include "graphs/document/forecasts.h"
 #include "runner/engine/memory_advice.h"
+#include "runner/engine/plan_shapes.h"
 
 namespace terrazzo {
 
@@ -67,6 +68,7 @@ class Foresight {
     if (memory_problem_) problems_.push_back(std::move(*memory_problem_));
     return std::move(problems_);
   }
+  const Forecasts& forecasts() const { return forecasts_; }
 
  private:
   void note_sources(const GraphNode& node) {
@@ -209,13 +211,16 @@ std::vector<bool> computed_stages(const Plan& plan) {
 
 }  // namespace
 
-std::vector<Problem> preflight_problems(const Plan& plan) {
+std::vector<Problem> preflight_problems(Plan& plan) {
   const std::vector<bool> computes = computed_stages(plan);
   std::vector<Foresight::Future> nodes;
   for (size_t i = 0; i < plan.stages.size(); i++)
     if (const Stage& s = plan.stages[i]; s.needed)
       nodes.push_back({s.node, s.state != StageState::up_to_date, computes[i]});
-  return Foresight(*plan.graph).look(nodes);
+  Foresight foresight(*plan.graph);
+  std::vector<Problem> problems = foresight.look(nodes);
+  for (Stage& s : plan.stages) s.shape = shape_of(*s.node, foresight.forecasts());
+  return problems;
 }
 
 namespace {

@@ -10,8 +10,8 @@
 namespace terrazzo {
 
 /// Certain failures of needed stages: missing sources, folders that cannot be written, two sinks that write one file.
-/// Stages whose files are up to date write none.
-std::vector<Problem> preflight_problems(const Plan& plan);
+/// Stages whose files are up to date write none. Notes in the plan what shapes stages will have.
+std::vector<Problem> preflight_problems(Plan& plan);
 
 /// Images that needed stages read and that are larger than may be read, told from the size of the files alone: to be
 /// asked before a plan reads them for its keys.

@@ -114,6 +114,8 @@ class JsonProgress : public Progress {
       Json stage = {{"node", s.node->name}, {"type", s.type().name}, {"state", name_of(s.state)}};
       stage["key"] = s.known ? Json(s.known->key.hex()) : Json();
       stage["why"] = s.reason;
+      if (s.shape.size) stage["size"] = {s.shape.size->width, s.shape.size->height};
+      if (s.shape.channels) stage["channels"] = *s.shape.channels;
       stages.push_back(std::move(stage));
     }
     write({{"event", "plan"}, {"stages", std::move(stages)}});

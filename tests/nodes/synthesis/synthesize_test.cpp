@@ -71,6 +71,18 @@ TEST_CASE("coarse levels of another surface are refused, saying what they are of
                        doctest::Contains("these have 150x30"), Error);
 }
 
+TEST_CASE("the size of coarse levels is known ahead, and so is that they are of another surface") {
+  const IndexPtr index = wall_index({72, 64});
+  const Params size{{"size", Size{75, 50}}};
+  const OutputForecasts foreseen = find_node_type("synthesize_coarse")->infer(size, {{"index", {forecast_of(index)}}});
+  CHECK(foreseen.at("uv").size == Size{38, 25});
+  CHECK(contradiction(foreseen.at("uv"), uv_of(run_node("synthesize_coarse", size, {{"index", {index}}}))) == "");
+  const Params part{{"size", Size{20, 20}}, {"surface", Size{90, 50}}, {"origin", Numbers{0, 0}}};
+  CHECK_THROWS_WITH_AS(
+      find_node_type("synthesize")->infer(part, {{"index", {forecast_of(index)}}, {"coarse", {foreseen.at("uv")}}}),
+      doctest::Contains("a surface of 90x50 has coarse levels of 45x25, these have 38x25"), Error);
+}
+
 TEST_CASE("a place off the surface is a problem of the document") {
   CHECK(problems({{"size", Size{50, 50}}}).empty());
   CHECK(problems({{"size", Size{50, 50}}, {"surface", Size{0, 100}}, {"origin", Numbers{0, 50}}}).empty());

@@ -204,11 +204,11 @@ TEST_CASE("the plan's table is aligned and says why") {
   const std::string key = make_plan(p.graph, nullptr).stages[0].known->key.hex().substr(0, 8);
   CHECK(make_plan(p.graph, nullptr).table() ==
         "2 stages: 1 to run, 1 undecided until earlier stages have run\n"
-        "  node      type  state    key       why\n"
-        "  exemplar  file  run      " +
+        "  node      type  shape  state    key       why\n"
+        "  exemplar  file  -      run      " +
             key +
             "  no cache is used\n"
-            "  space     tens  depends  -         depends on what @exemplar gives\n");
+            "  space     tens  -      depends  -         depends on what @exemplar gives\n");
 }
 
 TEST_CASE("a plan says what changed about a lazy stage, and what has never run") {
