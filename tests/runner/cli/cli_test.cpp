@@ -163,6 +163,7 @@ TEST_CASE("progress as json is an object per line, from the plan to the end") {
   REQUIRE(events.size() >= 3);
   CHECK(events.front()["event"] == "plan");
   CHECK(events.front()["stages"].size() == 3);
+  CHECK(events.front()["stages"][1]["size"] == nlohmann::json({32, 24}));
   CHECK(events.back()["event"] == "finished");
   CHECK(events.back()["ok"] == true);
   CHECK(events.back()["files"][0] == (w.path / "out/base_color.png").string());
