@@ -177,6 +177,9 @@ void store(Job& job, const Stage& stage, const RunOptions& options) {
   if (stage.type().persist == Persist::payload)
     for (const auto& [port, value] : job.values) options.cache->store_value(value, job.record->seconds, task);
   options.cache->store_stage(stage.known->key, *job.record);
+  job.stored = !job.values.empty() && std::all_of(job.values.begin(), job.values.end(), [&](const auto& value) {
+    return options.cache->has_value(job.record->outputs.at(value.first));
+  });
 }
 
 /// The message with the files that the user asked for in place of those under which they were written so far.

@@ -185,6 +185,7 @@ RunResult run_plan(Plan plan, const RunOptions& options) {
   if (options.history) options.history->save();
   RunResult result;
   result.cancelled = coordinator.cancelled();
+  result.memory = coordinator.most_memory();
   result.failures = outcomes.take_failures();
   result.stages = outcomes.take_stages();
   if (result.ok())

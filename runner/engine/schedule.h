@@ -87,6 +87,7 @@ struct RunResult {
   std::map<std::string, std::map<std::string, Value>> kept;  ///< of `targets.keep`: values by node and output port
   std::vector<Span> spans;
   double seconds = 0;
+  uint64_t memory = 0;  ///< the most bytes that were counted against the budget at a time
 
   bool ok() const { return !cancelled && failures.empty(); }
   int count(StageOutcome::Kind kind) const;
