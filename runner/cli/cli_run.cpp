@@ -153,7 +153,6 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   options.history = history ? &*history : nullptr;
   options.threads = flags.checked ? 1 : flags.threads;
   options.checked = flags.checked;
-  options.memory = flags.limits.budget();
   options.cancelled = &cancelled;
   options.targets.keep = flags.keep;
   options.keep_going = flags.keep_going;

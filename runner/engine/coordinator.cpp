@@ -122,7 +122,9 @@ void Coordinator::values_there(int stage, ValueEvent event) {
 void Coordinator::ask_for_spilled(int stage) {
   const std::vector<int>& sources = plan_.stages[stage].sources;
   const auto rests = [&](int s) { return states_.value(s) == ValueState::resting; };
-  const auto comes = [&](int s) { return states_.value(s) == ValueState::held || states_.value(s) == ValueState::loading; };
+  const auto comes = [&](int s) {
+    return states_.value(s) == ValueState::held || states_.value(s) == ValueState::loading;
+  };
   if (!std::all_of(sources.begin(), sources.end(), [&](int s) { return rests(s) || comes(s); })) return;
   for (const int source : sources)
     if (rests(source)) put_off(Step::want_values, source);

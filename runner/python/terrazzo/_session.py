@@ -156,8 +156,8 @@ class _Progress:
 class Session:
     """A cache that is open, and how to run. Threads may share one; each run has the session's threads and memory.
 
-    cache: its folder; None for the usual one, False for none. threads: 0 for one per core. memory: a budget in bytes;
-    0 for half of the machine's."""
+    cache: its folder; None for the usual one, False for none. threads: 0 for one per core. memory: a budget in bytes
+    for values and running nodes; 0 for that of set_memory_budget, which also bounds decoded images."""
 
     def __init__(self, cache: PathLike | bool | None = None, threads: int = 0, memory: int = 0) -> None:
         folder = Path() if cache is None or isinstance(cache, bool) else Path(cache)
