@@ -21,6 +21,10 @@ struct SessionOptions {
   bool use_cache = true;  ///< false: nothing is reused and nothing is kept
   int threads = 0;        ///< 0: one per core
   uint64_t memory = 0;    ///< budget in bytes for values and running nodes of a run; 0: that of set_memory_budget
+  /// Runs every node twice, one at a time and without a cache: one that gives something else the second time fails.
+  /// What nodes open and which variables they read is watched too, where the watching library was loaded before all
+  /// others, as it is by `terrazzo run --checked`; what nodes in Python open is watched always.
+  bool checked = false;
 };
 
 struct RunRequest {

@@ -167,7 +167,7 @@ int useful_threads(int asked) {
 
 RunResult run_plan(Plan plan, const RunOptions& options) {
   const Clock::time_point start = Clock::now();
-  const int threads = useful_threads(options.threads);
+  const int threads = useful_threads(options.checked ? 1 : options.threads);
   const uint64_t memory = options.memory > 0 ? options.memory : memory_budget();
   if (options.observer) options.observer->planned(plan);
 

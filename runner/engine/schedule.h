@@ -40,7 +40,8 @@ struct RunOptions {
   History* history = nullptr;  ///< for the reasons in plans; updated by the run
   int threads = 0;             ///< 0: one per core
   uint64_t memory = 0;         ///< budget in bytes for values and running nodes; 0: the process's, see memory_budget
-  bool checked = false;  ///< each node twice, and watched, see runner/engine/checked.h; takes one thread, no cache
+  bool checked =
+      false;  ///< each node twice, and watched, see runner/engine/checked.h; with one thread and without a cache
   const std::atomic<bool>* cancelled = nullptr;  ///< set it to stop the run; may be null
   RunObserver* observer = nullptr;
   const Sandbox* sandbox = nullptr;  ///< keeps nodes from files elsewhere; may be null
