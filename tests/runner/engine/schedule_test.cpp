@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "core/image/image_limits.h"
-#include "core/image/image_limits.h"
 #include "tests/runner/fakes.h"
 
 using namespace terrazzo;
