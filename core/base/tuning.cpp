@@ -58,8 +58,9 @@ void override_tuning(std::string_view name, double value) {
 
 std::string overridden_tuning() {
   std::string out;
+  auto usual = defaults().begin();  // of the same names in the same order; every stage's key asks
   for (const auto& [name, constant] : all_constants())
-    if (const double now = constant.number(); now != defaults().at(name))
+    if (const double now = constant.number(); now != (usual++)->second)
       out += fmt::format("{}{}={}", out.empty() ? "" : " ", name, now);
   return out;
 }

@@ -9,6 +9,7 @@
 
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
+#include "core/file/path_relation.h"
 #include "core/file/tar.h"
 #include "graphs/document/convert.h"
 #include "graphs/document/format.h"
@@ -93,11 +94,6 @@ class Embedding {
 };
 
 /// Whether a file is this one, or lies in this folder.
-bool lies_in(const fs::path& path, const fs::path& file) {
-  const std::string inside = file.lexically_relative(path).generic_string();
-  return !inside.empty() && inside != ".." && !inside.starts_with("../");
-}
-
 class Packing {
  public:
   Packing(const fs::path& graph, const LoadedGraph& loaded, const fs::path& target)

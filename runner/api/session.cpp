@@ -23,7 +23,7 @@ std::optional<History> history_of(const CheckedJob& job, const Cache* cache) {
 }  // namespace
 
 Session::Session(SessionOptions options) : options_(std::move(options)) {
-  if (options_.use_cache)
+  if (options_.use_cache && !options_.checked)
     cache_ = std::make_unique<Cache>(options_.cache.empty() ? Cache::default_folder() : options_.cache);
 }
 
@@ -61,6 +61,7 @@ RunResult Session::run(const CheckedJob& job, const RunRequest& request) {
                                              .history = history ? &*history : nullptr,
                                              .threads = options_.threads,
                                              .memory = options_.memory,
+                                             .checked = options_.checked,
                                              .cancelled = request.cancelled,
                                              .observer = request.observer});
   if (cache_ && result.count(StageOutcome::Kind::run) > 0) collect_at_times();

@@ -20,7 +20,11 @@ struct SessionOptions {
   std::filesystem::path cache{};
   bool use_cache = true;  ///< false: nothing is reused and nothing is kept
   int threads = 0;        ///< 0: one per core
-  uint64_t memory = 0;    ///< budget in bytes for values and running nodes; 0: half of the machine's memory
+  uint64_t memory = 0;    ///< budget in bytes for values and running nodes of a run; 0: that of set_memory_budget
+  /// Runs every node twice, one at a time and without a cache: one that gives something else the second time fails.
+  /// What nodes open and which variables they read is watched too, where the watching library was loaded before all
+  /// others, as it is by `terrazzo run --checked`; what nodes in Python open is watched always.
+  bool checked = false;
 };
 
 struct RunRequest {
@@ -31,8 +35,10 @@ struct RunRequest {
 };
 
 /// A cache that is open, and how to run. Jobs may run at the same time, from different threads: they share the cache,
-/// and each has the session's threads and memory. What the cache holds beyond its limit is removed after runs, but no
-/// more than every ten seconds, and at the end. Throws from the constructor only if the cache cannot be opened.
+/// and each has the session's threads and memory. What decoded images take is counted for the whole process, as they
+/// are shared: set_memory_budget (core/image/image_limits.h) bounds that, and all else where a session says nothing.
+/// What the cache holds beyond its limit is removed after runs, but no more than every ten seconds, and at the end.
+/// Throws from the constructor only if the cache cannot be opened.
 class Session {
  public:
   explicit Session(SessionOptions options = {});

@@ -20,6 +20,7 @@
 #include "nodes/source/material_folder.h"
 #include "runner/cache/cache_limit.h"
 #include "runner/cli/built_with.h"
+#include "runner/cli/checked_flag.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
@@ -288,7 +289,7 @@ int obey(int argc, const char* const* argv, ProgressMode mode) {
 int run_command_line(int argc, const char* const* argv) {
   keep_standard_streams_apart();
   std::signal(SIGXFSZ, SIG_IGN);  // what goes beyond `ulimit -f` is then an error of writing, and is told
-  if (std::find(argv, argv + argc, std::string_view("--checked")) != argv + argc) start_watching(argv);
+  if (may_be_checked(argc, argv)) start_watching(argv);
   const ProgressMode mode = mode_of(argc, argv);
   CommandLine line;
   try {

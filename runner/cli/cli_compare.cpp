@@ -69,7 +69,6 @@ int compare(const CompareFlags& flags) {
   RunOptions options;
   options.targets.keep = {"figures"};
   options.cancelled = &signals.flag();
-  options.memory = flags.limits.budget();
   const RunResult result = run_graph(graph, options);
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
   if (result.cancelled) return exit_cancelled;

@@ -76,7 +76,6 @@ int add(const LibraryFlags& flags) {
   std::optional<LibraryEntry> entry;
   try {
     LibraryAddition addition = flags.addition;
-    addition.memory = flags.limits.budget();
     entry = made_entry(addition, work.path(), signals.flag(), result);
   } catch (const GraphError& e) {
     std::vector<Problem> problems;

@@ -80,7 +80,6 @@ int make_new(const NewFlags& flags) {
   RunOptions options;
   options.targets.keep = {"exemplar", "lattice"};
   options.cancelled = &signals.flag();
-  options.memory = flags.limits.budget();
   const RunResult result = run_on_folder(graph, options, flags.folder);
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
   if (!result.ok()) return result.cancelled ? exit_cancelled : exit_failed;

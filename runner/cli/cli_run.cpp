@@ -54,7 +54,7 @@ std::optional<uint64_t> limit_of_cache(const RunFlags& flags) {
 
 /// The cache to use. The usual folder may be out of reach, which costs time; one that was asked for may not.
 std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
-  if (flags.no_cache || flags.checked) return nullptr;
+  if (flags.no_cache || flags.is_checked()) return nullptr;
   const std::optional<uint64_t> limit = limit_of_cache(flags);
   try {
     return std::make_unique<Cache>(cache_folder(flags), limit.value_or(0));
@@ -151,9 +151,8 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   options.targets.only = nodes_meant(graph, flags.only);
   options.cache = cache;
   options.history = history ? &*history : nullptr;
-  options.threads = flags.checked ? 1 : flags.threads;
-  options.checked = flags.checked;
-  options.memory = flags.limits.budget();
+  options.threads = flags.threads;
+  options.checked = flags.is_checked();
   options.cancelled = &cancelled;
   options.targets.keep = flags.keep;
   options.keep_going = flags.keep_going;
@@ -263,9 +262,7 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   add_limit_flags(command, flags.limits);
-  command.add_flag("--checked", flags.checked,
-                   "Run every node twice and watch what it reads: one that is not deterministic, or reads files or "
-                   "variables of the environment that its key does not cover, fails. Uses one thread and no cache");
+  add_checked_flag(command, flags.checked);
   command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
   command.add_flag(
       "--watch", flags.watch,
@@ -303,7 +300,7 @@ int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
     throw UsageError(fmt::format("--report takes a file that ends in .html; \"{}\" does not", flags.report));
   check_kept(files_of(flags), flags.reads);
   check_replaced(files_of(flags), flags.force);
-  if (flags.checked && !is_watching()) warn(flags, "what nodes read is not watched: " + why_not_watching());
+  if (flags.is_checked() && !is_watching()) warn(flags, "what nodes read is not watched: " + why_not_watching());
   const CancelOnSignal signals;
   const std::unique_ptr<Cache> cache = open_cache(flags);
   if (flags.watch) return watch(load, flags, cache.get(), signals.flag());

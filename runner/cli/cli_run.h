@@ -6,6 +6,7 @@
 
 #include "graphs/document/graph.h"
 #include "graphs/document/problem.h"
+#include "runner/cli/checked_flag.h"
 #include "runner/cli/limit_flags.h"
 #include "runner/cli/written_files.h"
 #include "runner/engine/schedule.h"
@@ -28,7 +29,7 @@ struct RunFlags {
   LimitFlags limits;
   bool dry_run = false;
   bool watch = false;
-  bool checked = false;
+  CheckedFlag checked;
   std::string report;
   std::string trace;
   std::string summary;
@@ -42,6 +43,8 @@ struct RunFlags {
   std::vector<KeptFile> reads{};                  ///< besides the graph and the files of its nodes
   std::vector<std::string> keep{};                ///< more targets, whose values are kept for `after`
   std::function<void(const RunResult&)> after{};  ///< called with the result of each run
+
+  bool is_checked() const { return checked.holds(cache); }
 };
 
 /// What looks ahead while a graph is loaded: nothing that the sandbox forbids.

@@ -112,7 +112,6 @@ std::optional<LibraryEntry> made_entry(const LibraryAddition& asked, const fs::p
   Graph graph = is_folder ? analysing_graph(asked, entry.analysis) : copying_graph(asked, entry.analysis);
   RunOptions options;
   options.cancelled = &cancelled;
-  options.memory = asked.memory;
   options.targets.keep = {"index"};
   const bool has_maps = find_node(graph, "exemplar") != nullptr;
   if (has_maps) {

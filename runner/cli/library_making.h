@@ -17,7 +17,6 @@ struct LibraryAddition {
   std::string material;          ///< of an analysis that exists: the folder of its maps; may be empty
   std::vector<std::string> set;  ///< for the analysis of a folder
   bool other_material = false;   ///< the maps need not look like those that were analysed
-  uint64_t memory = 0;           ///< budget in bytes; 0: the usual one
 };
 
 /// Analyses a folder, or takes an analysis, and paints the exemplar: an entry without a name, whose files lie in

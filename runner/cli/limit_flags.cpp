@@ -7,12 +7,8 @@
 
 namespace terrazzo {
 
-uint64_t LimitFlags::budget() const {
-  return memory.empty() ? 0 : parse_bytes(memory, "--memory");
-}
-
 void LimitFlags::apply() const {
-  if (!memory.empty()) set_memory_budget(budget());
+  if (!memory.empty()) set_memory_budget(parse_bytes(memory, "--memory"));
   if (max_pixels > 0) set_most_pixels(max_pixels);
   if (!max_bytes.empty()) set_most_bytes(int64_t(parse_bytes(max_bytes, "--max-bytes")));
 }

@@ -15,8 +15,6 @@ struct LimitFlags {
   int64_t max_pixels = 0;  ///< 0: not given
   std::string max_bytes;
 
-  /// The budget in bytes; 0 if none is given. Throws UsageError.
-  uint64_t budget() const;
   /// Makes them hold for this process. Throws UsageError.
   void apply() const;
 };

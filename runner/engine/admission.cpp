@@ -48,7 +48,17 @@ void Admission::add(JobPtr job) {
 }
 
 bool Admission::fits(const Job& job, uint64_t held) const {
-  return computing_ == 0 || in_use_ + held + job.memory <= memory_;
+  return (computing_ == 0 && storing_ == 0) || in_use_ + held + job.memory <= memory_;
+}
+
+uint64_t Admission::lacking(uint64_t held) const {
+  uint64_t wanted = in_use_ + held;
+  const auto next = overdue() ? waiting_.find(refusals_.front().rank)
+                              : std::find_if(waiting_.begin(), waiting_.end(), [](const auto& waiting) {
+                                  return waiting.second.job->kind == Job::Kind::compute;
+                                });
+  if (running_ < threads_ && next != waiting_.end()) wanted += next->second.job->memory;
+  return wanted - std::min(wanted, memory_);
 }
 
 bool Admission::may_load(uint64_t held) const {
@@ -78,6 +88,7 @@ Admission::Queue::iterator Admission::remove(Queue::iterator at) {
 Admission::Queue::iterator Admission::start(Queue::iterator at, std::vector<JobPtr>& admitted) {
   const JobPtr& job = admitted.emplace_back(at->second.job);
   running_++;
+  if (job->kind == Job::Kind::store) storing_++;
   if (job->kind == Job::Kind::compute) {
     computing_++;
     computations_++;
@@ -102,6 +113,7 @@ std::vector<JobPtr> Admission::admit(uint64_t held) {
 
 void Admission::ended(const Job& job) {
   running_--;
+  if (job.kind == Job::Kind::store) storing_--;
   if (job.kind != Job::Kind::compute) return;
   computing_--;
   in_use_ -= job.memory;

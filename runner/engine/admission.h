@@ -22,7 +22,8 @@ std::vector<double> remaining_seconds(const Plan& plan);
 ///   the order of the document.
 /// - At most as many jobs run as there are threads.
 /// - A computation starts while its expected memory, that of the running ones and that of the values in memory are
-///   within the budget together, or while no other computation runs. Loads wait while the budget is used up, unless
+///   within the budget together, or while no other computation runs and nothing is being stored, which might free
+///   memory. Loads wait while the budget is used up, unless
 ///   there is nothing else to do.
 /// - A computation that has to wait for memory is passed by at most `patience` others. From then on no other one
 ///   starts, and nothing is loaded, until it has started.
@@ -38,6 +39,9 @@ class Admission {
   void add(JobPtr job);
   /// The jobs to start now, given the bytes of values in memory.
   std::vector<JobPtr> admit(uint64_t held);
+  /// By how many bytes the budget is exceeded now, or would be if the next computation started.
+  uint64_t lacking(uint64_t held) const;
+  uint64_t in_use() const { return in_use_; }
   /// An admitted job has ended.
   void ended(const Job& job);
   /// Drops waiting jobs.
@@ -82,6 +86,7 @@ class Admission {
   int waiting_computations_ = 0;
   int running_ = 0;
   int computing_ = 0;
+  int storing_ = 0;
   uint64_t in_use_ = 0;  ///< bytes, expected, by running computations
 };
 

@@ -13,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/file/module_path.h"
+#include "core/file/path_relation.h"
 
 namespace terrazzo {
 
@@ -34,6 +35,7 @@ Watch watch() {
 }
 
 std::string reason;
+std::mutex turn;  ///< whose turn it is to watch: runs may be checked at the same time
 std::mutex mutex;
 WatchedReads* now = nullptr;
 thread_local bool is_telling = false;  ///< what telling reads itself does not count
@@ -61,15 +63,10 @@ Digest content_of(const Value& value) {
   return hasher.digest();
 }
 
-bool is_inside(const fs::path& path, const fs::path& folder) {
-  const fs::path relative = path.lexically_relative(folder);
-  return !relative.empty() && *relative.begin() != "..";
-}
-
 /// What the system's libraries read, whatever a node does.
 bool is_of_the_system(const fs::path& path) {
   constexpr std::array<const char*, 7> folders = {"/usr", "/lib", "/lib64", "/etc", "/proc", "/sys", "/dev"};
-  return std::ranges::any_of(folders, [&](const char* f) { return is_inside(path, f); });
+  return std::ranges::any_of(folders, [&](const char* f) { return lies_in(f, path); });
 }
 
 /// Whether code at that address is in a library of the system: these ask for variables on their own.
@@ -95,10 +92,12 @@ void require_declared(const Stage& stage, const NodeContext& context, const Watc
       throw Error(fmt::format("checked: {} reads random numbers from {}; its results cannot be cached", type.name,
                               path.string()));
     if (declared.contains(path) || is_of_the_system(path) || !fs::is_regular_file(path, unresolved)) continue;
+    const std::string_view declares =
+        type.origin.name == "Python" ? "no parameter of type Path names" : "its `files_read` does not name";
     throw Error(
-        fmt::format("checked: {} reads {}, which its `files_read` does not name: when that file changes, results "
-                    "of before would be taken for those of now",
-                    type.name, path.string()));
+        fmt::format("checked: {} reads {}, which {}: when that file changes, results of before would be taken for "
+                    "those of now",
+                    type.name, path.string(), declares));
   }
   for (const std::string& variable : reads.variables())
     if (variable != color_variable)
@@ -176,18 +175,23 @@ std::string why_not_watching() {
   return is_watching() ? "" : reason.empty() ? "only the program terrazzo watches" : reason;
 }
 
+void tell_opened(const char* path, int flags) {
+  WatchedSink::tell('f', path, flags, nullptr);
+}
+
 WatchedReads::WatchedReads() {
-  if (!is_watching()) return;
+  turn.lock();
   const std::lock_guard lock(mutex);
   now = this;
-  watch()(&WatchedSink::tell);
+  if (is_watching()) watch()(&WatchedSink::tell);
 }
 
 void WatchedReads::stop() {
   const std::lock_guard lock(mutex);
   if (now != this) return;
-  watch()(nullptr);
+  if (is_watching()) watch()(nullptr);
   now = nullptr;
+  turn.unlock();
 }
 
 WatchedReads::~WatchedReads() {

@@ -19,7 +19,11 @@ void start_watching(const char* const* argv);
 /// Why start_watching could not; empty if it did.
 std::string why_not_watching();
 
-/// What the process reads while it lives. One at a time.
+/// A file is being opened, with the flags of open(2): for what opens files on behalf of nodes and is not watched
+/// otherwise, such as Python.
+void tell_opened(const char* path, int flags);
+
+/// What the process reads while it lives. One at a time: others wait. The thread that makes it ends it.
 class WatchedReads {
  public:
   WatchedReads();

@@ -107,15 +107,63 @@ void Coordinator::start_computing(int stage) {
 /// A stage's values have come into memory, if only for those who wait for them.
 void Coordinator::values_there(int stage, ValueEvent event) {
   move(stage, event);
-  for (const int reader : plan_.stages[stage].readers)
-    if (states_.value(reader) == ValueState::awaiting && states_.inputs_held(reader)) start_computing(reader);
+  for (const int reader : plan_.stages[stage].readers) {
+    if (states_.value(reader) != ValueState::awaiting) continue;
+    if (states_.inputs_held(reader))
+      start_computing(reader);
+    else
+      ask_for_spilled(reader);
+  }
   let_go_if_unclaimed(stage);
+}
+
+/// Once nothing else has to be computed for a stage that waits, what was dropped meanwhile is loaded again. Not before,
+/// as it would only be dropped again.
+void Coordinator::ask_for_spilled(int stage) {
+  const std::vector<int>& sources = plan_.stages[stage].sources;
+  const auto rests = [&](int s) { return states_.value(s) == ValueState::resting; };
+  const auto comes = [&](int s) {
+    return states_.value(s) == ValueState::held || states_.value(s) == ValueState::loading;
+  };
+  if (!std::all_of(sources.begin(), sources.end(), [&](int s) { return rests(s) || comes(s); })) return;
+  for (const int source : sources)
+    if (rests(source)) put_off(Step::want_values, source);
+}
+
+/// Whether a stage's values can be dropped and loaded again: no reader computes with them or is about to.
+bool Coordinator::may_be_spilled(int stage) const {
+  const Stage& s = plan_.stages[stage];
+  return states_.value(stage) == ValueState::held && !s.kept && s.loadable() &&
+         std::none_of(s.readers.begin(), s.readers.end(), [&](int reader) {
+           return states_.value(reader) == ValueState::computing || states_.gathers(reader);
+         });
+}
+
+/// Drops values that are in the cache until what is next fits into the budget, those first that free most.
+void Coordinator::spill() {
+  while (admission_.lacking(held_.bytes()) > 0) {
+    int largest = -1;
+    uint64_t most = 0;
+    for (const int stage : in_memory_and_cache_)
+      if (const uint64_t bytes = held_.bytes_freed_by(stage); bytes > most && may_be_spilled(stage))
+        largest = stage, most = bytes;
+    if (largest < 0) return;
+    drop_values(largest);
+  }
+}
+
+void Coordinator::drop_values(int stage) {
+  values_[stage].clear();
+  held_.release(stage);
+  in_memory_and_cache_.erase(stage);
+  move(stage, ValueEvent::let_go);
 }
 
 void Coordinator::loaded(Job& job) {
   if (!job.values.empty()) {
     values_[job.stage] = std::move(job.values);
     held_.hold_loaded(job.stage, values_[job.stage]);
+    in_memory_and_cache_.insert(job.stage);
     return values_there(job.stage, ValueEvent::read);
   }
   plan_.stages[job.stage].known->stored = false;
@@ -154,13 +202,19 @@ void Coordinator::enqueue_store(const Job& job) {
   admission_.add(std::move(store));
 }
 
+void Coordinator::stored(Job& job) {
+  if (!job.stored) return;
+  Resolution& known = *plan_.stages[job.stage].known;
+  known.record = std::move(job.record);
+  known.stored = true;
+  if (states_.value(job.stage) == ValueState::held) in_memory_and_cache_.insert(job.stage);
+}
+
 /// Lets values go after their last reader, and with them the claim on the values they would be made from.
 void Coordinator::let_go_if_unclaimed(int stage) {
   if (states_.claimed(stage)) return;
   if (states_.value(stage) == ValueState::held) {
-    values_[stage].clear();
-    held_.release(stage);
-    move(stage, ValueEvent::let_go);
+    drop_values(stage);
   } else if (states_.value(stage) == ValueState::open && states_.name(stage) == NameState::named) {
     outcomes_.rests(stage);
     move(stage, ValueEvent::rest);
@@ -278,7 +332,7 @@ void Coordinator::react(Job& job) {
     case Job::Kind::compute:
       return computed(job);
     case Job::Kind::store:
-      return;
+      return stored(job);
   }
 }
 
@@ -286,7 +340,11 @@ std::vector<JobPtr> Coordinator::admit() {
   if (stopping())
     // What has been computed is still put into the cache, unless the user is in a hurry.
     admission_.forget_if([&](const Job& j) { return cancelled_ || j.kind != Job::Kind::store; });
-  return admission_.admit(held_.bytes());
+  else
+    spill();
+  std::vector<JobPtr> admitted = admission_.admit(held_.bytes());
+  most_memory_ = std::max(most_memory_, held_.bytes() + admission_.in_use());
+  return admitted;
 }
 
 std::map<std::string, std::map<std::string, Value>> Coordinator::take_kept() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <set>
 #include <string>
 #include <unordered_map>
 
@@ -39,6 +40,8 @@ class Coordinator {
   const StageStates& states() const { return states_; }
   /// Bytes of values in memory that wait for readers.
   uint64_t held_memory() const { return held_.bytes(); }
+  /// The most bytes that values in memory and running computations were expected to take together.
+  uint64_t most_memory() const { return most_memory_; }
 
  private:
   /// Queued instead of called, as chains may be thousands of stages long.
@@ -61,7 +64,12 @@ class Coordinator {
   void loaded(Job& job);
   void computed(Job& job);
   void enqueue_store(const Job& job);
+  void stored(Job& job);
   void let_go_if_unclaimed(int stage);
+  void drop_values(int stage);
+  bool may_be_spilled(int stage) const;
+  void spill();
+  void ask_for_spilled(int stage);
   void failed(const Job& job);
   void lose(int stage);
   void skip_if_lost(int stage);
@@ -75,6 +83,8 @@ class Coordinator {
   HeldMemory held_;
   Outcomes outcomes_;
   std::vector<std::map<std::string, Value>> values_;  ///< by stage and output port
+  std::set<int> in_memory_and_cache_;                 ///< stages whose values are held and can be loaded again
+  uint64_t most_memory_ = 0;
   std::vector<JobPtr> postponed_;
   std::deque<std::pair<Step, int>> steps_;
   std::unordered_map<std::string_view, int> places_;

@@ -1,5 +1,7 @@
 #include "runner/engine/held_memory.h"
 
+#include <algorithm>
+#include <set>
 #include <utility>
 
 #include "core/exemplar/appearance.h"
@@ -107,6 +109,17 @@ void HeldMemory::hold_computed(int stage, const std::map<std::string, Value>& va
       records_[id].inputs.push_back(current_[input]);
       records_[current_[input]].holders++;
     }
+}
+
+uint64_t HeldMemory::bytes_freed_by(int stage) const {
+  if (current_[stage] == none || records_[current_[stage]].holders > 1) return 0;
+  const std::vector<const void*>& parts = records_[current_[stage]].parts;
+  uint64_t freed = 0;
+  for (const void* where : std::set(parts.begin(), parts.end())) {
+    const Part& part = parts_.at(where);
+    if (part.holders == std::count(parts.begin(), parts.end(), where)) freed += part.bytes;
+  }
+  return freed;
 }
 
 void HeldMemory::release(int stage) {

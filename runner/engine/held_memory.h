@@ -24,6 +24,8 @@ class HeldMemory {
   /// Removes the values of a stage, if it has any.
   void release(int stage);
   uint64_t bytes() const { return bytes_; }
+  /// What a release of the stage's values would free now.
+  uint64_t bytes_freed_by(int stage) const;
 
  private:
   static constexpr int none = -1;

@@ -28,7 +28,16 @@ void remove_staged(const NodeContext& context) {
 
 bool describes_others(const fs::path& file) {
   const std::string ending = file.extension().string();
-  return ending == ".json" || ending == ".gltf" || ending == ".mtlx" || ending == ".usda";
+  return ending == ".json" || ending == ".gltf" || ending == ".mtlx" || ending == ".usda" || ending == ".py";
+}
+
+/// While files that it describes are replaced, a description of before would vouch for a set that is torn.
+void remove_descriptions(const std::vector<StagedFile>& staged) {
+  const auto is_description = [](const StagedFile& f) { return describes_others(f.target); };
+  if (std::ranges::all_of(staged, is_description)) return;
+  std::error_code not_there;
+  for (const StagedFile& f : staged)
+    if (is_description(f)) fs::remove(f.target, not_there);
 }
 
 /// Removes a node's temporary files unless they have been put in their places.
@@ -40,7 +49,8 @@ class StagedFiles {
   StagedFiles& operator=(const StagedFiles&) = delete;
 
   /// All of them are on the disk before the first takes its place, so that a set of maps is torn only by a crash in the
-  /// moment of renaming. Files that describe the others come last; the next run writes a torn set anew.
+  /// moment of renaming. Files that describe the others come last, and those of before go first: where there is one,
+  /// the set is whole. The next run writes a torn set anew.
   std::vector<OutputFile> put_in_place(Cache* cache, const Sandbox* sandbox) {
     std::vector<StagedFile> staged = context_.staged();
     for (const StagedFile& f : staged) {
@@ -53,6 +63,7 @@ class StagedFiles {
     }
     std::stable_partition(staged.begin(), staged.end(),
                           [](const StagedFile& f) { return !describes_others(f.target); });
+    remove_descriptions(staged);
     for (const StagedFile& f : staged) publish_file(f.temporary, f.target);
     std::vector<OutputFile> files;
     for (const StagedFile& f : context_.staged())
@@ -177,6 +188,9 @@ void store(Job& job, const Stage& stage, const RunOptions& options) {
   if (stage.type().persist == Persist::payload)
     for (const auto& [port, value] : job.values) options.cache->store_value(value, job.record->seconds, task);
   options.cache->store_stage(stage.known->key, *job.record);
+  job.stored = !job.values.empty() && std::all_of(job.values.begin(), job.values.end(), [&](const auto& value) {
+    return options.cache->has_value(job.record->outputs.at(value.first));
+  });
 }
 
 /// The message with the files that the user asked for in place of those under which they were written so far.

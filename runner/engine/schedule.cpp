@@ -10,9 +10,9 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
 
 #include "core/base/text.h"
+#include "core/image/image_limits.h"
 #include "runner/engine/coordinator.h"
 #include "runner/engine/history.h"
 #include "runner/engine/lease_waiter.h"
@@ -24,10 +24,6 @@ namespace {
 
 namespace flow = tbb::flow;
 using Clock = std::chrono::steady_clock;
-
-uint64_t half_of_memory() {
-  return static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(::sysconf(_SC_PAGE_SIZE)) / 2;
-}
 
 /// Small numbers for threads, in the order in which they are first seen.
 class ThreadNumbers {
@@ -171,8 +167,8 @@ int useful_threads(int asked) {
 
 RunResult run_plan(Plan plan, const RunOptions& options) {
   const Clock::time_point start = Clock::now();
-  const int threads = useful_threads(options.threads);
-  const uint64_t memory = options.memory > 0 ? options.memory : half_of_memory();
+  const int threads = useful_threads(options.checked ? 1 : options.threads);
+  const uint64_t memory = options.memory > 0 ? options.memory : memory_budget();
   if (options.observer) options.observer->planned(plan);
 
   Coordinator coordinator(plan, options, threads, memory);
@@ -185,6 +181,7 @@ RunResult run_plan(Plan plan, const RunOptions& options) {
   if (options.history) options.history->save();
   RunResult result;
   result.cancelled = coordinator.cancelled();
+  result.memory = coordinator.most_memory();
   result.failures = outcomes.take_failures();
   result.stages = outcomes.take_stages();
   if (result.ok())

@@ -39,8 +39,9 @@ struct RunOptions {
   Cache* cache = nullptr;      ///< null: nothing is reused and nothing is kept
   History* history = nullptr;  ///< for the reasons in plans; updated by the run
   int threads = 0;             ///< 0: one per core
-  uint64_t memory = 0;         ///< budget in bytes for values and running nodes; 0: half of the machine's memory
-  bool checked = false;  ///< each node twice, and watched, see runner/engine/checked.h; takes one thread, no cache
+  uint64_t memory = 0;         ///< budget in bytes for values and running nodes; 0: the process's, see memory_budget
+  bool checked =
+      false;  ///< each node twice, and watched, see runner/engine/checked.h; with one thread and without a cache
   const std::atomic<bool>* cancelled = nullptr;  ///< set it to stop the run; may be null
   RunObserver* observer = nullptr;
   const Sandbox* sandbox = nullptr;  ///< keeps nodes from files elsewhere; may be null
@@ -87,6 +88,7 @@ struct RunResult {
   std::map<std::string, std::map<std::string, Value>> kept;  ///< of `targets.keep`: values by node and output port
   std::vector<Span> spans;
   double seconds = 0;
+  uint64_t memory = 0;  ///< the most bytes that were counted against the budget at a time
 
   bool ok() const { return !cancelled && failures.empty(); }
   int count(StageOutcome::Kind kind) const;

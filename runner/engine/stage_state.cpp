@@ -71,6 +71,13 @@ void StageStates::advance(int stage, ValueEvent event) {
   enter(stage, *to);
 }
 
+bool StageStates::gathers(int stage) const {
+  const std::vector<int>& sources = plan_.stages[stage].sources;
+  return value(stage) == ValueState::awaiting && std::all_of(sources.begin(), sources.end(), [&](int source) {
+           return value(source) == ValueState::held || value(source) == ValueState::loading;
+         });
+}
+
 void StageStates::enter(int stage, ValueState to) {
   const Stage& s = plan_.stages[stage];
   const ValueState from = std::exchange(entries_[stage].value, to);

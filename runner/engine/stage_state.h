@@ -46,7 +46,7 @@ enum class ValueEvent : uint8_t {
   unreadable,   ///< the cache entry is missing or damaged
   busy,         ///< another process is computing it; to be retried
   computed,
-  let_go,   ///< no reader will need them again
+  let_go,   ///< no reader will need them again, or they are loaded again for it
   give_up,  ///< its job failed, or a source that it needs is lost
 };
 
@@ -127,6 +127,8 @@ class StageStates {
   bool inputs_named(int stage) const { return entries_[stage].unnamed_sources == 0; }
   /// Every source's values are in memory.
   bool inputs_held(int stage) const { return entries_[stage].unheld_sources == 0; }
+  /// It waits for its sources' values, and nothing has to be computed for that: these are in memory, or being loaded.
+  bool gathers(int stage) const;
   /// A reader may still need its values, or the caller keeps them.
   bool claimed(int stage) const { return entries_[stage].claims > 0; }
 

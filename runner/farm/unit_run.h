@@ -13,7 +13,7 @@ namespace terrazzo {
 struct UnitRunOptions {
   std::filesystem::path cache;                   ///< its folder
   int threads = 0;                               ///< 0: one per core
-  uint64_t memory = 0;                           ///< budget in bytes; 0: half of the machine's
+  uint64_t memory = 0;                           ///< budget in bytes; 0: the process's, see memory_budget
   const std::atomic<bool>* cancelled = nullptr;  ///< may be null
   RunObserver* observer = nullptr;               ///< likewise
   /// What another machine has just made may not be seen yet on a network file system: how long to look for it. After

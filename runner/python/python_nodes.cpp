@@ -81,6 +81,17 @@ std::vector<Value> values_at(const NodeContext& node, const Port& port) {
   }
 }
 
+/// A file, or all files that lie in a folder, in the order of their names.
+void add_files(const std::filesystem::path& path, std::vector<std::filesystem::path>& out) {
+  std::error_code failure;
+  if (!std::filesystem::is_directory(path, failure)) return out.push_back(path);
+  std::vector<std::filesystem::path> inside;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path, failure))
+    if (entry.is_regular_file(failure)) inside.push_back(entry.path());
+  std::ranges::sort(inside);
+  out.insert(out.end(), inside.begin(), inside.end());
+}
+
 /// Calls the function with what the node was given. Takes Python's lock: whoever started the run does not hold it.
 void compute(NodeContext& node, PyObject* function) {
   const py::gil_scoped_acquire hold;
@@ -132,7 +143,7 @@ void register_type(const py::dict& d, const py::function& function) {
     t.files_read = [paths](const Params& params) {
       std::vector<std::filesystem::path> out;
       for (const std::string& p : paths)
-        if (const auto& file = std::get<std::string>(params.at(p)); !file.empty()) out.emplace_back(file);
+        if (const auto& file = std::get<std::string>(params.at(p)); !file.empty()) add_files(file, out);
       return out;
     };
   Hasher hasher;

@@ -10,6 +10,7 @@
 #include "runner/python/bindings.h"
 #include "runner/python/errors.h"
 #include "runner/python/graphs.h"
+#include "runner/python/opened_files.h"
 #include "runner/python/values.h"
 #include "runner/python/waiting.h"
 
@@ -100,9 +101,10 @@ py::dict as_dict(const RunResult& result) {
 /// A session that may be closed while runs are under way: the last of them closes the cache.
 class SessionHandle {
  public:
-  SessionHandle(std::filesystem::path cache, bool use_cache, int threads, uint64_t memory) {
+  SessionHandle(std::filesystem::path cache, bool use_cache, int threads, uint64_t memory, bool checked) {
+    if (checked) tell_opened_files();
     const py::gil_scoped_release free;
-    session_ = std::make_shared<Session>(SessionOptions{std::move(cache), use_cache, threads, memory});
+    session_ = std::make_shared<Session>(SessionOptions{std::move(cache), use_cache, threads, memory, checked});
   }
 
   py::dict run(const CheckedHandle& graph, std::vector<std::string> only, const std::vector<std::string>& keep,
@@ -189,7 +191,7 @@ class SessionHandle {
 
 void bind_sessions(py::module_& module) {
   py::class_<SessionHandle>(module, "Session")
-      .def(py::init<std::filesystem::path, bool, int, uint64_t>())
+      .def(py::init<std::filesystem::path, bool, int, uint64_t, bool>())
       .def("run", &SessionHandle::run)
       .def("plan", &SessionHandle::plan)
       .def("cancel", &SessionHandle::cancel)

@@ -156,12 +156,17 @@ class _Progress:
 class Session:
     """A cache that is open, and how to run. Threads may share one; each run has the session's threads and memory.
 
-    cache: its folder; None for the usual one, False for none. threads: 0 for one per core. memory: a budget in bytes;
-    0 for half of the machine's."""
+    cache: its folder; None for the usual one, False for none. threads: 0 for one per core. memory: a budget in bytes
+    for values and running nodes; 0 for that of set_memory_budget, which also bounds decoded images.
 
-    def __init__(self, cache: PathLike | bool | None = None, threads: int = 0, memory: int = 0) -> None:
+    checked: runs every node twice, one at a time and without a cache, and watches which files those in Python open. One
+    that gives something else the second time, or reads what no parameter of type Path names, fails."""
+
+    def __init__(
+        self, cache: PathLike | bool | None = None, threads: int = 0, memory: int = 0, checked: bool = False
+    ) -> None:
         folder = Path() if cache is None or isinstance(cache, bool) else Path(cache)
-        self._session = _terrazzo.Session(folder, cache is not False, threads, memory)
+        self._session = _terrazzo.Session(folder, cache is not False, threads, memory, checked)
 
     def __enter__(self) -> Session:
         return self

@@ -127,7 +127,7 @@ class Job:
     def path(self) -> Path: ...
 
 class Session:
-    def __init__(self, cache: Path, use_cache: bool, threads: int, memory: int) -> None: ...
+    def __init__(self, cache: Path, use_cache: bool, threads: int, memory: int, checked: bool) -> None: ...
     def run(
         self, graph: Checked, only: list[str], keep: list[str], progress: Callable[..., Any] | None
     ) -> dict[str, Any]: ...
@@ -140,6 +140,10 @@ class Session:
 
 def load_plugin(file: Path | str) -> list[str]:
     """Loads a plug-in, a shared library; gives the names of its node types."""
+
+def set_memory_budget(bytes: int) -> None:
+    """What the process is to stay within: decoded images, values and running nodes of all sessions; 0 for half of the
+    machine's memory, as at the start."""
 
 def register_node(description: dict[str, Any], function: Callable[..., Any]) -> None: ...
 def node_type_names() -> list[str]: ...

@@ -5,7 +5,10 @@
 #include <thread>
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
 
+#include "nodes/common/registry.h"
+#include "runner/engine/checked.h"
 #include "tests/run_node.h"
 #include "tests/texts.h"
 
@@ -67,6 +70,38 @@ TEST_CASE("a run that is cancelled says so, and one session runs several jobs at
     });
   for (std::thread& t : threads) t.join();
   CHECK(done == 4);
+}
+
+TEST_CASE("a checked session catches nodes that give something else or read what they do not declare") {
+  const TemporaryFolder folder;
+  const std::string secret = (folder.path() / "secret.txt").string();
+  write_text(secret, "1");
+  NodeType liar;
+  liar.name = "session_liar";
+  liar.category = "source";
+  liar.origin.name = "the tests";
+  liar.params = {{.name = "way", .type = ParamType::text}};
+  liar.outputs = {{.name = "image"}};
+  liar.compute = [secret, count = std::make_shared<int>(0)](NodeContext& n) {
+    if (n.text("way") == "file") tell_opened(secret.c_str(), O_RDONLY);
+    if (n.text("way") == "write") tell_opened(secret.c_str(), O_WRONLY);
+    const float value = n.text("way") == "count" ? float(++*count) : 0;
+    n.output("image", make_image({1, 1}, 1, [&](int, int, int) { return value; }));
+  };
+  register_node_type(liar);
+  const auto failure = [&](const std::string& way, bool checked) {
+    Session session({.cache = folder.path() / "cache", .checked = checked});
+    Job job = Job::from_text(R"({"terrazzo": 1, "nodes": {"liar": {"type": "session_liar", "way": "honest"}}})");
+    job.set("liar.way", way);
+    const RunResult result = session.run(job.checked());
+    return result.ok() ? "" : result.failures.at(0).message;
+  };
+  for (const char* way : {"honest", "write"}) CHECK(failure(way, true).empty());
+  CHECK(contains(failure("file", true), "reads " + secret + ", which its `files_read` does not name"));
+  CHECK(
+      contains(failure("count", true), "node \"liar\" (session_liar): checked: session_liar gives another \"image\""));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "cache"));
+  for (const char* way : {"file", "count"}) CHECK(failure(way, false).empty());
 }
 
 TEST_CASE("failures of nodes are in the result, with the graph's name and place") {

@@ -87,6 +87,47 @@ TEST_CASE("computations keep within the budget together with the values in memor
   }
 }
 
+TEST_CASE("what does not fit waits for what is being stored, which might free memory") {
+  Admission a({1, 1, 1}, 8, plenty);
+  a.add(job(Job::Kind::store, 2));
+  const std::vector<JobPtr> store = a.admit(500);
+  a.add(compute(0, 600));
+  CHECK(a.admit(500).empty());
+  end(a, store);
+  CHECK(shown(a.admit(500)) == "run 0");
+}
+
+TEST_CASE("what lacks is what running jobs, values and the next computation take beyond the budget") {
+  Admission a({2, 1}, 2, plenty);
+  CHECK(a.lacking(plenty) == 0);
+  CHECK(a.lacking(plenty + 7) == 7);
+  a.add(compute(1, 500));
+  a.add(compute(0, 300));
+  CHECK(a.lacking(700) == 0);
+  CHECK(a.lacking(701) == 1);
+  const std::vector<JobPtr> first = a.admit(650);
+  CHECK(shown(first) == "run 0");
+  CHECK(a.in_use() == 300);
+  CHECK(a.lacking(300) == 100);
+  a.add(job(Job::Kind::look_up, 0));
+  CHECK(shown(a.admit(650)) == "look up 0");
+  CHECK(a.lacking(300) == 0);  // no thread is free for the next
+  CHECK(a.lacking(701) == 1);
+}
+
+TEST_CASE("a computation that has waited long enough is the next") {
+  Admission a(std::vector<double>(20, 1), 4, plenty);
+  a.add(compute(19, 900));
+  a.add(compute(0, 500));
+  const JobPtr long_one = a.admit(0).front();
+  for (int i = 1; i <= 8; i++) {
+    a.add(compute(i));
+    end(a, a.admit(0));
+  }
+  a.add(compute(10));
+  CHECK(a.lacking(0) == 400);
+}
+
 TEST_CASE("stores and look-ups wait for no memory") {
   Admission a({1, 1, 1}, 8, plenty);
   a.add(compute(0, 5000));

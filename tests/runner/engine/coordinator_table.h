@@ -63,7 +63,11 @@ class Table {
     job->values["out"] = image(value, {1, 1});
     go(job);
   }
-  void store(const std::string& node) { go(take(Job::Kind::store, node)); }
+  void store(const std::string& node, bool stored = true) {
+    const JobPtr job = take(Job::Kind::store, node);
+    job->stored = stored;
+    go(job);
+  }
   /// And if it does not.
   void load_in_vain(const std::string& node) { go(take(Job::Kind::load, node)); }
   void fail(Job::Kind kind, const std::string& node) {

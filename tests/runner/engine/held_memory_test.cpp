@@ -34,6 +34,7 @@ struct Held {
   }
   void release(int stage) { memory.release(stage); }
   uint64_t bytes() const { return memory.bytes(); }
+  uint64_t bytes_freed_by(int stage) const { return memory.bytes_freed_by(stage); }
 
   HeldMemory memory;
   std::vector<std::map<std::string, Value>> alive;
@@ -115,4 +116,21 @@ TEST_CASE("a stage that is made again does not disturb what is read from its ear
   CHECK(held.bytes() == 600);
   held.release(1);
   CHECK(held.bytes() == 200);
+}
+
+TEST_CASE("a release frees what no other stage holds") {
+  Held held(3);
+  const ImagePtr shared = floats({10, 10}, 1), own = floats({5, 5}, 1);
+  held.hold_computed(0, {{"a", own}, {"b", own}, {"c", shared}}, {});
+  CHECK(held.bytes_freed_by(0) == 500);
+  CHECK(held.bytes_freed_by(1) == 0);
+  held.hold_computed(1, {{"out", shared}}, {0});
+  CHECK(held.bytes_freed_by(0) == 100);
+  CHECK(held.bytes_freed_by(1) == 0);
+  held.hold_computed(2, {{"out", recipe(1)}}, {0});  // reads from the first one
+  CHECK(held.bytes_freed_by(0) == 0);
+  held.release(2);
+  const uint64_t before = held.bytes(), freed = held.bytes_freed_by(0);
+  held.release(0);
+  CHECK(held.bytes() == before - freed);
 }

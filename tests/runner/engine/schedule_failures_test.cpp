@@ -90,6 +90,50 @@ TEST_CASE("a sink that throws leaves no file behind, and no folder that it made"
   CHECK(listing(folder.path()).empty());
 }
 
+TEST_CASE("a set that is torn in the moment of renaming has no description, and the next run makes it whole") {
+  TemporaryFolder folder;
+  Cache cache(folder.path() / "cache");
+  FakeTypes t;
+  NodeType set_of_files = t.write;
+  const std::filesystem::path out = folder.path() / "out", second = out / "b.txt";
+  bool tears = false;
+  set_of_files.compute = [&](NodeContext& n) {
+    const auto number = int(number_of(n.list<Image>("in").at(0)));
+    for (const char* name : {"set.json", "a.txt", "b.txt"})  // the description is named first
+      write_text(n.stage(out / name), std::to_string(number));
+    if (!tears) return;
+    std::filesystem::remove(second);
+    std::filesystem::create_directories(second / "in the way");
+  };
+  Graph g;
+  add(g, "number", t.number, {{"value", 1.0}});
+  add(g, "files", set_of_files, {{"path", out.string()}}, {"number"});
+  const auto contents = [&] {
+    std::string all;
+    for (const char* name : {"a.txt", "b.txt", "set.json"})
+      all += std::filesystem::is_regular_file(out / name) ? read_text(out / name) : "-";
+    return all;
+  };
+  RunOptions options;
+  options.cache = &cache;
+  REQUIRE(run_graph(g, options).ok());
+  CHECK(contents() == "111");
+  set(g, "number", "value", 2.0);
+  tears = true;
+  CHECK_FALSE(run_graph(g, options).ok());
+  CHECK(contents() == "2--");
+  std::filesystem::remove_all(second);
+  tears = false;
+  REQUIRE(run_graph(g, options).ok());
+  CHECK(contents() == "222");
+  CHECK(listing(out) == std::vector<std::string>{"a.txt", "b.txt", "set.json"});
+  // As a run that is killed leaves it: the record in the cache is of another set.
+  set(g, "number", "value", 1.0);
+  write_text(out / "a.txt", "1");
+  REQUIRE(run_graph(g, options).ok());
+  CHECK(contents() == "111");
+}
+
 TEST_CASE("what is wrong with an input is said once, however many nodes read it") {
   FakeTypes t;
   Graph g;

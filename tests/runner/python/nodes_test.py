@@ -1,7 +1,9 @@
 import importlib.util
 import json
 import pathlib
+import random
 import subprocess
+import sys
 import threading
 import unittest
 from typing import Literal
@@ -52,6 +54,22 @@ def test_gather(
         f"{names}{flag}{count}{text}{content}{material is None}",
         {"height": tz.Image.from_numpy(size_out / 10, "height"), "mask": images[-1]},
     )
+
+
+@tz.node()
+def test_liar(way: Literal["honest", "file", "folder", "random", "import", "write"], named: pathlib.Path | None = None) -> tz.Image:
+    pixels = np.full((2, 2), 0.5, dtype=np.float32)
+    if way == "file":
+        pixels[:] = float(pathlib.Path("secret.txt").read_text())
+    if way == "folder":
+        pixels[:] = float((named / "deep/secret.txt").read_text())
+    if way == "random":
+        pixels[0, 0] = random.random()
+    if way == "import":
+        import colorsys
+    if way == "write":
+        pathlib.Path("scratch.txt").write_text("left")
+    return tz.Image.from_numpy(pixels)
 
 
 @tz.node()
@@ -132,6 +150,52 @@ class NodesTest(Case):
 
     def test_a_node_can_cancel_the_run(self):
         self.assertRaises(tz.Cancelled, self.session().run, self.amplified(amount=99))
+
+    def lie(self, way, checked=True, **params):
+        g = tz.Graph.loads(json.dumps({"terrazzo": 1, "nodes": {"liar": {"type": "test_liar", "way": way, **params}}}))
+        return self.session(checked=checked).run(g)["liar"].numpy()[1, 1]
+
+    def test_nodes_that_lie_are_caught_by_name_in_checked_runs(self):
+        pathlib.Path("secret.txt").write_text("0.25")
+        sys.modules.pop("colorsys", None)
+        for way in ("honest", "import", "write"):
+            self.assertEqual(self.lie(way), 0.5)
+        for way, what in {
+            "file": f"reads {self.folder}/secret.txt, which no parameter of type Path names",
+            "random": 'gives another "image" when it runs again',
+        }.items():
+            with self.assertRaises(tz.RunError) as raised:
+                self.lie(way)
+            self.assertIn(f'node "liar" (test_liar): checked: test_liar {what}', str(raised.exception))
+            self.lie(way, checked=False)
+
+    def test_files_in_a_folder_that_a_parameter_names_count(self):
+        secret = self.folder / "data/deep/secret.txt"
+        secret.parent.mkdir(parents=True)
+        for number in (0.25, 0.75):
+            secret.write_text(str(number))
+            for checked in (True, False):
+                self.assertEqual(self.lie("folder", checked, named=str(self.folder / "data")), number)
+
+    def test_checked_runs_in_several_threads_watch_their_own_nodes(self):
+        failures = []
+
+        def run():
+            try:
+                for _ in range(5):
+                    self.lie("honest")
+            except BaseException as e:
+                failures.append(e)
+
+        pathlib.Path("secret.txt").write_text("0.25")
+        threads = [threading.Thread(target=run) for _ in range(4)]
+        for t in threads:
+            t.start()
+        for _ in range(5):
+            self.assertRaises(tz.RunError, self.lie, "file")
+        for t in threads:
+            t.join()
+        self.assertEqual(failures, [])
 
     def test_keys_change_with_the_source(self):
         text = "\n".join(

@@ -218,6 +218,16 @@ class RunTest(Case):
         self.assertRaises(tz.Error, s.run, self.small())
         self.assertRaises(tz.Error, tz.Session, cache="/dev/null/cache")
 
+    def test_the_budget_of_the_process_bounds_what_is_decoded(self):
+        self.session().run(self.small())
+        read = tz.Graph.loads('{"terrazzo": 1, "nodes": {"m": {"type": "load_map", "path": "out/height.png"}}}')
+        self.addCleanup(tz.set_memory_budget, 0)
+        tz.set_memory_budget(1024)
+        with self.assertRaisesRegex(tz.Error, "at most 2730 are read"):
+            self.session().run(read)
+        tz.set_memory_budget(0)
+        self.assertEqual(self.session().run(read)["m"].numpy().shape, (48, 64))
+
     def test_four_threads_run_at_once(self):
         s, failures = self.session(), []
 
