@@ -24,6 +24,12 @@ FingerprintPtr sample_fingerprint() {
   return std::make_shared<Fingerprint>(Fingerprint{{3, 2}, {{"height", 0, rising}, {"normal", 1, rising}}});
 }
 
+ElementsPtr sample_elements(Size size) {
+  Elements e{size, {}, 3, 0.75};
+  for (int64_t i = 0; i < size.area(); i++) e.at.push_back(uint16_t(i % 3));
+  return std::make_shared<const Elements>(std::move(e));
+}
+
 AppearancePtr sample_appearance() {
   std::vector<AppearanceLevel> levels(2);
   for (size_t i = 0; i < levels.size(); i++) {
@@ -40,7 +46,7 @@ AppearancePtr sample_appearance() {
   }
   const Lattice tiles{2, {4, 0.5}, {0, 3}, 0.5}, courses{1, {0, 2}, {}, 0.25};
   const Repeats repeats({{{0, 0, 4, 6}, tiles, tiles, {}}, {{4, 0, 4, 6}, courses, courses, {0.5, 1.25}}});
-  return Appearance::make(std::move(levels), 2, true, repeats, sample_fingerprint());
+  return Appearance::make(std::move(levels), 2, true, repeats, sample_fingerprint(), sample_elements({16, 12}));
 }
 
 IndexPtr sample_index() {
@@ -142,7 +148,8 @@ std::vector<Value> sample_values() {
   std::vector<Report::Figure> figures = {{"distance", 0.25, "lower is better"}, {"kind", std::string("brick"), ""}};
   return {color,
           Material::make("wall", {{"base_color", color}, {"height", height}}),
-          Features::make({7, 5}, {{color, {1, 0.5, 0}, "base_color"}, {height, {2}}}, true, {}, height),
+          Features::make({7, 5}, {{color, {1, 0.5, 0}, "base_color"}, {height, {2}}}, true, {}, height,
+                         sample_elements({7, 5})),
           sample_appearance(),
           sample_index(),
           sample_uv_map(),

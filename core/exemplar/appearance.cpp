@@ -6,11 +6,14 @@
 namespace terrazzo {
 
 AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Repeats& repeats,
-                               FingerprintPtr fingerprint) {
+                               FingerprintPtr fingerprint, ElementsPtr elements) {
   Hasher h;
   h.add("appearance").add(channels).add(wraps).add(int64_t(levels.size()));
   repeats.add_to(h);
   if (fingerprint) fingerprint->add_to(h);
+  if (elements && elements->size != levels.front().size)
+    throw std::logic_error("elements need the finest level's size");
+  if (elements) elements->add_to(h.add("elements"));
   for (const AppearanceLevel& l : levels) {
     if (l.vectors.size() != size_t(l.size.area())) throw std::logic_error("one appearance vector per pixel");
     if (!l.usable.empty() && l.usable.size() != l.vectors.size())
@@ -29,6 +32,7 @@ AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels
   a->wraps_ = wraps;
   a->repeats_ = repeats;
   a->fingerprint_ = std::move(fingerprint);
+  a->elements_ = std::move(elements);
   a->digest_ = h.digest();
   return a;
 }

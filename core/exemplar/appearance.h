@@ -7,6 +7,7 @@
 
 #include "core/base/geometry.h"
 #include "core/base/hash.h"
+#include "core/exemplar/elements.h"
 #include "core/exemplar/fingerprint.h"
 #include "core/exemplar/repeats.h"
 
@@ -44,7 +45,7 @@ class Appearance {
  public:
   /// `fingerprint`: of the exemplar's maps; null if it is not known.
   static AppearancePtr make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Repeats& repeats = {},
-                            FingerprintPtr fingerprint = nullptr);
+                            FingerprintPtr fingerprint = nullptr, ElementsPtr elements = nullptr);
 
   const std::vector<AppearanceLevel>& levels() const { return levels_; }
   Size size() const { return levels_.front().size; }
@@ -53,6 +54,7 @@ class Appearance {
   const Repeats& repeats() const { return repeats_; }                 ///< how the exemplar repeats, if it does
   const Lattice& lattice() const { return repeats_.lattice; }         ///< that of all of it or of most
   const FingerprintPtr& fingerprint() const { return fingerprint_; }  ///< null: not known
+  const ElementsPtr& elements() const { return elements_; }           ///< null: not known
   const Digest& digest() const { return digest_; }
 
  private:
@@ -62,6 +64,7 @@ class Appearance {
   bool wraps_ = false;
   Repeats repeats_;
   FingerprintPtr fingerprint_;
+  ElementsPtr elements_;
   Digest digest_;
 };
 

@@ -5,12 +5,14 @@
 namespace terrazzo {
 
 FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wraps, const Repeats& repeats,
-                           ImagePtr mask) {
+                           ImagePtr mask, ElementsPtr elements) {
   Hasher h;
   h.add("features").add(size.width).add(size.height).add(wraps).add(int64_t(images.size()));
   repeats.add_to(h);
   if (mask && mask->size() != size) throw std::logic_error("the mask needs the features' size");
   if (mask) h.add(mask->digest());
+  if (elements && elements->size != size) throw std::logic_error("elements need the features' size");
+  if (elements) elements->add_to(h.add("elements"));
   bool any = false;
   for (const FeatureImage& f : images) {
     if (f.image->size() != size || int(f.weights.size()) != f.image->channels())
@@ -28,6 +30,7 @@ FeaturesPtr Features::make(Size size, std::vector<FeatureImage> images, bool wra
   features->size_ = size;
   features->wraps_ = wraps;
   features->repeats_ = repeats;
+  features->elements_ = std::move(elements);
   features->images_ = std::move(images);
   features->mask_ = std::move(mask);
   features->digest_ = h.digest();

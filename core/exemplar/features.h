@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/exemplar/elements.h"
 #include "core/exemplar/repeats.h"
 #include "core/image/image.h"
 
@@ -26,13 +27,18 @@ class Features {
   /// All images must have `size`. Throws Error if every weight is 0. `wraps`: the exemplar tiles in x and y. `mask`:
   /// where its first channel exceeds 0.5 the exemplar may be sampled; null: everywhere.
   static FeaturesPtr make(Size size, std::vector<FeatureImage> images, bool wraps, const Repeats& repeats = {},
-                          ImagePtr mask = nullptr);
+                          ImagePtr mask = nullptr, ElementsPtr elements = nullptr);
   /// The same features of an exemplar that is known to repeat.
-  FeaturesPtr with(const Repeats& repeats) const { return make(size_, images_, wraps_, repeats, mask_); }
+  FeaturesPtr with(const Repeats& repeats) const { return make(size_, images_, wraps_, repeats, mask_, elements_); }
+  /// The same features of an exemplar whose elements are known.
+  FeaturesPtr with(ElementsPtr elements) const {
+    return make(size_, images_, wraps_, repeats_, mask_, std::move(elements));
+  }
 
   Size size() const { return size_; }
   bool wraps() const { return wraps_; }
-  const Repeats& repeats() const { return repeats_; }  ///< of rank 0 unless they have been looked for and found
+  const Repeats& repeats() const { return repeats_; }        ///< of rank 0 unless they have been looked for and found
+  const ElementsPtr& elements() const { return elements_; }  ///< null unless they have been looked for and found
   const std::vector<FeatureImage>& images() const { return images_; }
   const ImagePtr& mask() const { return mask_; }  ///< null: all of the exemplar may be sampled
   /// Channels of non-zero weight.
@@ -44,6 +50,7 @@ class Features {
   Size size_;
   bool wraps_ = false;
   Repeats repeats_;
+  ElementsPtr elements_;
   std::vector<FeatureImage> images_;
   ImagePtr mask_;
   Digest digest_;

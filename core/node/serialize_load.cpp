@@ -143,11 +143,27 @@ class ValueReader {
     return r;
   }
 
+  /// `of`: the size that they must have; 0x0 if that is not known yet.
+  ElementsPtr elements(Size of) {
+    if (in_.get_below<uint8_t>(2) == 0) return nullptr;
+    auto out = std::make_shared<Elements>();
+    out->size = size();
+    require(of.area() == 0 || out->size == of, "elements have another size than the exemplar");
+    out->count = in_.get<int32_t>();
+    require(out->count > 0 && out->count <= most_elements, "a number of elements is out of range");
+    out->certainty = in_.get<double>();
+    require(out->certainty >= 0 && out->certainty <= 1, "a certainty is out of range");
+    out->at = array<uint16_t>(uint64_t(out->size.area()));
+    for (const uint16_t e : out->at) require(e < out->count, "a pixel belongs to no element");
+    return out;
+  }
+
   FeaturesPtr features() {
     const Size s = size();
     const bool wraps = in_.get_below<uint8_t>(2) != 0;
     const Repeats repeated = repeats();
     check_repeats(repeated, s);
+    ElementsPtr parts = elements(s);
     std::vector<FeatureImage> images;
     const auto count = in_.get<uint32_t>();
     for (uint32_t i = 0; i < count; i++) {
@@ -157,7 +173,7 @@ class ValueReader {
       images.push_back(std::move(f));
     }
     const ImagePtr mask = in_.get_below<uint8_t>(2) != 0 ? image() : nullptr;
-    return checked([&] { return Features::make(s, std::move(images), wraps, repeated, mask); });
+    return checked([&] { return Features::make(s, std::move(images), wraps, repeated, mask, std::move(parts)); });
   }
 
   /// `count` items. Memory grows with what is really in the file, whatever it says.
@@ -224,6 +240,7 @@ class ValueReader {
     bool wraps = false;
     Repeats repeats;
     FingerprintPtr maps;
+    ElementsPtr elements;
     uint32_t levels = 0;
   };
 
@@ -234,6 +251,7 @@ class ValueReader {
     a.wraps = in_.get_below<uint8_t>(2) != 0;
     a.repeats = repeats();
     a.maps = fingerprint();
+    a.elements = elements({});
     a.levels = in_.get<uint32_t>();
     require(a.levels > 0, "an appearance has no levels");
     return a;
@@ -245,8 +263,11 @@ class ValueReader {
     for (uint32_t i = 0; i < start.levels; i++) levels.push_back(level());
     check_levels(levels, start.channels);
     check_repeats(start.repeats, levels.front().size);
+    require(!start.elements || start.elements->size == levels.front().size,
+            "elements have another size than the exemplar");
     return checked([&] {
-      return Appearance::make(std::move(levels), start.channels, start.wraps, start.repeats, std::move(start.maps));
+      return Appearance::make(std::move(levels), start.channels, start.wraps, start.repeats, std::move(start.maps),
+                              std::move(start.elements));
     });
   }
 

@@ -75,6 +75,7 @@ class ValueWriter {
     put(features->size());
     out_.put(uint8_t(features->wraps()));
     put(features->repeats());
+    put(features->elements());
     out_.put(uint32_t(features->images().size()));
     for (const FeatureImage& f : features->images()) {
       (*this)(f.image);
@@ -90,6 +91,7 @@ class ValueWriter {
     out_.put(uint8_t(appearance->wraps()));
     put(appearance->repeats());
     put(appearance->fingerprint());
+    put(appearance->elements());
     out_.put(uint32_t(appearance->levels().size()));
     for (const AppearanceLevel& l : appearance->levels()) {
       put(l.size);
@@ -172,6 +174,15 @@ class ValueWriter {
       out_.put(uint8_t(c.channel));
       put_array(c.means);
     }
+  }
+
+  void put(const ElementsPtr& elements) {
+    out_.put(uint8_t(elements != nullptr));
+    if (!elements) return;
+    put(elements->size);
+    out_.put(int32_t(elements->count));
+    out_.put(elements->certainty);
+    put_array(elements->at);
   }
 
   void put(Size size) {

@@ -140,9 +140,15 @@ StepContext LevelWork::context(const CorrectionLevel& level, Field& field) {
 }
 
 CorrectionLevel LevelWork::correction_level(const PlaneWindow& window, const FixedPixels& fixed) const {
-  return {exemplar_,    candidates_,   shared_.index.levels()[size_t(facts_.level)].per_pixel,
-          facts_.level, window,        phase_,
-          fixed,        control_.get()};
+  return {exemplar_,
+          candidates_,
+          shared_.index.levels()[size_t(facts_.level)].per_pixel,
+          facts_.level,
+          window,
+          phase_,
+          fixed,
+          control_.get(),
+          facts_.lays_elements() ? shared_.index.appearance()->elements()->at.data() : nullptr};
 }
 
 }  // namespace terrazzo

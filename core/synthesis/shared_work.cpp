@@ -1,5 +1,6 @@
 #include "core/base/tuning.h"
 #include "core/synthesis/steps.h"
+#include "core/synthesis/steps/element_layout.h"
 
 namespace terrazzo {
 
@@ -7,10 +8,16 @@ namespace {
 
 struct Tuning {
   double shortest_brick = 64;
+  double surest_lattice = 0.4;
 };
-const Tunable<Tuning> tuning("shared_work", {{&Tuning::shortest_brick, "shortest_brick", "pixels",
-                                              "lower: bricks that are laid well enough as they are cost time as well",
-                                              "not measured: what is shorter looked well enough laid by seams"}});
+const Tunable<Tuning> tuning(
+    "shared_work", {{&Tuning::shortest_brick, "shortest_brick", "pixels",
+                     "lower: bricks that are laid well enough as they are cost time as well",
+                     "not measured: what is shorter looked well enough laid by seams"},
+                    {&Tuning::surest_lattice, "surest_lattice", "certainty",
+                     "of cells that repeat, from which on elements keep to them rather than being laid one by one. "
+                     "Higher: more is laid; lower: fewer walls whose stones vary have whole ones",
+                     "element_layout"}});
 
 }  // namespace
 
@@ -56,7 +63,9 @@ LevelFacts SharedWork::facts(int level) const {
           .kept = fixed(level).any(),
           .steered = !controls.empty(),
           .may_have_bricks = options.whole_bricks && index.appearance()->repeats().parts.empty() &&
-                             (lattice.rank == 1 || lattice.longest_step() >= tuning->shortest_brick)};
+                             (lattice.rank == 1 || lattice.longest_step() >= tuning->shortest_brick),
+          .has_elements = options.whole_bricks && has_elements(*index.appearance()) &&
+                          !(lattice.rank == 2 && lattice.certainty >= tuning->surest_lattice)};
 }
 
 }  // namespace terrazzo

@@ -10,6 +10,7 @@
 #include "core/synthesis/steps/alignment.h"
 #include "core/synthesis/steps/coherence_repair.h"
 #include "core/synthesis/steps/course_layout.h"
+#include "core/synthesis/steps/element_layout.h"
 #include "core/synthesis/steps/graphcut_repair.h"
 #include "core/synthesis/steps/initialize.h"
 #include "core/synthesis/steps/piece_relocation.h"
@@ -120,9 +121,9 @@ bool avoids_repeats(const LevelFacts& f) {
 }
 
 /// Seams between courses or tiles show more than others, and so do those along an outline that was drawn. Measured on
-/// other exemplars moving seams brings nothing.
+/// other exemplars moving seams brings nothing. Between elements that are laid as wholes there is nothing to move.
 bool moves_seams(const LevelFacts& f) {
-  return f.level <= seam_level && (f.regular || f.kept) && !is_draft(f);
+  return f.level <= seam_level && (f.regular || f.kept) && !is_draft(f) && !f.lays_elements();
 }
 
 /// The first time that seams move. Measured on exemplars without a lattice this brings nothing either, and controls
@@ -139,9 +140,14 @@ bool aligns(const LevelFacts& f) {
   return f.regular;
 }
 
+bool lays_elements(const LevelFacts& f) {
+  return f.lays_elements();
+}
+
 /// Bricks are laid whole where only seams still move, before they look for the pixel.
 bool lays_courses(const LevelFacts& f) {
-  return f.may_have_bricks && f.level < seam_level && moves_seams(f) && f.regular && !f.steered && !f.kept;
+  return f.may_have_bricks && !f.lays_elements() && f.level < seam_level && moves_seams(f) && f.regular && !f.steered &&
+         !f.kept;
 }
 
 bool repairs_seams(const LevelFacts& f) {
@@ -221,6 +227,10 @@ void lay_whole_bricks(StepContext& c) {
       .reach = coursing.is_clear() ? std::min(reach, clear) : reach, .stay = tuning->stay_around_bricks, .block = 2};
 }
 
+void lay_whole_elements(StepContext& c) {
+  lay_elements(c.field, 2, c.level, *c.shared.index.appearance(), c.shared.task);
+}
+
 /// At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
 /// brick away. Courses do not tell how long bricks are.
 SeamMoves seams_to_joints(const StepContext& c) {
@@ -288,6 +298,8 @@ const Step all_steps[] = {
     {"alignment", Phase::upsampling, "whole pieces move to where they fit their neighbours", aligns, align},
     {"course_layout", Phase::upsampling, "courses are rebuilt from whole bricks and boards", lays_courses,
      lay_whole_bricks},
+    {"element_layout", Phase::upsampling, "stones, bricks and tiles are laid as wholes", lays_elements,
+     lay_whole_elements},
     {"seams", Phase::upsampling, "seams between pieces move to joints", moves_seams, move_to_joints},
     {"graphcut_repair", Phase::before_pass, "the worst seams are covered with patches along minimum cuts",
      repairs_seams, repair, with_candidates},
@@ -304,6 +316,11 @@ const Step all_steps[] = {
 
 bool LevelFacts::places_landmarks() const {
   return levels - 1 - level < tuning->landmark_levels;
+}
+
+/// Like courses, where only seams still move. Kept pixels cut through elements, and controls say what goes where.
+bool LevelFacts::lays_elements() const {
+  return has_elements && level < seam_level && quality != Quality::draft && !steered && !kept;
 }
 
 Effort effort_of(const LevelFacts& f) {

@@ -27,7 +27,7 @@ struct SynthesisOptions {
   /// Weight of the usage term; 0: parts of the exemplar may be over-used.
   double evenness = 0.7;
   /// Bricks and boards of an exemplar built of courses are laid whole (lay_courses()), but in drafts, under controls
-  /// and between kept pixels.
+  /// and between kept pixels; so are elements that the analysis knows (lay_elements()).
   bool whole_bricks = true;
   /// Per level, coarsest first, in that level's exemplar pixels; missing levels have none.
   std::vector<double> jitter{};

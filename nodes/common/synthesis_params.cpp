@@ -126,8 +126,9 @@ Param whole_bricks_param() {
           .type = ParamType::boolean,
           .fallback = true,
           .help =
-              "For walls and board floors: builds every course from whole bricks or boards, cut at joints only. Not in "
-              "drafts. false gives fewer new combinations and cuts some bricks."};
+              "For walls and floors: lays whole bricks and boards, cut at joints only, and whole stones, slates and "
+              "tiles if the analysis knows them (\"elements\"). Not in drafts. false gives fewer new combinations and "
+              "cuts some of them."};
 }
 
 std::vector<Param> with_synthesis_params(std::vector<Param> own) {

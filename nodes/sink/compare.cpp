@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/metrics/hybrids.h"
 #include "core/metrics/layout.h"
 #include "core/metrics/quality.h"
 #include "core/metrics/wrap_seam.h"
@@ -53,6 +56,14 @@ void add_layout_figures(const LayoutFigures& f, std::vector<Report::Figure>& out
                  "seam_share times seam_difference: what the seams cost in all; lower is better"});
 }
 
+void add_element_figures(const HybridElements& h, std::vector<Report::Figure>& out) {
+  out.push_back({"hybrids", rounded(h.by_area),
+                 fmt::format("share of the area in elements that are put together from several of the exemplar's, of "
+                             "{}; lower is better, 0 = all whole",
+                             counted(h.elements, "element"))});
+  out.push_back({"hybrids_by_number", rounded(h.by_number), "share of the elements that are; lower is better"});
+}
+
 /// The directions in which the output should wrap around.
 UvWraps expected_wraps(const std::string& tileable, const UvMap* uv) {
   if (tileable == "auto") return uv ? uv->wraps() : UvWraps{};
@@ -90,12 +101,22 @@ void check_layout(const Forecast& uv, std::optional<Size> exemplar, std::optiona
                                   describe(*uv.size), describe(*uv.exemplar), describe(*exemplar), describe(*output)));
 }
 
+[[noreturn]] void throw_without_uv() {
+  throw Error("labels", "labels of elements need the uv map too; connect \"uv\"");
+}
+
 OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
   const Forecast &exemplar = inputs.at("exemplar").front(), &output = inputs.at("output").front();
   for (const auto& [side, material] : {std::pair("exemplar", &exemplar), std::pair("output", &output)})
     preflight_maps("maps", std::get<Texts>(params.at("maps")), *material, fmt::format("the {}", side));
   if (const Forecast* uv = forecast_at(inputs, "uv")) check_layout(*uv, material_size(exemplar), material_size(output));
+  if (wires_at(inputs, "labels") > 0 && wires_at(inputs, "uv") == 0) throw_without_uv();
   return {};
+}
+
+const UvMapPtr& require_uv(const UvMapPtr& uv) {
+  if (!uv) throw_without_uv();
+  return uv;
 }
 
 void compute(NodeContext& node) {
@@ -125,6 +146,10 @@ void compute(NodeContext& node) {
   figures.push_back(
       {"repeat", rounded(q.repeat), "how much stronger the output repeats itself than the exemplar; lower is better"});
   if (layout) add_layout_figures(*layout, figures);
+  if (const ImagePtr labels = node.optional_input<Image>("labels")) {
+    const Elements elements = labelled_elements(labels, require_uv(uv)->exemplar(), node.task());
+    if (elements.count > 1) add_element_figures(hybrid_elements(*uv, elements, node.task()), figures);
+  }
   add_wrap_figures(*output, maps, expected_wraps(node.text("tileable"), uv.get()), figures);
 
   const ImagePtr sheet = comparison_sheet(*exemplar, *output, maps, int(node.integer("sheet_size")));
@@ -147,7 +172,7 @@ size_t memory_hint(const NodeContext& node) {
 
 }  // namespace
 
-std::vector<ComparedFigure> compared_figures(const Params& params, bool has_uv) {
+std::vector<ComparedFigure> compared_figures(const Params& params, bool has_uv, bool has_labels) {
   using Better = ComparedFigure::Better;
   std::vector<ComparedFigure> out;
   for (const char* name : {"swd", "cooccurrence", "coherence", "completeness", "broken", "acf", "verbatim", "repeat"})
@@ -155,6 +180,8 @@ std::vector<ComparedFigure> compared_figures(const Params& params, bool has_uv) 
   if (has_uv)
     for (const char* name : {"largest_copy", "usage_entropy", "seam_share", "seam_difference", "seam_energy"})
       out.push_back({name, std::string_view(name) == "usage_entropy" ? Better::higher : Better::lower});
+  if (has_labels)
+    for (const char* name : {"hybrids", "hybrids_by_number"}) out.push_back({name});
   const std::string& tileable = std::get<std::string>(params.at("tileable"));
   for (const char* axis : {"x", "y"})
     if (tileable == axis || tileable == "xy" || (tileable == "auto" && has_uv))
@@ -179,6 +206,11 @@ NodeType compare_node() {
       {.name = "uv",
        .type = ValueType::uv_map,
        .help = "the uv map that the output was resolved from: adds figures about its layout",
+       .optional = true},
+      {.name = "labels",
+       .type = ValueType::image,
+       .help = "the exemplar's elements, one value for each, as \"elements\" gives them: adds the figures hybrids and "
+               "hybrids_by_number; needs \"uv\"",
        .optional = true},
   };
   t.outputs = {

@@ -16,6 +16,6 @@ struct ComparedFigure {
 
 /// All figures that a compare node with these parameters may give, in their order. What a uv map itself decides is
 /// among them.
-std::vector<ComparedFigure> compared_figures(const Params& params, bool has_uv);
+std::vector<ComparedFigure> compared_figures(const Params& params, bool has_uv, bool has_labels);
 
 }  // namespace terrazzo

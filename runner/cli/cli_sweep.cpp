@@ -252,7 +252,8 @@ void Sweep::check_best(const Nodes& nodes, const std::vector<GraphNode>& added) 
   for (const std::string& comparison : comparisons_) {
     const auto own = nodes.find(comparison);
     const GraphNode& node = own != nodes.end() ? *own->second : *std::ranges::find(added, comparison, &GraphNode::name);
-    for (const ComparedFigure& f : compared_figures(node.params, node.inputs.contains("uv"))) {
+    for (const ComparedFigure& f :
+         compared_figures(node.params, node.inputs.contains("uv"), node.inputs.contains("labels"))) {
       if (f.name == name) better = f.better;
       if (std::ranges::find(known, f.name) == known.end()) known.push_back(f.name);
     }

@@ -207,7 +207,7 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
     task.progress(1 - 1.0 / double(int64_t{4} << (2 * l)));
   }
   return Appearance::make(std::move(levels), planes.channels + guides.channels, features.wraps(), features.repeats(),
-                          std::move(fingerprint));
+                          std::move(fingerprint), features.elements());
 }
 
 PixelChannels pixel_channels(const AppearanceLevel& level, int most) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/analysis/space/padded_level.h"
@@ -21,6 +22,8 @@ struct CorrectionLevel {
   PartPhases phase;    ///< of a regular exemplar: output pixels keep their phase in the lattice's cell
   FixedPixels fixed;   ///< pixels of the plane that are not corrected
   const LevelControl* control = nullptr;  ///< null: there are no controls
+  /// The element of each exemplar pixel, row by row, where pixels stay in the element that they show; else null.
+  const uint16_t* elements = nullptr;
 };
 
 }  // namespace terrazzo

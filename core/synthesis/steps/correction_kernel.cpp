@@ -54,6 +54,7 @@ class PixelCorrector {
       gather_inside(own);
     else
       gather_at_border(x, y);
+    if (level_.elements) own_element_ = element_at(own->x, own->y);
     candidates_ = 0;
     best_cost_ = ~uint64_t{0};
     best_ = *own;
@@ -88,6 +89,10 @@ class PixelCorrector {
     for (int t = 0; t < taps_; t++)
       if (packed(centre[field_offsets_[t]]) != own + continued_[t]) return false;
     return true;
+  }
+
+  uint16_t element_at(int x, int y) const {
+    return level_.elements[size_t(y) * size_t(level_.exemplar.size().width) + size_t(x)];
   }
 
   uint32_t coherence(const ExemplarPixel* continued) const {
@@ -185,6 +190,7 @@ class PixelCorrector {
 
   HWY_INLINE HWY_ATTR void consider(uint32_t id, uint32_t factor) {
     const int x = int(id & 0xffff), y = int(id >> 16);
+    if (level_.elements && element_at(x, y) != own_element_) return;
     uint64_t difference = 0;
     if constexpr (steered) {
       if (!level_.exemplar.is_usable(x, y)) return;
@@ -319,7 +325,8 @@ class PixelCorrector {
   std::array<uint32_t, most_taps> continued_{};  // by how much ids exceed the centre's where the window continues it
 
   // Of the pixel under way:
-  int x_ = 0, y_ = 0;  // in the plane
+  int x_ = 0, y_ = 0;         // in the plane
+  uint16_t own_element_ = 0;  // that the pixel shows
   const uint8_t* target_ = nullptr;
   const uint16_t* nearby_ = nullptr;  // of every cell: the factor for what shows near by
   std::array<const ExemplarPixel*, 9> around_;

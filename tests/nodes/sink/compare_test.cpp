@@ -33,8 +33,9 @@ std::map<std::string, double> figures(const NodeRun& run) {
 void check_foretold(const Params& params, const std::map<std::string, std::vector<Value>>& inputs) {
   using Better = ComparedFigure::Better;
   const NodeRun run = run_node("compare", params, inputs);
-  const std::vector<ComparedFigure> known = compared_figures(
-      {{"tileable", params.contains("tileable") ? params.at("tileable") : ParamValue("auto")}}, inputs.contains("uv"));
+  const std::vector<ComparedFigure> known =
+      compared_figures({{"tileable", params.contains("tileable") ? params.at("tileable") : ParamValue("auto")}},
+                       inputs.contains("uv"), inputs.contains("labels"));
   size_t at = 0;
   for (const Report::Figure& f : run.get<Report>("report")->figures()) {
     while (at < known.size() && known[at].name != f.name) at++;

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/base/hash.h"
+
+namespace terrazzo {
+
+inline constexpr int most_elements = 65535;
+
+/// The elements that an exemplar consists of: stones, bricks, tiles, slates. Regions cover all of it; each holds one
+/// element and, up to their middle, the joints around it. Where the exemplar tiles, regions go on around its borders.
+struct Elements {
+  Size size;                 ///< the exemplar's
+  std::vector<uint16_t> at;  ///< the region of each pixel, row by row: 0 to count - 1
+  int count = 0;
+  double certainty = 0;  ///< 0..1: how far the borders between regions stand out from what lies inside
+
+  bool operator==(const Elements&) const = default;
+  void add_to(Hasher& h) const {
+    h.add(size.width).add(size.height).add(count).add(certainty).bytes(at.data(), at.size() * sizeof(uint16_t));
+  }
+};
+/// How many of them no border cuts. `wraps`: the exemplar tiles.
+int whole_elements(const Elements& elements, bool wraps);
+
+/// Null: none are known.
+using ElementsPtr = std::shared_ptr<const Elements>;
+
+}  // namespace terrazzo

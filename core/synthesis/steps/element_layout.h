@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/base/task.h"
+#include "core/exemplar/appearance.h"
+#include "core/synthesis/state/correction_level.h"
+#include "core/synthesis/state/field.h"
+
+namespace terrazzo {
+
+/// Lays a result anew from whole elements of the exemplar: those that the field shows for the most part stay where they
+/// are, the others give way to ones that fit the room (ElementPacking). Where two neighbours overlap or leave a gap,
+/// both are bent a little along their outlines, so that joints meet. Each pixel of the field stands for a block of
+/// `block` x `block` pixels of the finest level. Throws Cancelled.
+void lay_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
+                  const Task& task);
+
+/// Whether an exemplar has elements that are sure enough, and enough of them whole, to be laid.
+bool has_elements(const Appearance& appearance);
+
+}  // namespace terrazzo

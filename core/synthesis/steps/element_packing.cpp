@@ -1,0 +1,271 @@
+#include "core/synthesis/steps/element_packing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/geometry.h"
+#include "core/base/tuning.h"
+#include "core/numeric/distance_transform.h"
+
+namespace terrazzo {
+
+namespace {
+
+struct Tuning {
+  double least_clear = 0.7;
+  double soft = 0.12;
+  double tolerance = 0.04;
+  double hole = 0.1;
+  double overlap = 2;
+  double least_overlap = 0.6;
+  double least_gain = 0.35;
+  double seen_around = 0.15;
+  double around = 6;
+  double used = 0.08;
+  double step = 0.12;
+  int rounds = 7;
+};
+const Tunable<Tuning> tuning(
+    "element_packing",
+    {
+        {&Tuning::least_clear, "least_clear", "of an element",
+         "that no other covers, or it goes. Higher: stones stay whole; lower: fewer are replaced", "element_layout", 0,
+         1},
+        {&Tuning::soft, "soft", "typical sides",
+         "of overlap from which on it costs its full price. Higher: elements may be squeezed more", "element_layout",
+         0.001, 4},
+        {&Tuning::tolerance, "tolerance", "typical sides", "of a gap that is no hole yet", "element_layout", 0, 4},
+        {&Tuning::hole, "hole", "typical sides", "the radius of the smallest hole. Lower: small ones are filled too",
+         "element_layout", 0.001, 4},
+        {&Tuning::overlap, "overlap", "times the gain of as much hole",
+         "what it costs to cover others. Higher: gaps stay; lower: elements are squeezed", "element_layout", 0, 100},
+        {&Tuning::least_overlap, "least_overlap", "times the gain of as much hole", "the same where nothing else fits",
+         "element_layout", 0, 100},
+        {&Tuning::least_gain, "least_gain", "of an element's area",
+         "what an element must fill, less what it covers. Higher: gaps stay; lower: elements are squeezed",
+         "element_layout", 0, 1},
+        {&Tuning::seen_around, "seen_around", "of an element's area",
+         "the price of one of the same right beside it. Higher: less repeats; lower: what is there fits better",
+         "element_layout", 0, 100},
+        {&Tuning::around, "around", "typical sides", "as far as that counts", "element_layout", 0.1, 100},
+        {&Tuning::used, "used", "of an element's area",
+         "the price of being used twice as often as others. Higher: all elements come about as often", "element_layout",
+         0, 100},
+        {&Tuning::step, "step", "typical sides", "between places that are tried. Lower: better fits; costs time",
+         "element_layout", 0.01, 4},
+        {&Tuning::rounds, "rounds", "rounds", "of taking away and filling. Costs time", "element_layout", 1, 100},
+    });
+
+}  // namespace
+
+ElementPacking::ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y)
+    : shapes_(shapes), size_(size), closed_x_(closed_x), closed_y_(closed_y) {}
+
+int64_t ElementPacking::index(int column, int row) const {
+  if (column < 0 || column >= size_.width) {
+    if (!closed_x_) return -1;
+    column = wrap(column, size_.width);
+  }
+  if (row < 0 || row >= size_.height) {
+    if (!closed_y_) return -1;
+    row = wrap(row, size_.height);
+  }
+  return int64_t{row} * size_.width + column;
+}
+
+/// Calls visit(index, depth) for the blocks of an element's box that the result has.
+template <typename Visit>
+void ElementPacking::for_blocks(const PlacedElement& p, Visit visit) const {
+  const ElementShape& shape = shapes_[p.element];
+  const int left = column_of(p) + shape.box.x, top = row_of(p) + shape.box.y;
+  const int first_y = closed_y_ ? 0 : std::max(0, -top);
+  const int end_y = closed_y_ ? shape.box.height : std::min(shape.box.height, size_.height - top);
+  const int first_x = closed_x_ ? 0 : std::max(0, -left);
+  const int end_x = closed_x_ ? shape.box.width : std::min(shape.box.width, size_.width - left);
+  for (int y = first_y; y < end_y; y++) {
+    const float* depths = &shape.depths[size_t(y) * size_t(shape.box.width)];
+    const int64_t row = int64_t{closed_y_ ? wrap(top + y, size_.height) : top + y} * size_.width;
+    for (int x = first_x; x < end_x; x++)
+      visit(size_t(row + (closed_x_ ? wrap(left + x, size_.width) : left + x)), depths[x]);
+  }
+}
+
+void ElementPacking::paint(size_t placed) {
+  for_blocks(placed_[placed], [&](size_t i, float depth) {
+    Place& p = places_[i];
+    if (depth > p.depth) {
+      p.neighbour = p.depth;
+      p.depth = depth;
+      p.placed = int(placed);
+    } else {
+      p.neighbour = std::max(p.neighbour, depth);
+    }
+  });
+}
+
+void ElementPacking::paint_all() {
+  places_.assign(size_t(size_.area()), {-1, ElementShape::unknown_depth, ElementShape::unknown_depth});
+  of_element_.assign(shapes_.all.size(), {});
+  for (size_t i = 0; i < placed_.size(); i++) {
+    paint(i);
+    of_element_[size_t(placed_[i].element)].push_back(i);
+  }
+}
+
+void ElementPacking::measure_clear() {
+  for (size_t i = 0; i < placed_.size(); i++) {
+    int64_t clear = 0, all = 0;
+    for_blocks(placed_[i], [&](size_t at, float depth) {
+      if (depth <= 0) return;
+      all++;
+      clear += places_[at].placed == int(i) && places_[at].neighbour <= 0;
+    });
+    placed_[i].clear = all > 0 ? double(clear) / double(all) : 0;
+  }
+}
+
+/// The most covered first, and none of its neighbours along with it: they are seen more once it is gone.
+void ElementPacking::take_away_covered(const Task& task) {
+  for (int round = 0; round < tuning->rounds; round++) {
+    task.check();
+    paint_all();
+    measure_clear();
+    std::vector<size_t> covered;
+    for (size_t i = 0; i < placed_.size(); i++)
+      if (placed_[i].clear < tuning->least_clear) covered.push_back(i);
+    if (covered.empty()) return;
+    std::ranges::stable_sort(covered, {}, [&](size_t i) { return placed_[i].clear; });
+    std::vector<uint8_t> stays(placed_.size(), 0), goes(placed_.size(), 0);
+    for (const size_t i : covered) {
+      if (stays[i]) continue;
+      goes[i] = 1;
+      for_blocks(placed_[i], [&](size_t at, float depth) {
+        if (depth > 0 && places_[at].placed >= 0 && places_[at].placed != int(i)) stays[size_t(places_[at].placed)] = 1;
+      });
+    }
+    std::vector<PlacedElement> left;
+    for (size_t i = 0; i < placed_.size(); i++)
+      if (!goes[i]) left.push_back(placed_[i]);
+    placed_ = std::move(left);
+  }
+  paint_all();
+}
+
+/// The middles of holes, the largest first.
+std::vector<ElementPacking::Hole> ElementPacking::holes() const {
+  std::vector<uint8_t> filled(places_.size());
+  const auto tolerance = float(tuning->tolerance * shapes_.typical_side);
+  for (size_t i = 0; i < filled.size(); i++) filled[i] = places_[i].depth > -tolerance;
+  if (std::ranges::find(filled, 1) == filled.end()) return {{size_.width / 2, size_.height / 2}};
+  const std::vector<int64_t> distance = squared_distances(filled, size_, closed_x_ && closed_y_);
+  const double least = std::max(1.0, tuning->hole * shapes_.typical_side);
+  std::vector<std::pair<int64_t, size_t>> found;
+  for (size_t i = 0; i < distance.size(); i++)
+    if (double(distance[i]) > least * least) found.emplace_back(-distance[i], i);
+  std::ranges::sort(found);
+  std::vector<Hole> out;
+  for (const auto& [d, i] : found) out.push_back({int(i % size_t(size_.width)), int(i / size_t(size_.width))});
+  return out;
+}
+
+/// How often an element is seen around a place, the nearer the more.
+double ElementPacking::seen_around(int element, int column, int row) const {
+  const double reach = tuning->around * shapes_.typical_side;
+  double sum = 0;
+  for (const size_t i : of_element_[size_t(element)]) {
+    int x = std::abs(column_of(placed_[i]) - column), y = std::abs(row_of(placed_[i]) - row);
+    if (closed_x_) x = std::min(wrap(x, size_.width), size_.width - wrap(x, size_.width));
+    if (closed_y_) y = std::min(wrap(y, size_.height), size_.height - wrap(y, size_.height));
+    sum += std::max(0.0, 1 - std::sqrt(double(x) * x + double(y) * y) / reach);
+  }
+  return sum;
+}
+
+/// The share of an element, its centre at a place, that fills holes, less what it covers of others.
+double ElementPacking::gain(const ElementShape& shape, int column, int row, double overlap) const {
+  const double soft = tuning->soft * shapes_.typical_side;
+  double sum = 0;
+  for (const ElementSample& s : shape.samples) {
+    const int64_t i = index(column + s.x, row + s.y);
+    if (i < 0) continue;
+    const float there = places_[size_t(i)].depth;
+    sum += there < 0 ? 1 : -overlap * std::min(1.0, double(std::min(there, s.depth)) / soft);
+  }
+  return sum / double(shape.samples.size());
+}
+
+bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
+  const double typical = shapes_.typical_side;
+  const int step = std::max(1, int(tuning->step * typical));
+  const double usual = double(placed_.size()) / std::max(1, shapes_.whole);
+  struct Fit {
+    int element = -1, column = 0, row = 0;
+    double gain = 0, value = -1e9;
+  } best;
+  for (int e = 0; e < int(shapes_.all.size()); e++) {
+    const ElementShape& shape = shapes_[e];
+    if (shape.cut || shape.samples.empty()) continue;
+    const double often = std::max(0.0, double(of_element_[size_t(e)].size()) / std::max(1.0, usual) - 1);
+    const double price = tuning->seen_around * seen_around(e, hole.column, hole.row) + tuning->used * often;
+    const double weight = double(shape.area);
+    if ((1 - price) * weight <= best.value) continue;
+    const int across = std::max(0, shape.box.width / 2 - int(tuning->step * 4 * typical));
+    const int down = std::max(0, shape.box.height / 2 - int(tuning->step * 4 * typical));
+    for (int y = -down; y <= down; y += step)
+      for (int x = -across; x <= across; x += step) {
+        const double g = gain(shape, hole.column + x, hole.row + y, terms.overlap), value = (g - price) * weight;
+        if (value > best.value) best = {e, hole.column + x, hole.row + y, g, value};
+      }
+  }
+  if (best.element < 0 || best.gain < terms.least_gain) return false;
+  const ElementShape& shape = shapes_[best.element];
+  for (int reach = step / 2; reach > 0; reach /= 2)
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (const auto& [x, y] : {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}})
+        if (const double g = gain(shape, best.column + x, best.row + y, terms.overlap); g > best.gain + 1e-9) {
+          best = {best.element, best.column + x, best.row + y, g, best.value};
+          moved = true;
+        }
+    }
+  PlacedElement placed{best.element};
+  placed.shift_x = (shape.centre_x - best.column) * shapes_.block;
+  placed.shift_y = (shape.centre_y - best.row) * shapes_.block;
+  of_element_[size_t(best.element)].push_back(placed_.size());
+  placed_.push_back(placed);
+  paint(placed_.size() - 1);
+  return true;
+}
+
+int ElementPacking::fill_holes(const Terms& terms, const Task& task) {
+  const int off = std::max(1, int(tuning->hole * 2 * shapes_.typical_side));
+  const auto tolerance = float(tuning->tolerance * shapes_.typical_side);
+  std::vector<uint8_t> tried(places_.size(), 0);
+  int filled = 0;
+  for (const Hole& h : holes()) {
+    const auto at = size_t(index(h.column, h.row));
+    if (tried[at] || places_[at].depth > -tolerance) continue;
+    task.check();
+    if (fill(h, terms)) filled++;
+    for (int y = -off; y <= off; y++)
+      for (int x = -off; x <= off; x++)
+        if (const int64_t i = index(h.column + x, h.row + y); i >= 0) tried[size_t(i)] = 1;
+  }
+  return filled;
+}
+
+void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task) {
+  placed_ = std::move(placed);
+  for (int round = 0; round < tuning->rounds; round++) {
+    take_away_covered(task);
+    // What is left is filled with what disturbs least.
+    const double part = std::max(0.0, 1 - round / 3.0);
+    const Terms terms{part * tuning->least_gain,
+                      tuning->least_overlap + part * (tuning->overlap - tuning->least_overlap)};
+    if (fill_holes(terms, task) == 0 && part == 0) break;
+  }
+  take_away_covered(task);
+  fill_holes({-1, tuning->least_overlap}, task);
+}
+
+}  // namespace terrazzo

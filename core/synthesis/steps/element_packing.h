@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/task.h"
+#include "core/synthesis/steps/element_shapes.h"
+
+namespace terrazzo {
+
+/// An element of the exemplar somewhere in the result: position + shift is the exemplar pixel that is shown there, in
+/// pixels of the finest level.
+struct PlacedElement {
+  int element = 0;
+  int shift_x = 0, shift_y = 0;
+  double clear = 1;  ///< the share of it that lies on no other
+};
+
+/// Elements side by side: all of the result belongs to one of them.
+class ElementPacking {
+ public:
+  /// `size`: of the result, in blocks of the shapes. `closed_x`, `closed_y`: it wraps around.
+  ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y);
+
+  /// Takes away what others cover and fills the holes with the elements that fit them best and are seen least around
+  /// there, until there is no hole left that one fits. Whole-element placement, as Hurtut et al., Appearance-guided
+  /// synthesis of element arrangements by example (2009), with depth fields in place of their distances. Throws
+  /// Cancelled.
+  void pack(std::vector<PlacedElement> placed, const Task& task);
+
+  struct Place {
+    int placed = -1;      ///< which one the block belongs to: the one in which it lies deepest
+    float depth = 0;      ///< in it
+    float neighbour = 0;  ///< depth in the next one, mostly negative; ElementShape::unknown_depth if there is none near
+  };
+  const std::vector<PlacedElement>& placed() const { return placed_; }
+  const Place& at(int x, int y) const { return places_[size_t(y) * size_t(size_.width) + size_t(x)]; }
+
+  /// Of an element's centre, in blocks.
+  int column_of(const PlacedElement& p) const { return shapes_[p.element].centre_x - block_shift(p.shift_x); }
+  int row_of(const PlacedElement& p) const { return shapes_[p.element].centre_y - block_shift(p.shift_y); }
+
+ private:
+  int block_shift(int shift) const {
+    return shift >= 0 ? shift / shapes_.block : -((-shift + shapes_.block - 1) / shapes_.block);
+  }
+  template <typename Visit>
+  void for_blocks(const PlacedElement& p, Visit visit) const;
+  int64_t index(int column, int row) const;
+  void paint(size_t placed);
+  void paint_all();
+  void measure_clear();
+  void take_away_covered(const Task& task);
+  /// How well an element must fit.
+  struct Terms {
+    double least_gain, overlap;
+  };
+  int fill_holes(const Terms& terms, const Task& task);
+  struct Hole {
+    int column = 0, row = 0;
+  };
+  std::vector<Hole> holes() const;
+  bool fill(const Hole& hole, const Terms& terms);
+  double seen_around(int element, int column, int row) const;
+  double gain(const ElementShape& shape, int column, int row, double overlap) const;
+
+  const ElementShapes& shapes_;
+  Size size_;
+  bool closed_x_, closed_y_;
+  std::vector<PlacedElement> placed_;
+  std::vector<Place> places_;
+  std::vector<std::vector<size_t>> of_element_;  ///< of each element: where in placed_ it is
+};
+
+}  // namespace terrazzo

@@ -1,0 +1,141 @@
+#include "core/synthesis/steps/element_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "core/base/tuning.h"
+#include "core/numeric/distance_transform.h"
+
+namespace terrazzo {
+
+namespace {
+
+struct Tuning {
+  double margin = 0.4;
+  int samples = 36;
+};
+const Tunable<Tuning> tuning("element_shapes",
+                             {
+                                 {&Tuning::margin, "margin", "typical sides",
+                                  "around an element within which its neighbours matter to it. Higher: wider gaps are "
+                                  "closed; costs time and memory",
+                                  "element_layout", 0.01, 4},
+                                 {&Tuning::samples, "samples", "blocks of an element",
+                                  "that are compared when places for it are tried. Costs time", "element_layout", 1,
+                                  100000},
+                             });
+
+/// The exemplar's regions, one per block.
+struct Grid {
+  Size size;
+  bool wraps;
+  std::vector<uint16_t> at;
+
+  bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < size.width && y < size.height; }
+  /// -1 beyond the border of an exemplar that does not tile.
+  int region(int x, int y) const {
+    if (wraps) {
+      x = wrap(x, size.width);
+      y = wrap(y, size.height);
+    } else if (!holds(x, y)) {
+      return -1;
+    }
+    return at[size_t(y) * size_t(size.width) + size_t(x)];
+  }
+};
+
+/// The smallest step from `from` to `to` around a circle of `length`.
+int nearest_around(int from, int to, int length) {
+  int step = wrap(to - from, length);
+  if (step > length / 2) step -= length;
+  return from + step;
+}
+
+struct Extent {
+  int first_x = -1, first_y = 0;  ///< its first block: others count from there around the borders
+  int left = 0, right = 0, top = 0, bottom = 0;
+  double sum_x = 0, sum_y = 0;
+};
+
+void add_block(const Grid& grid, int x, int y, Extent& e, ElementShape& shape) {
+  if (e.first_x < 0) e = {x, y, x, x, y, y};
+  const int u = grid.wraps ? nearest_around(e.first_x, x, grid.size.width) : x;
+  const int v = grid.wraps ? nearest_around(e.first_y, y, grid.size.height) : y;
+  e.left = std::min(e.left, u);
+  e.right = std::max(e.right, u);
+  e.top = std::min(e.top, v);
+  e.bottom = std::max(e.bottom, v);
+  e.sum_x += u;
+  e.sum_y += v;
+  shape.area++;
+  const bool at_border = x == 0 || y == 0 || x == grid.size.width - 1 || y == grid.size.height - 1;
+  shape.cut |= !grid.wraps && at_border;
+}
+
+void measure(const Grid& grid, int element, int margin, const Extent& e, ElementShape& shape) {
+  shape.centre_x = int(std::floor(e.sum_x / double(shape.area) + 0.5));
+  shape.centre_y = int(std::floor(e.sum_y / double(shape.area) + 0.5));
+  shape.box = {e.left - margin - shape.centre_x, e.top - margin - shape.centre_y, e.right - e.left + 1 + 2 * margin,
+               e.bottom - e.top + 1 + 2 * margin};
+  // One that reaches around the exemplar to itself has no outline of its own.
+  shape.cut |= e.right - e.left + 1 >= grid.size.width || e.bottom - e.top + 1 >= grid.size.height;
+  std::vector<uint8_t> inside(size_t(shape.box.area()));
+  for (int y = 0; y < shape.box.height; y++)
+    for (int x = 0; x < shape.box.width; x++)
+      inside[size_t(y) * size_t(shape.box.width) + size_t(x)] =
+          grid.region(x + shape.box.x + shape.centre_x, y + shape.box.y + shape.centre_y) == element;
+  shape.depths = signed_distances(inside, {shape.box.width, shape.box.height}, false, 1e6f);
+  for (float& d : shape.depths) {
+    d = -d;
+    shape.inner_radius = std::max(shape.inner_radius, d);
+  }
+  const int step = std::max(1, int(std::sqrt(double(shape.area) / tuning->samples)));
+  for (int y = step / 2; y < shape.box.height; y += step)
+    for (int x = step / 2; x < shape.box.width; x += step)
+      if (const float d = shape.depths[size_t(y) * size_t(shape.box.width) + size_t(x)]; d > 0)
+        shape.samples.push_back({int16_t(x + shape.box.x), int16_t(y + shape.box.y), d});
+}
+
+}  // namespace
+
+double ElementShape::depth_between(double x, double y) const {
+  const int left = int(std::floor(x)), top = int(std::floor(y));
+  const double fx = x - left, fy = y - top;
+  const double above = (1 - fx) * double(depth(left, top)) + fx * double(depth(left + 1, top));
+  const double below = (1 - fx) * double(depth(left, top + 1)) + fx * double(depth(left + 1, top + 1));
+  return (1 - fy) * above + fy * below;
+}
+
+ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps) {
+  ElementShapes out{.block = block,
+                    .size = {(elements.size.width + block - 1) / block, (elements.size.height + block - 1) / block},
+                    .wraps = wraps,
+                    .all = std::vector<ElementShape>(size_t(elements.count))};
+  Grid grid{out.size, wraps, {}};
+  std::vector<Extent> extents(out.all.size());
+  for (int y = 0; y < out.size.height; y++)
+    for (int x = 0; x < out.size.width; x++) {
+      const size_t pixel = size_t(y) * size_t(block) * size_t(elements.size.width) + size_t(x) * size_t(block);
+      const uint16_t element = elements.at[pixel];
+      grid.at.push_back(element);
+      add_block(grid, x, y, extents[element], out.all[element]);
+      if (!usable.empty() && !usable[pixel]) out.all[element].cut = true;
+    }
+  double squares = 0;
+  for (const ElementShape& s : out.all) squares += double(s.area) * double(s.area);
+  out.typical_side = std::sqrt(squares / double(out.size.area()));
+  const int margin = std::max(2, int(tuning->margin * out.typical_side));
+  tbb::parallel_for(0, elements.count, [&](int e) {
+    // Blocks may miss the smallest regions.
+    if (out.all[size_t(e)].area == 0)
+      out.all[size_t(e)].cut = true;
+    else
+      measure(grid, e, margin, extents[size_t(e)], out.all[size_t(e)]);
+  });
+  out.whole = int(std::ranges::count_if(out.all, [](const ElementShape& s) { return !s.cut; }));
+  return out;
+}
+
+}  // namespace terrazzo

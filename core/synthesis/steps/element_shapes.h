@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/exemplar/elements.h"
+
+namespace terrazzo {
+
+/// What a place of an element offers to look at when only a few are compared.
+struct ElementSample {
+  int16_t x = 0, y = 0;  ///< from the element's centre, in blocks
+  float depth = 0;
+};
+
+/// An element as a shape on a grid of blocks of `block` x `block` pixels of the exemplar.
+struct ElementShape {
+  int centre_x = 0, centre_y = 0;  ///< a block of the exemplar
+  /// The blocks for which depths are known: those of the element and of a margin around it. From its centre.
+  Rect box;
+  /// For each of them the distance to the element's outline, in blocks: positive inside, the middle of the joint is 0.
+  std::vector<float> depths;
+  std::vector<ElementSample> samples;  ///< some of its blocks, evenly
+  int64_t area = 0;                    ///< blocks
+  float inner_radius = 0;              ///< the greatest depth
+  bool cut = false;                    ///< by the border of an exemplar that does not tile, or by a mask
+
+  /// (x, y) from the centre; far outside if it is not in the box.
+  float depth(int x, int y) const {
+    x -= box.x;
+    y -= box.y;
+    return x < 0 || y < 0 || x >= box.width || y >= box.height ? unknown_depth
+                                                               : depths[size_t(y) * size_t(box.width) + size_t(x)];
+  }
+  /// The same between blocks.
+  double depth_between(double x, double y) const;
+  static constexpr float unknown_depth = -1e6f;
+};
+
+struct ElementShapes {
+  int block = 1;
+  Size size;  ///< of the exemplar, in blocks
+  bool wraps = false;
+  std::vector<ElementShape> all;
+  double typical_side = 0;  ///< of the element that a random block lies in, in blocks
+  int whole = 0;            ///< elements that are not cut
+
+  const ElementShape& operator[](int element) const { return all[size_t(element)]; }
+};
+
+/// `usable`: per pixel of the exemplar whether it may be shown; empty: all may.
+ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps);
+
+}  // namespace terrazzo

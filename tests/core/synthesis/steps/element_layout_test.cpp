@@ -1,0 +1,97 @@
+#include "core/synthesis/steps/element_layout.h"
+
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include "core/metrics/hybrids.h"
+#include "core/synthesis/synthesize.h"
+#include "tests/drawn_stones.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+
+const Task task;
+constexpr Size exemplar{240, 240};
+
+/// `known`: the analysis knows the elements.
+IndexPtr index_of(const DrawnStones& stones, bool known, bool wraps = true) {
+  FeaturesPtr features = plain_features(stones.image(), wraps);
+  if (known) features = features->with(std::make_shared<const Elements>(stones.elements()));
+  return make_index(make_appearance(*features, {}, {}, task), 3, task);
+}
+
+UvMapPtr made(const Index& index, SynthesisOptions options) {
+  return synthesize(index, options, task);
+}
+
+double hybrids(const DrawnStones& stones, const UvMap& uv) {
+  return hybrid_elements(uv, stones.elements(), task).by_area;
+}
+
+}  // namespace
+
+TEST_CASE("stones are laid as wholes where the analysis knows them") {
+  const DrawnStones stones(exemplar);
+  const IndexPtr plain = index_of(stones, false), known = index_of(stones, true);
+  for (const uint64_t seed : {1, 2}) {
+    const SynthesisOptions options{.size = {420, 400}, .seed = seed};
+    const UvMapPtr without = made(*plain, options), with = made(*known, options);
+    CHECK(hybrids(stones, *without) > 0.2);
+    CHECK(hybrids(stones, *with) < 0.05);
+  }
+}
+
+TEST_CASE("an exemplar that does not tile offers its whole stones only") {
+  const DrawnStones stones(exemplar, 7);
+  const IndexPtr index = index_of(stones, true, false);
+  const UvMapPtr uv = made(*index, {.size = {400, 400}, .seed = 3});
+  CHECK(hybrids(stones, *uv) < 0.08);
+}
+
+TEST_CASE("a result that wraps has whole stones across its borders") {
+  const DrawnStones stones(exemplar);
+  const UvMapPtr uv = made(*index_of(stones, true), {.size = {360, 360}, .seed = 2, .tile_x = true, .tile_y = true});
+  CHECK(uv->wraps().x);
+  CHECK(hybrids(stones, *uv) < 0.05);
+}
+
+TEST_CASE("drafts, and results that ask for no whole bricks, are made as without elements") {
+  const DrawnStones stones(exemplar);
+  const IndexPtr plain = index_of(stones, false), known = index_of(stones, true);
+  for (const SynthesisOptions& options : {SynthesisOptions{.size = {150, 150}, .quality = Quality::draft},
+                                          SynthesisOptions{.size = {150, 150}, .whole_bricks = false}})
+    CHECK(made(*plain, options)->pixels() == made(*known, options)->pixels());
+}
+
+TEST_CASE("elements that are not sure, or too few, are not laid") {
+  const DrawnStones stones(exemplar);
+  Elements unsure = stones.elements();
+  unsure.certainty = 0.1;
+  const auto knows = [&](const Elements& e, bool wraps) {
+    const FeaturesPtr features = plain_features(stones.image(), wraps)->with(std::make_shared<const Elements>(e));
+    return has_elements(*make_appearance(*features, {}, {}, task));
+  };
+  CHECK(knows(stones.elements(), true));
+  CHECK_FALSE(knows(unsure, true));
+  CHECK_FALSE(knows(DrawnStones(exemplar, 2).elements(), false));
+  CHECK_FALSE(has_elements(*index_of(stones, false)->appearance()));
+}
+
+TEST_CASE("laid stones do not depend on the number of threads, nor on how a surface is cut into parts") {
+  const DrawnStones stones(exemplar);
+  const IndexPtr index = index_of(stones, true);
+  const SynthesisOptions options{.size = {220, 200}, .seed = 5};
+  const auto with = [&](int threads) {
+    tbb::task_arena arena(threads);
+    return arena.execute([&] { return made(*index, options); });
+  };
+  const UvMapPtr one = with(1);
+  CHECK(one->pixels() == with(4)->pixels());
+  const UvMapPtr coarse = coarse_uv(*index, options, task);
+  const Rect part{90, 40, 70, 100};
+  const UvMapPtr refined = refine(*index, *coarse, options, part, task);
+  for (int y = 0; y < part.height; y++)
+    for (int x = 0; x < part.width; x++) REQUIRE(refined->at(x, y) == one->at(part.x + x, part.y + y));
+}
