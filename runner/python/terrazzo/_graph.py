@@ -262,6 +262,8 @@ class Graph:
 
 
 def _checked(graph: Graph, only: Sequence[str]) -> _terrazzo.Checked:
+    if not isinstance(graph, Graph):
+        raise TypeError(f"expected a Graph, as Graph.load gives, found {graph!r}")
     registered()
     return graph._job.checked(list(only))
 

@@ -165,8 +165,10 @@ class Session:
     def __init__(
         self, cache: PathLike | bool | None = None, threads: int = 0, memory: int = 0, checked: bool = False
     ) -> None:
+        if not hasattr(memory, "__index__") or memory < 0:
+            raise TypeError(f"memory: expected a number of bytes, such as 300 * 2**20, found {memory!r}")
         folder = Path() if cache is None or isinstance(cache, bool) else Path(cache)
-        self._session = _terrazzo.Session(folder, cache is not False, threads, memory, checked)
+        self._session = _terrazzo.Session(folder, cache is not False, threads, int(memory), checked)
 
     def __enter__(self) -> Session:
         return self

@@ -212,6 +212,15 @@ class RunTest(Case):
         self.assertRaises(tz.UnknownName, s.sweep, g, sead=[1])
         self.assertRaises(tz.GraphError, s.sweep, g, seed=[1, "two"])
 
+    def test_values_of_other_types_are_told_in_words(self):
+        for memory in ("300M", 1.5, -1):
+            with self.assertRaisesRegex(TypeError, "memory: expected a number of bytes, such as 300"):
+                tz.Session(memory=memory)
+        tz.Session(cache=False, memory=np.int64(300 << 20)).close()
+        for call in (self.session().run, self.session().plan):
+            with self.assertRaisesRegex(TypeError, "expected a Graph, as Graph.load gives, found 'small.json'"):
+                call("small.json")
+
     def test_sessions_can_be_closed(self):
         with self.session() as s:
             pass
