@@ -310,7 +310,8 @@ _PICTURES = (".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".tga", ".tx")
 
 
 def _pattern(path: str) -> str:
-    return path if path.lower().endswith(_PICTURES) else os.path.join(path, "{map}.png")
+    is_pattern = path.lower().endswith(_PICTURES) or "{map}" in os.path.basename(path)
+    return path if is_pattern else os.path.join(path, "{map}.png")
 
 
 _EXPORT = """{

@@ -88,6 +88,9 @@ class RunTest(Case):
         self.assertEqual(image.digest, tz.Image.from_numpy(pixels[:, :, :].copy(), "base_color").digest)
         files = tz.export(image, "maps")
         self.assertEqual([f.name for f in files], ["base_color.png"])
+        for wrong in ("maps/{map}.pngg", "maps/{map}"):
+            with self.assertRaisesRegex(tz.GraphError, "the extension decides the file format"):
+                tz.export(image, wrong)
         strided = tz.Image.from_numpy(np.arange(24.0).reshape(4, 6)[::2, ::3] / 24)
         self.assertTrue(np.allclose(strided.numpy() * 24, [[0, 3], [12, 15]]))
         for wrong in (np.zeros(3), np.zeros((2, 2, 5)), np.full((2, 2), np.nan), np.zeros((0, 4))):
