@@ -105,8 +105,9 @@ class Loader {
     const std::vector<size_t> order = execution_order(drafts, problems_);
     coded("cycle");
     read_what_waits(order, root);
-    coded("parameter");
     const std::set<std::string> wanted = wanted_nodes(drafts, options.only);
+    const bool is_part = report_sources(asked_too(wanted));
+    coded("parameter");
     if (!options.allow_unset) require_set(parameters, out.inputs, wanted);
     coded("unset");
     trace_files(order);
@@ -120,7 +121,7 @@ class Loader {
     out.warnings = warnings_about(levels_, subgraphs_, root, order);
     const bool complete = std::ranges::all_of(drafts, [](const NodeDraft& d) { return d.unset.empty(); });
     for (const size_t i : order)
-      if (complete || options.allow_unset || wanted.contains(drafts[i].node.name)) {
+      if ((!is_part && (complete || options.allow_unset)) || wanted.contains(drafts[i].node.name)) {
         drafts[i].node.is_open = !drafts[i].unset.empty();
         out.graph.nodes.push_back(std::move(drafts[i].node));
       }
@@ -276,15 +277,44 @@ class Loader {
     for (const auto& [port, wires] : node.inputs)
       for (const Wire& w : wires)
         if (incomplete.contains(w.node)) return false;
+    const size_t before = of_sources_.size();
     try {
       forecasts.add(node);
       return true;
     } catch (const Errors& all) {
-      for (const Error& e : all.all()) problems_.push_back(problem_of(node, e.about(), e.what()));
+      for (const Error& e : all.all()) of_sources_.push_back(problem_of(node, e.about(), e.what()));
     } catch (const Error& e) {
-      problems_.push_back(problem_of(node, e.about(), e.what()));
+      of_sources_.push_back(problem_of(node, e.about(), e.what()));
     }
+    set_file(of_sources_, before, node.file);
     return false;
+  }
+
+  /// These nodes, and what their expressions ask for.
+  std::set<std::string> asked_too(const std::set<std::string>& nodes) {
+    const Drafts& drafts = levels_.nodes();
+    std::set<std::string> out = nodes;
+    for (size_t before = 0; before != out.size();) {
+      before = out.size();
+      std::vector<std::string> names(out.begin(), out.end());
+      for (const NodeDraft& d : drafts)
+        if (out.contains(d.node.name)) names.insert(names.end(), d.asked.begin(), d.asked.end());
+      out = needed_nodes(drafts, names);
+    }
+    return out;
+  }
+
+  /// What is wrong with sources that these nodes are or need. Whether others have mistakes, which are left out with
+  /// them.
+  bool report_sources(const std::set<std::string>& nodes) {
+    bool is_part = false;
+    for (Problem& p : of_sources_) {
+      if (nodes.contains(p.node))
+        problems_.push_back(std::move(p));
+      else
+        is_part = true;
+    }
+    return is_part;
   }
 
   /// What only these nodes need; all there is if there are none or one of the names stands for none.
@@ -362,7 +392,8 @@ class Loader {
   fs::path path_, folder_;
   JsonValue document_;
   std::vector<Problem> problems_;
-  size_t coded_ = 0;  ///< how many of them have their code
+  std::vector<Problem> of_sources_;  ///< what looking ahead has found: of some nodes nobody may want to hear it
+  size_t coded_ = 0;                 ///< how many of them have their code
   std::vector<std::string> given_;
   KnownTypes types_;
   Subgraphs subgraphs_;

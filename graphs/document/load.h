@@ -30,7 +30,7 @@ struct LoadOptions {
   /// inspected, but not run.
   bool allow_unset = false;
   /// Unless empty, and if all exist: only these nodes and their sources will run, and only parameters that these need
-  /// must be set. If others are unset, the graph has only these nodes.
+  /// must be set. If others are unset, or their sources cannot be read, the graph has only these nodes.
   std::vector<std::string> only{};
   /// Node types that give values to inputs that the graph declares, by the inputs' names; they must outlive the graph.
   /// Other names are left alone: LoadedGraph::given tells which were used.

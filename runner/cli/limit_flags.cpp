@@ -1,6 +1,9 @@
 #include "runner/cli/limit_flags.h"
 
+#include <charconv>
+
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "core/image/image_limits.h"
 #include "runner/cli/cli_commands.h"
@@ -25,7 +28,13 @@ void add_limit_flags(CLI::App& command, LimitFlags& flags) {
           "Read no image of more pixels; as many as fit into half of the machine's memory if not given, or into "
           "16 times what --memory says")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check([](const std::string& text) {
+        int64_t pixels = 0;
+        const char* const end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data(), end, pixels);
+        if (error == std::errc() && stop == end && pixels > 0) return std::string();
+        return fmt::format("expected a number of pixels of at least 1, such as 100000000, found \"{}\"", text);
+      });
   command
       .add_option("--max-bytes", flags.max_bytes,
                   "Read no image file of more bytes, such as 2G; an eighth of the memory to stay within if not given, "

@@ -44,8 +44,14 @@ def _unknown(what: str, name: str, names: Sequence[str]) -> UnknownName:
 class Parameters(MutableMapping[str, Any]):
     """The parameters that a graph declares, by name. What is deleted is again what the document says."""
 
+    _graph: Graph
+
     def __init__(self, graph: Graph) -> None:
-        self._graph = graph
+        object.__setattr__(self, "_graph", graph)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        # Nodes have their parameters as attributes; here the value would be lost without a word.
+        raise AttributeError(f'parameters of the graph are set by name: params["{name}"] = {value!r}')
 
     def _checked(self, name: str) -> str:
         names = self._graph._outline()["parameters"]
@@ -262,6 +268,8 @@ class Graph:
 
 
 def _checked(graph: Graph, only: Sequence[str]) -> _terrazzo.Checked:
+    if not isinstance(graph, Graph):
+        raise TypeError(f"expected a Graph, as Graph.load gives, found {graph!r}")
     registered()
     return graph._job.checked(list(only))
 

@@ -165,8 +165,10 @@ class Session:
     def __init__(
         self, cache: PathLike | bool | None = None, threads: int = 0, memory: int = 0, checked: bool = False
     ) -> None:
+        if not hasattr(memory, "__index__") or memory < 0:
+            raise TypeError(f"memory: expected a number of bytes, such as 300 * 2**20, found {memory!r}")
         folder = Path() if cache is None or isinstance(cache, bool) else Path(cache)
-        self._session = _terrazzo.Session(folder, cache is not False, threads, memory, checked)
+        self._session = _terrazzo.Session(folder, cache is not False, threads, int(memory), checked)
 
     def __enter__(self) -> Session:
         return self
@@ -308,7 +310,8 @@ _PICTURES = (".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".tga", ".tx")
 
 
 def _pattern(path: str) -> str:
-    return path if path.lower().endswith(_PICTURES) else os.path.join(path, "{map}.png")
+    is_pattern = path.lower().endswith(_PICTURES) or "{map}" in os.path.basename(path)
+    return path if is_pattern else os.path.join(path, "{map}.png")
 
 
 _EXPORT = """{

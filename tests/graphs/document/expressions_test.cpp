@@ -170,6 +170,27 @@ TEST_CASE("an expression cannot ask for what is made from it, nor for what is no
             .find("missing.png") != std::string::npos);
 }
 
+TEST_CASE("sources that nothing of what runs needs may be missing, also where sizes are computed from them") {
+  const std::string text = R"({"terrazzo": 1, "nodes": {
+    "gone":  {"type": "load_map", "path": "missing.png"},
+    "other": {"type": "noise", "size": "=@gone.size"},
+    "a":     {"type": "noise", "size": 64},
+    "b":     {"type": "noise", "size": "=@a.size / 2"}}})";
+  const auto problem = [&](const std::vector<std::string>& only) {
+    try {
+      load_graph_text(text, "t.json", {}, {.only = only});
+      return std::string();
+    } catch (const GraphError& e) {
+      return std::string(e.what());
+    }
+  };
+  const LoadedGraph part = load_graph_text(text, "t.json", {}, {.only = {"b"}});
+  REQUIRE(part.graph.nodes.size() == 1);
+  CHECK(part.graph.nodes.front().name == "b");
+  for (const std::vector<std::string>& only : std::vector<std::vector<std::string>>{{}, {"other"}, {"b", "gone"}})
+    CHECK(problem(only).find("missing.png") != std::string::npos);
+}
+
 TEST_CASE("nodes derive their seeds from the graph's and their names, whatever their order") {
   const auto seed_of = [](const std::string& node, const std::string& nodes, const std::string& seed,
                           const std::vector<std::string>& overrides = {}) {

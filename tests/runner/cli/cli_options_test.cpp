@@ -193,5 +193,12 @@ TEST_CASE("images of more pixels than are allowed are refused before anything ru
       few.err);
   CHECK_FALSE(fs::exists(w.path / "out"));
   CHECK(w.run({"run", "soft.json", "--max-pixels", "768"}).code == 0);
+  for (const std::string wrong : {"10k", "0", "-1", "1.5"}) {
+    const ProgramRun run = w.run({"run", "soft.json", "--max-pixels=" + wrong});
+    CHECK(run.code == 2);
+    CHECK_MESSAGE(run.err.find("--max-pixels: expected a number of pixels of at least 1, such as 100000000, found \"" +
+                               wrong + "\"\n") != std::string::npos,
+                  run.err);
+  }
   CHECK(w.run({"run", "soft.json", "--threads", "1024"}).code == 0);
 }

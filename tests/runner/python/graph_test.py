@@ -43,6 +43,8 @@ class GraphTest(Case):
         self.assertRaises(AttributeError, lambda: g["soft"].raduis)
         self.assertRaises(KeyError, lambda: g["sorface"])
         self.assertFalse(hasattr(g["soft"], "raduis"))
+        with self.assertRaisesRegex(AttributeError, r'are set by name: params\["seed"\] = 7'):
+            g.params.seed = 7
 
     def test_copies_are_independent(self):
         g = self.small()

@@ -88,6 +88,9 @@ class RunTest(Case):
         self.assertEqual(image.digest, tz.Image.from_numpy(pixels[:, :, :].copy(), "base_color").digest)
         files = tz.export(image, "maps")
         self.assertEqual([f.name for f in files], ["base_color.png"])
+        for wrong in ("maps/{map}.pngg", "maps/{map}"):
+            with self.assertRaisesRegex(tz.GraphError, "the extension decides the file format"):
+                tz.export(image, wrong)
         strided = tz.Image.from_numpy(np.arange(24.0).reshape(4, 6)[::2, ::3] / 24)
         self.assertTrue(np.allclose(strided.numpy() * 24, [[0, 3], [12, 15]]))
         for wrong in (np.zeros(3), np.zeros((2, 2, 5)), np.full((2, 2), np.nan), np.zeros((0, 4))):
@@ -211,6 +214,15 @@ class RunTest(Case):
         self.assertEqual(g.params["seed"], 1)
         self.assertRaises(tz.UnknownName, s.sweep, g, sead=[1])
         self.assertRaises(tz.GraphError, s.sweep, g, seed=[1, "two"])
+
+    def test_values_of_other_types_are_told_in_words(self):
+        for memory in ("300M", 1.5, -1):
+            with self.assertRaisesRegex(TypeError, "memory: expected a number of bytes, such as 300"):
+                tz.Session(memory=memory)
+        tz.Session(cache=False, memory=np.int64(300 << 20)).close()
+        for call in (self.session().run, self.session().plan):
+            with self.assertRaisesRegex(TypeError, "expected a Graph, as Graph.load gives, found 'small.json'"):
+                call("small.json")
 
     def test_sessions_can_be_closed(self):
         with self.session() as s:
