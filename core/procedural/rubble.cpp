@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/procedural/pattern_types.h"
 #include "core/procedural/stone_face.h"
 #include "core/procedural/stone_packing.h"
@@ -41,8 +43,8 @@ class Rubble : public Surface {
 
   /// From stones of nearly one size to large ones with small ones between them.
   static std::vector<double> radii(double irregularity) {
-    const double spread = irregularity * 0.8;
-    return {0.46 + 0.5 * spread, 0.46 + 0.2 * spread, 0.46 - 0.05 * spread, 0.46 - 0.2 * spread, 0.46 - 0.32 * spread};
+    const double spread = std::min(1.0, 1.4 * irregularity);
+    return {0.46 + 0.62 * spread, 0.46 + 0.2 * spread, 0.46 - 0.08 * spread, 0.46 - 0.2 * spread, 0.46 - 0.28 * spread};
   }
 
   Canvas canvas_;

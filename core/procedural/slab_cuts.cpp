@@ -98,7 +98,7 @@ SlabCuts::Line SlabCuts::crack(const Polygon& polygon, Dice& dice) const {
     xy += (c.x - middle.x) * (c.y - middle.y);
     yy += (c.y - middle.y) * (c.y - middle.y);
   }
-  const double turns = portable::atan2(2 * xy, xx - yy) / 12.566370614359172 + 0.11 * uneven_ * dice.both();
+  const double turns = portable::atan2(2 * xy, xx - yy) / 12.566370614359172 + 0.08 * uneven_ * dice.both();
   const double nx = cos_turns(turns), ny = sin_turns(turns);
   const double off = 0.22 * uneven_ * dice.both() * unit_;
   return {nx, ny, nx * middle.x + ny * middle.y + off};
