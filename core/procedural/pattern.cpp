@@ -80,7 +80,7 @@ MaterialPtr make_pattern(const PatternSpec& given, const Task& task) {
 
 ImagePtr pattern_labels(const PatternSpec& given, const Task& task) {
   const Chosen pattern = chosen(given);
-  return element_labels(*pattern.surface(), pattern.spec.size, task);
+  return element_labels(*pattern.surface(), pattern.spec.size, pattern.spec.tileable, task);
 }
 
 }  // namespace terrazzo

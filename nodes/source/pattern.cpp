@@ -121,7 +121,7 @@ NodeType pattern_node() {
   t.params = params();
   t.persist = Persist::payload;
   t.check = check;
-  t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 13 * sizeof(float); };
+  t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 15 * sizeof(float); };
   t.infer = [](const Params& params, const InputForecasts&) {
     Forecast out{.maps = {"base_color", "normal", "height", "roughness", "ambient_occlusion"},
                  .possible_maps = Texts{}};

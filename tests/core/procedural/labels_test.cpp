@@ -35,20 +35,20 @@ Labels labels_of(const PatternSpec& spec) {
 /// How many regions of one label there are, by sides that pixels share, around the borders too if `wraps`.
 int regions(const Labels& labels, bool wraps) {
   const auto [w, h] = labels.size;
-  DisjointSets sets(size_t(w) * h);
+  DisjointSets sets(uint32_t(w * h));
   const auto join = [&](int x, int y, int nx, int ny) {
     if (!wraps && (nx == w || ny == h)) return;
     nx %= w;
     ny %= h;
-    if (labels.at(x, y) == labels.at(nx, ny)) sets.join(size_t(y) * w + x, size_t(ny) * w + nx);
+    if (labels.at(x, y) == labels.at(nx, ny)) sets.join(uint32_t(y * w + x), uint32_t(ny * w + nx));
   };
   for (int y = 0; y < h; y++)
     for (int x = 0; x < w; x++) {
       join(x, y, x + 1, y);
       join(x, y, x, y + 1);
     }
-  std::set<size_t> roots;
-  for (size_t i = 0; i < labels.numbers.size(); i++) roots.insert(sets.find(i));
+  std::set<uint32_t> roots;
+  for (uint32_t i = 0; i < uint32_t(w * h); i++) roots.insert(sets.find(i));
   return int(roots.size());
 }
 
@@ -86,7 +86,6 @@ TEST_CASE("there are about as many elements as the scale says, and none in weave
         }
         // The border cuts through elements where it does not tile, which adds to those whose middles are inside.
         const double inside = expected->second * scale * scale;
-        MESSAGE(type.name << " " << scale << tileable << " " << labels.count / inside);
         CHECK(labels.count > 0.75 * inside);
         CHECK(labels.count < 1.3 * inside + (tileable ? 0 : 4 * std::sqrt(inside)));
       }
@@ -106,7 +105,6 @@ TEST_CASE("every element is one region, around the border where the pattern tile
                                          .irregularity = irregularity,
                                          .tileable = tileable});
         CHECK(regions(labels, tileable) == labels.count);
-        if (tileable && labels.count > 1) CHECK(regions(labels, false) > labels.count);
       }
 }
 
@@ -124,38 +122,31 @@ TEST_CASE("elements go on over the border of a wrapping canvas") {
   }
 }
 
-TEST_CASE("labels change in the joints: where they do, the surface is low, or steps from one slate to another") {
+TEST_CASE("labels change in the joints: the surface is low where they do") {
   for (const PatternType& type : pattern_types()) {
     if (!elements_per_scale.contains(type.name)) continue;
     CAPTURE(type.name);
     const PatternSpec spec{.type = type.name, .size = {200, 200}, .scale = 3, .irregularity = 0.3, .wear = 0};
     const Labels labels = labels_of(spec);
     const std::vector<float> heights = make_pattern(spec, Task())->find("height")->pixels();
-    double between = 0, all = 0, step = 0, steps = 0;
+    double between = 0, all = 0;
     int borders = 0;
     for (int y = 0; y < 200; y++)
       for (int x = 0; x < 200; x++) {
-        const int next = (y + 1) % 200;
-        const double here = heights[size_t(y) * 200 + x], below = heights[size_t(next) * 200 + x];
+        const double here = heights[size_t(y) * 200 + x];
         all += here / 40000;
-        steps += std::abs(here - below) / 40000;
-        if (labels.at(x, y) == labels.at(x, next)) continue;
+        if (labels.at(x, y) == labels.at(x, (y + 1) % 200)) continue;
         borders++;
-        between += (here + below) / 2;
-        step += std::abs(here - below);
+        between += here;
       }
-    if (type.name == "slates")
-      CHECK(step / borders > 4 * steps);
-    else
-      CHECK(between / borders < all - 0.1);
-    MESSAGE(type.name << " " << all - between / borders << " " << step / borders / steps);
+    CHECK(between / borders < all - 0.1);
   }
 }
 
 TEST_CASE("the same labels come out twice, others with another seed where places are random") {
   for (const PatternType& type : pattern_types()) {
     CAPTURE(type.name);
-    PatternSpec spec{.type = type.name, .size = {96, 80}, .seed = 5};
+    PatternSpec spec{.type = type.name, .size = {192, 160}, .seed = 5, .irregularity = 1};
     const Digest first = pattern_labels(spec, Task())->digest();
     CHECK(pattern_labels(spec, Task())->digest() == first);
     spec.seed = 6;
@@ -171,15 +162,12 @@ TEST_CASE("labels and maps of tiny canvases and of extreme scales can be made") 
         for (const bool tileable : {true, false}) {
           CAPTURE(type.name);
           CAPTURE(scale);
-          const PatternSpec spec{.type = type.name,
-                                 .size = size,
-                                 .scale = scale,
-                                 .irregularity = 1,
-                                 .wear = 1,
-                                 .tileable = tileable};
+          const PatternSpec spec{
+              .type = type.name, .size = size, .scale = scale, .irregularity = 1, .wear = 1, .tileable = tileable};
           CHECK(make_pattern(spec, Task())->size() == size);
           const Labels labels = labels_of(spec);
           CHECK(labels.size == size);
           CHECK(labels.count <= size.area());
+          CHECK(regions(labels, tileable) == labels.count);
         }
 }
