@@ -19,7 +19,7 @@ class Rubble : public Surface {
         bend_(unit_ * (0.05 + 0.09 * spec.irregularity)),
         packing_(canvas, {unit_, radii(spec.irregularity), stones}),
         face_(canvas, spec, palette,
-              {.joint = 0.13, .rounding = 0.3, .edge = 0.035, .hollow = 0.5, .rough = 0.24, .facets = 0.6}, unit_) {}
+              {.joint = 0.11, .rounding = 0.3, .edge = 0.035, .hollow = 0.5, .rough = 0.24, .facets = 0.6}, unit_) {}
 
   SurfacePoint at(double u, double v) const override {
     const auto [wu, wv] = bent(u, v);
@@ -43,8 +43,8 @@ class Rubble : public Surface {
 
   /// From stones of nearly one size to large ones with small ones between them.
   static std::vector<double> radii(double irregularity) {
-    const double spread = std::min(1.0, 1.4 * irregularity);
-    return {0.46 + 0.62 * spread, 0.46 + 0.2 * spread, 0.46 - 0.08 * spread, 0.46 - 0.2 * spread, 0.46 - 0.28 * spread};
+    const double s = std::min(1.0, 1.4 * irregularity);
+    return {0.46 + 0.42 * s, 0.46 + 0.18 * s, 0.46 - 0.02 * s, 0.46 - 0.13 * s, 0.46 - 0.2 * s};
   }
 
   Canvas canvas_;
