@@ -77,7 +77,7 @@ PatternType chevron_pattern() {
   t.name = "chevron";
   t.summary = "parquet boards in columns that mirror each other; scale counts columns";
   t.scale = 4;
-  t.depth = 0.02;
+  t.depth = 0.05;
   t.cavity = 0.4;
   t.palettes = {
       {"oak", {rgb(0xb08a5e), rgb(0xbd9870), rgb(0x9f7a50), rgb(0xa9845e)}, rgb(0x2a1e13), rgb(0x54381f)},

@@ -90,7 +90,10 @@ StonePacking::Place StonePacking::at(double u, double v) const {
   double sum = 0;
   visit_near(u, v, [&](const Stone& s) {
     if (&s == &own) return;
-    const double dx = u - s.x, dy = v - s.y, nx = s.x - own.x, ny = s.y - own.y;
+    const double dx = u - s.x, dy = v - s.y;
+    // The buckets hold all stones as near as this, wherever the canvas wraps.
+    if (dx * dx + dy * dy > bucket_size_ * bucket_size_) return;
+    const double nx = s.x - own.x, ny = s.y - own.y;
     const double ahead = dx * dx + dy * dy - s.radius * s.radius - power;
     const double border = std::max(1e-4 * unit_, ahead / (2 * std::sqrt(nx * nx + ny * ny)));
     const double near = std::max(0.0, 1 / (border * border) - far);
