@@ -54,7 +54,7 @@ PatternType ashlar_pattern() {
   t.name = "ashlar";
   t.summary = "squared stones in courses of several heights, some two courses high";
   t.scale = 4;
-  t.depth = 0.05;
+  t.depth = 0.08;
   t.cavity = 0.35;
   t.palettes = {
       {"sandstone",

@@ -53,7 +53,7 @@ PatternType crazy_paving_pattern() {
   t.name = "crazy_paving";
   t.summary = "paving of broken flat slabs with even joints";
   t.scale = 5;
-  t.depth = 0.07;
+  t.depth = 0.11;
   t.cavity = 0.4;
   t.palettes = {
       {"sandstone",

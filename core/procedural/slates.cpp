@@ -119,7 +119,7 @@ PatternType slates_pattern() {
   t.name = "slates";
   t.summary = "fish-scale slates: overlapping rows of round tongues";
   t.scale = 5;
-  t.depth = 0.09;
+  t.depth = 0.14;
   t.cavity = 0.5;
   t.palettes = {
       {"welsh", {rgb(0x565c68), rgb(0x636873), rgb(0x4a505c), rgb(0x5f5d66)}, rgb(0x1f2125), rgb(0x8a8d6c)},
