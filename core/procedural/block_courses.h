@@ -9,12 +9,11 @@ namespace terrazzo {
 /// How blocks are laid in courses.
 struct CourseSpec {
   double length = 0.2;                ///< mean length of a block, in units of the canvas
-  std::vector<double> heights = {1};  ///< that courses come in, relative to each other; a course is about as high as
-                                      ///< `height` times its share
-  double height = 0.1;                ///< mean height of a course
-  double height_spread = 0;           ///< how much heights stray from these, 0..1
-  double length_spread = 0.4;         ///< how much lengths differ, 0..1
-  double tall_share = 0;              ///< of pairs of courses that blocks of both heights bind together
+  double height = 0.1;                ///< mean height of a course, in units of the canvas
+  std::vector<double> heights = {1};  ///< the heights that courses come in, relative to each other
+  double height_spread = 0;           ///< 0..1: how much courses stray from these
+  double length_spread = 0.4;         ///< 0..1: how much lengths differ
+  double tall_share = 0;              ///< 0..1: how many pairs of courses have blocks as high as both
 };
 
 /// Rectangular blocks that fill the canvas in courses, some of them two courses high. Immutable.
