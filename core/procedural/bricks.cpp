@@ -18,21 +18,37 @@ class Bricks : public Surface {
         bend_(grid_.cell_height() * 0.09 * spec.irregularity) {}
 
   SurfacePoint at(double u, double v) const override {
+    const Place p = place(u, v);
+    return masonry_.at(u, v,
+                       {.x = p.x,
+                        .y = p.y,
+                        .half_width = grid_.cell_width() / 2,
+                        .half_height = grid_.cell_height() / 2,
+                        .bits = grid_.bits(p.column, p.row, brick_cell)});
+  }
+
+  uint64_t element(double u, double v) const override {
+    const Place p = place(u, v);
+    return grid_.id(p.column, p.row);
+  }
+
+ private:
+  struct Place {
+    int64_t column, row;
+    double x, y;  ///< from the brick's centre
+  };
+
+  Place place(double u, double v) const {
     const double bends = 1.2 / grid_.cell_width();
     const double wu = u + bend_ * canvas_.fbm(u, v, bends, 3, 0.55, warp_u);
     const double wv = v + bend_ * canvas_.fbm(u, v, bends, 3, 0.55, warp_v);
     const int64_t row = portable::floor_int(wv / grid_.cell_height());
     const double shift = 0.5 * double(row & 1);
     const int64_t column = portable::floor_int(wu / grid_.cell_width() - shift);
-    return masonry_.at(u, v,
-                       {.x = wu - (double(column) + 0.5 + shift) * grid_.cell_width(),
-                        .y = wv - (double(row) + 0.5) * grid_.cell_height(),
-                        .half_width = grid_.cell_width() / 2,
-                        .half_height = grid_.cell_height() / 2,
-                        .bits = grid_.bits(column, row, brick_cell)});
+    return {column, row, wu - (double(column) + 0.5 + shift) * grid_.cell_width(),
+            wv - (double(row) + 0.5) * grid_.cell_height()};
   }
 
- private:
   Canvas canvas_;
   Grid grid_;
   Masonry masonry_;

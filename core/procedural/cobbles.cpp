@@ -48,9 +48,7 @@ class Cobbles : public Surface {
         sites_(canvas, grid_, stone, [&](int column, int row, Dice&) { return relaxed(column, row); }) {}
 
   SurfacePoint at(double u, double v) const override {
-    const double bend = grid_.cell_width() * 0.10;
-    const Cell cell = cell_at(u + bend * canvas_.fbm(u, v, per_stone_ * 1.6, 3, 0.5, warp_u),
-                              v + bend * canvas_.fbm(u, v, per_stone_ * 1.6, 3, 0.5, warp_v));
+    const Cell cell = cell_around(u, v);
     Dice dice(grid_.bits(cell.column, cell.row, stone + 32));
     const double gap = 0.045 + 0.045 * spec_.irregularity * dice.unit();
     const double edge = canvas_.fbm(u, v, per_stone_ * 7, 4, 0.55, seam);
@@ -65,6 +63,11 @@ class Cobbles : public Surface {
     p.color = mix(ground.color, top.color, above);
     p.roughness = mix(ground.roughness, top.roughness, above);
     return p;
+  }
+
+  uint64_t element(double u, double v) const override {
+    const Cell cell = cell_around(u, v);
+    return grid_.id(cell.column, cell.row);
   }
 
  private:
@@ -88,6 +91,12 @@ class Cobbles : public Surface {
         moved.y += dy * push;
       }
     return moved;
+  }
+
+  Cell cell_around(double u, double v) const {
+    const double bend = grid_.cell_width() * 0.10;
+    return cell_at(u + bend * canvas_.fbm(u, v, per_stone_ * 1.6, 3, 0.5, warp_u),
+                   v + bend * canvas_.fbm(u, v, per_stone_ * 1.6, 3, 0.5, warp_v));
   }
 
   Cell cell_at(double u, double v) const {

@@ -18,6 +18,25 @@ class Herringbone : public Surface {
         bend_(grid_.cell_height() * 0.06 * spec.irregularity) {}
 
   SurfacePoint at(double u, double v) const override {
+    const Block b = block(u, v);
+    const double w = grid_.cell_width(), h = grid_.cell_height();
+    if (b.lies) return masonry_.at(u, v, {b.x, b.y, w, h / 2, grid_.bits(b.column, b.row, lying)});
+    return masonry_.at(u, v, {b.y, b.x, h, w / 2, grid_.bits(b.column, b.row, standing)});
+  }
+
+  uint64_t element(double u, double v) const override {
+    const Block b = block(u, v);
+    return grid_.id(b.column, b.row);
+  }
+
+ private:
+  struct Block {
+    int64_t column, row;  ///< its left or its upper cell
+    bool lies;
+    double x, y;  ///< from its centre
+  };
+
+  Block block(double u, double v) const {
     const double w = grid_.cell_width(), h = grid_.cell_height();
     const double wu = u + bend_ * canvas_.fbm(u, v, 0.6 / w, 3, 0.55, warp_u);
     const double wv = v + bend_ * canvas_.fbm(u, v, 0.6 / w, 3, 0.55, warp_v);
@@ -26,12 +45,9 @@ class Herringbone : public Surface {
     if (phase == 1) column--;
     if (phase == 2) row--;
     const bool lies = phase < 2;
-    const double x = wu - (double(column) + (lies ? 1 : 0.5)) * w, y = wv - (double(row) + (lies ? 0.5 : 1)) * h;
-    if (lies) return masonry_.at(u, v, {x, y, w, h / 2, grid_.bits(column, row, lying)});
-    return masonry_.at(u, v, {y, x, h, w / 2, grid_.bits(column, row, standing)});
+    return {column, row, lies, wu - (double(column) + (lies ? 1 : 0.5)) * w, wv - (double(row) + (lies ? 0.5 : 1)) * h};
   }
 
- private:
   static double cells_across(double bricks, bool wraps) {
     return wraps ? 4 * std::max(1.0, double(portable::floor_int(bricks / 2 + 0.5))) : bricks * 2;
   }

@@ -6,14 +6,16 @@
 
 #include "core/base/error.h"
 #include "core/procedural/finish.h"
+#include "core/procedural/labels.h"
 #include "core/procedural/pattern_types.h"
 
 namespace terrazzo {
 
 const std::vector<PatternType>& pattern_types() {
-  static const std::vector<PatternType> types = {bricks_pattern(),     cobbles_pattern(), weave_pattern(),
-                                                 gravel_pattern(),     tiles_pattern(),   planks_pattern(),
-                                                 herringbone_pattern()};
+  static const std::vector<PatternType> types = {
+      bricks_pattern(),       cobbles_pattern(),     weave_pattern(),  gravel_pattern(),         tiles_pattern(),
+      planks_pattern(),       herringbone_pattern(), rubble_pattern(), coursed_rubble_pattern(), ashlar_pattern(),
+      crazy_paving_pattern(), slates_pattern(),      chevron_pattern()};
   return types;
 }
 
@@ -30,7 +32,20 @@ const Palette* find_palette(const PatternType& type, std::string_view name) {
   return nullptr;
 }
 
-MaterialPtr make_pattern(const PatternSpec& given, const Task& task) {
+namespace {
+
+/// A type with what was asked of it, defaults filled in.
+struct Chosen {
+  const PatternType& type;
+  const Palette& palette;
+  PatternSpec spec;
+
+  std::unique_ptr<Surface> surface() const {
+    return type.make(Canvas(spec.size, spec.tileable, spec.seed), spec, palette);
+  }
+};
+
+Chosen chosen(const PatternSpec& given) {
   const PatternType* type = find_pattern_type(given.type);
   if (!type) {
     std::string names;
@@ -45,16 +60,27 @@ MaterialPtr make_pattern(const PatternSpec& given, const Task& task) {
   }
   PatternSpec spec = given;
   if (spec.scale <= 0) spec.scale = type->scale;
-  const Canvas canvas(spec.size, spec.tileable, spec.seed);
-  const std::unique_ptr<Surface> surface = type->make(canvas, spec, *palette);
+  return {*type, *palette, spec};
+}
+
+}  // namespace
+
+MaterialPtr make_pattern(const PatternSpec& given, const Task& task) {
+  const Chosen pattern = chosen(given);
+  const PatternSpec& spec = pattern.spec;
   const Finish finish{
       .size = spec.size,
       .wraps = spec.tileable,
-      .relief = spec.relief * type->depth * spec.size.width / spec.scale,
+      .relief = spec.relief * pattern.type.depth * spec.size.width / spec.scale,
       .reach = 0.35 * spec.size.width / spec.scale,
-      .cavity = type->cavity,
+      .cavity = pattern.type.cavity,
   };
-  return finished_material(type->name, *surface, finish, task);
+  return finished_material(pattern.type.name, *pattern.surface(), finish, task);
+}
+
+ImagePtr pattern_labels(const PatternSpec& given, const Task& task) {
+  const Chosen pattern = chosen(given);
+  return element_labels(*pattern.surface(), pattern.spec.size, pattern.spec.tileable, task);
 }
 
 }  // namespace terrazzo

@@ -33,5 +33,7 @@ const Palette* find_palette(const PatternType& type, std::string_view name);
 /// (8 bit), all of `spec.size`, with values that survive a file of their depth exactly. The same on every machine.
 /// Throws Error naming the known types or palettes if the spec names an unknown one.
 MaterialPtr make_pattern(const PatternSpec& spec, const Task& task);
+/// Which element each pixel of that material belongs to, as element_labels() writes it.
+ImagePtr pattern_labels(const PatternSpec& spec, const Task& task);
 
 }  // namespace terrazzo

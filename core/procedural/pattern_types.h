@@ -17,5 +17,11 @@ PatternType gravel_pattern();
 PatternType tiles_pattern();
 PatternType planks_pattern();
 PatternType herringbone_pattern();
+PatternType rubble_pattern();
+PatternType coursed_rubble_pattern();
+PatternType ashlar_pattern();
+PatternType crazy_paving_pattern();
+PatternType slates_pattern();
+PatternType chevron_pattern();
 
 }  // namespace terrazzo

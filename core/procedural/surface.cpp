@@ -12,6 +12,10 @@ int whole_count(double n) {
   return int(std::max<int64_t>(1, portable::floor_int(n + 0.5)));
 }
 
+int64_t wrapped(int64_t v, int period) {
+  return period ? ((v % period) + period) % period : v;
+}
+
 }  // namespace
 
 Rgb saturated(const Rgb& color, double saturation) {
@@ -61,8 +65,19 @@ Grid::Grid(const Canvas& canvas, double columns, double rows_per_column, int row
 }
 
 uint64_t Grid::bits(int64_t column, int64_t row, uint64_t salt) const {
-  const auto wrapped = [](int64_t v, int period) { return period ? ((v % period) + period) % period : v; };
-  return lattice_bits(seed_ ^ (salt * 0x9e3779b97f4a7c15ULL), wrapped(column, period_.x), wrapped(row, period_.y));
+  return lattice_bits(seed_ ^ (salt * 0x9e3779b97f4a7c15ULL), wrapped_column(column), wrapped_row(row));
+}
+
+uint64_t Grid::id(int64_t column, int64_t row) const {
+  return uint64_t{uint32_t(wrapped_column(column))} | uint64_t{uint32_t(wrapped_row(row))} << 32;
+}
+
+int64_t Grid::wrapped_column(int64_t column) const {
+  return wrapped(column, period_.x);
+}
+
+int64_t Grid::wrapped_row(int64_t row) const {
+  return wrapped(row, period_.y);
 }
 
 Rgb pick_color(const std::vector<Rgb>& colors, Dice& dice) {

@@ -100,8 +100,13 @@ class Grid {
   double cell_height() const { return cell_height_; }
   /// Random bits of a cell, the same for cells that are one cell of the wrapped surface.
   uint64_t bits(int64_t column, int64_t row, uint64_t salt) const;
+  /// A number that no other cell has, the same for cells that are one cell of the wrapped surface.
+  uint64_t id(int64_t column, int64_t row) const;
 
  private:
+  int64_t wrapped_column(int64_t column) const;
+  int64_t wrapped_row(int64_t row) const;
+
   uint64_t seed_;
   double cell_width_;
   double cell_height_;
@@ -135,6 +140,9 @@ class Surface {
  public:
   virtual ~Surface() = default;
   virtual SurfacePoint at(double u, double v) const = 0;
+  /// Which element (brick, stone, board ...) the point belongs to; joints belong to the nearer of their neighbours. An
+  /// element that goes on over the border of a wrapping canvas has one number. 0 everywhere if there are no elements.
+  virtual uint64_t element(double, double) const { return 0; }
 };
 
 }  // namespace terrazzo

@@ -41,6 +41,10 @@ class Tiles : public Surface {
     return p;
   }
 
+  uint64_t element(double u, double v) const override {
+    return grid_.id(floor_int(u / grid_.cell_width()), floor_int(v / grid_.cell_height()));
+  }
+
  private:
   SurfacePoint tile_at(double u, double v, double x, double y, double d, double chip, Dice& dice) const {
     const Rgb base = pick_color(palette_.pieces, dice);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/node/node.h"
+#include "nodes/common/shape_rules.h"
 
 namespace terrazzo {
 
@@ -99,22 +100,28 @@ std::vector<Param> params() {
 NodeType pattern_node() {
   NodeType t;
   t.name = "pattern";
+  t.version = 2;
   t.category = "source";
   t.summary = "Generates a procedural material: bricks, stones, cloth ... with matching maps";
   t.help =
       "Describes a surface and derives every map from it: base colour, normal (green up), height, roughness and "
-      "ambient "
-      "occlusion agree at every pixel. Useful as an exemplar when none is at hand, for examples and for tests. Kinds:";
+      "ambient occlusion agree at every pixel. Useful as an exemplar when none is at hand, for examples and for "
+      "tests; \"labels\" says where its pieces are, so that what an analysis finds can be compared with the truth. "
+      "Kinds:";
   for (const PatternType& p : pattern_types())
     t.help += fmt::format(" {} ({}; {:g} across);", p.name, p.summary, p.scale);
   t.help.back() = '.';
   t.outputs = {{.name = "material",
                 .type = ValueType::material,
-                .help = "base_color, normal, height, roughness, ambient_occlusion, all of one size"}};
+                .help = "base_color, normal, height, roughness, ambient_occlusion, all of one size"},
+               {.name = "labels",
+                .type = ValueType::image,
+                .help = "which brick, stone, board ... each pixel belongs to, joints halved between neighbours: "
+                        "i / (pieces - 1), numbered from the top left; 0 everywhere for weave and gravel"}};
   t.params = params();
   t.persist = Persist::payload;
   t.check = check;
-  t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 9 * sizeof(float); };
+  t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 15 * sizeof(float); };
   t.infer = [](const Params& params, const InputForecasts&) {
     Forecast out{.maps = {"base_color", "normal", "height", "roughness", "ambient_occlusion"},
                  .possible_maps = Texts{}};
@@ -123,9 +130,14 @@ NodeType pattern_node() {
       const int channels = semantic == Semantic::base_color || semantic == Semantic::normal ? 3 : 1;
       out.images[map] = {.size = std::get<Size>(params.at("size")), .channels = channels, .semantic = semantic};
     }
-    return OutputForecasts{{"material", out}};
+    const ImageFacts labels{.size = std::get<Size>(params.at("size")), .channels = 1, .semantic = Semantic::guidance};
+    return OutputForecasts{{"material", out}, {"labels", forecast_of_image(labels)}};
   };
-  t.compute = [](NodeContext& node) { node.output("material", make_pattern(spec_of(node.params()), node.task())); };
+  t.compute = [](NodeContext& node) {
+    const PatternSpec spec = spec_of(node.params());
+    node.output("material", make_pattern(spec, node.task()));
+    node.output("labels", pattern_labels(spec, node.task()));
+  };
   return t;
 }
 

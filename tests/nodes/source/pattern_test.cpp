@@ -182,6 +182,25 @@ TEST_CASE("relief deepens slopes and occlusion and leaves the height map as it i
   CHECK(mean(natural->find("ambient_occlusion"), 0) > mean(deep->find("ambient_occlusion"), 0));
 }
 
+TEST_CASE("labels come out beside the material, of its size, and do not depend on its colours or depth") {
+  for (const PatternType& type : pattern_types()) {
+    CAPTURE(type.name);
+    Params params = {{"kind", type.name}, {"size", Size{56, 40}}, {"scale", 3.0}};
+    const auto labels = [&] { return run_node("pattern", params).get<Image>("labels"); };
+    const ImagePtr first = labels();
+    CHECK(first->size() == Size{56, 40});
+    CHECK(first->info().semantic == Semantic::guidance);
+    const std::vector<float> pixels = first->pixels();
+    const bool pieces = type.name != "weave" && type.name != "gravel";
+    CHECK(pixels.front() == 0);
+    CHECK(*std::max_element(pixels.begin(), pixels.end()) == (pieces ? 1 : 0));
+    params["palette"] = type.palettes.back().name;
+    params["relief"] = 3.0;
+    params["wear"] = 0.0;
+    CHECK(labels()->digest() == first->digest());
+  }
+}
+
 TEST_CASE("patterns of odd sizes can be made") {
   for (const PatternType& type : pattern_types())
     for (const Size size : {Size{16, 16}, Size{1, 1}, Size{64, 17}, Size{17, 64}})
