@@ -116,8 +116,7 @@ Elements labelled_elements(const ImagePtr& labels, Size size, const Task& task) 
   task.check();
   std::vector<float> kinds = values.values;
   std::ranges::sort(kinds);
-  const auto rest = std::ranges::unique(kinds);
-  kinds.erase(rest.begin(), rest.end());
+  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
   if (kinds.size() > size_t(most_elements))
     throw Error("labels", fmt::format("expected a picture with one value for each element, at most {}, found {} values",
                                       most_elements, kinds.size()));
