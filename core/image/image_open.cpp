@@ -151,7 +151,8 @@ void require_complete(const fs::path& path, const OpenFile& file) {
       (format == "png" && !png_is_complete(path)))
     fail_cut_off(path);
   if (format == "tiff" && !tiff_is_sound(path))
-    fail_to_read(path, "it is damaged: a checksum or a length in it does not fit; get the file again from where it came");
+    fail_to_read(path,
+                 "it is damaged: a checksum or a length in it does not fit; get the file again from where it came");
 }
 
 void require_image_file(const fs::path& path) {

@@ -22,7 +22,7 @@ IndexPtr index_of(const DrawnStones& stones, bool known, bool wraps = true) {
   return make_index(make_appearance(*features, {}, {}, task), 3, task);
 }
 
-UvMapPtr made(const Index& index, SynthesisOptions options) {
+UvMapPtr made(const Index& index, const SynthesisOptions& options) {
   return synthesize(index, options, task);
 }
 
