@@ -106,7 +106,7 @@ class Loader {
     coded("cycle");
     read_what_waits(order, root);
     const std::set<std::string> wanted = wanted_nodes(drafts, options.only);
-    const bool is_part = report_sources(asked_too(wanted));
+    const bool is_part = report_sources(asked_too(drafts, wanted));
     coded("parameter");
     if (!options.allow_unset) require_set(parameters, out.inputs, wanted);
     coded("unset");
@@ -290,20 +290,6 @@ class Loader {
     return false;
   }
 
-  /// These nodes, and what their expressions ask for.
-  std::set<std::string> asked_too(const std::set<std::string>& nodes) {
-    const Drafts& drafts = levels_.nodes();
-    std::set<std::string> out = nodes;
-    for (size_t before = 0; before != out.size();) {
-      before = out.size();
-      std::vector<std::string> names(out.begin(), out.end());
-      for (const NodeDraft& d : drafts)
-        if (out.contains(d.node.name)) names.insert(names.end(), d.asked.begin(), d.asked.end());
-      out = needed_nodes(drafts, names);
-    }
-    return out;
-  }
-
   /// What is wrong with sources that these nodes are or need. Whether others have mistakes, which are left out with
   /// them.
   bool report_sources(const std::set<std::string>& nodes) {
@@ -315,20 +301,6 @@ class Loader {
         is_part = true;
     }
     return is_part;
-  }
-
-  /// What only these nodes need; all there is if there are none or one of the names stands for none.
-  static std::set<std::string> wanted_nodes(const Drafts& drafts, const std::vector<std::string>& only) {
-    std::vector<std::string> all, meant;
-    for (const NodeDraft& d : drafts) {
-      all.push_back(d.node.name);
-      if (std::ranges::any_of(only, [&](const std::string& name) { return stands_for(name, d.node.name); }))
-        meant.push_back(d.node.name);
-    }
-    const bool are_there = std::ranges::all_of(only, [&](const std::string& name) {
-      return std::ranges::any_of(all, [&](const std::string& node) { return stands_for(name, node); });
-    });
-    return needed_nodes(drafts, only.empty() || !are_there ? all : meant);
   }
 
   /// Where all nodes run, also what none of them needs: it is there to be set.

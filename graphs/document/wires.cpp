@@ -356,4 +356,29 @@ std::set<std::string> needed_nodes(const Drafts& drafts, std::vector<std::string
   return out;
 }
 
+std::set<std::string> wanted_nodes(const Drafts& drafts, const std::vector<std::string>& only) {
+  std::vector<std::string> all, meant;
+  for (const NodeDraft& d : drafts) {
+    all.push_back(d.node.name);
+    if (std::ranges::any_of(only, [&](const std::string& name) { return stands_for(name, d.node.name); }))
+      meant.push_back(d.node.name);
+  }
+  const bool are_there = std::ranges::all_of(only, [&](const std::string& name) {
+    return std::ranges::any_of(all, [&](const std::string& node) { return stands_for(name, node); });
+  });
+  return needed_nodes(drafts, only.empty() || !are_there ? all : meant);
+}
+
+std::set<std::string> asked_too(const Drafts& drafts, const std::set<std::string>& nodes) {
+  std::set<std::string> out = nodes;
+  for (size_t before = 0; before != out.size();) {
+    before = out.size();
+    std::vector<std::string> names(out.begin(), out.end());
+    for (const NodeDraft& d : drafts)
+      if (out.contains(d.node.name)) names.insert(names.end(), d.asked.begin(), d.asked.end());
+    out = needed_nodes(drafts, names);
+  }
+  return out;
+}
+
 }  // namespace terrazzo

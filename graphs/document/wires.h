@@ -35,4 +35,11 @@ std::vector<size_t> execution_order(const Drafts& drafts, std::vector<Problem>& 
 /// The names of what these nodes read, directly or not; they are included if they are there.
 std::set<std::string> needed_nodes(const Drafts& drafts, std::vector<std::string> names);
 
+/// The nodes that `only` names, each by its name or that of a node that it is a part of, and what those need; all if
+/// there are no names, or if one of them stands for no node.
+std::set<std::string> wanted_nodes(const Drafts& drafts, const std::vector<std::string>& only);
+
+/// These nodes, and what their expressions ask for.
+std::set<std::string> asked_too(const Drafts& drafts, const std::set<std::string>& nodes);
+
 }  // namespace terrazzo
