@@ -92,6 +92,11 @@ std::vector<Param> params() {
        .type = ParamType::boolean,
        .fallback = true,
        .help = "The material wraps around without a seam."},
+      {.name = "labels",
+       .type = ParamType::boolean,
+       .fallback = false,
+       .help = "Adds a map \"labels\": which brick, stone, board ... each pixel belongs to, joints halved between "
+               "neighbours: i / (pieces - 1), numbered from the top left; 0 everywhere for weave and gravel."},
   };
 }
 
@@ -100,7 +105,6 @@ std::vector<Param> params() {
 NodeType pattern_node() {
   NodeType t;
   t.name = "pattern";
-  t.version = 2;
   t.category = "source";
   t.summary = "Generates a procedural material: bricks, stones, cloth ... with matching maps";
   t.help =
@@ -113,11 +117,7 @@ NodeType pattern_node() {
   t.help.back() = '.';
   t.outputs = {{.name = "material",
                 .type = ValueType::material,
-                .help = "base_color, normal, height, roughness, ambient_occlusion, all of one size"},
-               {.name = "labels",
-                .type = ValueType::image,
-                .help = "which brick, stone, board ... each pixel belongs to, joints halved between neighbours: "
-                        "i / (pieces - 1), numbered from the top left; 0 everywhere for weave and gravel"}};
+                .help = "base_color, normal, height, roughness, ambient_occlusion, all of one size"}};
   t.params = params();
   t.persist = Persist::payload;
   t.check = check;
@@ -130,13 +130,21 @@ NodeType pattern_node() {
       const int channels = semantic == Semantic::base_color || semantic == Semantic::normal ? 3 : 1;
       out.images[map] = {.size = std::get<Size>(params.at("size")), .channels = channels, .semantic = semantic};
     }
-    const ImageFacts labels{.size = std::get<Size>(params.at("size")), .channels = 1, .semantic = Semantic::guidance};
-    return OutputForecasts{{"material", out}, {"labels", forecast_of_image(labels)}};
+    if (std::get<bool>(params.at("labels"))) {
+      out.maps.push_back("labels");
+      out.images["labels"] = values_facts(std::get<Size>(params.at("size")), Semantic::guidance);
+    }
+    return OutputForecasts{{"material", out}};
   };
   t.compute = [](NodeContext& node) {
     const PatternSpec spec = spec_of(node.params());
-    node.output("material", make_pattern(spec, node.task()));
-    node.output("labels", pattern_labels(spec, node.task()));
+    MaterialPtr material = make_pattern(spec, node.task());
+    if (node.flag("labels")) {
+      std::vector<Map> maps = material->maps();
+      maps.push_back({"labels", pattern_labels(spec, node.task())});
+      material = Material::make(material->name(), std::move(maps), material->metres());
+    }
+    node.output("material", material);
   };
   return t;
 }

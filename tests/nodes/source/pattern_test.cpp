@@ -182,11 +182,11 @@ TEST_CASE("relief deepens slopes and occlusion and leaves the height map as it i
   CHECK(mean(natural->find("ambient_occlusion"), 0) > mean(deep->find("ambient_occlusion"), 0));
 }
 
-TEST_CASE("labels come out beside the material, of its size, and do not depend on its colours or depth") {
+TEST_CASE("labels come along as a map if they are asked for, of its size, and do not depend on its colours or depth") {
   for (const PatternType& type : pattern_types()) {
     CAPTURE(type.name);
-    Params params = {{"kind", type.name}, {"size", Size{56, 40}}, {"scale", 3.0}};
-    const auto labels = [&] { return run_node("pattern", params).get<Image>("labels"); };
+    Params params = {{"kind", type.name}, {"size", Size{56, 40}}, {"scale", 3.0}, {"labels", true}};
+    const auto labels = [&] { return run_node("pattern", params).get<Material>("material")->find("labels"); };
     const ImagePtr first = labels();
     CHECK(first->size() == Size{56, 40});
     CHECK(first->info().semantic == Semantic::guidance);
