@@ -67,7 +67,7 @@ brightness=$(sed -nE 's/.*data-brightness="([0-9]+).*/\1/p' <<<"$body")
 [ "${brightness:-0}" -gt 30 ] || complain "the lit material is dark: $body"
 
 # A click on a node shows its parameters, a click on a picture enlarges it, a click on a head sorts.
-sed 's#</body>#<script>document.querySelector("g.node[data-node=\\"6\\"]").dispatchEvent(new MouseEvent("click", {bubbles: true}));document.querySelector("img.picture").click();document.querySelector(".stages th").click()</script></body>#' \
+sed 's#</body>#<script>document.querySelector("g.node[data-node=\\"7\\"]").dispatchEvent(new MouseEvent("click", {bubbles: true}));document.querySelector("img.picture").click();document.querySelector(".stages th").click()</script></body>#' \
   run.html >clicked.html
 open clicked.html "$width"
 says errors ""
