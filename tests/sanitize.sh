@@ -13,7 +13,7 @@ if [ "${1:-}" = short ]; then short=yes; shift; fi
 [[ $# -le 1 && ${1:-asan} =~ ^(asan|tsan)$ ]] || { sed -n '5s/^# //p' "$0" >&2; exit 2; }
 declare -A rooms
 if [ -n "$short" ]; then
-  rooms[asan]="core/base;core/file;core/image;core/material;core/node;graphs/document;graphs/expression;core/synthesis"
+  rooms[asan]="core/base;core/file;core/node;graphs/document;graphs/expression;core/synthesis"
   rooms[tsan]="runner/engine;runner/cache;core/synthesis"
 fi
 
