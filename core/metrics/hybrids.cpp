@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/tuning.h"
@@ -51,8 +51,7 @@ std::vector<uint8_t> joints_of(const Elements& elements, bool wraps) {
 /// Pixels that show one element in one piece.
 class Pieces {
  public:
-  Pieces(const UvMap& uv, const Elements& elements) : uv_(uv), elements_(elements), parents_(uv.pixels().size()) {
-    std::iota(parents_.begin(), parents_.end(), 0);
+  Pieces(const UvMap& uv, const Elements& elements) : uv_(uv), elements_(elements), joined_(uv.pixels().size()) {
     const int w = uv.size().width, h = uv.size().height;
     for (int y = 0; y < h; y++)
       for (int x = 0; x < w; x++) {
@@ -61,11 +60,7 @@ class Pieces {
       }
   }
 
-  uint32_t of(size_t pixel) {
-    auto p = uint32_t(pixel);
-    while (parents_[p] != p) p = parents_[p] = parents_[parents_[p]];
-    return p;
-  }
+  uint32_t of(size_t pixel) { return joined_.find(uint32_t(pixel)); }
 
  private:
   uint16_t element(const ExemplarPixel& p) const {
@@ -82,13 +77,12 @@ class Pieces {
         !is_near(a.y, b.y, down, uv_.exemplar().height))
       return;
     const auto width = size_t(uv_.size().width);
-    const uint32_t p = of(size_t(y) * width + size_t(x)), q = of(size_t(v) * width + size_t(u));
-    parents_[std::max(p, q)] = std::min(p, q);
+    joined_.join(uint32_t(size_t(y) * width + size_t(x)), uint32_t(size_t(v) * width + size_t(u)));
   }
 
   const UvMap& uv_;
   const Elements& elements_;
-  std::vector<uint32_t> parents_;
+  DisjointSets joined_;
 };
 
 /// The result's own elements.

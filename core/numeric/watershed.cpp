@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 #include <queue>
 #include <tuple>
 #include <utility>
+
+#include "core/base/disjoint_sets.h"
 
 namespace terrazzo {
 
@@ -51,8 +52,7 @@ Regions minima(const std::vector<uint8_t>& relief, Size size, bool wraps) {
 class Joining {
  public:
   Joining(const Regions& regions, const std::vector<RegionBorder>& borders, const JoiningRule& rule)
-      : rule_(rule), parents_(size_t(regions.count)), areas_(size_t(regions.count)), shared_(size_t(regions.count)) {
-    std::iota(parents_.begin(), parents_.end(), 0);
+      : rule_(rule), joined_(size_t(regions.count)), areas_(size_t(regions.count)), shared_(size_t(regions.count)) {
     for (const uint32_t r : regions.at) areas_[r]++;
     for (const RegionBorder& b : borders) {
       shared_[b.a][b.b] = shared_[b.b][b.a] = {b.length, b.height};
@@ -68,10 +68,7 @@ class Joining {
     }
   }
 
-  uint32_t root(uint32_t r) {
-    while (parents_[r] != r) r = parents_[r] = parents_[parents_[r]];
-    return r;
-  }
+  uint32_t root(uint32_t r) { return joined_.find(r); }
 
  private:
   struct Shared {
@@ -94,8 +91,9 @@ class Joining {
     queue_.push({tiny ? mean - 256 : mean, a, b, s.length, areas_[a] + areas_[b]});
   }
 
+  /// `a` is the smaller number, which goes on to stand for both.
   void join(uint32_t a, uint32_t b) {
-    parents_[b] = a;
+    joined_.join(a, b);
     areas_[a] += areas_[b];
     shared_[a].erase(b);
     for (const auto& [other, s] : shared_[b]) {
@@ -111,7 +109,7 @@ class Joining {
   }
 
   JoiningRule rule_;
-  std::vector<uint32_t> parents_;
+  DisjointSets joined_;
   std::vector<int64_t> areas_;
   std::vector<std::map<uint32_t, Shared>> shared_;
   std::priority_queue<Candidate> queue_;

@@ -53,7 +53,7 @@ struct LevelFacts {
   /// Whole bricks are asked for, and the lattice may be one of bricks: the same all over the exemplar, of courses alone
   /// or of cells that are worth it.
   bool may_have_bricks = false;
-  bool has_elements = false;  ///< that are sure enough to be laid as wholes
+  bool has_elements = false;  ///< that are laid as wholes
 
   bool coarsest() const { return level == levels - 1; }
   /// Rare features are won or lost at the coarsest levels.

@@ -77,7 +77,7 @@ NodeType elements_node() {
                image_port("picture", "each element in a colour of its own, to look at")};
   t.params = {{.name = "least_certainty",
                .type = ParamType::number,
-               .fallback = 0.2,
+               .fallback = 0.3,
                .help = "Elements found with less certainty are not used. Higher accepts fewer; 0 takes what there is.",
                .min = 0,
                .max = 1}};

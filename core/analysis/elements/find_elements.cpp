@@ -154,7 +154,8 @@ std::vector<uint16_t> at_size(const Found& found, const std::vector<uint8_t>& he
 
 }  // namespace
 
-ElementsPtr find_elements(const Planes& exemplar, const Task& task) {
+ElementsPtr find_elements(const Features& features, const Task& task) {
+  const Planes exemplar = weighted_planes(features, task);
   Planes picture = exemplar;
   while (std::max(picture.size.width, picture.size.height) > tuning->most_side) picture = halved(picture);
   const Found found = best_partition(leading_planes(picture, tuning->components, task), task);
@@ -166,10 +167,6 @@ ElementsPtr find_elements(const Planes& exemplar, const Task& task) {
   out->count = found.partition.regions.count;
   out->certainty = std::clamp((found.quality - tuning->unsure) / (tuning->sure - tuning->unsure), 0.0, 1.0);
   return out;
-}
-
-ElementsPtr find_elements(const Features& features, const Task& task) {
-  return find_elements(weighted_planes(features, task), task);
 }
 
 }  // namespace terrazzo

@@ -3,14 +3,12 @@
 #include "core/base/task.h"
 #include "core/exemplar/elements.h"
 #include "core/exemplar/features.h"
-#include "core/image/float_planes.h"
 
 namespace terrazzo {
 
 /// Parts an exemplar into its elements: the picture is flooded from within them (catchment_basins) up to the joints,
 /// which are the lines, dark or light, in whichever mix of channels tells them best. Says how sure it is; sand, grass
 /// and rock come out below about 0.2. Null if nothing can be told apart. Throws Cancelled.
-ElementsPtr find_elements(const Planes& exemplar, const Task& task);
 ElementsPtr find_elements(const Features& features, const Task& task);
 
 }  // namespace terrazzo

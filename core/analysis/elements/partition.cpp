@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/tuning.h"
+#include "core/exemplar/elements.h"
 #include "core/numeric/distance_transform.h"
 
 namespace terrazzo {
@@ -187,7 +188,7 @@ double spanning_share(const Regions& regions, Size size) {
 }  // namespace
 
 double Partition::quality() const {
-  if (regions.count < tuning->fewest || regions.count > 65535) return 0;
+  if (regions.count < tuning->fewest || regions.count > most_elements) return 0;
   const double shapes = std::max(0.0, 1 - 2 * thin) * std::min(1.0, compact / tuning->compact_enough);
   return contrast * shapes * (1 - spanning) * std::max(0.0, 1 - 3 * weak) * (largest > tuning->largest ? 0.3 : 1);
 }

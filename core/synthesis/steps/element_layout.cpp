@@ -15,7 +15,6 @@ namespace terrazzo {
 namespace {
 
 struct Tuning {
-  double least_certainty = 0.3;
   double least_shown = 0.4;
   double least_shown_at_border = 0.15;
   int same_place = 4;
@@ -27,9 +26,6 @@ struct Tuning {
 const Tunable<Tuning> tuning(
     "element_layout",
     {
-        {&Tuning::least_certainty, "least_certainty", "certainty",
-         "of elements that are laid. Higher: fewer exemplars; lower: soil and rock are cut into pieces",
-         "element_layout", 0, 1},
         {&Tuning::least_shown, "least_shown", "of an element",
          "that the field must show for it to stay. Higher: more is laid anew; lower: what stays fits less",
          "element_layout", 0, 1},
@@ -190,7 +186,7 @@ class ElementLayout {
 
 bool has_elements(const Appearance& appearance) {
   const ElementsPtr& e = appearance.elements();
-  return e && e->certainty >= tuning->least_certainty && whole_elements(*e, appearance.wraps()) >= tuning->fewest;
+  return e && whole_elements(*e, appearance.wraps()) >= tuning->fewest;
 }
 
 void lay_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,

@@ -14,7 +14,8 @@ namespace terrazzo {
 void lay_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
                   const Task& task);
 
-/// Whether an exemplar has elements that are sure enough, and enough of them whole, to be laid.
+/// Whether an exemplar has elements, and enough of them whole, to be laid. How sure they must be was asked where they
+/// were found.
 bool has_elements(const Appearance& appearance);
 
 }  // namespace terrazzo

@@ -61,18 +61,6 @@ const Tunable<Tuning> tuning(
 ElementPacking::ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y)
     : shapes_(shapes), size_(size), closed_x_(closed_x), closed_y_(closed_y) {}
 
-int64_t ElementPacking::index(int column, int row) const {
-  if (column < 0 || column >= size_.width) {
-    if (!closed_x_) return -1;
-    column = wrap(column, size_.width);
-  }
-  if (row < 0 || row >= size_.height) {
-    if (!closed_y_) return -1;
-    row = wrap(row, size_.height);
-  }
-  return int64_t{row} * size_.width + column;
-}
-
 /// Calls visit(index, depth) for the blocks of an element's box that the result has.
 template <typename Visit>
 void ElementPacking::for_blocks(const PlacedElement& p, Visit visit) const {

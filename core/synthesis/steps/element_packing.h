@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/task.h"
+#include "core/synthesis/state/field.h"
 #include "core/synthesis/steps/element_shapes.h"
 
 namespace terrazzo {
@@ -46,7 +47,7 @@ class ElementPacking {
   }
   template <typename Visit>
   void for_blocks(const PlacedElement& p, Visit visit) const;
-  int64_t index(int column, int row) const;
+  int64_t index(int column, int row) const { return pixel_index(size_, column, row, closed_x_, closed_y_); }
   void paint(size_t placed);
   void paint_all();
   void measure_clear();

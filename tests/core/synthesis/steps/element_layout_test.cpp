@@ -65,16 +65,13 @@ TEST_CASE("drafts, and results that ask for no whole bricks, are made as without
     CHECK(made(*plain, options)->pixels() == made(*known, options)->pixels());
 }
 
-TEST_CASE("elements that are not sure, or too few, are not laid") {
+TEST_CASE("elements that are too few, or not known, are not laid") {
   const DrawnStones stones(exemplar);
-  Elements unsure = stones.elements();
-  unsure.certainty = 0.1;
   const auto knows = [&](const Elements& e, bool wraps) {
     const FeaturesPtr features = plain_features(stones.image(), wraps)->with(std::make_shared<const Elements>(e));
     return has_elements(*make_appearance(*features, {}, {}, task));
   };
   CHECK(knows(stones.elements(), true));
-  CHECK_FALSE(knows(unsure, true));
   CHECK_FALSE(knows(DrawnStones(exemplar, 2).elements(), false));
   CHECK_FALSE(has_elements(*index_of(stones, false)->appearance()));
 }
