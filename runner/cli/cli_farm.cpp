@@ -9,8 +9,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr UnitState all_states[] = {UnitState::done,    UnitState::unneeded, UnitState::running,
-                                    UnitState::waiting, UnitState::failed,   UnitState::lost};
+constexpr UnitState all_states[] = {UnitState::done,   UnitState::unneeded, UnitState::running,   UnitState::waiting,
+                                    UnitState::failed, UnitState::lost,     UnitState::elsewhere, UnitState::cancelled};
 
 }  // namespace
 

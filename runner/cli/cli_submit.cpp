@@ -110,6 +110,7 @@ int write_openjd(const PreparedJob& prepared, const SubmitFlags& flags, Cache& c
   write_job(prepared, cache);
   for (const TaskArray& a : arrays) write_array(prepared.folder, a);
   write_whole_file(flags.openjd, openjd_template(prepared.job, arrays, prepared.folder, flags.slurm.program));
+  write_assignment(prepared.folder, {Assignment::To::others, fs::absolute(flags.openjd).string()});
   tell("wrote " + flags.openjd);
   return exit_done;
 }
@@ -136,13 +137,17 @@ void show(const fs::path& folder, const FarmJob& job, const JobState& state, boo
                                                      : task->second.reason});
   }
   if (table.size() > 1) answer("\n{}", aligned(table));
-  if (!state.is_moving() && !state.is_complete())
+  if (state.count(UnitState::elsewhere) > 0)
+    answer("\nwritten to {} for another scheduler, which alone knows what is running\n", state.assignment.file);
+  else if (!state.is_moving() && !state.is_complete())
     answer("\nlogs are in {}; submit the same again to make what is missing\n", (folder / "logs").string());
 }
 
 int wait_until_done(const fs::path& folder, const FarmJob& job, const SubmitFlags& flags, Cache& cache,
                     const Slurm& slurm, const std::atomic<bool>& cancelled) {
   std::string line;
+  if (const Assignment to = assignment_of(folder); to.to == Assignment::To::others)
+    tell(fmt::format("{} was written to {} for another scheduler; waiting until that has made it", job.name, to.file));
   const auto looked = [&](const JobState& state) {
     if (const std::string now = state_line(state); now != line) tell(line = now);
   };
@@ -170,6 +175,7 @@ int submit_graph(const PreparedJob& prepared, const SubmitFlags& flags, Cache& c
   }
   write_job(prepared, cache);
   const FarmJob job = read_farm_job(prepared.folder);
+  write_assignment(prepared.folder, {.to = Assignment::To::slurm});
   const std::vector<HandedOver> handed = hand_over(prepared.folder, job, cache, slurm, flags.arrays, flags.slurm);
   answer("job {}\n", job.name);
   if (handed.empty()) {
@@ -190,7 +196,7 @@ int list_jobs(const FarmFolder& farm, Cache& cache, const Slurm& slurm) {
   Table table = {{"job", "units"}};
   for (const std::string& name : farm.job_names()) {
     const FarmJob job = read_farm_job(farm.jobs() / name);
-    table.push_back({name, state_line(look_at_job(farm.jobs() / name, job, cache, slurm.queued(name)))});
+    table.push_back({name, state_line(look_at_job(farm.jobs() / name, job, cache, slurm))});
   }
   if (table.size() == 1)
     answer("no jobs in {}\n", farm.root().string());
@@ -203,12 +209,16 @@ int work_on_job(const fs::path& folder, const SubmitFlags& flags, Cache& cache, 
                 const std::atomic<bool>& cancelled) {
   const FarmJob job = read_farm_job(folder);
   if (flags.cancel) {
-    slurm.cancel(job.name);
+    if (const Assignment to = assignment_of(folder); to.to == Assignment::To::others)
+      throw UsageError(
+          fmt::format("{} is not Slurm's to cancel: it was written to {} for another scheduler; cancel it there",
+                      job.name, to.file));
+    cancel_job(folder, job, cache, slurm);
     answer("cancelled {}; what has been made stays in the cache\n", job.name);
     return exit_done;
   }
   if (flags.wait) return wait_until_done(folder, job, flags, cache, slurm, cancelled);
-  const JobState state = look_at_job(folder, job, cache, slurm.queued(job.name));
+  const JobState state = look_at_job(folder, job, cache, slurm);
   show(folder, job, state, flags.json);
   return code_of(state);
 }

@@ -1,40 +1,16 @@
 #include "runner/farm/slurm.h"
 
-#include <cstdlib>
-
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
 #include "runner/farm/openjd.h"
 #include "runner/farm/run_tool.h"
-#include "tests/run_node.h"
-#include "tests/texts.h"
+#include "tests/runner/farm/tools.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
-namespace fs = std::filesystem;
 
 namespace {
-
-/// Programs of a test's own, found before the machine's.
-class Tools {
- public:
-  Tools() : path_(std::getenv("PATH")) { ::setenv("PATH", (folder_.path().string() + ":" + path_).c_str(), 1); }
-  ~Tools() { ::setenv("PATH", path_.c_str(), 1); }
-  Tools(const Tools&) = delete;
-  Tools& operator=(const Tools&) = delete;
-
-  void add(const std::string& name, const std::string& script) const {
-    const fs::path file = folder_.path() / name;
-    write_text(file, "#!/bin/sh\ncd '" + folder_.path().string() + "'\n" + script);
-    fs::permissions(file, fs::perms::owner_all);
-  }
-  std::string text(const std::string& name) const { return read_text(folder_.path() / name); }
-
- private:
-  TemporaryFolder folder_;
-  std::string path_;
-};
 
 TaskArray array_of(std::vector<std::vector<std::string>> tasks) {
   TaskArray a{.label = "layout", .tasks = std::move(tasks)};
