@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -31,14 +32,15 @@ struct QueuedTask {
 std::string slurm_script(const FarmJob& job, const TaskArray& array, const std::filesystem::path& folder,
                          const std::vector<std::string>& after, const SlurmOptions& options);
 
-/// What is asked of Slurm. A controller that is busy or being restarted is asked again, for some minutes; `told` gets a
-/// line for people when that begins. All functions throw Error with Slurm's own message. Thread-safe.
+/// What is asked of Slurm. A controller that has answered before, and is now busy or being restarted, is asked again
+/// for some minutes; `told` gets a line for people when that begins. One that cannot be reached at all is given up
+/// after a few seconds. All functions throw Error with Slurm's own message. Thread-safe.
 class Slurm {
  public:
   /// `cancelled` ends waiting early, with Cancelled; may be null.
   explicit Slurm(std::function<void(const std::string&)> told = {}, const std::atomic<bool>* cancelled = nullptr);
 
-  /// How many tasks an array may have; that of Slurm's default configuration if there is no Slurm.
+  /// How many tasks an array may have; that of Slurm's default configuration if Slurm cannot be reached.
   int max_array_size() const;
   /// The tasks of a job that have not ended.
   std::vector<QueuedTask> queued(const std::string& job) const;
@@ -49,11 +51,15 @@ class Slurm {
   void cancel(const std::string& job) const;
 
  private:
+  std::string why_unreachable() const;
+  void require_reachable() const;
+  void pause(std::chrono::milliseconds time) const;
   std::string ask(const std::vector<std::string>& words,
                   const std::function<std::string()>& is_done_already = {}) const;
 
   std::function<void(const std::string&)> told_;
   const std::atomic<bool>* cancelled_;
+  mutable std::atomic<bool> has_answered_ = false;
 };
 
 }  // namespace terrazzo

@@ -22,7 +22,7 @@ struct Farm {
     write_text(w.path / "graph.json", R"({"terrazzo": 1, "nodes": {
       "a": {"type": "load_map", "path": "a.png"},
       "x": {"type": "export", "material": "@a", "path": "x.png"}}})");
-    tools.add("scontrol", "echo 'MaxArraySize = 21'");
+    tools.add("scontrol", "echo 'Slurmctld(primary) at farm is UP'; echo 'MaxArraySize = 21'");
     tools.add("squeue", "true");
     tools.add("scancel", "true");
     tools.add("sbatch", "echo >> submitted; echo 12");

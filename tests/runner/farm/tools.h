@@ -5,18 +5,14 @@
 #include <string>
 
 #include "tests/run_node.h"
+#include "tests/runner/cache/environment.h"
 #include "tests/texts.h"
 
 namespace terrazzo::test {
 
-/// Programs of a test's own, found before the machine's.
+/// Programs of a test's own, found before the machine's; no cluster of the machine's is seen.
 class Tools {
  public:
-  Tools() : path_(std::getenv("PATH")) { ::setenv("PATH", (folder_.path().string() + ":" + path_).c_str(), 1); }
-  ~Tools() { ::setenv("PATH", path_.c_str(), 1); }
-  Tools(const Tools&) = delete;
-  Tools& operator=(const Tools&) = delete;
-
   void add(const std::string& name, const std::string& script) const {
     const std::filesystem::path file = folder_.path() / name;
     write_text(file, "#!/bin/sh\ncd '" + folder_.path().string() + "'\n" + script);
@@ -26,7 +22,8 @@ class Tools {
 
  private:
   TemporaryFolder folder_;
-  std::string path_;
+  Environment path_{"PATH", (folder_.path().string() + ":" + std::getenv("PATH")).c_str()};
+  Environment configuration_{"SLURM_CONF", nullptr};
 };
 
 }  // namespace terrazzo::test
