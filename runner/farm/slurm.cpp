@@ -59,6 +59,9 @@ using Clock = std::chrono::steady_clock;
 /// How `scontrol ping` says whether a controller answers.
 constexpr std::string_view mark_of_up = " is UP", mark_of_down = " is DOWN";
 
+/// Slurm's default. The highest index is one less.
+constexpr int usual_array_size = 1001;
+
 constexpr std::string_view comment_mark = "terrazzo:";
 
 }  // namespace
@@ -145,16 +148,31 @@ std::string Slurm::ask(const std::vector<std::string>& words,
   }
 }
 
+FarmLimits Slurm::limits(const SlurmOptions& options) const {
+  FarmLimits limits{.tasks = usual_array_size};
+  if (!why_unreachable().empty()) return limits;
+  limits.tasks = max_array_size();
+  std::vector<std::string> words = {"sinfo", "--noheader", "--Node", "--format=%c|%m|%P"};
+  if (!options.partition.empty()) words.push_back("--partition=" + options.partition);
+  const bool is_the_default = options.partition.empty() && options.more.empty() && !std::getenv("SBATCH_PARTITION");
+  std::istringstream lines(ask(words));
+  for (std::string line; std::getline(lines, line);) {
+    const std::vector<std::string> parts = split(line, '|');
+    if (parts.size() < 3 || (is_the_default && !parts[2].ends_with('*'))) continue;
+    limits.cores = std::max(limits.cores, number_in(parts[0], 0));
+    limits.memory = std::max(limits.memory, uint64_t(number_in(parts[1], 0)) << 20);
+  }
+  return limits;
+}
+
 int Slurm::max_array_size() const {
-  constexpr int usual = 1001;  // Slurm's default; the highest index is one less
-  if (!why_unreachable().empty()) return usual;
   std::istringstream lines(ask({"scontrol", "show", "config"}));
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("MaxArraySize")) {
       const size_t equals = line.find_first_of("0123456789");
-      if (equals != line.npos) return std::max(1, number_in(line.substr(equals), usual));
+      if (equals != line.npos) return std::max(1, number_in(line.substr(equals), usual_array_size));
     }
-  return usual;
+  return usual_array_size;
 }
 
 std::vector<QueuedTask> Slurm::queued(const std::string& job) const {

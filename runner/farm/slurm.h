@@ -14,9 +14,9 @@
 namespace terrazzo {
 
 struct SlurmOptions {
-  std::string partition, account, time;  ///< as sbatch takes them; empty: as the cluster has it
-  std::vector<std::string> more{};       ///< further options of sbatch, such as --constraint=avx2
-  std::filesystem::path program;         ///< of tasks; absolute
+  std::string partition{}, account{}, time{};  ///< as sbatch takes them; empty: as the cluster has it
+  std::vector<std::string> more{};             ///< further options of sbatch, such as --constraint=avx2
+  std::filesystem::path program{};             ///< of tasks; absolute
 };
 
 /// A task that Slurm knows and that has not ended.
@@ -40,8 +40,9 @@ class Slurm {
   /// `cancelled` ends waiting early, with Cancelled; may be null.
   explicit Slurm(std::function<void(const std::string&)> told = {}, const std::atomic<bool>* cancelled = nullptr);
 
-  /// How many tasks an array may have; that of Slurm's default configuration if Slurm cannot be reached.
-  int max_array_size() const;
+  /// What a partition can give: the largest of its nodes, and how many tasks an array may have. If Slurm cannot be
+  /// reached, the default of its configuration for the latter, and nothing about nodes.
+  FarmLimits limits(const SlurmOptions& options) const;
   /// The tasks of a job that have not ended.
   std::vector<QueuedTask> queued(const std::string& job) const;
   /// Hands a script over; returns the id of the batch job. If the controller's answer is lost, the queue tells whether
@@ -51,6 +52,7 @@ class Slurm {
   void cancel(const std::string& job) const;
 
  private:
+  int max_array_size() const;
   std::string why_unreachable() const;
   void require_reachable() const;
   void pause(std::chrono::milliseconds time) const;

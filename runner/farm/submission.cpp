@@ -106,7 +106,7 @@ JobState look_at_job(const fs::path& folder, const FarmJob& job, Cache& cache, c
 }
 
 std::vector<HandedOver> hand_over(const fs::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm,
-                                  ArrayOptions arrays, const SlurmOptions& options) {
+                                  const ArrayOptions& arrays, const SlurmOptions& options) {
   const std::shared_ptr<Lease> lease = lease_of(job, cache);
   const JobState state = look_at_job(folder, job, cache, slurm);
   if (state.assignment.to != Assignment::To::slurm) return {};
@@ -123,7 +123,6 @@ std::vector<HandedOver> hand_over(const fs::path& folder, const FarmJob& job, Ca
       too_little[name] = failure->memory;
     forget_failure(folder, name);
   }
-  arrays.max_tasks = slurm.max_array_size();
   std::vector<HandedOver> out;
   for (TaskArray& array : arrays_of(job.units, wanted, FarmFolder::of_job(folder).costs(), too_little, arrays)) {
     write_array(folder, array);

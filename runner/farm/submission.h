@@ -36,7 +36,7 @@ struct HandedOver {
 /// Hands to Slurm what has to be made and is not in its queue, what failed too; a job that is handed over twice at the
 /// same time is handed over once, and one that is not assigned to Slurm, not at all. Throws Error with Slurm's message.
 std::vector<HandedOver> hand_over(const std::filesystem::path& folder, const FarmJob& job, Cache& cache,
-                                  const Slurm& slurm, ArrayOptions arrays, const SlurmOptions& options);
+                                  const Slurm& slurm, const ArrayOptions& arrays, const SlurmOptions& options);
 
 /// Ends a job's tasks; they are not handed over again until the job is submitted again. Throws Error with Slurm's
 /// message.

@@ -120,7 +120,7 @@ TEST_CASE("a controller that cannot be reached is given up after seconds; the me
     CHECK(message() ==
           "cannot reach Slurm: scontrol: fatal: no configuration source. SLURM_CONF is not set: set it to the "
           "cluster's slurm.conf, unless Slurm finds that by itself. --print and --openjd need no Slurm");
-    CHECK(slurm.max_array_size() == 1001);
+    CHECK(slurm.limits({}).tasks == 1001);
   }
   SUBCASE("a configuration that is not there") {
     const Environment setting("SLURM_CONF", "/nowhere/slurm.conf");
@@ -144,10 +144,18 @@ TEST_CASE("a controller that cannot be reached is given up after seconds; the me
   }
 }
 
-TEST_CASE("how many tasks an array may have") {
+TEST_CASE("what a cluster can give: tasks of an array, and the largest node of the partition") {
   const Tools tools;
   tools.add("scontrol", "echo 'Slurmctld(primary) at farm is UP'; echo 'MaxArraySize            = 21'");
-  CHECK(Slurm().max_array_size() == 21);
+  tools.add("sinfo", "echo $* > asked; printf '4|8000|day*\n8|4000|day*\n64|900000|night\n'");
+  const FarmLimits day = Slurm().limits({});
+  CHECK(day.tasks == 21);
+  CHECK(day.cores == 8);
+  CHECK(day.memory == uint64_t{8000} << 20);
+  // Which partition is meant is Slurm's to know.
+  CHECK(Slurm().limits({.more = {"--qos=long"}}).cores == 64);
+  Slurm().limits({.partition = "night"});
+  CHECK(tools.text("asked").find("--partition=night") != std::string::npos);
 }
 
 TEST_CASE("a template keeps the rules of the Open Job Description specification, 2023-09") {

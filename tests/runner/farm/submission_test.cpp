@@ -25,6 +25,7 @@ struct Farm {
     tools.add("scontrol", "echo 'Slurmctld(primary) at farm is UP'; echo 'MaxArraySize = 21'");
     tools.add("squeue", "true");
     tools.add("scancel", "true");
+    tools.add("sinfo", "echo '4|16000|day*'");
     tools.add("sbatch", "echo >> submitted; echo 12");
   }
   std::string job() const { return FarmFolder(w.path / "cache").job_names().at(0); }
@@ -58,6 +59,22 @@ TEST_CASE("a cancelled job is that until it is submitted again") {
   CHECK(farm.w.run({"submit", "graph.json"}).code == 0);
   CHECK(farm.submitted() == 2);
   CHECK(farm.state() == "lost");
+}
+
+TEST_CASE("what no node has is refused; what Slurm does not start is told") {
+  const Farm farm;
+  const ProgramRun refused = farm.w.run({"submit", "graph.json", "--cores", "64"});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("the largest node that Slurm can give has 4 cores") != std::string::npos);
+  CHECK(farm.w.run({"submit", "graph.json", "--memory", "20G"}).err.find("has 15.6 GiB") != std::string::npos);
+  CHECK(farm.submitted() == 0);
+  CHECK(farm.w.run({"submit", "graph.json", "--cores", "64", "--openjd", "template.json"}).code == 0);
+  CHECK(farm.w.run({"submit", "graph.json", "--cores", "4"}).code == 0);
+  const fs::path arrays = FarmFolder(farm.w.path / "cache").jobs() / farm.job() / "arrays";
+  const std::string id = fs::path(listing(arrays).front()).stem().string();
+  farm.tools.add("squeue", "echo '12_0|0|PD|terrazzo:" + id + "||PartitionConfig'");
+  CHECK(farm.w.run({"submit", "--status"}).out.find("1 waiting; Slurm does not start some of it: PartitionConfig") !=
+        std::string::npos);
 }
 
 TEST_CASE("a job for another scheduler is not Slurm's to ask about, to cancel or to hand over again") {

@@ -96,7 +96,7 @@ TEST_CASE("arrays: what can run at the same time, split and packed") {
   const std::filesystem::path costs = walls.folder.path() / "costs";
 
   SUBCASE("a task for each") {
-    const auto arrays = arrays_of(units, all, costs, {}, {.max_tasks = 4, .pack_seconds = 0});
+    const auto arrays = arrays_of(units, all, costs, {}, {.limits = {.tasks = 4}, .pack_seconds = 0});
     REQUIRE(arrays.size() == 4);
     CHECK(arrays[0].tasks == std::vector<Names>{{"index"}});
     CHECK(arrays[0].memory == usual_memory);
@@ -125,6 +125,18 @@ TEST_CASE("arrays: what can run at the same time, split and packed") {
     CHECK(arrays[1].memory == gigabyte);
     CHECK(arrays[2].tasks == std::vector<Names>{{"files3"}});
     CHECK(arrays[2].memory == 2 * gigabyte);
+  }
+  SUBCASE("guesses fit the largest machine") {
+    const uint64_t gigabyte = uint64_t{1} << 30;
+    remember_cost(costs, units[1].kind, {10, 90, 4 * gigabyte});
+    const ArrayOptions options{.limits = {.cores = 4, .memory = gigabyte}};
+    const auto arrays = arrays_of(units, all, costs, {{"files3", gigabyte}}, options);
+    REQUIRE(arrays.size() == 3);
+    CHECK(arrays[1].cores == 4);
+    for (const TaskArray& a : arrays) CHECK(a.memory == gigabyte);
+  }
+  SUBCASE("as many cores as are asked for") {
+    CHECK(arrays_of(units, all, costs, {}, {.cores = 64}).front().cores == 64);
   }
   SUBCASE("only what is due") {
     std::vector<bool> some(units.size());
