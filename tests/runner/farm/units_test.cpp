@@ -72,6 +72,28 @@ TEST_CASE("slow branches that could be made at the same time are units of their 
   CHECK(units[2].needs == Names{"index", "left"});
 }
 
+TEST_CASE("many pixels take long, more so in better quality, whatever smaller ones have taken") {
+  Walls walls(1);
+  NodeType& sum = walls.types.sum;
+  sum.params.push_back(
+      {.name = "quality", .type = ParamType::choice, .fallback = "normal", .choices = {"draft", "normal", "best"}});
+  const auto seconds = [&](int side, const char* quality) {
+    set(walls.graph, "layout0", "quality", quality);
+    Plan plan = walls.plan();
+    for (Stage& s : plan.stages)
+      if (s.node->name == "layout0") s.shape.size = Size{side, side};
+    return units_of(plan).back().seconds;
+  };
+  const double small = seconds(64, "normal");
+  CHECK(small < 10);
+  CHECK(seconds(4096, "normal") > 60);
+  CHECK(seconds(4096, "draft") < seconds(4096, "normal") / 2);
+  CHECK(seconds(4096, "best") > seconds(4096, "normal"));
+  // What is there costs nothing.
+  walls.run({"files0"});
+  CHECK(seconds(4096, "best") == 0);
+}
+
 TEST_CASE("what is made is not due, nor is what only that needed") {
   Walls walls(2);
   CHECK(due(units_of(walls.plan()), walls.plan()) == std::vector<bool>{true, true, true});
