@@ -67,6 +67,7 @@ PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::stri
   job.graph = fs::absolute(plan.graph->file).string();
   job.program = std::string("terrazzo ") + TERRAZZO_VERSION;
   job.targets = out.graph.targets;
+  job.origins = out.graph.origins;
   job.plugins = plugins;
   // All that results depend on in the environment. It names a file, or something built in, such as "ocio://default".
   if (const char* config = std::getenv("OCIO")) {

@@ -88,6 +88,25 @@ TEST_CASE("a unit that fails is noted, and those that need it say so") {
   CHECK(job.states().at("x") == "done");
 }
 
+TEST_CASE("a unit that cannot read an input names the user's file, not its copy") {
+  const Workplace w;
+  write_picture(w.path / "wall" / "wall_height.png", 1, Semantic::height, {96, 96});
+  std::string bytes = read_text(w.path / "wall" / "wall_height.png");
+  bytes[bytes.size() / 2] ^= 0x55;  // which only reading all of it finds
+  write_text(w.path / "wall" / "wall_height.png", bytes);
+  write_text(w.path / "graph.json", R"({"terrazzo": 1, "nodes": {
+    "a": {"type": "load_material", "path": "wall"},
+    "x": {"type": "export", "material": "@a", "path": "x/{map}.png"}}})");
+  REQUIRE(w.run({"submit", "graph.json", "--openjd", "template.json"}).code == 0);
+  const std::string job = FarmFolder(w.path / "cache").job_names().at(0);
+  const std::string original = (w.path / "wall" / "wall_height.png").string();
+  const ProgramRun run = w.run({"task", job, "x"});
+  CHECK(run.code == 1);
+  CHECK(run.err.find(original) != std::string::npos);
+  CHECK(run.err.find("farm/inputs/") == std::string::npos);
+  CHECK(w.run({"submit", job, "--status"}).out.find(original) != std::string::npos);
+}
+
 TEST_CASE("inputs, version and plug-ins must be those of the submission") {
   const Job job;
   for (const auto& entry : fs::recursive_directory_iterator(FarmFolder::of_job(job.folder).inputs()))
