@@ -91,8 +91,8 @@ std::vector<double> distances(const NearestPoints& tree, const std::vector<float
   tbb::parallel_for(tbb::blocked_range<size_t>(0, out.size(), 64), [&](const auto& range) {
     task.check();
     for (size_t i = range.begin(); i < range.end(); i++) {
-      const uint32_t except = among_themselves ? uint32_t(i) : NearestPoints::nothing;
-      out[i] = std::sqrt(double(tree.find(&points[i * dimensions], slack, except).squared));
+      const auto itself = [&](uint32_t other) { return among_themselves && other == i; };
+      out[i] = std::sqrt(double(tree.find(&points[i * dimensions], slack, itself).squared));
     }
   });
   return out;

@@ -11,7 +11,7 @@ struct NearestPoints::Search {
   const float* query;
   std::vector<float> offsets;  ///< per axis, from the query to the cell being visited
   float tightness;             ///< (1 + slack) squared
-  uint32_t except;
+  const std::function<bool(uint32_t)>& left_out;
   Match best{nothing, std::numeric_limits<float>::max()};
 };
 
@@ -88,7 +88,8 @@ void NearestPoints::scan(uint32_t leaf, Search& search) const {
   for (int i = 0; i < leaf_size; i++) {
     const bool better =
         squared[i] < search.best.squared || (squared[i] == search.best.squared && indices[i] < search.best.index);
-    if (better && indices[i] != nothing && indices[i] != search.except) search.best = {indices[i], squared[i]};
+    if (better && indices[i] != nothing && !(search.left_out && search.left_out(indices[i])))
+      search.best = {indices[i], squared[i]};
   }
 }
 
@@ -108,9 +109,10 @@ void NearestPoints::visit(uint32_t node, float beyond, Search& search) const {
   search.offsets[n.axis] = kept;
 }
 
-NearestPoints::Match NearestPoints::find(const float* query, double slack, uint32_t except) const {
+NearestPoints::Match NearestPoints::find(const float* query, double slack,
+                                         const std::function<bool(uint32_t)>& left_out) const {
   const float tightness = float((1 + slack) * (1 + slack));
-  Search search{query, std::vector<float>(dimensions_), tightness, except};
+  Search search{query, std::vector<float>(dimensions_), tightness, left_out};
   visit(0, 0, search);
   return search.best;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace terrazzo {
@@ -19,9 +20,9 @@ class NearestPoints {
   /// `points`: rows of `dimensions` numbers, at least one row.
   NearestPoints(const std::vector<float>& points, int dimensions);
 
-  /// A point at most 1 + slack times as far from the query as the nearest one, leaving out the point `except`. Among
-  /// points seen at the same distance the first one wins.
-  Match find(const float* query, double slack, uint32_t except = nothing) const;
+  /// A point at most 1 + slack times as far from the query as the nearest one. Among points seen at the same distance
+  /// the first one wins. `left_out`: tells by their index which points do not count; empty: all do.
+  Match find(const float* query, double slack, const std::function<bool(uint32_t)>& left_out = {}) const;
 
  private:
   static constexpr int leaf_size = 16;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -48,22 +47,61 @@ Regions minima(const std::vector<uint8_t>& relief, Size size, bool wraps) {
   return out;
 }
 
+/// What a region has in common with each of its neighbours, by their numbers.
+class Neighbours {
+ public:
+  struct Shared {
+    uint32_t with;
+    int64_t length, height;
+  };
+
+  /// Null if the regions have no common border.
+  const Shared* find(uint32_t with) const {
+    const auto at = place_of(with);
+    return at != all_.end() && at->with == with ? &*at : nullptr;
+  }
+  /// Adds to what is there; the sum.
+  Shared add(const Shared& s) {
+    const auto at = place_of(s.with);
+    if (at == all_.end() || at->with != s.with) return *all_.insert(at, s);
+    Shared& sum = all_[size_t(at - all_.begin())];
+    sum.length += s.length;
+    sum.height += s.height;
+    return sum;
+  }
+  void erase(uint32_t with) {
+    if (find(with)) all_.erase(place_of(with));
+  }
+  std::vector<Shared> taken() { return std::exchange(all_, {}); }
+
+ private:
+  std::vector<Shared>::const_iterator place_of(uint32_t with) const {
+    return std::ranges::lower_bound(all_, with, {}, &Shared::with);
+  }
+  std::vector<Shared> all_;
+};
+
 /// Joins regions one by one.
 class Joining {
  public:
   Joining(const Regions& regions, const std::vector<RegionBorder>& borders, const JoiningRule& rule)
-      : rule_(rule), joined_(size_t(regions.count)), areas_(size_t(regions.count)), shared_(size_t(regions.count)) {
+      : rule_(rule), joined_(size_t(regions.count)), areas_(size_t(regions.count)), neighbours_(size_t(regions.count)) {
     for (const uint32_t r : regions.at) areas_[r]++;
     for (const RegionBorder& b : borders) {
-      shared_[b.a][b.b] = shared_[b.b][b.a] = {b.length, b.height};
-      offer(b.a, b.b);
+      neighbours_[b.a].add({b.b, b.length, b.height});
+      neighbours_[b.b].add({b.a, b.length, b.height});
+      offer(b.a, b.b, b.length, b.height);
     }
     while (!queue_.empty()) {
       const Candidate c = queue_.top();
       queue_.pop();
-      const auto at = shared_[c.a].find(c.b);
-      // What has been joined meanwhile is in the queue anew.
-      if (at != shared_[c.a].end() && at->second.length == c.length && c.areas == areas_[c.a] + areas_[c.b])
+      // A border that has grown meanwhile is in the queue anew. As regions grow, less of them may be joined.
+      const Neighbours::Shared* s = neighbours_[c.a].find(c.b);
+      if (!s || s->length != c.length) continue;
+      const double now = order(c.a, c.b, s->length, s->height);
+      if (now > c.order)
+        offer(c.a, c.b, s->length, s->height);
+      else
         join(c.a, c.b);
     }
   }
@@ -71,47 +109,44 @@ class Joining {
   uint32_t root(uint32_t r) { return joined_.find(r); }
 
  private:
-  struct Shared {
-    int64_t length, height;
-  };
+  static constexpr double never = 1e9;
   struct Candidate {
     double order;
     uint32_t a, b;
-    int64_t length, areas;  ///< when it was put in
+    int64_t length;  ///< of the border when it was put in
     bool operator<(const Candidate& o) const { return std::tie(o.order, o.a, o.b) < std::tie(order, a, b); }
   };
 
-  void offer(uint32_t a, uint32_t b) {
-    if (a > b) std::swap(a, b);
-    const Shared& s = shared_[a][b];
-    const double mean = double(s.height) / double(s.length);
+  double order(uint32_t a, uint32_t b, int64_t length, int64_t height) const {
+    const double mean = double(height) / double(length);
     const int64_t smaller = std::min(areas_[a], areas_[b]);
-    const bool tiny = smaller < rule_.smallest;
-    if (!tiny && mean >= (smaller >= rule_.large ? rule_.least_of_large : rule_.least)) return;
-    queue_.push({tiny ? mean - 256 : mean, a, b, s.length, areas_[a] + areas_[b]});
+    if (smaller < rule_.smallest) return mean - 256;
+    return mean >= (smaller >= rule_.large ? rule_.least_of_large : rule_.least) ? never : mean;
+  }
+
+  void offer(uint32_t a, uint32_t b, int64_t length, int64_t height) {
+    if (a > b) std::swap(a, b);
+    if (const double o = order(a, b, length, height); o < never) queue_.push({o, a, b, length});
   }
 
   /// `a` is the smaller number, which goes on to stand for both.
   void join(uint32_t a, uint32_t b) {
     joined_.join(a, b);
     areas_[a] += areas_[b];
-    shared_[a].erase(b);
-    for (const auto& [other, s] : shared_[b]) {
-      if (other == a) continue;
-      Shared& both = shared_[a][other];
-      both.length += s.length;
-      both.height += s.height;
-      shared_[other].erase(b);
-      shared_[other][a] = both;
+    neighbours_[a].erase(b);
+    for (const Neighbours::Shared& s : neighbours_[b].taken()) {
+      if (s.with == a) continue;
+      const Neighbours::Shared both = neighbours_[a].add(s);
+      neighbours_[s.with].erase(b);
+      neighbours_[s.with].add({a, s.length, s.height});
+      offer(a, s.with, both.length, both.height);
     }
-    shared_[b].clear();
-    for (const auto& [other, s] : shared_[a]) offer(a, other);
   }
 
   JoiningRule rule_;
   DisjointSets joined_;
   std::vector<int64_t> areas_;
-  std::vector<std::map<uint32_t, Shared>> shared_;
+  std::vector<Neighbours> neighbours_;
   std::priority_queue<Candidate> queue_;
 };
 
@@ -142,15 +177,14 @@ Regions flooded(const std::vector<uint8_t>& relief, Size size, bool wraps, std::
 
 std::vector<RegionBorder> region_borders(const Regions& regions, const std::vector<uint8_t>& relief, Size size,
                                          bool wraps) {
-  std::map<std::pair<uint32_t, uint32_t>, RegionBorder> found;
+  struct Pair {
+    uint32_t a, b;
+    uint8_t height;
+  };
+  std::vector<Pair> pairs;
   const auto add = [&](uint32_t p, uint32_t q) {
     const auto [a, b] = std::minmax(regions.at[p], regions.at[q]);
-    if (a == b) return;
-    RegionBorder& border = found[{a, b}];
-    border.a = a;
-    border.b = b;
-    border.length++;
-    border.height += std::max(relief[p], relief[q]);
+    if (a != b) pairs.push_back({a, b, std::max(relief[p], relief[q])});
   };
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) {
@@ -158,8 +192,13 @@ std::vector<RegionBorder> region_borders(const Regions& regions, const std::vect
       if (x + 1 < size.width || wraps) add(p, uint32_t(y * size.width + (x + 1) % size.width));
       if (y + 1 < size.height || wraps) add(p, uint32_t((y + 1) % size.height * size.width + x));
     }
+  std::ranges::sort(pairs, {}, [](const Pair& p) { return uint64_t{p.a} << 32 | p.b; });
   std::vector<RegionBorder> out;
-  for (const auto& [pair, border] : found) out.push_back(border);
+  for (const Pair& p : pairs) {
+    if (out.empty() || out.back().a != p.a || out.back().b != p.b) out.push_back({p.a, p.b});
+    out.back().length++;
+    out.back().height += p.height;
+  }
   return out;
 }
 

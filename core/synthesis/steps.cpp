@@ -35,7 +35,8 @@ struct Tuning {
   int finest_limited = 2;
   int finest_repaired = 2;
   int coarsest_repaired = 3;
-  int coarsest_incoherent = 3;
+  int finest_incoherent = 2;
+  int coarsest_incoherent = 2;
   int first_repair = 5;
   int last_repair = 2;
   int alignment_reach = 2;
@@ -77,6 +78,8 @@ const Tunable<Tuning> tuning(
         {&Tuning::coarsest_repaired, "coarsest_repaired", "level",
          "higher: coarser levels too, where it brings nothing",
          "not measured: the levels in use were measured together, not one by one"},
+        {&Tuning::finest_incoherent, "finest_incoherent", "level",
+         "lower: finer levels too, where it costs most and brings nothing", "coherence_repair", finest_whole_level},
         {&Tuning::coarsest_incoherent, "coarsest_incoherent", "level",
          "higher: coarser levels too, whose windows are all unlike one another", "coherence_repair"},
         {&Tuning::first_repair, "first_repair", "passes left", "higher: seams are repaired earlier",
@@ -163,7 +166,7 @@ bool limits_pieces(const LevelFacts& f) {
 
 /// Measured on lattices this brings next to nothing.
 bool repairs_incoherent(const LevelFacts& f) {
-  return f.level >= finest_whole_level && f.level <= tuning->coarsest_incoherent && !f.regular && !f.steered &&
+  return f.level >= tuning->finest_incoherent && f.level <= tuning->coarsest_incoherent && !f.regular && !f.steered &&
          !is_draft(f);
 }
 
@@ -254,7 +257,8 @@ void move_to_joints(StepContext& c) {
 
 void repair(StepContext& c) {
   const int left = c.effort.passes - c.pass;
-  if (left == tuning->first_repair || left == tuning->last_repair)
+  // Without a lattice the second time breaks more than it mends.
+  if (left == tuning->first_repair || (left == tuning->last_repair && (c.facts.regular || c.facts.kept)))
     repair_seams(c.field, c.level, c.usage, c.bits(Purpose::graphcut_repair), c.shared.task);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "core/analysis/space/weighting.h"
 #include "core/base/tuning.h"
 #include "core/image/image_ops.h"
+#include "core/numeric/nearest.h"
 
 namespace terrazzo {
 
@@ -23,6 +25,7 @@ struct Tuning {
   double slack = 1.25;
   double least_certainty = 0.75;
   double most_excess = 1.0 / 120;
+  double quick_slack = 1;
   int window = 6;
   int samples = 64;
   int lines = 96;
@@ -50,6 +53,9 @@ const Tunable<Tuning> tuning(
         {&Tuning::most_excess, "most_excess", "share of a side",
          "by which cells may come out uneven. Higher: less is denied; lower: imprecise lattices deny what wraps",
          "not measured: taken over from the code before constants were listed"},
+        {&Tuning::quick_slack, "quick_slack", "of the distance",
+         "by which a quick search may miss the nearest window. Higher: it takes less time but decides less",
+         "wrap_detection", 0, 10},
         {&Tuning::window, "window", "pixels a side",
          "of the windows that are compared. Higher: larger features must fit; lower: less is unusual",
          "not measured: taken over from the code before constants were listed", 1},
@@ -69,25 +75,22 @@ const Tunable<Tuning> tuning(
 class WindowSearch {
  public:
   explicit WindowSearch(const Image& map) : map_(map) {
+    std::vector<float> windows;
     for (int i = 0; i < places; i++) {
       const uint64_t r = random_bits(11, i);
       places_[i] = {int(below(uint32_t(r), map.width() - side)), int(below(uint32_t(r >> 32), map.height() - side))};
-      windows_[i] = window(places_[i][0], places_[i][1]);
+      std::ranges::copy(window(places_[i][0], places_[i][1]), std::back_inserter(windows));
     }
+    search_ = std::make_unique<NearestPoints>(windows, side * side * map.channels());
   }
 
-  /// The nearest window that does not overlap the one at (x, y), which may lie across a border.
-  double nearest(int x, int y) const {
-    const std::vector<float> wanted = window(x, y);
-    double best = std::numeric_limits<double>::max();
-    for (int i = 0; i < places; i++) {
-      if (std::abs(places_[i][0] - x) < side && std::abs(places_[i][1] - y) < side) continue;
-      double sum = 0;
-      for (size_t k = 0; k < wanted.size() && sum < best; k++)
-        sum += double(wanted[k] - windows_[i][k]) * (wanted[k] - windows_[i][k]);
-      best = std::min(best, sum);
-    }
-    return std::sqrt(best);
+  /// The distance to the nearest window that does not overlap the one at (x, y), which may lie across a border: at most
+  /// 1 + slack times as much, never less.
+  double nearest(int x, int y, double slack) const {
+    const auto overlaps = [&](uint32_t i) {
+      return std::abs(places_[i][0] - x) < side && std::abs(places_[i][1] - y) < side;
+    };
+    return std::sqrt(double(search_->find(window(x, y).data(), slack, overlaps).squared));
   }
 
  private:
@@ -96,7 +99,7 @@ class WindowSearch {
   std::vector<float> window(int x, int y) const { return read_padded(map_, {x, y, side, side}, Outside::wrap); }
   const Image& map_;
   std::array<std::array<int, 2>, places> places_;
-  std::array<std::vector<float>, places> windows_;
+  std::unique_ptr<NearestPoints> search_;
 };
 
 std::vector<float> border_line(const Image& map, bool rows, int i) {
@@ -167,13 +170,16 @@ class Fit {
       searches_.push_back(std::make_unique<WindowSearch>(*map));
       double sum = 0;
       for (int i = 0; i < samples; i++)
-        sum += searches_.back()->nearest(inside(map->width(), {12, 0, i}), inside(map->height(), {12, 1, i}));
+        sum += searches_.back()->nearest(inside(map->width(), {12, 0, i}), inside(map->height(), {12, 1, i}), 0);
       inside_.push_back(std::max(sum / samples, std::numeric_limits<double>::min()));
     }
   }
 
-  double across_seam(bool rows) const { return across(rows, std::nullopt); }
-  double across_line(bool rows, double place) const { return across(rows, place); }
+  double across_seam(bool rows) const { return across(rows, std::nullopt, 0); }
+  /// Whether it is at least so much across a line. Few come near it, and a quick search tells which.
+  bool reaches_across_line(bool rows, double place, double least) const {
+    return across(rows, place, tuning->quick_slack) >= least && across(rows, place, 0) >= least;
+  }
 
  private:
   static int at(double place, int extent) { return int(place * (extent - tuning->window)); }
@@ -181,14 +187,15 @@ class Fit {
     return at(unit_double(random_bits(sample[0], sample[1], sample[2])), extent);
   }
   /// Without a line, of windows across the seam.
-  double across(bool rows, std::optional<double> line) const {
+  double across(bool rows, std::optional<double> line, double slack) const {
     double out = 0;
     for (size_t m = 0; m < maps_.size(); m++) {
       const int width = maps_[m]->width(), height = maps_[m]->height(), breadth = rows ? height : width;
       const int first = line ? at(*line, breadth) : breadth - tuning->window / 2;
       for (int i = 0; i < samples; i++) {
         const int along = inside(rows ? width : height, {13, rows ? 1 : 0, i});
-        out += (rows ? searches_[m]->nearest(along, first) : searches_[m]->nearest(first, along)) / inside_[m];
+        out += (rows ? searches_[m]->nearest(along, first, slack) : searches_[m]->nearest(first, along, slack)) /
+               inside_[m];
       }
     }
     return out / (samples * double(maps_.size()));
@@ -205,7 +212,8 @@ class Fit {
 bool lines_fit_as_little(const Fit& fit, bool rows, double seam) {
   const int lines = tuning->lines, enough = tuning->enough_lines;
   int found = 0;
-  for (int i = 0; i < lines && found < enough; i++) found += fit.across_line(rows, double(i) / lines) >= seam ? 1 : 0;
+  for (int i = 0; i < lines && found < enough && found + lines - i >= enough; i++)
+    found += fit.reaches_across_line(rows, double(i) / lines, seam) ? 1 : 0;
   return found >= enough;
 }
 

@@ -19,8 +19,6 @@ namespace {
 struct Tuning {
   double incoherent = 0.5;
   double worthwhile = 0.5;
-  int sparse_level = 1;
-  int sparse_stride = 2;
 };
 const Tunable<Tuning> tuning(
     "coherence_repair",
@@ -31,12 +29,6 @@ const Tunable<Tuning> tuning(
         {&Tuning::worthwhile, "worthwhile", "incoherent windows",
          "how much a repair must lower the sum around it. Higher: rare features survive; lower: less is left broken",
          "not measured: half a window, the least that counts as incoherent", 0, 1000},
-        {&Tuning::sparse_level, "sparse_level", "level",
-         "the coarsest level where only some windows are examined. Higher: less time; lower: no incoherent window is "
-         "missed",
-         "coherence_repair"},
-        {&Tuning::sparse_stride, "sparse_stride", "windows in x and y",
-         "higher: fewer windows are examined there, which saves time", "coherence_repair", 1, 1000},
     });
 
 /// Incoherence in WindowCoherence's fixed-point unit.
@@ -44,14 +36,16 @@ int64_t fixed_point(double incoherence) {
   return int64_t(incoherence * WindowCoherence::most);
 }
 
-/// What a field shows around a window: all windows that share pixels with it, to measure their incoherence.
+/// What a field shows around a window, and the incoherence of all windows that share pixels with it.
 class Surroundings {
  public:
   /// The middles of windows that share pixels with the window lie so near.
   static constexpr int touched = Patches::half + WindowCoherence::reach;
 
-  Surroundings(const Field& field, const PlaneWindow& part, const WindowCoherence& window_coherence)
-      : field_(field), part_(part), window_coherence_(window_coherence) {}
+  /// `incoherence`: of the window around each pixel of the field, kept up to date by update().
+  Surroundings(const Field& field, const PlaneWindow& part, const WindowCoherence& window_coherence,
+               std::vector<int32_t>& incoherence)
+      : field_(field), part_(part), window_coherence_(window_coherence), known_(incoherence) {}
 
   /// Reads the surroundings of a pixel. Returns the summed incoherence of all windows that share pixels with its
   /// window.
@@ -60,27 +54,28 @@ class Surroundings {
     for_each(pixels_held, [&](int dx, int dy) { read_pixel(dx, dy); });
     before_ = shown_;
     int64_t sum = 0;
-    for_each(touched, [&](int dx, int dy) { sum += incoherence_before_[at(dx, dy)] = incoherence(dx, dy); });
+    for_each(touched, [&](int dx, int dy) { sum += known(dx, dy); });
     return sum;
   }
 
   /// The same after the window's pixels may have changed; stops beyond the limit. Returns the limit if none has.
   int64_t read_again(int64_t limit) {
-    changed_.fill(0);
-    bool any = false;
-    for_each(Patches::half, [&](int dx, int dy) {
-      read_pixel(dx, dy);
-      const bool changed = shown_[at(dx, dy)] != before_[at(dx, dy)];
-      any |= changed;
-      if (changed) mark(dx, dy);
-    });
-    if (!any) return limit;
+    if (!find_changed()) return limit;
     int64_t sum = 0;
-    for_each(touched, [&](int dx, int dy) { sum += changed_[at(dx, dy)] ? 0 : incoherence_before_[at(dx, dy)]; });
+    for_each(touched, [&](int dx, int dy) { sum += changed_[at(dx, dy)] ? 0 : known(dx, dy); });
     for_each(touched, [&](int dx, int dy) {
       if (changed_[at(dx, dy)] && sum < limit) sum += incoherence(dx, dy);
     });
     return sum;
+  }
+
+  /// Once the window's pixels are what they will be.
+  void update() {
+    if (!find_changed()) return;
+    for_each(touched, [&](int dx, int dy) {
+      const int64_t i = index(dx, dy);
+      if (i >= 0 && changed_[at(dx, dy)]) known_[size_t(i)] = incoherence(dx, dy);
+    });
   }
 
   /// The incoherence of the window around one pixel alone.
@@ -111,6 +106,22 @@ class Surroundings {
     x_ = x;
     y_ = y;
   }
+  int32_t known(int dx, int dy) const {
+    const int64_t i = index(dx, dy);
+    return i < 0 ? 0 : known_[size_t(i)];
+  }
+  /// Marks the windows that have changed since they were read; false if none has.
+  bool find_changed() {
+    changed_.fill(0);
+    bool any = false;
+    for_each(Patches::half, [&](int dx, int dy) {
+      read_pixel(dx, dy);
+      if (shown_[at(dx, dy)] == before_[at(dx, dy)]) return;
+      mark(dx, dy);
+      any = true;
+    });
+    return any;
+  }
   void read_pixel(int dx, int dy) {
     const int64_t i = index(dx, dy);
     if (i >= 0) shown_[at(dx, dy)] = field_.pixels[size_t(i)];
@@ -135,21 +146,21 @@ class Surroundings {
   const Field& field_;
   const PlaneWindow& part_;
   const WindowCoherence& window_coherence_;
+  std::vector<int32_t>& known_;
   int x_ = 0, y_ = 0;
   PerPixel<ExemplarPixel> shown_{}, before_{};
-  PerPixel<int32_t> incoherence_before_{};
   PerPixel<uint8_t> changed_{};
 };
 
 /// Repairs one window at a time. One per thread.
 class Repairer {
  public:
-  Repairer(ExpansionGround& ground, const UsagePenalty& usage, const WindowCoherence& window_coherence, int tries,
-           uint64_t seed)
+  Repairer(ExpansionGround& ground, const UsagePenalty& usage, const WindowCoherence& window_coherence,
+           std::vector<int32_t>& incoherence, int tries, uint64_t seed)
       : field_(ground.field),
         tries_(tries),
         patches_(ground, usage, seed),
-        surroundings_(ground.field, ground.level.window, window_coherence) {}
+        surroundings_(ground.field, ground.level.window, window_coherence, incoherence) {}
 
   void repair(int x, int y) {
     int64_t least = surroundings_.read(x, y) - fixed_point(tuning->worthwhile);
@@ -166,6 +177,7 @@ class Repairer {
       restore(before_);
     }
     restore(best_);
+    surroundings_.update();
   }
 
   int32_t incoherence(int x, int y) { return surroundings_.incoherence_at(x, y); }
@@ -202,16 +214,14 @@ void repair_incoherent(Field& field, const CorrectionLevel& level, UsagePenalty&
   const WindowCoherence window_coherence(level);
   task.check();
   ExpansionGround ground(field, level);
-  tbb::enumerable_thread_specific<Repairer> repairers(
-      [&] { return Repairer(ground, usage, window_coherence, tries, seed); });
-  const Size size = field.size;
   std::vector<int32_t> values(field.pixels.size());
-  const int step = level.level <= tuning->sparse_level ? tuning->sparse_stride : 1;
+  tbb::enumerable_thread_specific<Repairer> repairers(
+      [&] { return Repairer(ground, usage, window_coherence, values, tries, seed); });
+  const Size size = field.size;
   const int64_t incoherent = fixed_point(tuning->incoherent);
-  tbb::parallel_for(0, (size.height + step - 1) / step, [&](int row) {
+  tbb::parallel_for(0, size.height, [&](int y) {
     task.check();
-    for (int x = 0; x < size.width; x += step)
-      values[size_t(row) * step * size.width + x] = repairers.local().incoherence(x, row * step);
+    for (int x = 0; x < size.width; x++) values[size_t(y) * size.width + x] = repairers.local().incoherence(x, y);
   });
   std::vector<int32_t> sums = core_sums(values, size, level.window);
   for (size_t i = 0; i < sums.size(); i++)

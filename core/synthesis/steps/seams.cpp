@@ -19,7 +19,7 @@ struct Tuning {
   double fair_pressure = appearance_limit / 55.0;
   double most_pressure = 3;
   int smallest_piece = 2;
-  int sweeps = 2;
+  int sweeps = 1;
 };
 const Tunable<Tuning> tuning(
     "seams",

@@ -50,8 +50,7 @@ TEST_CASE("which steps run is decided by the facts of a level") {
   const LevelFacts bricks{.level = 0, .levels = 6, .regular = true, .may_have_bricks = true};
   CHECK(applying(bricks) == "initialize alignment course_layout seams correction");
   const LevelFacts kept{.level = 1, .levels = 6, .kept = true};
-  CHECK(applying(kept) ==
-        "proximity_penalty initialize fixed_pixels seams graphcut_repair correction coherence_repair");
+  CHECK(applying(kept) == "proximity_penalty initialize fixed_pixels seams graphcut_repair correction");
   const LevelFacts steered{.level = 2, .levels = 6, .steered = true};
   CHECK(applying(steered) == "initialize correction");
 }

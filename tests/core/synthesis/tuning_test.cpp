@@ -52,7 +52,7 @@ FeaturesPtr features_of(Shown shown) {
     case Shown::spots:
       break;
   }
-  return plain_features(spots({96, 96}));
+  return plain_features(spots({160, 160}));
 }
 
 Digest result(Shown shown) {
