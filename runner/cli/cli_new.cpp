@@ -10,11 +10,11 @@
 #include "graphs/document/stock_graphs.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
+#include "runner/cli/exemplar_look.h"
 #include "runner/cli/limit_flags.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/starting_graph.h"
 #include "runner/cli/written_files.h"
-#include "runner/engine/memory_graph.h"
 #include "runner/engine/schedule.h"
 
 namespace terrazzo {
@@ -49,16 +49,6 @@ RunResult run_on_folder(const Graph& graph, const RunOptions& options, const std
   }
 }
 
-/// The exemplar with the search for what repeats in it.
-Graph looking_graph(const std::string& folder, const std::string& name) {
-  Graph graph;
-  graph.nodes = {memory_node("exemplar", "load_material", {{"path", fs::absolute(folder).string()}, {"name", name}}),
-                 memory_node("weighted", "weight", {}), memory_node("lattice", "regularity", {})};
-  graph.nodes[1].inputs["material"] = {{"exemplar", "material"}};
-  graph.nodes[2].inputs["features"] = {{"weighted", "features"}};
-  return graph;
-}
-
 void require_stock_graph(const NewFlags& flags) {
   std::vector<std::string> names;
   for (const StockGraph& g : stock_graphs())
@@ -78,21 +68,22 @@ int make_new(const NewFlags& flags) {
   const CancelOnSignal signals;
   const Graph graph = looking_graph(flags.folder, flags.name);
   RunOptions options;
-  options.targets.keep = {"exemplar", "lattice"};
+  options.targets.keep = {"exemplar", "elements"};
   options.cancelled = &signals.flag();
   const RunResult result = run_on_folder(graph, options, flags.folder);
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
   if (!result.ok()) return result.cancelled ? exit_cancelled : exit_failed;
-  const auto features = std::get<FeaturesPtr>(result.kept.at("lattice").at("features"));
+  const auto features = std::get<FeaturesPtr>(result.kept.at("elements").at("features"));
   ExemplarLook look{.exemplar = std::get<MaterialPtr>(result.kept.at("exemplar").at("material")),
                     .folder = seen_from(fs::absolute(flags.out).parent_path(), flags.folder),
                     .name = flags.name,
                     .notes = result.stages[0].notes,
                     .lattice_notes = result.stages[2].notes,
                     .repeats = features->repeats().lattice.rank > 0,
-                    .tiles = features->wraps()};
+                    .tiles = features->wraps(),
+                    .method = suitable_method(*features, Task())};
   write_whole_file(flags.out, starting_graph(look, stock_graph(flags.like)));
-  say("found {}\n{}\nwrote {}\n", look.exemplar->map_names(), look.nature(), flags.out);
+  say("found {}\n{}\n{}\nwrote {}\n", look.exemplar->map_names(), look.nature(), look.advice(), flags.out);
   return exit_done;
 }
 

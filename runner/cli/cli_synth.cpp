@@ -4,11 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "core/stochastic/method.h"
 #include "graphs/document/load.h"
 #include "graphs/document/override.h"
 #include "graphs/document/stock_graphs.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_run.h"
+#include "runner/cli/console.h"
+#include "runner/cli/exemplar_look.h"
 
 namespace terrazzo {
 
@@ -44,15 +47,63 @@ bool same_folder(const std::string& a, const std::string& b) {
   return std::filesystem::equivalent(a, b, missing);
 }
 
+struct SynthFlags : RunFlags {
+  std::string folder, out, name, scale, size, seed, quality, blend, join, format, tileable, method = "layout";
+  std::vector<std::string> set;
+
+  /// The first of the given options that only a layout has; empty if there is none.
+  std::string layout_option() const {
+    return !quality.empty() ? "--quality" : !blend.empty() ? "--blend" : !join.empty() ? "--join" : "";
+  }
+};
+
+/// The stock graph to run; null if the exemplar could not be looked at, which has been said, and the exit code then.
+struct ChosenGraph {
+  const char* name = nullptr;
+  int code = exit_done;
+};
+
+/// Looks at the exemplar, with the cache that the run itself uses, and says which of the stock graphs suits it.
+ChosenGraph suitable_graph(const SynthFlags& flags) {
+  RunFlags looking;
+  looking.cache = flags.cache;
+  looking.cache_size = flags.cache_size;
+  looking.no_cache = flags.no_cache;
+  looking.threads = flags.threads;
+  looking.limits = flags.limits;
+  looking.sandbox = flags.sandbox;
+  looking.progress = "none";
+  looking.keep = {"elements"};
+  FeaturesPtr features;
+  looking.after = [&](const RunResult& result) {
+    if (result.ok()) features = std::get<FeaturesPtr>(result.kept.at("elements").at("features"));
+  };
+  const int code = run_with_flags([&] { return looking_graph(flags.folder, flags.name); }, looking);
+  if (!features) return {nullptr, code};
+  const MethodChoice choice = suitable_method(*features, Task());
+  say("{}\n", choice.sentence());
+  return {choice.method == Method::noise ? "noise" : "material"};
+}
+
+ChosenGraph chosen_graph(const SynthFlags& flags) {
+  const std::string of_layout = flags.layout_option();
+  if (flags.method == "layout") return {"material"};
+  if (flags.method == "noise") {
+    if (of_layout.empty()) return {"noise"};
+    throw UsageError(of_layout + ": noise by example has no layout; leave it out, or name --method layout");
+  }
+  if (flags.dry_run)
+    throw UsageError("--method auto: it has to look at the exemplar; name layout or noise for a --dry-run");
+  if (of_layout.empty()) return suitable_graph(flags);
+  say("a layout is made: {} asks for one\n", of_layout);
+  return {"material"};
+}
+
 }  // namespace
 
 void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
-  struct Flags : RunFlags {
-    std::string folder, out, name, scale, size, seed, quality, blend, join, format, tileable;
-    std::vector<std::string> set;
-  };
-  const auto flags = std::make_shared<Flags>();
+  const auto flags = std::make_shared<SynthFlags>();
   synth->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
   synth
       ->add_option("-o,--out", flags->out,
@@ -83,13 +134,20 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
                    "side, else pixels; 0 keeps heights exact. 0.03 if not given")
       ->type_name("REACH");
   synth
+      ->add_option("--method", flags->method,
+                   "layout, noise (noise by example, for exemplars without structure), or auto: the one that suits the "
+                   "exemplar; layout if not given")
+      ->type_name("METHOD")
+      ->check(CLI::IsMember({"auto", "layout", "noise"}));
+  synth
       ->add_option("--format", flags->format,
                    "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
       ->type_name("FORMAT");
   synth
-      ->add_option("--set", flags->set,
-                   "Sets a parameter of the graph that this stands for (graphs/material.json), or of one of its nodes, "
-                   "as for run; may be given several times")
+      ->add_option(
+          "--set", flags->set,
+          "Sets a parameter of the graph that this stands for (graphs/material.json, or graphs/noise.json), or "
+          "of one of its nodes, as for run; may be given several times")
       ->type_name("NAME=VALUE")
       ->take_all()
       ->expected(1);
@@ -120,8 +178,10 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
         throw UsageError(
             fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
       try {
-        return run_with_flags(
-            [&] { return load_graph_text(stock_graph("material"), "stock graph material.json", set).graph; }, *flags);
+        const ChosenGraph graph = chosen_graph(*flags);
+        if (!graph.name) return graph.code;
+        const std::string file = fmt::format("stock graph {}.json", graph.name);
+        return run_with_flags([&] { return load_graph_text(stock_graph(graph.name), file, set).graph; }, *flags);
       } catch (const GraphError& e) {
         throw about_arguments(e, arguments);
       }

@@ -105,6 +105,10 @@ std::string ExemplarLook::nature() const {
   return repeats ? "it repeats" : tiles ? "no lattice; it tiles" : "no lattice; it does not tile";
 }
 
+std::string ExemplarLook::advice() const {
+  return method.sentence() + (method.method == Method::noise ? "; --like noise begins with that" : "");
+}
+
 bool takes_a_folder(std::string_view graph) {
   ParsedJson parsed = parse_json(graph);
   return parsed.value && !parsed.value->find("inputs") && folder_parameter(*parsed.value);
@@ -126,6 +130,7 @@ std::string starting_graph(const ExemplarLook& look, std::string_view stock) {
     comment(first, fmt::format("  {}: {}x{}, {}", m.name, m.image->width(), m.image->height(),
                                counted(m.image->channels(), "channel")));
   for (const std::string& note : look.notes) comment(first, "  " + note);
+  comment(first, "  " + look.advice());
   // Graphs of several exemplars compare maps that they share.
   const bool is_of_one = nodes.find("exemplar") && !nodes.find("all");
   if (JsonValue* weighted = nodes.find("weighted"); weighted && is_of_one) weigh(*weighted, *look.exemplar);

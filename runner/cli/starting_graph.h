@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/material/material.h"
+#include "core/stochastic/method.h"
 
 namespace terrazzo {
 
@@ -18,9 +19,12 @@ struct ExemplarLook {
   std::vector<std::string> lattice_notes;  ///< of regularity
   bool repeats = false;                    ///< a lattice was found
   bool tiles = false;                      ///< opposite borders fit
+  MethodChoice method{};                   ///< which way suits it
 
   /// A sentence on what kind of exemplar it is.
   std::string nature() const;
+  /// A sentence on which of the stock graphs material and noise suits it, and why.
+  std::string advice() const;
 };
 
 /// Whether a graph has a parameter for the folder of an exemplar, and is none that is a node of others.

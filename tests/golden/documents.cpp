@@ -52,6 +52,7 @@ std::vector<GoldenDocument> stock_documents() {
       stock("magnify", {wall, "analysed=0.5", "size=40x36"}),
       stock("engine", {wall, "engine=unity_hdrp", "scale=1.2"}),
       stock("engine", {"material={in}/photo", "make=tileable", "engine=godot"}, "tileable"),
+      stock("noise", {"material={in}/blend", small, "tileable=xy"}),
       stock("layered", {"base={in}/wall", "top={in}/wall2", small}),
       stock("analyse", {wall}),
       stock("from_analysis", {"analysis={in}/../out/analyse.analysis", wall, small}),
@@ -78,7 +79,8 @@ std::vector<GoldenDocument> documents_of(const std::string& group) {
   if (group == "graphs") return stock_documents();
   if (group == "image") return {own("source"), own("image"), own("color"), own("picture")};
   if (group == "analysis") return {own("analysis"), own("steering")};
-  if (group == "synthesis") return {own("synthesis"), own("controls"), own("kept"), own("resolve")};
+  if (group == "synthesis")
+    return {own("synthesis"), own("controls"), own("kept"), own("resolve"), own("noise_by_example")};
   if (group == "masonry") return {own("lattice"), own("masonry")};
   return {own("sink"), own("read_back")};
 }
