@@ -10,6 +10,7 @@
 #include "graphs/document/convert.h"
 #include "graphs/document/forecasts.h"
 #include "graphs/document/given_inputs.h"
+#include "graphs/document/left_out.h"
 #include "graphs/document/level.h"
 #include "graphs/document/read_document.h"
 #include "graphs/document/unused.h"
@@ -106,7 +107,8 @@ class Loader {
     coded("cycle");
     read_what_waits(order, root);
     const std::set<std::string> wanted = wanted_nodes(drafts, options.only);
-    const bool is_part = report_sources(asked_too(drafts, wanted));
+    const std::set<std::string> asked = asked_too(drafts, wanted);
+    const bool is_part = options.keep_going ? !of_sources_.empty() : report_sources(asked);
     coded("parameter");
     if (!options.allow_unset) require_set(parameters, out.inputs, wanted);
     coded("unset");
@@ -119,9 +121,10 @@ class Loader {
     set_code(conversions, 0, "conversion");
     out.conversions = std::move(conversions);
     out.warnings = warnings_about(levels_, subgraphs_, root, order);
+    const std::set<std::string> left = options.keep_going ? without_faulty(order, wanted, asked) : wanted;
     const bool complete = std::ranges::all_of(drafts, [](const NodeDraft& d) { return d.unset.empty(); });
     for (const size_t i : order)
-      if ((!is_part && (complete || options.allow_unset)) || wanted.contains(drafts[i].node.name)) {
+      if ((!is_part && (complete || options.allow_unset)) || left.contains(drafts[i].node.name)) {
         drafts[i].node.is_open = !drafts[i].unset.empty();
         out.graph.nodes.push_back(std::move(drafts[i].node));
       }
@@ -263,13 +266,6 @@ class Loader {
     return std::ranges::any_of(levels_.nodes(), waits) || std::ranges::any_of(levels_.others(), waits);
   }
 
-  /// Whether all parameters and wires of the node have been read.
-  static bool is_complete(const NodeDraft& draft) {
-    const GraphNode& node = draft.node;
-    if (!node.type || node.params.size() < node.type->params.size() || !draft.unset.empty()) return false;
-    return std::ranges::none_of(draft.ports, [](const PortWires& p) { return p.has_faults; });
-  }
-
   /// Whether all is known that can be; what the node's preflight finds wrong is a problem.
   bool look_ahead(const NodeDraft& draft, Forecasts& forecasts, const std::set<std::string>& incomplete) {
     const GraphNode& node = draft.node;
@@ -301,6 +297,16 @@ class Loader {
         is_part = true;
     }
     return is_part;
+  }
+
+  /// The nodes that can be made without the faulty ones among those that are asked; these stay, for the run to tell of.
+  std::set<std::string> without_faulty(const std::vector<size_t>& order, const std::set<std::string>& wanted,
+                                       const std::set<std::string>& asked) {
+    std::set<std::string> faulty;
+    for (const Problem& p : of_sources_)
+      if (asked.contains(p.node)) faulty.insert(p.node);
+    for (NodeDraft& d : levels_.nodes()) d.node.fails = faulty.contains(d.node.name);
+    return nodes_left(levels_.nodes(), order, wanted, faulty);
   }
 
   /// Where all nodes run, also what none of them needs: it is there to be set.

@@ -186,10 +186,15 @@ template <typename T>
 std::vector<T> Sweep::of_each(const std::string& base, const std::function<T(const std::string& node)>& make) const {
   std::map<std::string, T> made;
   std::vector<T> out;
-  for (const auto& names : names_) {
-    const std::string& node = names.at(base);
-    auto at = made.find(node);
-    if (at == made.end()) at = made.emplace(node, make(node)).first;
+  for (size_t v = 0; v < names_.size(); v++) {
+    const auto node = names_[v].find(base);
+    if (node == names_[v].end())
+      throw UsageError(fmt::format(
+          "--sheet, --figures, --best: {} has no node \"{}\", as what it is made from cannot be read; leave this "
+          "variation out",
+          variations_[v].label(), base));
+    auto at = made.find(node->second);
+    if (at == made.end()) at = made.emplace(node->second, make(node->second)).first;
     out.push_back(at->second);
   }
   return out;
@@ -266,16 +271,16 @@ void Sweep::check_best(const Nodes& nodes, const std::vector<GraphNode>& added) 
 
 std::vector<std::string> Sweep::names_of(const std::vector<std::string>& nodes) const {
   std::set<std::string> out;
-  for (const std::string& node : nodes)
-    for (const auto& names : names_) {
-      bool is_there = false;
+  for (const std::string& node : nodes) {
+    bool is_there = false;  // in some variation; others may go without it
+    for (const auto& names : names_)
       for (const auto& [name, merged] : names) {
         if (!stands_for(node, name)) continue;
         is_there = true;
         out.insert(merged);
       }
-      if (!is_there) out.insert(node);
-    }
+    if (!is_there) out.insert(node);
+  }
   return {out.begin(), out.end()};
 }
 

@@ -52,6 +52,10 @@ void Coordinator::begin() {
 
 void Coordinator::look_up(int stage) {
   name(stage, NameEvent::inputs_named);
+  if (!plan_.stages[stage].faults.empty()) {
+    outcomes_.refused(stage);
+    return lose(stage);
+  }
   if (plan_.stages[stage].known)
     resolved(stage);
   else
