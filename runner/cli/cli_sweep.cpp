@@ -284,6 +284,16 @@ std::vector<std::string> Sweep::names_of(const std::vector<std::string>& nodes) 
   return {out.begin(), out.end()};
 }
 
+std::map<std::string, std::string> Sweep::of_one_variation() const {
+  std::map<std::string, std::string> out;
+  std::set<std::string> shared;
+  for (size_t v = 0; v < names_.size(); v++)
+    for (const auto& [name, merged] : names_[v])
+      if (!out.emplace(merged, variations_[v].label()).second) shared.insert(merged);
+  for (const std::string& node : shared) out.erase(node);
+  return out;
+}
+
 std::vector<const Report*> Sweep::reports(const RunResult& result) const {
   std::vector<const Report*> out;
   for (const std::string& node : comparisons_) {

@@ -137,7 +137,25 @@ TEST_CASE("with --keep-going a source that is cut off fails the variations and r
     REQUIRE(summary["failures"].size() == 1);
     CHECK(stage_of(summary, summary["failures"][0]["node"])["did"] == "failed");
     CHECK(summary["counts"]["not_run"] == 0);
+    const std::string variation = job[1] == "all.json" ? "" : "file=in/n2.png, out=out/n2.png";
+    CHECK(summary["failures"][0].value("variation", "") == variation);
+    CHECK(stage_of(summary, summary["failures"][0]["node"]).value("variation", "") == variation);
   }
+}
+
+TEST_CASE("in the summary a stage has its variation, unless several share it") {
+  const ThreePictures w;
+  write_text(w.path / "table.csv", "file,out\nin/n1.png,out/a.png\nin/n1.png,out/b.png\n");
+  REQUIRE(w.run({"run", "one.json", "--table", "table.csv", "--summary", "sum.json"}).code == 0);
+  std::map<std::string, int> stages;
+  const Json summary = json_in(w.path / "sum.json");
+  for (const Json& s : summary["stages"]) stages[s.value("variation", "shared")]++;
+  CHECK(stages == std::map<std::string, int>{
+                      {"shared", 2}, {"file=in/n1.png, out=out/a.png", 1}, {"file=in/n1.png, out=out/b.png", 1}});
+  write_text(w.path / "table.csv", "file,out\nin/n1.png,out/a.png\nin/n2.png,out/b.png\n");
+  CHECK(w.run({"run", "one.json", "--table", "table.csv", "--summary", "sum.json"}).code == 2);
+  const Json invalid = json_in(w.path / "sum.json");
+  check_against_schema(invalid);
 }
 
 TEST_CASE("a source larger than may be read fails only what needs it, with --keep-going") {
