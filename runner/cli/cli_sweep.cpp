@@ -106,7 +106,11 @@ std::vector<std::string> Sweep::labels() const {
 
 Graph Sweep::load(const std::function<Graph(const std::vector<std::string>&)>& load) {
   std::vector<Graph> graphs;
-  for (const Variation& v : variations_) graphs.push_back(load(v.overrides()));
+  for (const Variation& v : variations_) try {
+      graphs.push_back(load(v.overrides()));
+    } catch (const GraphError& e) {
+      throw GraphError(e.file(), with_origins(e.problems(), v));
+    }
   MergedGraph all = merged(graphs, labels());
   names_ = std::move(all.names);
   check_paths(graphs);
