@@ -107,8 +107,7 @@ class Loader {
     coded("cycle");
     read_what_waits(order, root);
     const std::set<std::string> wanted = wanted_nodes(drafts, options.only);
-    const std::set<std::string> asked = asked_too(drafts, wanted);
-    const bool is_part = options.keep_going ? !of_sources_.empty() : report_sources(asked);
+    const bool is_part = options.keep_going ? !of_sources_.empty() : report_sources(asked_too(drafts, wanted));
     coded("parameter");
     if (!options.allow_unset) require_set(parameters, out.inputs, wanted);
     coded("unset");
@@ -121,7 +120,7 @@ class Loader {
     set_code(conversions, 0, "conversion");
     out.conversions = std::move(conversions);
     out.warnings = warnings_about(levels_, subgraphs_, root, order);
-    const std::set<std::string> left = options.keep_going ? without_faulty(order, wanted, asked) : wanted;
+    const std::set<std::string> left = options.keep_going ? without_faulty(order, wanted) : wanted;
     const bool complete = std::ranges::all_of(drafts, [](const NodeDraft& d) { return d.unset.empty(); });
     for (const size_t i : order)
       if ((!is_part && (complete || options.allow_unset)) || left.contains(drafts[i].node.name)) {
@@ -300,8 +299,8 @@ class Loader {
   }
 
   /// The nodes that can be made without the faulty ones among those that are asked; these stay, for the run to tell of.
-  std::set<std::string> without_faulty(const std::vector<size_t>& order, const std::set<std::string>& wanted,
-                                       const std::set<std::string>& asked) {
+  std::set<std::string> without_faulty(const std::vector<size_t>& order, const std::set<std::string>& wanted) {
+    const std::set<std::string> asked = asked_too(levels_.nodes(), wanted);
     std::set<std::string> faulty;
     for (const Problem& p : of_sources_)
       if (asked.contains(p.node)) faulty.insert(p.node);
