@@ -135,7 +135,7 @@ uint64_t Cache::stored_bytes(const Digest& value) const {
 }
 
 void Cache::store_value(const Value& value, double seconds, const Task& task) {
-  if (has_value(digest_of(value))) return;
+  if (load_value(digest_of(value))) return;  // which discards what is damaged
   const std::filesystem::path target = state_->folder.path_of(EntryKind::value, digest_of(value));
   try {
     const std::filesystem::path temporary = state_->folder.temporary(target, state_->pins.owner());

@@ -1,6 +1,9 @@
 #include "runner/cli/cli_farm.h"
 
+#include <set>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace terrazzo {
@@ -9,8 +12,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr UnitState all_states[] = {UnitState::done,    UnitState::unneeded, UnitState::running,
-                                    UnitState::waiting, UnitState::failed,   UnitState::lost};
+constexpr UnitState all_states[] = {UnitState::done,   UnitState::unneeded, UnitState::running,   UnitState::waiting,
+                                    UnitState::failed, UnitState::lost,     UnitState::elsewhere, UnitState::cancelled};
+
+}  // namespace
+
+namespace {
+
+/// Why tasks wait that may wait for ever, in Slurm's words; what passes by itself is left out.
+std::set<std::string> obstacles(const JobState& state) {
+  static const std::set<std::string> passing = {"",          "None",       "Priority", "Resources",
+                                                "BeginTime", "Dependency", "Cleaning", "JobArrayTaskLimit"};
+  std::set<std::string> reasons;
+  for (const auto& [unit, task] : state.tasks)
+    if (!task.is_running && !passing.contains(task.reason)) reasons.insert(task.reason);
+  return reasons;
+}
 
 }  // namespace
 
@@ -19,6 +36,8 @@ std::string state_line(const JobState& state) {
   for (const UnitState s : all_states)
     if (const int count = state.count(s); s != UnitState::done && count > 0)
       line += fmt::format(", {} {}", count, name_of(s));
+  if (const std::set<std::string> reasons = obstacles(state); !reasons.empty())
+    line += fmt::format("; Slurm does not start some of it: {}", fmt::join(reasons, ", "));
   return line;
 }
 

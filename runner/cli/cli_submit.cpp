@@ -83,15 +83,26 @@ Table table_of(const std::vector<TaskArray>& arrays, const std::vector<std::stri
   return table;
 }
 
-/// The arrays that would be handed over, if nothing is in the queue.
-std::vector<TaskArray> arrays_of_job(const PreparedJob& prepared, const SubmitFlags& flags, const Slurm& slurm) {
+/// The flags, with what Slurm can give. Tasks that ask for more would wait for ever.
+ArrayOptions options_for(const SubmitFlags& flags, const Slurm& slurm) {
   ArrayOptions options = flags.arrays;
-  options.max_tasks = slurm.max_array_size();
+  const FarmLimits& limits = options.limits = slurm.limits(flags.slurm);
+  if (limits.cores > 0 && options.cores > limits.cores)
+    throw UsageError(fmt::format("--cores {}: the largest node that Slurm can give has {}; ask for at most that many",
+                                 options.cores, counted(limits.cores, "core")));
+  if (limits.memory > 0 && options.memory > limits.memory)
+    throw UsageError(fmt::format("--memory {}: the largest node that Slurm can give has {}; ask for at most that much",
+                                 flags.memory, shown_bytes(limits.memory)));
+  return options;
+}
+
+/// The arrays that would be handed over, if nothing is in the queue.
+std::vector<TaskArray> arrays_of_job(const PreparedJob& prepared, const ArrayOptions& options) {
   return arrays_of(prepared.job.units, prepared.due, FarmFolder::of_job(prepared.folder).costs(), {}, options);
 }
 
 int print_scripts(const PreparedJob& prepared, const SubmitFlags& flags, const Slurm& slurm) {
-  const std::vector<TaskArray> arrays = arrays_of_job(prepared, flags, slurm);
+  const std::vector<TaskArray> arrays = arrays_of_job(prepared, options_for(flags, slurm));
   for (size_t i = 0; i < arrays.size(); i++) {
     std::vector<std::string> after;
     for (const size_t n : arrays[i].needs) after.push_back(fmt::format("<job of array {}>", n + 1));
@@ -101,8 +112,8 @@ int print_scripts(const PreparedJob& prepared, const SubmitFlags& flags, const S
   return exit_done;
 }
 
-int write_openjd(const PreparedJob& prepared, const SubmitFlags& flags, Cache& cache, const Slurm& slurm) {
-  const std::vector<TaskArray> arrays = arrays_of_job(prepared, flags, slurm);
+int write_openjd(const PreparedJob& prepared, const SubmitFlags& flags, Cache& cache) {
+  const std::vector<TaskArray> arrays = arrays_of_job(prepared, flags.arrays);
   if (arrays.empty()) {
     answer("nothing to do: all of it has been made\n");
     return exit_done;
@@ -110,6 +121,7 @@ int write_openjd(const PreparedJob& prepared, const SubmitFlags& flags, Cache& c
   write_job(prepared, cache);
   for (const TaskArray& a : arrays) write_array(prepared.folder, a);
   write_whole_file(flags.openjd, openjd_template(prepared.job, arrays, prepared.folder, flags.slurm.program));
+  write_assignment(prepared.folder, {Assignment::To::others, fs::absolute(flags.openjd).string()});
   tell("wrote " + flags.openjd);
   return exit_done;
 }
@@ -136,19 +148,24 @@ void show(const fs::path& folder, const FarmJob& job, const JobState& state, boo
                                                      : task->second.reason});
   }
   if (table.size() > 1) answer("\n{}", aligned(table));
-  if (!state.is_moving() && !state.is_complete())
+  if (state.count(UnitState::elsewhere) > 0)
+    answer("\nwritten to {} for another scheduler, which alone knows what is running\n", state.assignment.file);
+  else if (!state.is_moving() && !state.is_complete())
     answer("\nlogs are in {}; submit the same again to make what is missing\n", (folder / "logs").string());
 }
 
 int wait_until_done(const fs::path& folder, const FarmJob& job, const SubmitFlags& flags, Cache& cache,
                     const Slurm& slurm, const std::atomic<bool>& cancelled) {
   std::string line;
+  if (const Assignment to = assignment_of(folder); to.to == Assignment::To::others)
+    tell(fmt::format("{} was written to {} for another scheduler; waiting until that has made it", job.name, to.file));
   const auto looked = [&](const JobState& state) {
     if (const std::string now = state_line(state); now != line) tell(line = now);
   };
   try {
+    const auto again = [&] { hand_over(folder, job, cache, slurm, options_for(flags, slurm), flags.slurm); };
     const JobState state =
-        wait_for(folder, job, cache, slurm, [&] { hand_over(folder, job, cache, slurm, flags.arrays, flags.slurm); },
+        wait_for(folder, job, cache, slurm, again,
                  {.retries = flags.retries, .cancelled = &cancelled, .looked = looked, .told = tell});
     if (state.is_complete()) {
       tell("done: " + job.name);
@@ -168,20 +185,22 @@ int submit_graph(const PreparedJob& prepared, const SubmitFlags& flags, Cache& c
     answer("nothing to do: all of it has been made\n");
     return exit_done;
   }
+  const ArrayOptions arrays = options_for(flags, slurm);
   write_job(prepared, cache);
   const FarmJob job = read_farm_job(prepared.folder);
-  const std::vector<HandedOver> handed = hand_over(prepared.folder, job, cache, slurm, flags.arrays, flags.slurm);
+  write_assignment(prepared.folder, {.to = Assignment::To::slurm});
+  const std::vector<HandedOver> handed = hand_over(prepared.folder, job, cache, slurm, arrays, flags.slurm);
   answer("job {}\n", job.name);
   if (handed.empty()) {
     answer("handed over before; nothing was added\n");
   } else {
-    std::vector<TaskArray> arrays;
+    std::vector<TaskArray> given;
     std::vector<std::string> ids;
     for (const HandedOver& h : handed) {
-      arrays.push_back(h.array);
+      given.push_back(h.array);
       ids.push_back(h.id);
     }
-    answer("{}", aligned(table_of(arrays, ids)));
+    answer("{}", aligned(table_of(given, ids)));
   }
   return flags.wait ? wait_until_done(prepared.folder, job, flags, cache, slurm, cancelled) : exit_done;
 }
@@ -190,7 +209,7 @@ int list_jobs(const FarmFolder& farm, Cache& cache, const Slurm& slurm) {
   Table table = {{"job", "units"}};
   for (const std::string& name : farm.job_names()) {
     const FarmJob job = read_farm_job(farm.jobs() / name);
-    table.push_back({name, state_line(look_at_job(farm.jobs() / name, job, cache, slurm.queued(name)))});
+    table.push_back({name, state_line(look_at_job(farm.jobs() / name, job, cache, slurm))});
   }
   if (table.size() == 1)
     answer("no jobs in {}\n", farm.root().string());
@@ -203,12 +222,16 @@ int work_on_job(const fs::path& folder, const SubmitFlags& flags, Cache& cache, 
                 const std::atomic<bool>& cancelled) {
   const FarmJob job = read_farm_job(folder);
   if (flags.cancel) {
-    slurm.cancel(job.name);
+    if (const Assignment to = assignment_of(folder); to.to == Assignment::To::others)
+      throw UsageError(
+          fmt::format("{} is not Slurm's to cancel: it was written to {} for another scheduler; cancel it there",
+                      job.name, to.file));
+    cancel_job(folder, job, cache, slurm);
     answer("cancelled {}; what has been made stays in the cache\n", job.name);
     return exit_done;
   }
   if (flags.wait) return wait_until_done(folder, job, flags, cache, slurm, cancelled);
-  const JobState state = look_at_job(folder, job, cache, slurm.queued(job.name));
+  const JobState state = look_at_job(folder, job, cache, slurm);
   show(folder, job, state, flags.json);
   return code_of(state);
 }
@@ -240,7 +263,7 @@ int submit(SubmitFlags& flags) {
     return work_on_job(job.folder, flags, cache, slurm, signals.flag());
   }
   if (flags.print) return print_scripts(job, flags, slurm);
-  if (!flags.openjd.empty()) return write_openjd(job, flags, cache, slurm);
+  if (!flags.openjd.empty()) return write_openjd(job, flags, cache);
   return submit_graph(job, flags, cache, slurm, signals.flag());
 }
 

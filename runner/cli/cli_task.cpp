@@ -76,8 +76,9 @@ int run_here(const TaskFlags& flags, const fs::path& folder, const FarmJob& job)
     if (!flags.stamp.empty()) write_stamp(flags.stamp, unit, result);
     return exit_done;
   } catch (const Error& e) {
-    write_failure(folder, unit.name, {e.what(), 0});
-    throw;
+    const std::string message = with_original_names(e.what(), job, folder);
+    write_failure(folder, unit.name, {message, 0});
+    throw Error(message);
   }
 }
 

@@ -52,11 +52,12 @@ void Coordinator::begin() {
 
 void Coordinator::look_up(int stage) {
   name(stage, NameEvent::inputs_named);
-  if (!plan_.stages[stage].faults.empty()) {
+  const Stage& s = plan_.stages[stage];
+  if (!s.faults.empty()) {
     outcomes_.refused(stage);
     return lose(stage);
   }
-  if (plan_.stages[stage].known)
+  if (s.known && !is_being_made(s, *s.known, options_))
     resolved(stage);
   else
     enqueue(Job::Kind::look_up, stage);
@@ -274,7 +275,7 @@ void Coordinator::settle(const JobPtr& job) {
   if (job->failure) return failed(*job);
   if (job->cancelled) return;
   if (job->busy) {
-    move(job->stage, ValueEvent::busy);
+    if (job->kind == Job::Kind::compute) move(job->stage, ValueEvent::busy);
     if (!stopping()) postponed_.push_back(job);
     return;
   }

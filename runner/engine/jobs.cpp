@@ -157,20 +157,39 @@ void load(Job& job, const Stage& stage, const std::map<std::string, Digest>& nam
   }
 }
 
-/// Whether this job is to compute the stage now: nobody else is at it, or nobody can tell. Does not wait.
-bool claim(Job& job, const Stage& stage, const RunOptions& options) {
-  if (!options.cache || stage.type().persist != Persist::payload || stage.type().is_sink()) return true;
-  LeaseAttempt attempt = options.cache->try_lease(stage.known->key);
-  job.lease = std::move(attempt.lease);
-  if (!attempt.taken) return true;
+/// Whether what a stage gives outlives the process that computes it: its values, or at least their names.
+bool is_worth_a_lease(const Stage& stage, const Resolution& known, const RunOptions& options) {
+  if (!options.cache || stage.type().is_sink()) return false;
+  return stage.type().persist == Persist::payload || (stage.type().persist == Persist::digest && known.names.empty());
+}
+
+/// Another process is at it.
+void leave_to_others(Job& job, const Stage& stage, const RunOptions& options) {
   if (!job.waited && options.observer) options.observer->waits(stage);
   job.waited = job.busy = true;
+}
+
+/// Whether this job is to compute the stage now: nobody else is at it, or nobody can tell, or their values would have
+/// to be computed here all the same. Does not wait.
+bool claim(Job& job, const Stage& stage, const RunOptions& options) {
+  if (!is_worth_a_lease(stage, *stage.known, options)) return true;
+  LeaseAttempt attempt = options.cache->try_lease(stage.known->key);
+  job.lease = std::move(attempt.lease);
+  if (!attempt.taken || stage.type().persist != Persist::payload) return true;
+  leave_to_others(job, stage, options);
   return false;
+}
+
+/// Looks the stage up once nobody else is at it: then its names are known, and its inputs may never be asked for.
+void look_up(Job& job, const Plan& plan, const RunOptions& options) {
+  const Stage& stage = plan.stages[job.stage];
+  job.resolution = resolve(plan, job.stage, options.cache, nullptr);
+  if (is_being_made(stage, *job.resolution, options)) leave_to_others(job, stage, options);
 }
 
 /// Loads what another process has computed since the stage was looked up.
 bool find_elsewhere(Job& job, const Stage& stage, Cache* cache) {
-  if (!job.lease) return false;
+  if (!job.lease || stage.type().persist != Persist::payload) return false;
   std::optional<StageRecord> record = cache->find_stage(stage.known->key);
   if (!record || !is_complete(*record, stage.type())) return false;
   for (const std::string& port : stage.used_outputs)
@@ -209,7 +228,7 @@ void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
     case Job::Kind::begin:
       break;
     case Job::Kind::look_up:
-      job.resolution = resolve(plan, job.stage, options.cache, nullptr);
+      look_up(job, plan, options);
       break;
     case Job::Kind::load:
       load(job, stage, stage.known->names, options.cache);
@@ -224,6 +243,11 @@ void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
 }
 
 }  // namespace
+
+bool is_being_made(const Stage& stage, const Resolution& known, const RunOptions& options) {
+  const bool computes = !known.must_run.empty() && !known.record;
+  return computes && is_worth_a_lease(stage, known, options) && options.cache->is_leased(known.key);
+}
 
 void perform(Job& job, const Plan& plan, const RunOptions& options) {
   const GraphNode& node = *plan.stages[job.stage].node;

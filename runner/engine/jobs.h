@@ -25,16 +25,22 @@ struct Job {
   std::shared_ptr<Lease> lease;          ///< out for compute, in for store: given up once its result is stored
   bool stored = false;                   ///< out for store: its values can be loaded again
   bool made_elsewhere = false;           ///< out for compute: values and record were stored by another process
-  bool busy = false;                     ///< out for compute: another process is computing it; to be retried
-  bool resumed = false;                  ///< was busy, and is being retried
-  bool waited = false;                   ///< has been busy before
+  bool busy = false;     ///< out for look_up and compute: another process is computing it; to be retried
+  bool resumed = false;  ///< was busy, and is being retried
+  bool waited = false;   ///< has been busy before
   bool cancelled = false;
   std::optional<std::string> failure;  ///< the complete message
   std::string blames_input;            ///< the message if an input is to blame: other readers may report the same
   std::vector<std::filesystem::path> made_folders;  ///< by compute, outer ones first
   Span span;
+
+  /// Of its stage.
+  const Digest& key(const Plan& plan) const { return resolution ? resolution->key : plan.stages[stage].known->key; }
 };
 using JobPtr = std::shared_ptr<Job>;
+
+/// Whether a stage that has to run is being computed by another process, which will store its names.
+bool is_being_made(const Stage& stage, const Resolution& known, const RunOptions& options);
 
 /// Runs the job on any thread; never throws. Reads only settled parts of the plan.
 void perform(Job& job, const Plan& plan, const RunOptions& options);

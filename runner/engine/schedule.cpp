@@ -108,7 +108,7 @@ class JobGraph {
   flow::function_node<JobPtr, JobPtr> work_{graph_, flow::unlimited, [this](const JobPtr& job) { return work(job); }};
   Coordinate coordinate_{graph_, flow::serial,
                          [this](const JobPtr& job, Coordinate::output_ports_type& ports) { coordinate(job, ports); }};
-  LeaseWaiter waiter_{[this](const Job& job) { return options_.cache->is_leased(plan_.stages[job.stage].known->key); },
+  LeaseWaiter waiter_{[this](const Job& job) { return options_.cache->is_leased(job.key(plan_)); },
                       [this](const JobPtr& job, const LeaseWaiter::Wait& wait) { take_back(job, wait); },
                       options_.cancelled};
 };

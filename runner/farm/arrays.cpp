@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -27,6 +28,17 @@ uint64_t rounded(uint64_t bytes) {
   return (bytes + step - 1) / step * step;
 }
 
+/// The most that tasks may be given without being told.
+struct Ceiling {
+  int cores;
+  uint64_t memory;
+};
+
+Ceiling ceiling_of(const FarmLimits& limits) {
+  return {limits.cores > 0 ? std::min(limits.cores, most_usual_cores) : most_usual_cores,
+          limits.memory > 0 ? limits.memory : std::numeric_limits<uint64_t>::max()};
+}
+
 Demand demand_of(const Unit& unit, const std::optional<UnitCost>& known, uint64_t failed_memory,
                  const ArrayOptions& options) {
   Demand d{unit.seconds, usual_cores, usual_memory};
@@ -36,10 +48,10 @@ Demand demand_of(const Unit& unit, const std::optional<UnitCost>& known, uint64_
     d = {known->seconds, int(std::lround(known->cpu_seconds / std::max(known->seconds, 0.001))),
          rounded(known->memory + known->memory / 4 + a_little)};
   }
-  if (options.cores > 0) d.cores = options.cores;
+  const Ceiling ceiling = ceiling_of(options.limits);
+  d.cores = options.cores > 0 ? options.cores : std::clamp(d.cores, 1, ceiling.cores);
   if (options.memory > 0) d.memory = options.memory;
-  d.memory = std::max(d.memory, 2 * failed_memory);
-  d.cores = std::clamp(d.cores, 1, most_cores);
+  d.memory = std::min(std::max(d.memory, 2 * failed_memory), ceiling.memory);
   return d;
 }
 
@@ -96,7 +108,7 @@ std::vector<TaskArray> arrays_of(const std::vector<Unit>& units, const std::vect
   for (const auto& [where, group] : groups) {
     const double each = std::max(group.demand.seconds, 0.05);  // the start of a process
     const auto per_task = size_t(std::max(1.0, std::floor(options.pack_seconds / each)));
-    const size_t per_array = per_task * size_t(options.max_tasks);
+    const size_t per_array = per_task * size_t(options.limits.tasks);
     for (size_t first = 0; first < group.units.size(); first += per_array) {
       const size_t end = std::min(group.units.size(), first + per_array);
       TaskArray array{.cores = group.demand.cores, .memory = group.demand.memory};

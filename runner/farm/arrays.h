@@ -9,15 +9,25 @@
 /// Units as arrays of tasks, which a scheduler takes at once.
 namespace terrazzo {
 
+/// What a scheduler can give.
+struct FarmLimits {
+  int tasks = 1000;  ///< of one array
+  /// Of its largest machine; 0: not known. Guesses stay below these.
+  int cores = 0;
+  uint64_t memory = 0;  ///< bytes
+};
+
 struct ArrayOptions {
-  int max_tasks = 1000;      ///< of one array
+  FarmLimits limits{};
   double pack_seconds = 60;  ///< units are put into one task until it takes about this long
   int cores = 0;             ///< for each task; 0: as units of the kind have used, else `usual_cores`
   uint64_t memory = 0;       ///< bytes, likewise
 };
 
 /// For units of a kind that has not run yet. Trades waiting in the queue against a slower first run.
-inline constexpr int usual_cores = 2, most_cores = 16;
+inline constexpr int usual_cores = 2;
+/// However many earlier units have used: more make a task wait for a whole machine.
+inline constexpr int most_usual_cores = 16;
 inline constexpr uint64_t usual_memory = uint64_t{2} << 30;
 
 /// Tasks that cost about the same and can run at the same time.

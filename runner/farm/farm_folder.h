@@ -9,8 +9,10 @@
 ///   farm/costs/<digest>.json       runner/farm/costs.h
 ///   farm/jobs/<name>/graph.json    runner/farm/frozen_graph.h
 ///   farm/jobs/<name>/job.json      runner/farm/farm_job.h
-///   farm/jobs/<name>/arrays/       runner/farm/arrays.h: which units a task makes, and the scripts that were handed
-///   over farm/jobs/<name>/failures/     runner/farm/failures.h farm/jobs/<name>/logs/         what tasks print
+///   farm/jobs/<name>/assignment.json  runner/farm/assignment.h
+///   farm/jobs/<name>/arrays/       runner/farm/job_state.h: which units a task makes; the scripts of Slurm's tasks
+///   farm/jobs/<name>/failures/     runner/farm/farm_job.h
+///   farm/jobs/<name>/logs/         what tasks print
 namespace terrazzo {
 
 /// From a job's folder to the inputs.

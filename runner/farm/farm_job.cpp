@@ -7,6 +7,7 @@
 
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
+#include "runner/farm/farm_folder.h"
 
 namespace terrazzo {
 
@@ -64,7 +65,8 @@ void write_farm_job(const FarmJob& job, const fs::path& folder) {
   for (const auto& [node, key] : job.keys) keys[node] = key.hex();
   const Json json = {{"format", format_version}, {"name", job.name},       {"graph", job.graph},
                      {"program", job.program},   {"targets", job.targets}, {"variables", job.variables},
-                     {"plugins", job.plugins},   {"units", units},         {"keys", keys}};
+                     {"plugins", job.plugins},   {"units", units},         {"keys", keys},
+                     {"origins", job.origins}};
   write_whole_file(folder / "job.json", json.dump(1) + "\n");
 }
 
@@ -84,11 +86,26 @@ FarmJob read_farm_job(const fs::path& folder) {
     json.at("plugins").get_to(job.plugins);
     for (const Json& u : json.at("units")) job.units.push_back(unit_in(u));
     for (const auto& [node, key] : json.at("keys").items()) job.keys.emplace(node, digest_in(key));
+    job.origins = json.value("origins", job.origins);  // which the first version did not write
     return job;
   } catch (const std::exception& e) {
     throw Error(fmt::format("{} is no job of terrazzo, or damaged: {}; remove its folder and submit again",
                             file.string(), e.what()));
   }
+}
+
+std::string with_original_names(std::string message, const FarmJob& job, const fs::path& folder) {
+  const fs::path inputs = FarmFolder::of_job(folder).inputs();
+  bool is_about_a_copy = false;
+  for (const auto& [copies, origin] : job.origins) {
+    const std::string from = (inputs / copies).string();
+    for (size_t at = message.find(from); at != message.npos; at = message.find(from, at + origin.size())) {
+      message.replace(at, from.size(), origin);
+      is_about_a_copy = true;
+    }
+  }
+  if (is_about_a_copy) message += fmt::format(" (as it was when it was submitted; copies are in {})", inputs.string());
+  return message;
 }
 
 std::optional<UnitFailure> failure_of(const fs::path& folder, const std::string& unit) {

@@ -23,6 +23,7 @@ struct FarmJob {
   std::vector<std::string> plugins;              ///< files
   std::vector<Unit> units;                       ///< in an order in which they can be made
   std::map<std::string, Digest> keys;            ///< of nodes whose keys were known when it was frozen
+  std::map<std::string, std::string> origins;    ///< see FrozenGraph
 
   const Unit* find(std::string_view unit) const;
 };
@@ -34,6 +35,9 @@ std::string job_name(const std::filesystem::path& graph, const Digest& id);
 void write_farm_job(const FarmJob& job, const std::filesystem::path& folder);
 /// Throws Error if the folder holds none, or it is damaged.
 FarmJob read_farm_job(const std::filesystem::path& folder);
+
+/// A message in which frozen inputs are called by the names of the files that they are copies of.
+std::string with_original_names(std::string message, const FarmJob& job, const std::filesystem::path& folder);
 
 /// Why a unit could not be made, or how often its process died: for people, and for the units that need it.
 struct UnitFailure {

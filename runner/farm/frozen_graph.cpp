@@ -133,6 +133,7 @@ class Freezer {
       h.add(place.generic_string()).add(contents.back());
     }
     const fs::path folder = h.digest().hex();
+    out_.origins.emplace(folder.string(), path.parent_path().string());
     for (size_t i = 0; i < copies.size(); i++) {
       const fs::path to = folder / copies[i].second;
       if (std::ranges::find(out_.inputs, to, &FrozenInput::to) == out_.inputs.end())

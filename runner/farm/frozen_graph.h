@@ -19,8 +19,10 @@ struct FrozenInput {
 };
 
 struct FrozenGraph {
-  std::string text;                          ///< of the document; its relative paths are those in a job's folder
-  std::vector<FrozenInput> inputs;           ///< each once
+  std::string text;                 ///< of the document; its relative paths are those in a job's folder
+  std::vector<FrozenInput> inputs;  ///< each once
+  /// By the folder below FarmFolder::inputs that copies lie in: the folder that they were copied from.
+  std::map<std::string, std::string> origins;
   std::map<std::string, std::string> names;  ///< what the needed nodes of the plan are called in the document
   std::vector<std::string> targets;          ///< of these names, the ones that are to be made
   Digest id;                                 ///< of text, targets and inputs: the same job has the same

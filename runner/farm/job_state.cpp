@@ -20,7 +20,8 @@ fs::path array_file(const fs::path& folder, const std::string& id) {
 }  // namespace
 
 std::string_view name_of(UnitState state) {
-  constexpr std::string_view names[] = {"done", "not needed", "running", "waiting", "failed", "lost"};
+  constexpr std::string_view names[] = {"done",   "not needed", "running",   "waiting",
+                                        "failed", "lost",       "elsewhere", "cancelled"};
   return names[size_t(state)];
 }
 
@@ -40,8 +41,26 @@ std::vector<std::vector<std::string>> read_array(const fs::path& folder, const s
   }
 }
 
+namespace {
+
+/// Of a unit that has to be made, and that neither the queue nor a failure tells of.
+UnitState state_of_missing(Assignment::To to) {
+  switch (to) {
+    case Assignment::To::others:
+      return UnitState::elsewhere;
+    case Assignment::To::nobody:
+      return UnitState::cancelled;
+    case Assignment::To::slurm:
+      break;
+  }
+  return UnitState::lost;
+}
+
+}  // namespace
+
 JobState state_of(const fs::path& folder, const FarmJob& job, const Plan& plan, const std::vector<QueuedTask>& tasks) {
   JobState state;
+  state.assignment = assignment_of(folder);
   std::map<std::string, std::vector<std::vector<std::string>>> arrays;
   for (const QueuedTask& t : tasks) {
     const auto [array, is_new] = arrays.try_emplace(t.array);
@@ -60,7 +79,7 @@ JobState state_of(const fs::path& folder, const FarmJob& job, const Plan& plan, 
     const auto failure = is_due[i] ? failure_of(folder, unit.name) : std::nullopt;
     UnitState now = is_done(unit, made) ? UnitState::done : UnitState::unneeded;
     if (is_due[i]) {
-      now = UnitState::lost;
+      now = state_of_missing(state.assignment.to);
       if (failure)
         now = UnitState::failed;
       else if (task != state.tasks.end())

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "runner/farm/assignment.h"
 #include "runner/farm/farm_job.h"
 #include "runner/farm/slurm.h"
 
@@ -15,13 +16,17 @@ enum class UnitState : uint8_t {
   done,      ///< its results are there, verified by digest
   unneeded,  ///< not there, and nobody needs it any more
   running,
-  waiting,  ///< in the queue
-  failed,   ///< its last task says why
-  lost,     ///< neither done nor in the queue, and nobody knows why: handed over again, it will be made
+  waiting,    ///< in the queue
+  failed,     ///< its last task says why
+  lost,       ///< neither done nor in Slurm's queue, and nobody knows why: handed over again, it will be made
+  elsewhere,  ///< another scheduler is to make it, which may not have begun
+  cancelled,
 };
+
 std::string_view name_of(UnitState state);
 
 struct JobState {
+  Assignment assignment;
   std::vector<UnitState> units;                 ///< as in FarmJob::units
   std::map<std::string, std::string> failures;  ///< by unit: why
   std::map<std::string, QueuedTask> tasks;      ///< by unit, of those in the queue
@@ -29,7 +34,9 @@ struct JobState {
   int count(UnitState state) const;
   bool is_complete() const { return count(UnitState::done) + count(UnitState::unneeded) == int(units.size()); }
   /// Whether anything is still going to happen by itself.
-  bool is_moving() const { return count(UnitState::running) + count(UnitState::waiting) > 0; }
+  bool is_moving() const {
+    return count(UnitState::running) + count(UnitState::waiting) + count(UnitState::elsewhere) > 0;
+  }
 };
 
 /// `tasks`: what Slurm has of the job.

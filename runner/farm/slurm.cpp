@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <cmath>
+#include <cstdlib>
 #include <sstream>
 #include <thread>
 
@@ -43,11 +43,24 @@ std::vector<std::string> split(const std::string& line, char at) {
   return parts;
 }
 
+std::string last_line(const std::string& text) {
+  const std::vector<std::string> lines = split(text, '\n');
+  return lines.empty() ? "" : lines.back();
+}
+
 int number_in(const std::string& text, int otherwise) {
   int value = otherwise;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
 }
+
+using Clock = std::chrono::steady_clock;
+
+/// How `scontrol ping` says whether a controller answers.
+constexpr std::string_view mark_of_up = " is UP", mark_of_down = " is DOWN";
+
+/// Slurm's default. The highest index is one less.
+constexpr int usual_array_size = 1001;
 
 constexpr std::string_view comment_mark = "terrazzo:";
 
@@ -80,41 +93,86 @@ std::string slurm_script(const FarmJob& job, const TaskArray& array, const std::
 Slurm::Slurm(std::function<void(const std::string&)> told, const std::atomic<bool>* cancelled)
     : told_(std::move(told)), cancelled_(cancelled) {}
 
+/// Empty if the controller has answered, before or now.
+std::string Slurm::why_unreachable() const {
+  if (has_answered_) return "";
+  const char* configuration = std::getenv("SLURM_CONF");
+  std::error_code missing;
+  if (configuration && !std::filesystem::is_regular_file(configuration, missing))
+    return fmt::format("SLURM_CONF names {}, which is not there. Set it to the cluster's slurm.conf", configuration);
+  const ToolResult ping = run_tool({"scontrol", "ping"});
+  if (ping.exit_code == 127) return first_line(ping.err) + ". Slurm's tools must be on $PATH";
+  has_answered_ = ping.out.find(mark_of_up) != ping.out.npos;
+  if (has_answered_) return "";
+  const std::string message = ping.out.empty() ? last_line(ping.err) : first_line(ping.out);
+  if (!configuration)
+    return message + ". SLURM_CONF is not set: set it to the cluster's slurm.conf, unless Slurm finds that by itself";
+  return fmt::format("{}. SLURM_CONF is {}: it must be the cluster's slurm.conf, and slurmctld must run there", message,
+                     configuration);
+}
+
+void Slurm::require_reachable() const {
+  constexpr std::chrono::seconds patience{4};
+  const auto last = Clock::now() + patience;
+  for (std::string trouble = why_unreachable(); !trouble.empty(); trouble = why_unreachable()) {
+    const bool may_come_back = trouble.find(mark_of_down) != trouble.npos;
+    if (!may_come_back || Clock::now() > last)
+      throw Error(fmt::format("cannot reach Slurm: {}. --print and --openjd need no Slurm", trouble));
+    pause(std::chrono::seconds(1));
+  }
+}
+
+void Slurm::pause(std::chrono::milliseconds time) const {
+  for (const auto until = Clock::now() + time; Clock::now() < until;) {
+    if (cancelled_ && *cancelled_) throw Cancelled();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
 /// Asks until there is an answer. What `is_done_already` returns counts as one, unless it is empty.
 std::string Slurm::ask(const std::vector<std::string>& words,
                        const std::function<std::string()>& is_done_already) const {
-  using Clock = std::chrono::steady_clock;
+  require_reachable();
   constexpr std::chrono::minutes patience{5};
   constexpr std::chrono::seconds first_pause{1}, longest_pause{30};
   const auto last = Clock::now() + patience;
-  for (auto pause = first_pause;; pause = std::min(pause * 2, longest_pause)) {
+  for (auto time = first_pause;; time = std::min(time * 2, longest_pause)) {
     const ToolResult result = run_tool(words);
     if (result.ok()) return result.out;
     const std::string message = fmt::format("{}: {}", words.front(), first_line(result.err));
-    if (result.exit_code == 127)
-      throw Error(message + ". Slurm's tools must be on $PATH; --print shows the scripts without them");
-    if (!is_transient(result.err) || Clock::now() + pause > last) throw Error(message);
-    if (told_ && pause == first_pause) told_(message + "; asking again for some minutes");
-    for (const auto until = Clock::now() + pause; Clock::now() < until;) {
-      if (cancelled_ && *cancelled_) throw Cancelled();
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
+    if (!is_transient(result.err) || Clock::now() + time > last) throw Error(message);
+    if (told_ && time == first_pause) told_(message + "; asking again for some minutes");
+    pause(time);
     if (is_done_already)
       if (std::string answer = is_done_already(); !answer.empty()) return answer;
   }
 }
 
+FarmLimits Slurm::limits(const SlurmOptions& options) const {
+  FarmLimits limits{.tasks = usual_array_size};
+  if (!why_unreachable().empty()) return limits;
+  limits.tasks = max_array_size();
+  std::vector<std::string> words = {"sinfo", "--noheader", "--Node", "--format=%c|%m|%P"};
+  if (!options.partition.empty()) words.push_back("--partition=" + options.partition);
+  const bool is_the_default = options.partition.empty() && options.more.empty() && !std::getenv("SBATCH_PARTITION");
+  std::istringstream lines(ask(words));
+  for (std::string line; std::getline(lines, line);) {
+    const std::vector<std::string> parts = split(line, '|');
+    if (parts.size() < 3 || (is_the_default && !parts[2].ends_with('*'))) continue;
+    limits.cores = std::max(limits.cores, number_in(parts[0], 0));
+    limits.memory = std::max(limits.memory, uint64_t(number_in(parts[1], 0)) << 20);
+  }
+  return limits;
+}
+
 int Slurm::max_array_size() const {
-  constexpr int usual = 1001;  // Slurm's default; the highest index is one less
-  const ToolResult probe = run_tool({"scontrol", "--version"});
-  if (!probe.ok()) return usual;
   std::istringstream lines(ask({"scontrol", "show", "config"}));
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("MaxArraySize")) {
       const size_t equals = line.find_first_of("0123456789");
-      if (equals != line.npos) return std::max(1, number_in(line.substr(equals), usual));
+      if (equals != line.npos) return std::max(1, number_in(line.substr(equals), usual_array_size));
     }
-  return usual;
+  return usual_array_size;
 }
 
 std::vector<QueuedTask> Slurm::queued(const std::string& job) const {

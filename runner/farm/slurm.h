@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -13,9 +14,9 @@
 namespace terrazzo {
 
 struct SlurmOptions {
-  std::string partition, account, time;  ///< as sbatch takes them; empty: as the cluster has it
-  std::vector<std::string> more{};       ///< further options of sbatch, such as --constraint=avx2
-  std::filesystem::path program;         ///< of tasks; absolute
+  std::string partition{}, account{}, time{};  ///< as sbatch takes them; empty: as the cluster has it
+  std::vector<std::string> more{};             ///< further options of sbatch, such as --constraint=avx2
+  std::filesystem::path program{};             ///< of tasks; absolute
 };
 
 /// A task that Slurm knows and that has not ended.
@@ -31,15 +32,17 @@ struct QueuedTask {
 std::string slurm_script(const FarmJob& job, const TaskArray& array, const std::filesystem::path& folder,
                          const std::vector<std::string>& after, const SlurmOptions& options);
 
-/// What is asked of Slurm. A controller that is busy or being restarted is asked again, for some minutes; `told` gets a
-/// line for people when that begins. All functions throw Error with Slurm's own message. Thread-safe.
+/// What is asked of Slurm. A controller that has answered before, and is now busy or being restarted, is asked again
+/// for some minutes; `told` gets a line for people when that begins. One that cannot be reached at all is given up
+/// after a few seconds. All functions throw Error with Slurm's own message. Thread-safe.
 class Slurm {
  public:
   /// `cancelled` ends waiting early, with Cancelled; may be null.
   explicit Slurm(std::function<void(const std::string&)> told = {}, const std::atomic<bool>* cancelled = nullptr);
 
-  /// How many tasks an array may have; that of Slurm's default configuration if there is no Slurm.
-  int max_array_size() const;
+  /// What a partition can give: the largest of its nodes, and how many tasks an array may have. If Slurm cannot be
+  /// reached, the default of its configuration for the latter, and nothing about nodes.
+  FarmLimits limits(const SlurmOptions& options) const;
   /// The tasks of a job that have not ended.
   std::vector<QueuedTask> queued(const std::string& job) const;
   /// Hands a script over; returns the id of the batch job. If the controller's answer is lost, the queue tells whether
@@ -49,11 +52,16 @@ class Slurm {
   void cancel(const std::string& job) const;
 
  private:
+  int max_array_size() const;
+  std::string why_unreachable() const;
+  void require_reachable() const;
+  void pause(std::chrono::milliseconds time) const;
   std::string ask(const std::vector<std::string>& words,
                   const std::function<std::string()>& is_done_already = {}) const;
 
   std::function<void(const std::string&)> told_;
   const std::atomic<bool>* cancelled_;
+  mutable std::atomic<bool> has_answered_ = false;
 };
 
 }  // namespace terrazzo

@@ -67,6 +67,7 @@ PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::stri
   job.graph = fs::absolute(plan.graph->file).string();
   job.program = std::string("terrazzo ") + TERRAZZO_VERSION;
   job.targets = out.graph.targets;
+  job.origins = out.graph.origins;
   job.plugins = plugins;
   // All that results depend on in the environment. It names a file, or something built in, such as "ocio://default".
   if (const char* config = std::getenv("OCIO")) {
@@ -98,15 +99,18 @@ void write_job(const PreparedJob& prepared, Cache& cache) {
   write_farm_job(job, prepared.folder);
 }
 
-JobState look_at_job(const fs::path& folder, const FarmJob& job, Cache& cache, const std::vector<QueuedTask>& tasks) {
+JobState look_at_job(const fs::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm) {
+  const bool may_be_queued = assignment_of(folder).to != Assignment::To::others;
+  const std::vector<QueuedTask> tasks = may_be_queued ? slurm.queued(job.name) : std::vector<QueuedTask>();
   const LoadedGraph loaded = load_graph(folder / "graph.json");
   return state_of(folder, job, plan_of(loaded.graph, job, cache), tasks);
 }
 
 std::vector<HandedOver> hand_over(const fs::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm,
-                                  ArrayOptions arrays, const SlurmOptions& options) {
+                                  const ArrayOptions& arrays, const SlurmOptions& options) {
   const std::shared_ptr<Lease> lease = lease_of(job, cache);
-  const JobState state = look_at_job(folder, job, cache, slurm.queued(job.name));
+  const JobState state = look_at_job(folder, job, cache, slurm);
+  if (state.assignment.to != Assignment::To::slurm) return {};
   std::vector<bool> wanted;
   Needs needs;
   std::map<std::string, uint64_t> too_little;
@@ -120,7 +124,6 @@ std::vector<HandedOver> hand_over(const fs::path& folder, const FarmJob& job, Ca
       too_little[name] = failure->memory;
     forget_failure(folder, name);
   }
-  arrays.max_tasks = slurm.max_array_size();
   std::vector<HandedOver> out;
   for (TaskArray& array : arrays_of(job.units, wanted, FarmFolder::of_job(folder).costs(), too_little, arrays)) {
     write_array(folder, array);
@@ -133,12 +136,18 @@ std::vector<HandedOver> hand_over(const fs::path& folder, const FarmJob& job, Ca
   return out;
 }
 
+void cancel_job(const fs::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm) {
+  const std::shared_ptr<Lease> lease = lease_of(job, cache);
+  write_assignment(folder, {.to = Assignment::To::nobody});
+  slurm.cancel(job.name);
+}
+
 JobState wait_for(const fs::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm,
                   const std::function<void()>& again, const WaitOptions& options) {
   int retries = options.retries;
   auto pause = options.first_pause;
   for (;;) {
-    JobState state = look_at_job(folder, job, cache, slurm.queued(job.name));
+    JobState state = look_at_job(folder, job, cache, slurm);
     if (options.looked) options.looked(state);
     if (!state.is_moving()) {
       // A task that has just ended may not be seen in the cache yet.

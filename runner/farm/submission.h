@@ -24,9 +24,9 @@ PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::stri
 /// Writes the job, unless it is there: a job of this name is this job. Throws FileError.
 void write_job(const PreparedJob& prepared, Cache& cache);
 
-/// What is known of a job now. Throws Error if it is damaged.
-JobState look_at_job(const std::filesystem::path& folder, const FarmJob& job, Cache& cache,
-                     const std::vector<QueuedTask>& tasks);
+/// What is known of a job now. Slurm is asked only if the job may be in its queue. Throws Error if the job is damaged,
+/// and with Slurm's message.
+JobState look_at_job(const std::filesystem::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm);
 
 struct HandedOver {
   TaskArray array;
@@ -34,9 +34,13 @@ struct HandedOver {
 };
 
 /// Hands to Slurm what has to be made and is not in its queue, what failed too; a job that is handed over twice at the
-/// same time is handed over once. Throws Error with Slurm's message.
+/// same time is handed over once, and one that is not assigned to Slurm, not at all. Throws Error with Slurm's message.
 std::vector<HandedOver> hand_over(const std::filesystem::path& folder, const FarmJob& job, Cache& cache,
-                                  const Slurm& slurm, ArrayOptions arrays, const SlurmOptions& options);
+                                  const Slurm& slurm, const ArrayOptions& arrays, const SlurmOptions& options);
+
+/// Ends a job's tasks; they are not handed over again until the job is submitted again. Throws Error with Slurm's
+/// message.
+void cancel_job(const std::filesystem::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm);
 
 struct WaitOptions {
   int retries = 2;  ///< how often tasks that got lost are handed over again

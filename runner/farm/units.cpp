@@ -5,9 +5,16 @@
 #include <map>
 #include <set>
 
+#include "runner/farm/time_guess.h"
+
 namespace terrazzo {
 
 namespace {
+
+/// Earlier runs of the graph may have been of smaller sizes.
+double seconds_of(const Plan& plan, const Stage& stage) {
+  return std::max(stage.expected_seconds, guessed_seconds(plan, stage));
+}
 
 /// Which units make each stage. Units are numbered by their last stage.
 class Parting {
@@ -27,7 +34,7 @@ class Parting {
   /// The time of each stage and of what is made for it alone.
   void add_up_branches() {
     for (size_t i = 0; i < plan_.stages.size(); i++) {
-      branch_[i] = at(int(i)).expected_seconds;
+      branch_[i] = seconds_of(plan_, at(int(i)));
       for (const int source : at(int(i)).sources)
         if (at(source).readers.size() == 1) branch_[i] += branch_[size_t(source)];
     }
@@ -107,7 +114,7 @@ std::vector<Unit> units_of(const Plan& plan) {
     for (const int i : members) {
       const Stage& s = plan.stages[size_t(i)];
       unit.nodes.push_back(s.node->name);
-      unit.seconds += s.expected_seconds;
+      unit.seconds += seconds_of(plan, s);
       add_costly(kind, *s.node);
     }
     unit.targets.push_back(unit.name);

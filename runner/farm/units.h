@@ -16,7 +16,7 @@ struct Unit {
   std::vector<std::string> targets;  ///< those of them whose results others need, or the user
   std::vector<std::string> needs;    ///< units that come before it
   bool is_wanted = false;            ///< the user asked for it; others are made only for those
-  double seconds = 0;                ///< as earlier runs of the graph took; 0 if all of it is cached
+  double seconds = 0;                ///< as earlier runs of the graph took, or guessed; 0 if all of it is cached
   Digest kind;  ///< units of one kind cost about the same: same types, sizes, choices, inputs as large
 };
 

@@ -24,6 +24,7 @@ struct Tuning {
   double better = 0.005;
   double least_rise = 0.04;
   double near_best = 0.03;
+  double least_turned = 0.3;
   double seen = 1.3;
   double step = 0.1;
   double fine_step = 0.005;
@@ -80,6 +81,10 @@ const Tunable<Tuning> tuning(
          "within which the most certain one is looked for. Higher: coarse steps do no harm; costs time. Lower: less "
          "time",
          "not measured: taken over from the code before constants were listed", 0, 0.5},
+        {&Tuning::least_turned, "least_turned", "correlation",
+         "of orientations, by which every second band must differ from its neighbours. Higher: mirrored columns are "
+         "taken for one another; lower: chance doubles periods",
+         "regularity"},
         {&Tuning::seen, "seen", "periods",
          "how many of the longest one the exemplar must show. Higher: long periods are surer; lower: longer ones are "
          "looked for",
@@ -243,6 +248,14 @@ Slant slant_of_stripes(const Correlation& r) {
 
 Bands bands_of(const Correlation& r, bool courses) {
   return bands_that_rise(r, courses, 0);
+}
+
+Lattice with_turned_bands(const Correlation& r, const Lattice& bands) {
+  const LineCorrelation lines(r, bands.first.y() != 0, 0);
+  const double twice = 2 * bands.first.sum();
+  Lattice out = bands;
+  if (lines.repeats(twice).certainty() >= tuning->least_turned) out.first *= 2;
+  return out;
 }
 
 Bands stripes_of(const Correlation& r) {

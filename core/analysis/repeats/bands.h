@@ -19,4 +19,7 @@ Bands bands_of(const Correlation& r, bool courses);
 /// the step along the stripes is as long as the one across.
 Bands stripes_of(const Correlation& r);
 
+/// The bands, or twice their period if every second one is turned or mirrored. `r`: the correlation of orientations.
+Lattice with_turned_bands(const Correlation& r, const Lattice& bands);
+
 }  // namespace terrazzo

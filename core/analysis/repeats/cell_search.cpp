@@ -370,13 +370,13 @@ Cell best_cell(const Correlation& r, const std::vector<Lattice>& further) {
   return {out, best->score / std::max(0.01, 1 - best->around)};
 }
 
-Lattice without_false_repeats(const Correlation& r, const Lattice& lattice) {
+Lattice without_false_repeats(const Correlation& r, const Lattice& lattice, double least_gap) {
   if (lattice.rank != 2) return lattice;
   Vector2d a = lattice.first, b = lattice.second;
   reduce(a, b);
   const Candidate all = judged(r, a, b, -2);
   Lattice best = lattice;
-  double largest = 0;
+  double largest = least_gap;
   for (int cells = 2; cells <= tuning->most_cells; cells++)
     for (int p = 1; p <= cells; p++) {
       if (cells % p != 0) continue;

@@ -19,7 +19,8 @@ struct Cell {
 Cell best_cell(const Correlation& r, const std::vector<Lattice>& further);
 
 /// The lattice, or one of a few times its cell if the correlation is clearly higher there: the joints of a chequered
-/// floor form a grid, but only every second tile has the same colour.
-Lattice without_false_repeats(const Correlation& r, const Lattice& lattice);
+/// floor form a grid, but only every second tile has the same colour. `least_gap`: what the other points must lack of the
+/// correlation, 0..1.
+Lattice without_false_repeats(const Correlation& r, const Lattice& lattice, double least_gap = 0);
 
 }  // namespace terrazzo

@@ -121,20 +121,44 @@ Correlation pooled(const std::vector<Correlation>& all) {
   return {std::move(values), lags, exemplar, false};
 }
 
-Planes outlines(const Planes& in) {
+namespace {
+
+/// Calls visit(pixel, squares, cosine, sine) with the squared edge strength over all channels, lightly blurred, and
+/// with the same times the cosine and the sine of twice the edge's angle.
+template <typename Visit>
+void for_gradients(const Planes& in, Visit visit) {
   const Planes values = blurred(in, tuning->grain, Beyond::mirrored);
-  Planes out = Planes::zeros(in.size, 1, in.wraps);
   for (int y = 0; y < in.size.height; y++)
     for (int x = 0; x < in.size.width; x++) {
       const float *left = values.at(in.column(x - 1), y), *right = values.at(in.column(x + 1), y);
       const float *up = values.at(x, in.row(y - 1)), *down = values.at(x, in.row(y + 1));
-      float sum = 0;
+      float squares = 0, cosine = 0, sine = 0;
       for (int c = 0; c < in.channels; c++) {
         const float dx = right[c] - left[c], dy = down[c] - up[c];
-        sum += dx * dx + dy * dy;
+        squares += dx * dx + dy * dy;
+        cosine += dx * dx - dy * dy;
+        sine += 2 * dx * dy;
       }
-      out.values[size_t(y) * in.size.width + x] = std::sqrt(sum);
+      visit(size_t(y) * size_t(in.size.width) + size_t(x), squares, cosine, sine);
     }
+}
+
+}  // namespace
+
+Planes outlines(const Planes& in) {
+  Planes out = Planes::zeros(in.size, 1, in.wraps);
+  for_gradients(in, [&](size_t i, float squares, float, float) { out.values[i] = std::sqrt(squares); });
+  return out;
+}
+
+Planes orientations(const Planes& in) {
+  Planes out = Planes::zeros(in.size, 2, in.wraps);
+  for_gradients(in, [&](size_t i, float squares, float cosine, float sine) {
+    if (squares == 0) return;
+    const float strength = std::sqrt(squares);
+    out.values[2 * i] = cosine / strength;
+    out.values[2 * i + 1] = sine / strength;
+  });
   return out;
 }
 

@@ -85,4 +85,8 @@ Correlation pooled(const std::vector<Correlation>& all);
 /// Edge strength over all channels, as one channel: shows joints even if bricks differ in colour.
 Planes outlines(const Planes& planes);
 
+/// The same by orientation, as two channels: edge strength times the cosine and the sine of twice the edge's angle
+/// (Granlund's double-angle representation). Parts that mirror each other, or are turned, differ in it.
+Planes orientations(const Planes& planes);
+
 }  // namespace terrazzo

@@ -21,6 +21,7 @@ struct Tuning {
   double few_cells = 6.5;
   double least_alike_of_few = 0.6;
   double least_sure_stripes = 0.6;
+  double least_turned = 0.6;
 };
 const Tunable<Tuning> tuning("regularity",
                              {
@@ -44,6 +45,10 @@ const Tunable<Tuning> tuning("regularity",
                                   "of stripes aslant. Higher: fewer are found; lower: those that are only a part of "
                                   "what is shown, as of a door, are taken for all",
                                   "not measured: taken over from the code before constants were listed"},
+                                 {&Tuning::least_turned, "least_turned", "share of the correlation",
+                                  "of orientations that turned cells lack. Higher: they are taken for one another; "
+                                  "lower: threads of a weave are told apart by chance",
+                                  "regularity", 0, 1},
                              });
 
 Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
@@ -94,6 +99,15 @@ Found searched(const Correlation& values, const Correlation& joints, double leas
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }
 
+/// The lattice, or a multiple of it if its cells are turned or mirrored: the columns of a chevron floor.
+Lattice told_by_orientation(const Lattice& lattice, const std::vector<const ExemplarView*>& views, const Task& task) {
+  std::vector<Correlation> all;
+  for (const ExemplarView* v : views) all.push_back(correlate(orientations(v->planes), v->counts.values, task));
+  const Correlation turned = pooled(all);
+  return lattice.rank == 1 ? with_turned_bands(turned, lattice)
+                           : without_false_repeats(turned, lattice, tuning->least_turned);
+}
+
 }  // namespace
 
 FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_certainty, const Task& task) {
@@ -110,6 +124,7 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
   }
   const Found found = searched(pooled(values), pooled(joints), least_certainty);
   Lattice best = found.lattice;
+  if (best.rank > 0) best = told_by_orientation(best, views, task);
   if (best.certainty < least_certainty || !best.is_valid()) best = {0, {}, {}, best.certainty};
   const ExemplarView& largest =
       **std::ranges::max_element(views, {}, [](const ExemplarView* v) { return v->seen.area(); });

@@ -123,6 +123,16 @@ TEST_CASE("a damaged entry is a miss, is removed with a warning, and can be stor
   REQUIRE(cache.load_value(digest_of(value)));
 }
 
+TEST_CASE("a damaged value is replaced when the same is stored, though nobody has read it") {
+  const TemporaryFolder folder;
+  Cache cache(folder.path());
+  const Value value = sample_values()[0];
+  cache.store_value(value, 1, Task());
+  flip_bit(CacheFolder(folder.path()).path_of(EntryKind::value, digest_of(value)));
+  cache.store_value(value, 1, Task());
+  CHECK(cache.load_value(digest_of(value)));
+}
+
 TEST_CASE("an entry under another's name is a miss, never a wrong value") {
   const TemporaryFolder folder;
   Cache cache(folder.path());

@@ -6,12 +6,12 @@
 
 namespace terrazzo::test {
 
-/// An environment variable, for as long as the object lives.
+/// An environment variable, for as long as the object lives; null: it is not set.
 class Environment {
  public:
   Environment(const char* name, const char* value) : name_(name) {
     if (const char* old = std::getenv(name)) old_ = old;
-    ::setenv(name, value, 1);
+    value ? ::setenv(name, value, 1) : ::unsetenv(name);
   }
   ~Environment() { old_ ? ::setenv(name_, old_->c_str(), 1) : ::unsetenv(name_); }
 

@@ -76,7 +76,7 @@ class Driver {
 
  private:
   void work(Job& job) {
-    if (job.kind == Job::Kind::compute && dice_.roll(4) == 0) {
+    if ((job.kind == Job::Kind::compute || job.kind == Job::Kind::look_up) && dice_.roll(4) == 0) {
       seen_.busy++;
       job.busy = true;
       return;

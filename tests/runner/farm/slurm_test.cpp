@@ -1,40 +1,16 @@
 #include "runner/farm/slurm.h"
 
-#include <cstdlib>
-
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
 #include "runner/farm/openjd.h"
 #include "runner/farm/run_tool.h"
-#include "tests/run_node.h"
-#include "tests/texts.h"
+#include "tests/runner/farm/tools.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
-namespace fs = std::filesystem;
 
 namespace {
-
-/// Programs of a test's own, found before the machine's.
-class Tools {
- public:
-  Tools() : path_(std::getenv("PATH")) { ::setenv("PATH", (folder_.path().string() + ":" + path_).c_str(), 1); }
-  ~Tools() { ::setenv("PATH", path_.c_str(), 1); }
-  Tools(const Tools&) = delete;
-  Tools& operator=(const Tools&) = delete;
-
-  void add(const std::string& name, const std::string& script) const {
-    const fs::path file = folder_.path() / name;
-    write_text(file, "#!/bin/sh\ncd '" + folder_.path().string() + "'\n" + script);
-    fs::permissions(file, fs::perms::owner_all);
-  }
-  std::string text(const std::string& name) const { return read_text(folder_.path() / name); }
-
- private:
-  TemporaryFolder folder_;
-  std::string path_;
-};
 
 TaskArray array_of(std::vector<std::vector<std::string>> tasks) {
   TaskArray a{.label = "layout", .tasks = std::move(tasks)};
@@ -79,6 +55,7 @@ TEST_CASE("a script asks for what its tasks need, and calls the program with its
 
 TEST_CASE("what is in the queue") {
   const Tools tools;
+  tools.add("scontrol", "echo 'Slurmctld(primary) at farm is UP'");
   tools.add("squeue",
             "echo \"$@\" > asked; printf '17_3|3|R|terrazzo:abc|n1|None\\n17_4|4|PD|terrazzo:abc||Resources\\n"
             "9|N/A|R|other|n2|None\\n'");
@@ -96,6 +73,7 @@ TEST_CASE("what is in the queue") {
 
 TEST_CASE("a controller that is busy is asked again; what it has taken is not handed over twice") {
   const Tools tools;
+  tools.add("scontrol", "echo 'Slurmctld(primary) at farm is UP'");
   std::vector<std::string> told;
   const Slurm slurm([&](const std::string& text) { told.push_back(text); });
   SUBCASE("busy") {
@@ -118,11 +96,6 @@ TEST_CASE("a controller that is busy is asked again; what it has taken is not ha
                          Error);
     CHECK(told.empty());
   }
-  SUBCASE("there is none") {
-    ::setenv("PATH", "/nowhere", 1);
-    CHECK_THROWS_WITH_AS(slurm.queued("job"), doctest::Contains("must be on $PATH"), Error);
-    CHECK(slurm.max_array_size() == 1001);
-  }
   SUBCASE("cancelled while it waits") {
     tools.add("squeue", "echo 'Unable to contact slurm controller' >&2; exit 1");
     const std::atomic<bool> cancelled = true;
@@ -130,10 +103,59 @@ TEST_CASE("a controller that is busy is asked again; what it has taken is not ha
   }
 }
 
-TEST_CASE("how many tasks an array may have") {
+TEST_CASE("a controller that cannot be reached is given up after seconds; the message says what to set") {
   const Tools tools;
-  tools.add("scontrol", "echo 'MaxArraySize            = 21'");
-  CHECK(Slurm().max_array_size() == 21);
+  const Slurm slurm;
+  const auto message = [&]() -> std::string {
+    try {
+      slurm.queued("job");
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  tools.add("squeue", "echo 'Unable to contact slurm controller' >&2; exit 1");
+  SUBCASE("no configuration") {
+    tools.add("scontrol", "echo 'fetching' >&2; echo 'scontrol: fatal: no configuration source' >&2; exit 1");
+    CHECK(message() ==
+          "cannot reach Slurm: scontrol: fatal: no configuration source. SLURM_CONF is not set: set it to the "
+          "cluster's slurm.conf, unless Slurm finds that by itself. --print and --openjd need no Slurm");
+    CHECK(slurm.limits({}).tasks == 1001);
+  }
+  SUBCASE("a configuration that is not there") {
+    const Environment setting("SLURM_CONF", "/nowhere/slurm.conf");
+    CHECK(message().find("SLURM_CONF names /nowhere/slurm.conf, which is not there") != std::string::npos);
+  }
+  SUBCASE("it does not run") {
+    const Environment setting("SLURM_CONF", "/etc/passwd");
+    tools.add("scontrol", "echo 'Slurmctld(primary) at farm is DOWN'; exit 1");
+    CHECK(message().find("farm is DOWN. SLURM_CONF is /etc/passwd") != std::string::npos);
+  }
+  SUBCASE("it begins to answer") {
+    tools.add("scontrol",
+              "echo >> asked; [ $(wc -l < asked) -gt 1 ] || { echo 'Slurmctld(primary) at farm is DOWN'; exit 1; }; "
+              "echo 'Slurmctld(primary) at farm is UP'");
+    tools.add("squeue", "true");
+    CHECK(slurm.queued("job").empty());
+  }
+  SUBCASE("there are no tools") {
+    const Environment setting("PATH", "/nowhere");
+    CHECK(message().find("must be on $PATH") != std::string::npos);
+  }
+}
+
+TEST_CASE("what a cluster can give: tasks of an array, and the largest node of the partition") {
+  const Tools tools;
+  tools.add("scontrol", "echo 'Slurmctld(primary) at farm is UP'; echo 'MaxArraySize            = 21'");
+  tools.add("sinfo", "echo $* > asked; printf '4|8000|day*\n8|4000|day*\n64|900000|night\n'");
+  const FarmLimits day = Slurm().limits({});
+  CHECK(day.tasks == 21);
+  CHECK(day.cores == 8);
+  CHECK(day.memory == uint64_t{8000} << 20);
+  // Which partition is meant is Slurm's to know.
+  CHECK(Slurm().limits({.more = {"--qos=long"}}).cores == 64);
+  Slurm().limits({.partition = "night"});
+  CHECK(tools.text("asked").find("--partition=night") != std::string::npos);
 }
 
 TEST_CASE("a template keeps the rules of the Open Job Description specification, 2023-09") {

@@ -53,7 +53,8 @@ struct Job {
 
 TEST_CASE("a unit is made once; a stamp says what it is, whoever made it") {
   const Job job;
-  CHECK(job.states() == std::map<std::string, std::string>{{"index", "lost"}, {"x", "lost"}, {"y", "lost"}});
+  CHECK(job.states() ==
+        std::map<std::string, std::string>{{"index", "elsewhere"}, {"x", "elsewhere"}, {"y", "elsewhere"}});
   const ProgramRun first = job.task({"index", "--stamp", "index.json"});
   CHECK(first.code == 0);
   CHECK(first.err.find("index (index)") != std::string::npos);
@@ -69,9 +70,9 @@ TEST_CASE("a unit is made once; a stamp says what it is, whoever made it") {
   CHECK(job.task({"x"}).code == 0);
   CHECK(fs::exists(job.w.path / "x.exr"));
   CHECK(job.states().at("x") == "done");
-  CHECK(job.states().at("y") == "lost");
+  CHECK(job.states().at("y") == "elsewhere");
   fs::remove(job.w.path / "x.exr");
-  CHECK(job.states().at("x") == "lost");
+  CHECK(job.states().at("x") == "elsewhere");
 }
 
 TEST_CASE("a unit that fails is noted, and those that need it say so") {
@@ -85,6 +86,25 @@ TEST_CASE("a unit that fails is noted, and those that need it say so") {
   CHECK(job.task({"index"}).code == 0);
   CHECK(job.task({"x"}).code == 0);
   CHECK(job.states().at("x") == "done");
+}
+
+TEST_CASE("a unit that cannot read an input names the user's file, not its copy") {
+  const Workplace w;
+  write_picture(w.path / "wall" / "wall_height.png", 1, Semantic::height, {96, 96});
+  std::string bytes = read_text(w.path / "wall" / "wall_height.png");
+  bytes[bytes.size() / 2] ^= 0x55;  // which only reading all of it finds
+  write_text(w.path / "wall" / "wall_height.png", bytes);
+  write_text(w.path / "graph.json", R"({"terrazzo": 1, "nodes": {
+    "a": {"type": "load_material", "path": "wall"},
+    "x": {"type": "export", "material": "@a", "path": "x/{map}.png"}}})");
+  REQUIRE(w.run({"submit", "graph.json", "--openjd", "template.json"}).code == 0);
+  const std::string job = FarmFolder(w.path / "cache").job_names().at(0);
+  const std::string original = (w.path / "wall" / "wall_height.png").string();
+  const ProgramRun run = w.run({"task", job, "x"});
+  CHECK(run.code == 1);
+  CHECK(run.err.find(original) != std::string::npos);
+  CHECK(run.err.find("farm/inputs/") == std::string::npos);
+  CHECK(w.run({"submit", job, "--status"}).out.find(original) != std::string::npos);
 }
 
 TEST_CASE("inputs, version and plug-ins must be those of the submission") {

@@ -72,6 +72,28 @@ TEST_CASE("slow branches that could be made at the same time are units of their 
   CHECK(units[2].needs == Names{"index", "left"});
 }
 
+TEST_CASE("many pixels take long, more so in better quality, whatever smaller ones have taken") {
+  Walls walls(1);
+  NodeType& sum = walls.types.sum;
+  sum.params.push_back(
+      {.name = "quality", .type = ParamType::choice, .fallback = "normal", .choices = {"draft", "normal", "best"}});
+  const auto seconds = [&](int side, const char* quality) {
+    set(walls.graph, "layout0", "quality", quality);
+    Plan plan = walls.plan();
+    for (Stage& s : plan.stages)
+      if (s.node->name == "layout0") s.shape.size = Size{side, side};
+    return units_of(plan).back().seconds;
+  };
+  const double small = seconds(64, "normal");
+  CHECK(small < 10);
+  CHECK(seconds(4096, "normal") > 60);
+  CHECK(seconds(4096, "draft") < seconds(4096, "normal") / 2);
+  CHECK(seconds(4096, "best") > seconds(4096, "normal"));
+  // What is there costs nothing.
+  walls.run({"files0"});
+  CHECK(seconds(4096, "best") == 0);
+}
+
 TEST_CASE("what is made is not due, nor is what only that needed") {
   Walls walls(2);
   CHECK(due(units_of(walls.plan()), walls.plan()) == std::vector<bool>{true, true, true});
@@ -96,7 +118,7 @@ TEST_CASE("arrays: what can run at the same time, split and packed") {
   const std::filesystem::path costs = walls.folder.path() / "costs";
 
   SUBCASE("a task for each") {
-    const auto arrays = arrays_of(units, all, costs, {}, {.max_tasks = 4, .pack_seconds = 0});
+    const auto arrays = arrays_of(units, all, costs, {}, {.limits = {.tasks = 4}, .pack_seconds = 0});
     REQUIRE(arrays.size() == 4);
     CHECK(arrays[0].tasks == std::vector<Names>{{"index"}});
     CHECK(arrays[0].memory == usual_memory);
@@ -125,6 +147,18 @@ TEST_CASE("arrays: what can run at the same time, split and packed") {
     CHECK(arrays[1].memory == gigabyte);
     CHECK(arrays[2].tasks == std::vector<Names>{{"files3"}});
     CHECK(arrays[2].memory == 2 * gigabyte);
+  }
+  SUBCASE("guesses fit the largest machine") {
+    const uint64_t gigabyte = uint64_t{1} << 30;
+    remember_cost(costs, units[1].kind, {10, 90, 4 * gigabyte});
+    const ArrayOptions options{.limits = {.cores = 4, .memory = gigabyte}};
+    const auto arrays = arrays_of(units, all, costs, {{"files3", gigabyte}}, options);
+    REQUIRE(arrays.size() == 3);
+    CHECK(arrays[1].cores == 4);
+    for (const TaskArray& a : arrays) CHECK(a.memory == gigabyte);
+  }
+  SUBCASE("as many cores as are asked for") {
+    CHECK(arrays_of(units, all, costs, {}, {.cores = 64}).front().cores == 64);
   }
   SUBCASE("only what is due") {
     std::vector<bool> some(units.size());

@@ -76,6 +76,20 @@ FeaturesPtr picture(Pattern pattern, double unit, double x, double y, double joi
   }));
 }
 
+/// Boards that rise by `slope` in every second column and fall in the others, `height` pixels high where they are cut.
+/// They differ in shade more than joints do.
+FeaturesPtr chevron(double width, double slope, double height) {
+  return plain_features(make_image({256, 256}, 1, [&](int i, int j, int) {
+    const double x = (i + 0.5) / width, along = part(x) * width;
+    const int column = int(std::floor(x));
+    const double y = (j + 0.5 + slope * (column % 2 ? width - along : along)) / height;
+    const double across = std::min(part(y), 1 - part(y)) * height / std::sqrt(1 + slope * slope);
+    const double shade = 0.3 + 0.5 * unit_double(random_bits(5, column, int(std::floor(y))));
+    const bool joint = std::min({across, along, width - along}) < 1;
+    return float((joint ? 0.1 : shade) + 0.05 * unit_double(random_bits(6, i, j)));
+  }));
+}
+
 /// Whether all of the lattice's steps are whole ones of the lattice of (ax, ay) and (bx, by), and at most `cells` of
 /// its cells make one.
 void check_cell(const Lattice& l, double ax, double ay, double bx, double by, double cells = 1) {
@@ -119,6 +133,23 @@ TEST_CASE("a herringbone in zigzag repeats with its blocks' ends, not with their
     const double step = unit * std::sqrt(2.0);
     check_cell(lattice_of(picture(herringbone, unit, 0.4, 0.7)), 0, step, 3 * step, 0);
   }
+}
+
+TEST_CASE("columns of a chevron floor come again after the one that mirrors them") {
+  for (const double width : {24.0, 40.0, 60.0})
+    for (const double slope : {0.5, 0.8, 1.0, 1.2})
+      for (const double boards : {2.0, 3.3}) {
+        CAPTURE(width);
+        CAPTURE(slope);
+        CAPTURE(boards);
+        const Lattice found = lattice_of(chevron(width, slope, width / boards));
+        CAPTURE(found.first.x());
+        CAPTURE(found.first.y());
+        REQUIRE(found.rank > 0);
+        const Lattice truth{2, {2 * width, 0}, {0, width / boards}, 1};
+        CHECK(repeats_by(truth, found.first.x(), found.first.y()));
+        if (found.rank == 2) CHECK(repeats_by(truth, found.second.x(), found.second.y()));
+      }
 }
 
 TEST_CASE("of few bricks, whole ones are found and not halves") {
