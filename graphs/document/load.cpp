@@ -8,6 +8,7 @@
 
 #include "core/base/suggest.h"
 #include "graphs/document/convert.h"
+#include "graphs/document/file_origins.h"
 #include "graphs/document/forecasts.h"
 #include "graphs/document/given_inputs.h"
 #include "graphs/document/left_out.h"
@@ -111,7 +112,7 @@ class Loader {
     coded("parameter");
     if (!options.allow_unset) require_set(parameters, out.inputs, wanted);
     coded("unset");
-    trace_files(order);
+    trace_files(drafts, order);
     if (!problems_.empty() && options.look_ahead)
       for (Problem& p : options.look_ahead(faultless(order))) problems_.push_back(std::move(p));
     coded("input");
@@ -323,30 +324,6 @@ class Loader {
       if (unset.contains(input.name))
         problems_.push_back({document_.find("inputs")->place, "input " + in_quotes(input.name),
                              "nothing comes into it: a graph with inputs runs as a node of another graph"});
-  }
-
-  /// The parameters of the document that a subgraph's parameter is made from.
-  static std::set<std::string> files_behind(const Level& level, const std::set<std::string>& names) {
-    if (!level.use) return names;
-    std::set<std::string> out;
-    for (const std::string& name : names) {
-      const auto at = level.use->node.files_by.find(name);
-      if (at != level.use->node.files_by.end()) out.merge(files_behind(*level.outer, at->second));
-    }
-    return out;
-  }
-
-  /// Tells every port from which of the graph's files what comes in is made.
-  void trace_files(const std::vector<size_t>& order) {
-    Drafts& drafts = levels_.nodes();
-    std::map<std::string, std::set<std::string>> files_of;  // by node
-    for (const size_t i : order) {
-      GraphNode& node = drafts[i].node;
-      for (auto& [given, files] : node.files_by) files = files_behind(*drafts[i].level, files);
-      for (const auto& [port, wires] : node.inputs)
-        for (const Wire& w : wires) node.files_by[port].merge(std::set(files_of[w.node]));
-      for (const auto& [given, files] : node.files_by) files_of[node.name].insert(files.begin(), files.end());
-    }
   }
 
   /// The nodes that nothing has been said against, and that have all they need but for what others are to give.
