@@ -125,6 +125,17 @@ grep -q 'submit' tree/commands.sh || complain "the guide has no commands to run"
 (cd tree && PATH=$PWD/bin:$PATH bash -euo pipefail commands.sh) >guide.txt 2>&1 || { complain "the guide's commands fail"; cat guide.txt >&2; }
 [ -s tree/out/farm/walls/8/height.png ] || complain "the guide's commands make no walls"
 
+# With --keep-going, what needs an exemplar that cannot be read is left out, and all else is made.
+cp -r tree/out/farm/bricks sound
+cp -r sound cut
+truncate --size=-100 cut/height.png
+printf 'material,out\nsound,going/sound\ncut,going/cut\n' >going.csv
+code=0
+"$program" submit walls.json --set size=64x64 --table going.csv --keep-going --wait >going.txt 2>&1 || code=$?
+[ $code = 1 ] || complain "something was left out, with exit code $code"
+grep -q 'left out.*cut/height.png: it is truncated' going.txt || { complain "it is not said what was left out"; cat going.txt >&2; }
+[ -s going/sound/height.png ] && [ ! -e going/cut ] || complain "the sound variation was not made, or the other one was"
+
 # Snakemake makes a job by its stamps.
 if command -v snakemake >/dev/null; then
   cp -r tree/out/farm/bricks .

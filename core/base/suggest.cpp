@@ -82,7 +82,10 @@ std::string suggestion(std::string_view wrong, const std::vector<std::string>& n
   return names.empty() ? "" : fmt::format(" (valid: {})", listed(names));
 }
 
-std::string listed(const std::vector<std::string>& names) {
+std::string listed(const std::vector<std::string>& all) {
+  std::vector<std::string> names;
+  for (const std::string& name : all)
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   constexpr size_t most = 16;
   const size_t shown = std::min(names.size(), most);
   std::string text;

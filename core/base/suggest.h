@@ -18,7 +18,7 @@ std::string did_you_mean(std::string_view wrong, const std::vector<std::string>&
 /// nothing if there are none.
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& names);
 
-/// `"a", "b" or "c"`; shortened if there are many.
-std::string listed(const std::vector<std::string>& names);
+/// `"a", "b" or "c"`, each once; shortened if there are many.
+std::string listed(const std::vector<std::string>& all);
 
 }  // namespace terrazzo

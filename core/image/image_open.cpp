@@ -13,6 +13,7 @@
 #include "core/file/file_integrity.h"
 #include "core/file/file_io.h"
 #include "core/file/file_stamp.h"
+#include "core/file/other_content.h"
 #include "core/image/image_file.h"
 #include "core/image/image_limits.h"
 #include "core/image/png_codec.h"
@@ -44,12 +45,23 @@ std::string listed_layers(const std::vector<std::string>& layers) {
 
 namespace {
 
+void refuse_other_content(const fs::path& path) {
+  const std::string content = other_content(path);
+  if (!content.empty())
+    fail_to_read(path,
+                 fmt::format("it is {}, whatever its name says; save the image as PNG, TIFF, EXR or JPEG", content));
+}
+
 std::unique_ptr<ImageDecoder> decoder_of(const fs::path& path) {
   try {
     if (std::unique_ptr<ImageDecoder> png = open_png(path)) return png;
     return image_libraries().open_image(path.string());
   } catch (const Error& e) {
-    fail_to_read(path, one_line(e.what()));
+    refuse_other_content(path);
+    const std::string reason = one_line(e.what());
+    if (reason.find("Not a ") == reason.npos && reason.find("not a ") == reason.npos) fail_to_read(path, reason);
+    // The image library says only of what format it is not.
+    fail_to_read(path, fmt::format("it is no image of a known format ({}); save it as PNG, TIFF, EXR or JPEG", reason));
   }
 }
 
@@ -188,7 +200,11 @@ FileFacts<FileInfo> headers;
 
 void require_readable_image(const fs::path& path) {
   require_image_file(path);
-  if (!complete_files.of(path, "", [&] { return seems_complete(path); })) fail_cut_off(path);
+  const auto seems_whole = [&] {
+    refuse_other_content(path);
+    return seems_complete(path);
+  };
+  if (!complete_files.of(path, "", seems_whole)) fail_cut_off(path);
   const auto is_plain_png = [&] {
     try {
       return open_png(path) != nullptr;

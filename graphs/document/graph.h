@@ -36,6 +36,7 @@ struct GraphNode {
   std::map<std::string, Place> places{};
   std::string file{};    ///< that the places are in; empty: the graph's own
   bool is_open = false;  ///< it needs something that has not been set: it can be looked at, but not run
+  bool fails = false;    ///< certainly: what is made from what it gives has been left out of the graph
   /// Of path parameters and of ports: the graph's own parameters that say which files they, or what comes in, are from.
   std::map<std::string, std::set<std::string>> files_by{};
 

@@ -150,6 +150,9 @@ void Levels::read_item(Level& level, const JsonMember& member, const std::vector
   for (const LoopRound& round : *rounds)
     if (Names* names = names_of_round(level, round, diagnostics))
       read_round(level, member, fmt::format("{}[{}]", member.name, round.label), *names, its, items);
+  std::set<std::string> files;
+  for (const JsonMember& m : loop->members) files.merge(level.names.substitution->paths_in(m.value));
+  for (const Item& item : items) item.draft->loop_files = files;
 }
 
 /// Null after a problem.

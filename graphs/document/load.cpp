@@ -8,8 +8,10 @@
 
 #include "core/base/suggest.h"
 #include "graphs/document/convert.h"
+#include "graphs/document/file_origins.h"
 #include "graphs/document/forecasts.h"
 #include "graphs/document/given_inputs.h"
+#include "graphs/document/left_out.h"
 #include "graphs/document/level.h"
 #include "graphs/document/read_document.h"
 #include "graphs/document/unused.h"
@@ -106,11 +108,11 @@ class Loader {
     coded("cycle");
     read_what_waits(order, root);
     const std::set<std::string> wanted = wanted_nodes(drafts, options.only);
-    const bool is_part = report_sources(asked_too(drafts, wanted));
+    const bool is_part = options.keep_going ? !of_sources_.empty() : report_sources(asked_too(drafts, wanted));
     coded("parameter");
     if (!options.allow_unset) require_set(parameters, out.inputs, wanted);
     coded("unset");
-    trace_files(order);
+    trace_files(drafts, order);
     if (!problems_.empty() && options.look_ahead)
       for (Problem& p : options.look_ahead(faultless(order))) problems_.push_back(std::move(p));
     coded("input");
@@ -119,9 +121,10 @@ class Loader {
     set_code(conversions, 0, "conversion");
     out.conversions = std::move(conversions);
     out.warnings = warnings_about(levels_, subgraphs_, root, order);
+    const std::set<std::string> left = options.keep_going ? without_faulty(order, wanted) : wanted;
     const bool complete = std::ranges::all_of(drafts, [](const NodeDraft& d) { return d.unset.empty(); });
     for (const size_t i : order)
-      if ((!is_part && (complete || options.allow_unset)) || wanted.contains(drafts[i].node.name)) {
+      if ((!is_part && (complete || options.allow_unset)) || left.contains(drafts[i].node.name)) {
         drafts[i].node.is_open = !drafts[i].unset.empty();
         out.graph.nodes.push_back(std::move(drafts[i].node));
       }
@@ -263,13 +266,6 @@ class Loader {
     return std::ranges::any_of(levels_.nodes(), waits) || std::ranges::any_of(levels_.others(), waits);
   }
 
-  /// Whether all parameters and wires of the node have been read.
-  static bool is_complete(const NodeDraft& draft) {
-    const GraphNode& node = draft.node;
-    if (!node.type || node.params.size() < node.type->params.size() || !draft.unset.empty()) return false;
-    return std::ranges::none_of(draft.ports, [](const PortWires& p) { return p.has_faults; });
-  }
-
   /// Whether all is known that can be; what the node's preflight finds wrong is a problem.
   bool look_ahead(const NodeDraft& draft, Forecasts& forecasts, const std::set<std::string>& incomplete) {
     const GraphNode& node = draft.node;
@@ -303,6 +299,16 @@ class Loader {
     return is_part;
   }
 
+  /// The nodes that can be made without the faulty ones among those that are asked; these stay, for the run to tell of.
+  std::set<std::string> without_faulty(const std::vector<size_t>& order, const std::set<std::string>& wanted) {
+    const std::set<std::string> asked = asked_too(levels_.nodes(), wanted);
+    std::set<std::string> faulty;
+    for (const Problem& p : of_sources_)
+      if (asked.contains(p.node)) faulty.insert(p.node);
+    for (NodeDraft& d : levels_.nodes()) d.node.fails = faulty.contains(d.node.name);
+    return nodes_left(levels_.nodes(), order, wanted, faulty);
+  }
+
   /// Where all nodes run, also what none of them needs: it is there to be set.
   void require_set(const std::vector<GraphParameter>& parameters, const std::vector<Port>& inputs,
                    const std::set<std::string>& wanted) {
@@ -318,30 +324,6 @@ class Loader {
       if (unset.contains(input.name))
         problems_.push_back({document_.find("inputs")->place, "input " + in_quotes(input.name),
                              "nothing comes into it: a graph with inputs runs as a node of another graph"});
-  }
-
-  /// The parameters of the document that a subgraph's parameter is made from.
-  static std::set<std::string> files_behind(const Level& level, const std::set<std::string>& names) {
-    if (!level.use) return names;
-    std::set<std::string> out;
-    for (const std::string& name : names) {
-      const auto at = level.use->node.files_by.find(name);
-      if (at != level.use->node.files_by.end()) out.merge(files_behind(*level.outer, at->second));
-    }
-    return out;
-  }
-
-  /// Tells every port from which of the graph's files what comes in is made.
-  void trace_files(const std::vector<size_t>& order) {
-    Drafts& drafts = levels_.nodes();
-    std::map<std::string, std::set<std::string>> files_of;  // by node
-    for (const size_t i : order) {
-      GraphNode& node = drafts[i].node;
-      for (auto& [given, files] : node.files_by) files = files_behind(*drafts[i].level, files);
-      for (const auto& [port, wires] : node.inputs)
-        for (const Wire& w : wires) node.files_by[port].merge(std::set(files_of[w.node]));
-      for (const auto& [given, files] : node.files_by) files_of[node.name].insert(files.begin(), files.end());
-    }
   }
 
   /// The nodes that nothing has been said against, and that have all they need but for what others are to give.

@@ -32,6 +32,9 @@ struct LoadOptions {
   /// Unless empty, and if all exist: only these nodes and their sources will run, and only parameters that these need
   /// must be set. If others are unset, or their sources cannot be read, the graph has only these nodes.
   std::vector<std::string> only{};
+  /// What is wrong with a source that others are made from only leaves those out that ask for it; the source stays,
+  /// with GraphNode::fails.
+  bool keep_going = false;
   /// Node types that give values to inputs that the graph declares, by the inputs' names; they must outlive the graph.
   /// Other names are left alone: LoadedGraph::given tells which were used.
   std::map<std::string, const NodeType*> inputs{};

@@ -59,6 +59,7 @@ struct NodeDraft {
   Level* level = nullptr;            ///< the graph, or use of a subgraph, that it stands in
   const NodeReading* reading = nullptr;
   Substitution* substitution = nullptr;
+  std::set<std::string> loop_files{};  ///< of a round: its graph's path parameters that say over what its loop goes
 };
 /// Their addresses stay.
 using Drafts = std::deque<NodeDraft>;

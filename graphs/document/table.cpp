@@ -15,22 +15,28 @@ namespace {
 struct Row {
   int line = 0;
   std::vector<std::string> cells;
+  std::vector<Place> places;
 };
 
 /// RFC 4180: cells in double quotes may hold commas, line breaks and, doubled, double quotes. Empty lines are skipped.
 std::vector<Row> rows_of(const fs::path& file, const std::string& text) {
   std::vector<Row> out;
   int line = 1;
-  for (size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < text.size();) {
-    Row row{line, {}};
+  size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0, line_begins = at;
+  while (at < text.size()) {
+    Row row{line, {}, {}};
     for (bool more = true; more;) {
       std::string cell;
+      row.places.push_back({line, int(at - line_begins) + 1});
       if (at < text.size() && text[at] == '"') {
         const int opened = line;
         for (at++;; at++) {
           if (at >= text.size())
             throw Error(fmt::format("{}:{}: a quote is opened and not closed", file.string(), opened));
-          if (text[at] == '\n') line++;
+          if (text[at] == '\n') {
+            line++;
+            line_begins = at + 1;
+          }
           if (text[at] != '"') {
             cell += text[at];
           } else if (at + 1 < text.size() && text[at + 1] == '"') {
@@ -53,6 +59,7 @@ std::vector<Row> rows_of(const fs::path& file, const std::string& text) {
           fmt::format("{}:{}: expected a comma or the end of the line after a cell in quotes", file.string(), line));
     at++;
     line++;
+    line_begins = at;
     if (row.cells.size() > 1 || !row.cells.front().empty()) out.push_back(std::move(row));
   }
   return out;
@@ -73,7 +80,10 @@ std::vector<Variation> read_csv(const fs::path& file, const std::string& text) {
                               names.size(), rows[r].cells.size()));
     Variation v;
     for (size_t c = 0; c < names.size(); c++)
-      if (!rows[r].cells[c].empty()) v.values.emplace_back(names[c], rows[r].cells[c]);
+      if (!rows[r].cells[c].empty()) {
+        v.values.emplace_back(names[c], rows[r].cells[c]);
+        v.origins[names[c]] = {"column " + in_quotes(names[c]), file.string(), rows[r].places[c]};
+      }
     out.push_back(std::move(v));
   }
   return out;
@@ -93,8 +103,10 @@ std::vector<Variation> read_json(const fs::path& file, const std::string& text) 
   for (const JsonValue& row : parsed.value->items) {
     if (!row.is_object()) throw refuse(row);
     Variation v;
-    for (const JsonMember& m : row.members)
+    for (const JsonMember& m : row.members) {
       v.values.emplace_back(m.name, m.value.is_text() ? m.value.text : compact(m.value));
+      v.origins[m.name] = {"member " + in_quotes(m.name), file.string(), m.place};
+    }
     out.push_back(std::move(v));
   }
   return out;

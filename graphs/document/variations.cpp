@@ -10,6 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "core/base/hash.h"
+#include "graphs/document/json.h"
+#include "graphs/document/override.h"
 
 namespace terrazzo {
 
@@ -49,6 +51,10 @@ std::vector<std::string> range_in(const std::string& sweep, const std::string& t
   if (dots == text.npos) return {};
   const size_t colon = text.find(':', dots);
   const auto first = number_in(std::string_view(text).substr(0, dots));
+  if (const std::string_view rest = std::string_view(text).substr(dots + 2);
+      first && rest.starts_with('.') && rest.find_first_not_of("0123456789.:-") == rest.npos)
+    throw Error(fmt::format("\"{}\": a range has two dots, as in {}..{}", sweep, text.substr(0, dots),
+                            rest.substr(std::min(rest.size(), rest.find_first_not_of('.')))));
   const auto last = number_in(std::string_view(text).substr(dots + 2, colon == text.npos ? colon : colon - dots - 2));
   if (!first || !last) return {};
   const auto step = colon == text.npos ? std::optional(*first <= *last ? 1.0 : -1.0)
@@ -94,6 +100,34 @@ std::vector<std::string> Variation::overrides() const {
   return out;
 }
 
+namespace {
+
+/// "1..8" of "1-8" and "1:8"; empty of others.
+std::string range_meant(const std::string& value) {
+  const size_t sign = value.find_first_of("-:", 1);
+  if (sign == value.npos) return "";
+  const std::string first = value.substr(0, sign), last = value.substr(sign + 1);
+  return number_in(first) && number_in(last) ? fmt::format("{}..{}", first, last) : "";
+}
+
+}  // namespace
+
+std::vector<Problem> with_origins(std::vector<Problem> problems, const Variation& variation) {
+  for (const auto& [name, value] : variation.values) {
+    const auto origin = variation.origins.find(name);
+    if (origin == variation.origins.end()) continue;
+    for (Problem& p : problems) {
+      if (p.where != where_of_override(name + "=" + value)) continue;
+      p.where = origin->second.where;
+      p.file = origin->second.file;
+      p.place = origin->second.place;
+      if (const std::string range = range_meant(value); !range.empty() && p.file.empty())
+        p.message += fmt::format("; a range is written {}={}", name, range);
+    }
+  }
+  return problems;
+}
+
 std::vector<Variation> swept(const std::vector<std::string>& sweeps) {
   std::vector<Variation> out;
   std::set<std::string> names;
@@ -104,10 +138,12 @@ std::vector<Variation> swept(const std::vector<std::string>& sweeps) {
       throw Error(fmt::format("\"{}\": expected name=values, such as seed=1..8 or size=512,1024", sweep));
     if (!names.insert(name).second) throw Error(fmt::format("\"{}\": \"{}\" is swept already", sweep, name));
     std::vector<Variation> values;
+    const Variation::Origin origin{"--sweep " + in_quotes(sweep)};
     for (const std::string& part : split(sweep.substr(equals + 1))) {
       const std::vector<std::string> range = range_in(sweep, part);
       if (part.empty()) throw Error(fmt::format("\"{}\": expected a value between commas", sweep));
-      for (const std::string& value : range.empty() ? std::vector{part} : range) values.push_back({{{name, value}}});
+      for (const std::string& value : range.empty() ? std::vector{part} : range)
+        values.push_back({{{name, value}}, {{name, origin}}});
     }
     out = combined(out, values);
   }
@@ -123,6 +159,7 @@ std::vector<Variation> combined(const std::vector<Variation>& rows, const std::v
     for (const Variation& column : columns) {
       out.push_back(row);
       out.back().values.insert(out.back().values.end(), column.values.begin(), column.values.end());
+      for (const auto& [name, origin] : column.origins) out.back().origins[name] = origin;
     }
   return out;
 }

@@ -7,17 +7,29 @@
 #include <vector>
 
 #include "graphs/document/graph.h"
+#include "graphs/document/problem.h"
 
 /// One graph, run with many values.
 namespace terrazzo {
 
 /// The values of one run, by the names that overrides have, as the command line would spell them.
 struct Variation {
+  /// Where a value is given.
+  struct Origin {
+    std::string where;   ///< `--sweep "seed=1..8"`, `column "seed"`
+    std::string file{};  ///< of a table, with the place in it
+    Place place{};
+  };
   std::vector<std::pair<std::string, std::string>> values;
+  std::map<std::string, Origin> origins{};  ///< by name
 
   std::string label() const;                   ///< "seed=3, size=512"
   std::vector<std::string> overrides() const;  ///< "seed=3", "size=512"
 };
+
+/// Of problems with a variation's values, tells where these are given; of one that looks like a range in other words,
+/// how a range is written.
+std::vector<Problem> with_origins(std::vector<Problem> problems, const Variation& variation);
 
 /// At most this many: more are hardly meant.
 inline constexpr size_t most_variations = 10000;

@@ -198,7 +198,7 @@ std::vector<Param> params() {
 NodeType export_node() {
   NodeType t;
   t.name = "export";
-  t.version = 3;
+  t.version = 4;
   t.category = "sink";
   t.summary = "Writes maps, a uv map and a report to files";
   t.help =

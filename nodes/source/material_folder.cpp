@@ -230,6 +230,18 @@ void add_recognised(const Params& params, const std::vector<MapFile>& files, con
   }
 }
 
+/// A folder may stand where a map was meant to be, as after unpacking an archive of that name.
+Texts notes_on_folders(const fs::path& folder) {
+  Texts notes;
+  std::error_code failure;
+  for (const fs::directory_entry& e : fs::directory_iterator(folder, failure))
+    if (!is_no_folder(e) && looks_like_image(e.path()))
+      notes.push_back(fmt::format("{}{} is a folder, and so no map; if it holds one, move that out of it", warning_mark,
+                                  e.path().filename().string()));
+  std::sort(notes.begin(), notes.end());
+  return notes;
+}
+
 /// Sidecars, and what sites put beside the maps.
 std::vector<fs::path> documents_of_material(const fs::path& folder) {
   std::vector<fs::path> files = site_documents(folder);
@@ -286,7 +298,7 @@ FoundMaterial find_maps(const Params& params, Texts& notes) {
     if (m.channels.empty()) taken.emplace(m.file, m.layer);
   }
   const std::vector<MapFile> files = files_to_recognise(params, taken, notes);
-  Texts more_notes;
+  Texts more_notes = notes_on_folders(folder);
   if (const auto sidecar = sidecar_that_counts(params))
     add_described(*sidecar, files, given, out, more_notes);
   else

@@ -107,7 +107,7 @@ size_t memory_hint(const NodeContext& node) {
 uint64_t memory_ahead(const Params& params, const InputForecasts& inputs) {
   const Forecast &material = inputs.at("material").front(), &uv = inputs.at("uv").front();
   const std::optional<Size> size = material_size(material);
-  if (!size || !uv.size || !uv.exemplar) return 0;
+  if (!size) return 0;
   Held held;
   for (const std::string& name : material.maps) {
     const ImageFacts map = map_of(material, name);
@@ -116,6 +116,8 @@ uint64_t memory_ahead(const Params& params, const InputForecasts& inputs) {
               .semantic = map.semantic.value_or(Semantic::data)},
              params);
   }
+  // The result of "make_tileable" may have any size near the exemplar's: the maps are held in any case.
+  if (!uv.size || !uv.exemplar) return uint64_t(held.bytes({}));
   return uint64_t(held.bytes(resolved_size(*uv.size, *uv.exemplar, *size))) +
          uint64_t(uv.size->area()) * sizeof(ExemplarPixel);
 }

@@ -76,8 +76,8 @@ CacheFolder::CacheFolder(const std::filesystem::path& folder) : root_(folder / "
   std::filesystem::create_directories(root_, failure);
   if (failure)
     throw Error(
-        fmt::format("cannot make the cache folder {}: {}; choose another with --cache or $TERRAZZO_CACHE, or "
-                    "do without with --no-cache",
+        fmt::format("cannot make the cache folder {}: {}; choose another, which $TERRAZZO_CACHE may name, or do without "
+                    "a cache",
                     folder.string(), failure.message()));
   for (const std::string_view kind : kind_folders) std::filesystem::create_directory(root_ / kind, failure);
   std::filesystem::create_directory(pins(), failure);

@@ -6,6 +6,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/text.h"
+
 namespace terrazzo {
 
 namespace {
@@ -36,13 +38,14 @@ std::string state_line(const JobState& state) {
   for (const UnitState s : all_states)
     if (const int count = state.count(s); s != UnitState::done && count > 0)
       line += fmt::format(", {} {}", count, name_of(s));
+  if (state.left_out > 0) line += fmt::format("; {} left out", counted(state.left_out, "node"));
   if (const std::set<std::string> reasons = obstacles(state); !reasons.empty())
     line += fmt::format("; Slurm does not start some of it: {}", fmt::join(reasons, ", "));
   return line;
 }
 
 std::string state_json(const std::filesystem::path& folder, const FarmJob& job, const JobState& state) {
-  Json counts = Json::object(), units = Json::array();
+  Json counts = Json::object(), units = Json::array(), left_out = Json::array();
   for (const UnitState s : all_states) counts[std::string(name_of(s))] = state.count(s);
   for (size_t i = 0; i < job.units.size(); i++) {
     const Unit& u = job.units[i];
@@ -52,13 +55,15 @@ std::string state_json(const std::filesystem::path& folder, const FarmJob& job, 
       unit["message"] = failure->second;
     units.push_back(std::move(unit));
   }
+  for (const auto& [node, why] : job.left_out) left_out.push_back({{"node", node}, {"message", why}});
   const Json json = {{"job", job.name},
                      {"graph", job.graph},
                      {"folder", folder.string()},
                      {"complete", state.is_complete()},
                      {"moving", state.is_moving()},
                      {"counts", counts},
-                     {"units", units}};
+                     {"units", units},
+                     {"left_out", left_out}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/suggest.h"
 #include "core/base/text.h"
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
@@ -106,6 +107,18 @@ bool is_meant(const LibraryEntry& entry, const LibraryFlags& flags) {
          });
 }
 
+/// What to say if nothing is like what was asked for.
+std::string nothing_found(const std::vector<LibraryEntry>& all, const LibraryFlags& flags) {
+  if (all.empty()) return "nothing; terrazzo library add makes an entry";
+  std::vector<std::string> known;
+  for (const LibraryEntry& e : all) known.insert(known.end(), e.tags.begin(), e.tags.end());
+  std::string text = "nothing like that";
+  for (const std::string& tag : flags.tags)
+    if (std::ranges::none_of(known, [&](const std::string& t) { return lowercase(t) == lowercase(tag); }))
+      text += fmt::format("; no entry has the tag \"{}\"{}", tag, suggestion(tag, known));
+  return text;
+}
+
 std::string as_json(const std::vector<LibraryEntry>& entries) {
   Json list = Json::array();
   for (const LibraryEntry& e : entries)
@@ -181,13 +194,13 @@ int list(const LibraryFlags& flags) {
   const WrittenFile sheet = {"--sheet", flags.sheet, is_page(flags.sheet) ? WrittenKind::page : WrittenKind::picture};
   check_kept({sheet}, files_of(entries));
   check_replaced({sheet}, flags.force);
+  const std::vector<LibraryEntry> all = entries;
   std::erase_if(entries, [&](const LibraryEntry& e) { return !is_meant(e, flags); });
   if (!flags.sheet.empty()) write_sheet(entries, flags.sheet);
   if (flags.json)
     write_answer(as_json(entries));
   else if (entries.empty())
-    say("the library {} holds nothing{}\n", library.folder().string(),
-        flags.names.empty() && flags.tags.empty() ? "; terrazzo library add makes an entry" : " like that");
+    say("the library {} holds {}\n", library.folder().string(), nothing_found(all, flags));
   else
     write_answer(aligned(as_table(entries)));
   return exit_done;

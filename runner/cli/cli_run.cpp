@@ -93,6 +93,7 @@ template <typename Act>
 auto summarizing_failure(const RunFlags& flags, const Act& act) {
   const auto tell = [&](const std::exception& e, int code) {
     RunSummary summary{flags.graph};
+    summary.variations = flags.variations;
     summary.error = &e;
     summary.exit_code = code;
     summarize(flags, summary);
@@ -155,7 +156,7 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   options.checked = flags.is_checked();
   options.cancelled = &cancelled;
   options.targets.keep = flags.keep;
-  options.keep_going = flags.keep_going;
+  options.targets.keep_going = flags.keep_going;
 
   std::optional<Sandbox> sandbox;
   const Plan plan = summarizing_failure(flags, [&] {
@@ -193,6 +194,7 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   progress->closed(result);
   if (mode != ProgressMode::json) print_end(result, mode);
   RunSummary summary{graph.file, &plan, &result, cache, std::move(warnings)};
+  summary.variations = flags.variations;
   summary.exit_code = result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
   try {
     check_kept(without_pictures(written), outputs_of(result));  // names that nobody knew before
@@ -319,10 +321,13 @@ int run_sweep(const GraphFlags& values, const SweepFlags& asked, const RunFlags&
   flags.after = [&](const RunResult& result) { sweep.report(result); };
   return run_with_flags(
       [&] {
-        Graph graph = sweep.load(
-            values, {.only = given.only, .look_ahead = [&](const auto& nodes) { return look_ahead(given, nodes); }},
-            [&](const std::string& text) { warn(flags, text); });
+        Graph graph = sweep.load(values,
+                                 {.only = given.only,
+                                  .keep_going = given.keep_going,
+                                  .look_ahead = [&](const auto& nodes) { return look_ahead(given, nodes); }},
+                                 [&](const std::string& text) { warn(flags, text); });
         flags.keep = sweep.kept();
+        flags.variations = sweep.of_one_variation();
         flags.only = sweep.names_of(given.only);
         if (!flags.only.empty()) flags.only.insert(flags.only.end(), sweep.targets().begin(), sweep.targets().end());
         return graph;
@@ -360,7 +365,9 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       return run_with_flags(
           [&] {
             LoadedGraph loaded = flags->graph_values.load(
-                {.only = flags->only, .look_ahead = [&](const auto& nodes) { return look_ahead(*flags, nodes); }});
+                {.only = flags->only, .keep_going = flags->keep_going, .look_ahead = [&](const auto& nodes) {
+                   return look_ahead(*flags, nodes);
+                 }});
             for (const Problem& w : loaded.warnings) warn(*flags, describe(flags->graph, w));
             return std::move(loaded.graph);
           },

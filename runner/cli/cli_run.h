@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,10 +40,11 @@ struct RunFlags {
   std::vector<std::string> values{};  ///< NAME=VALUE of the command line
   std::vector<std::string> files{};   ///< more files that it names
   std::string progress = "auto";
-  std::vector<WrittenFile> writes{};              ///< besides report and trace
-  std::vector<KeptFile> reads{};                  ///< besides the graph and the files of its nodes
-  std::vector<std::string> keep{};                ///< more targets, whose values are kept for `after`
-  std::function<void(const RunResult&)> after{};  ///< called with the result of each run
+  std::vector<WrittenFile> writes{};                ///< besides report and trace
+  std::vector<KeptFile> reads{};                    ///< besides the graph and the files of its nodes
+  std::map<std::string, std::string> variations{};  ///< see RunSummary
+  std::vector<std::string> keep{};                  ///< more targets, whose values are kept for `after`
+  std::function<void(const RunResult&)> after{};    ///< called with the result of each run
 
   bool is_checked() const { return checked.holds(cache); }
 };

@@ -18,6 +18,7 @@
 #include "runner/cli/signals.h"
 #include "runner/engine/history.h"
 #include "runner/engine/preflight.h"
+#include "runner/farm/left_out.h"
 #include "runner/farm/openjd.h"
 #include "runner/farm/submission.h"
 
@@ -31,7 +32,7 @@ struct SubmitFlags : GraphFlags {
   SweepFlags variations;
   std::vector<std::string> only;
   std::string cache, openjd, memory, program;
-  bool print = false, status = false, cancel = false, wait = false, json = false;
+  bool print = false, status = false, cancel = false, wait = false, json = false, keep_going = false;
   int retries = 2;
   ArrayOptions arrays;
   SlurmOptions slurm;
@@ -42,7 +43,7 @@ void tell(const std::string& text) {
 }
 
 Graph graph_of(const SubmitFlags& flags, std::vector<std::string>& only) {
-  const LoadOptions options{.only = flags.only, .look_ahead = preflight_of_nodes};
+  const LoadOptions options{.only = flags.only, .keep_going = flags.keep_going, .look_ahead = preflight_of_nodes};
   only = flags.only;
   if (!flags.variations.asked()) {
     LoadedGraph loaded = flags.load(options);
@@ -55,16 +56,33 @@ Graph graph_of(const SubmitFlags& flags, std::vector<std::string>& only) {
   return graph;
 }
 
-/// The job that the flags stand for, not written yet.
+/// Why nodes are left out, one after the other; of many the first ones.
+std::string lines_of(const std::map<std::string, std::string>& left_out) {
+  std::vector<std::string> lines;
+  for (const auto& [node, why] : left_out)
+    if (lines.size() < most_problems_shown) lines.push_back("left out: " + why);
+  if (const std::string more = problems_not_shown(left_out.size(), "node"); !more.empty()) lines.push_back(more);
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+/// The job that the flags stand for, not written yet. Throws Error if nothing of it can be made.
 PreparedJob prepared_job(const SubmitFlags& flags, Cache& cache) {
   std::vector<std::string> only;
-  const Graph graph = graph_of(flags, only);
+  Graph graph = graph_of(flags, only);
   const History history(cache.folder(), graph.file);
-  const PlanOptions targets{.only = nodes_meant(graph, only)};
-  const Plan plan = as_usage([&] { return make_plan(graph, &cache, targets, &history); });
+  PlanOptions targets{.only = nodes_meant(graph, only), .keep_going = flags.keep_going};
+  Plan plan = as_usage([&] { return make_plan(graph, &cache, targets, &history); });
+  const LeftOut left_out = left_out_of(plan);
+  if (!left_out.nodes.empty()) {
+    if (left_out.targets.empty())
+      throw Error(fmt::format("{}\nnothing can be made without that", lines_of(left_out.why)));
+    take_out(left_out, graph);
+    targets.only = left_out.targets;
+    plan = make_plan(graph, &cache, targets, &history);
+  }
   std::vector<std::string> plugins;
   for (const LoadedPlugin& p : loaded_plugins()) plugins.push_back(fs::absolute(p.file).string());
-  return prepared(plan, cache, plugins);
+  return prepared(plan, cache, plugins, left_out.why);
 }
 
 /// "1.5 GiB", "12 s"; what Slurm will be asked for.
@@ -101,6 +119,10 @@ std::vector<TaskArray> arrays_of_job(const PreparedJob& prepared, const ArrayOpt
   return arrays_of(prepared.job.units, prepared.due, FarmFolder::of_job(prepared.folder).costs(), {}, options);
 }
 
+void tell_all_is_made(const PreparedJob& prepared) {
+  answer("nothing to do: all {} has been made\n", prepared.job.left_out.empty() ? "of it" : "else");
+}
+
 int print_scripts(const PreparedJob& prepared, const SubmitFlags& flags, const Slurm& slurm) {
   const std::vector<TaskArray> arrays = arrays_of_job(prepared, options_for(flags, slurm));
   for (size_t i = 0; i < arrays.size(); i++) {
@@ -108,14 +130,14 @@ int print_scripts(const PreparedJob& prepared, const SubmitFlags& flags, const S
     for (const size_t n : arrays[i].needs) after.push_back(fmt::format("<job of array {}>", n + 1));
     answer("# array {}\n{}\n", i + 1, slurm_script(prepared.job, arrays[i], prepared.folder, after, flags.slurm));
   }
-  if (arrays.empty()) answer("nothing to do: all of it has been made\n");
+  if (arrays.empty()) tell_all_is_made(prepared);
   return exit_done;
 }
 
 int write_openjd(const PreparedJob& prepared, const SubmitFlags& flags, Cache& cache) {
   const std::vector<TaskArray> arrays = arrays_of_job(prepared, flags.arrays);
   if (arrays.empty()) {
-    answer("nothing to do: all of it has been made\n");
+    tell_all_is_made(prepared);
     return exit_done;
   }
   write_job(prepared, cache);
@@ -147,7 +169,9 @@ void show(const fs::path& folder, const FarmJob& job, const JobState& state, boo
                      : task == state.tasks.end()     ? ""
                                                      : task->second.reason});
   }
+  for (const auto& [node, why] : job.left_out) table.push_back({node, "left out", "", why});
   if (table.size() > 1) answer("\n{}", aligned(table));
+  if (!job.left_out.empty()) answer("\nsubmit the same again once what was left out is mended\n");
   if (state.count(UnitState::elsewhere) > 0)
     answer("\nwritten to {} for another scheduler, which alone knows what is running\n", state.assignment.file);
   else if (!state.is_moving() && !state.is_complete())
@@ -182,7 +206,7 @@ int wait_until_done(const fs::path& folder, const FarmJob& job, const SubmitFlag
 int submit_graph(const PreparedJob& prepared, const SubmitFlags& flags, Cache& cache, const Slurm& slurm,
                  const std::atomic<bool>& cancelled) {
   if (std::ranges::none_of(prepared.due, [](bool is_due) { return is_due; })) {
-    answer("nothing to do: all of it has been made\n");
+    tell_all_is_made(prepared);
     return exit_done;
   }
   const ArrayOptions arrays = options_for(flags, slurm);
@@ -262,9 +286,12 @@ int submit(SubmitFlags& flags) {
       throw UsageError(fmt::format("{} has not been submitted with these values", flags.graph));
     return work_on_job(job.folder, flags, cache, slurm, signals.flag());
   }
-  if (flags.print) return print_scripts(job, flags, slurm);
-  if (!flags.openjd.empty()) return write_openjd(job, flags, cache);
-  return submit_graph(job, flags, cache, slurm, signals.flag());
+  const std::map<std::string, std::string>& left_out = job.job.left_out;
+  if (!left_out.empty()) tell(lines_of(left_out));
+  const int code = flags.print             ? print_scripts(job, flags, slurm)
+                   : !flags.openjd.empty() ? write_openjd(job, flags, cache)
+                                           : submit_graph(job, flags, cache, slurm, signals.flag());
+  return code == exit_done && !left_out.empty() ? exit_failed : code;
 }
 
 void add_choices(CLI::App& command, SubmitFlags& flags) {
@@ -324,6 +351,10 @@ void add_submit_command(CLI::App& app, Chosen& chosen) {
       ->type_name("NODE")
       ->take_all()
       ->expected(1);
+  command->add_flag(
+      "--keep-going", flags->keep_going,
+      "Leave out what needs a source that cannot be read, and submit all else; the exit code is 1 all the "
+      "same");
   command
       ->add_option("--cache", flags->cache,
                    "Folder of the cache, which all machines must share; jobs are kept in its folder farm")

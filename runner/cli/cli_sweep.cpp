@@ -106,7 +106,11 @@ std::vector<std::string> Sweep::labels() const {
 
 Graph Sweep::load(const std::function<Graph(const std::vector<std::string>&)>& load) {
   std::vector<Graph> graphs;
-  for (const Variation& v : variations_) graphs.push_back(load(v.overrides()));
+  for (const Variation& v : variations_) try {
+      graphs.push_back(load(v.overrides()));
+    } catch (const GraphError& e) {
+      throw GraphError(e.file(), with_origins(e.problems(), v));
+    }
   MergedGraph all = merged(graphs, labels());
   names_ = std::move(all.names);
   check_paths(graphs);
@@ -186,10 +190,15 @@ template <typename T>
 std::vector<T> Sweep::of_each(const std::string& base, const std::function<T(const std::string& node)>& make) const {
   std::map<std::string, T> made;
   std::vector<T> out;
-  for (const auto& names : names_) {
-    const std::string& node = names.at(base);
-    auto at = made.find(node);
-    if (at == made.end()) at = made.emplace(node, make(node)).first;
+  for (size_t v = 0; v < names_.size(); v++) {
+    const auto node = names_[v].find(base);
+    if (node == names_[v].end())
+      throw UsageError(fmt::format(
+          "--sheet, --figures, --best: {} has no node \"{}\", as what it is made from cannot be read; leave this "
+          "variation out",
+          variations_[v].label(), base));
+    auto at = made.find(node->second);
+    if (at == made.end()) at = made.emplace(node->second, make(node->second)).first;
     out.push_back(at->second);
   }
   return out;
@@ -266,17 +275,27 @@ void Sweep::check_best(const Nodes& nodes, const std::vector<GraphNode>& added) 
 
 std::vector<std::string> Sweep::names_of(const std::vector<std::string>& nodes) const {
   std::set<std::string> out;
-  for (const std::string& node : nodes)
-    for (const auto& names : names_) {
-      bool is_there = false;
+  for (const std::string& node : nodes) {
+    bool is_there = false;  // in some variation; others may go without it
+    for (const auto& names : names_)
       for (const auto& [name, merged] : names) {
         if (!stands_for(node, name)) continue;
         is_there = true;
         out.insert(merged);
       }
-      if (!is_there) out.insert(node);
-    }
+    if (!is_there) out.insert(node);
+  }
   return {out.begin(), out.end()};
+}
+
+std::map<std::string, std::string> Sweep::of_one_variation() const {
+  std::map<std::string, std::string> out;
+  std::set<std::string> shared;
+  for (size_t v = 0; v < names_.size(); v++)
+    for (const auto& [name, merged] : names_[v])
+      if (!out.emplace(merged, variations_[v].label()).second) shared.insert(merged);
+  for (const std::string& node : shared) out.erase(node);
+  return out;
 }
 
 std::vector<const Report*> Sweep::reports(const RunResult& result) const {

@@ -44,6 +44,8 @@ class Sweep {
 
   /// What these nodes are called in the merged graph, in every variation; and what has to run and to be kept besides.
   std::vector<std::string> names_of(const std::vector<std::string>& nodes) const;
+  /// The nodes of the merged graph that only one variation has, and its label.
+  std::map<std::string, std::string> of_one_variation() const;
   const std::vector<std::string>& targets() const { return targets_; }
   const std::vector<std::string>& kept() const { return kept_; }
 

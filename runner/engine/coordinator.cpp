@@ -1,6 +1,7 @@
 #include "runner/engine/coordinator.h"
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 namespace terrazzo {
@@ -14,6 +15,21 @@ uint64_t expected_memory(const NodeContext& context) {
   } catch (const Error&) {
     return 0;  // inputs that the node will refuse
   }
+}
+
+/// Tells the observer how far the stage is, and never less than before: threads that share the work, and the second
+/// round of a checked run, begin anew.
+std::function<void(double)> progress_of(const Stage& stage, RunObserver& observer) {
+  struct Told {
+    std::mutex mutex;
+    double most = -1;
+  };
+  return [&stage, &observer, told = std::make_shared<Told>()](double fraction) {
+    const std::lock_guard lock(told->mutex);
+    if (fraction < told->most) return;
+    told->most = fraction;
+    observer.progressed(stage, fraction);
+  };
 }
 
 }  // namespace
@@ -37,6 +53,10 @@ void Coordinator::begin() {
 void Coordinator::look_up(int stage) {
   name(stage, NameEvent::inputs_named);
   const Stage& s = plan_.stages[stage];
+  if (!s.faults.empty()) {
+    outcomes_.refused(stage);
+    return lose(stage);
+  }
   if (s.known && !is_being_made(s, *s.known, options_))
     resolved(stage);
   else
@@ -230,7 +250,7 @@ std::unique_ptr<NodeContext> Coordinator::make_context(int stage) {
       inputs[port].push_back(converted(values_[places_.at(w.node)].at(w.port), s.type().find_input(port)->type));
   RunObserver* observer = options_.observer;
   std::function<void(double)> progress;
-  if (observer) progress = [observer, &s](double fraction) { observer->progressed(s, fraction); };
+  if (observer) progress = progress_of(s, *observer);
   return std::make_unique<NodeContext>(s.type(), s.node->params, std::move(inputs), s.known->key,
                                        Task(options_.cancelled, std::move(progress)));
 }

@@ -32,7 +32,7 @@ class Coordinator {
   std::vector<JobPtr> take_postponed() { return std::exchange(postponed_, {}); }
 
   /// No new computation starts: the run was cancelled, or a stage failed and the run is not to go on without it.
-  bool stopping() const { return cancelled_ || (outcomes_.any_failed() && !options_.keep_going); }
+  bool stopping() const { return cancelled_ || (outcomes_.any_failed() && !options_.targets.keep_going); }
   bool cancelled() const { return cancelled_; }
   Outcomes& outcomes() { return outcomes_; }
   std::map<std::string, std::map<std::string, Value>> take_kept();

@@ -1,5 +1,8 @@
 #include "runner/engine/outcomes.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "runner/engine/history.h"
 
 namespace terrazzo {
@@ -66,6 +69,13 @@ void Outcomes::failed(const Job& job) {
     failures_.push_back({plan_.stages[job.stage].node->name, *job.failure});
   stages_[job.stage].kind = StageOutcome::Kind::failed;
   if (options_.observer) options_.observer->failed(plan_.stages[job.stage], *job.failure);
+}
+
+void Outcomes::refused(int stage) {
+  const Stage& s = plan_.stages[stage];
+  for (const std::string& fault : s.faults) failures_.push_back({s.node->name, fault});
+  stages_[stage].kind = StageOutcome::Kind::failed;
+  if (options_.observer) options_.observer->failed(s, fmt::format("{}", fmt::join(s.faults, "\n")));
 }
 
 void Outcomes::skipped(int stage, int cause) {

@@ -23,6 +23,8 @@ class Outcomes {
   void computed(const Job& job);
   /// A job failed. Problems of an input are recorded once, however many stages read it.
   void failed(const Job& job);
+  /// The plan knows that the stage fails.
+  void refused(int stage);
   /// The stage needs what the stage `cause` was to give, which has failed or is skipped itself.
   void skipped(int stage, int cause);
   /// A job ended, successfully or not.

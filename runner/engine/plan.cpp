@@ -53,6 +53,7 @@ void choose_targets(Plan& plan, const Places& places, const PlanOptions& options
     Stage& s = stages[find_stage(*plan.graph, places, name)];
     s.target = s.kept = true;
   }
+  for (Stage& s : stages) s.target |= s.node->fails;  // it is to be told of, whoever needed it
   if (!options.only.empty()) return;
   bool any_sink = false;
   for (Stage& s : stages)
@@ -147,6 +148,11 @@ void decide_states(Plan& plan) {
     const auto wanted_by = [&](const std::vector<bool>& asks) {
       return std::any_of(s.readers.begin(), s.readers.end(), [&](int r) { return asks[r]; });
     };
+    if (!s.faults.empty()) {
+      s.state = StageState::run;
+      s.reason = "cannot run: " + s.faults.front();
+      continue;
+    }
     const Want want = s.kept || wanted_by(surely) ? Want::surely : wanted_by(maybe) ? Want::maybe : Want::none;
     if (!s.known) {
       s.state = StageState::depends;
@@ -241,6 +247,22 @@ Resolution resolve(const Plan& plan, int index, Cache* cache, const History* his
   return r;
 }
 
+namespace {
+
+/// Problems of nodes end the plan, or with `keep_going` are left to the run, which goes on without these nodes. The one
+/// place where that is decided.
+void take_problems(Plan& plan, const Places& places, std::vector<Problem> of_nodes, std::vector<Problem> of_run,
+                   const PlanOptions& options) {
+  const std::string file = plan.graph->file.string();
+  if (options.keep_going)
+    for (const Problem& p : of_nodes) plan.stages[places.at(p.node)].faults.push_back(describe(file, p));
+  else
+    std::ranges::move(of_nodes, std::back_inserter(of_run));
+  if (!of_run.empty()) throw GraphError(file, std::move(of_run));
+}
+
+}  // namespace
+
 Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options, const History* history) {
   Places places;
   for (size_t i = 0; i < graph.nodes.size(); i++) places[graph.nodes[i].name] = static_cast<int>(i);
@@ -248,11 +270,10 @@ Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options, con
   choose_targets(plan, places, options);
   mark_needed(plan);
   link_readers(plan, places);
-  if (std::vector<Problem> problems = oversize_problems(plan); !problems.empty())
-    throw GraphError(graph.file.string(), std::move(problems));
+  take_problems(plan, places, oversize_problems(plan), {}, options);
   for (size_t i = 0; i < plan.stages.size(); i++) {
     Stage& s = plan.stages[i];
-    const bool ready = s.needed && std::all_of(s.sources.begin(), s.sources.end(), [&](int source) {
+    const bool ready = s.needed && s.faults.empty() && std::all_of(s.sources.begin(), s.sources.end(), [&](int source) {
                          const std::optional<Resolution>& known = plan.stages[source].known;
                          return known && !known->names.empty();
                        });
@@ -262,8 +283,9 @@ Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options, con
   if (history) add_what_is_known(plan, *history);
   for (Stage& s : plan.stages) s.expected_seconds = expected_seconds(s, history);
   if (!options.look_ahead) return plan;
-  if (std::vector<Problem> problems = preflight_problems(plan); !problems.empty())
-    throw GraphError(graph.file.string(), std::move(problems));
+  PreflightProblems problems = preflight_problems(plan);
+  take_problems(plan, places, std::move(problems.of_nodes), std::move(problems.of_run), options);
+  if (std::ranges::any_of(plan.stages, [](const Stage& s) { return !s.faults.empty(); })) decide_states(plan);
   return plan;
 }
 

@@ -44,8 +44,9 @@ struct Stage {
   std::optional<Resolution> known;        ///< missing while an input has no name
   StageState state = StageState::not_needed;
   std::string reason;
-  PlanShape shape{};            ///< of what it makes, as far as that is known
-  double expected_seconds = 0;  ///< of computing it: as earlier runs took, else a second; 0 if that is not expected
+  std::vector<std::string> faults;  ///< why it is certain to fail, as complete messages; only with `keep_going`
+  PlanShape shape{};                ///< of what it makes, as far as that is known
+  double expected_seconds = 0;      ///< of computing it: as earlier runs took, else a second; 0 if that is not expected
 
   const NodeType& type() const { return *node->type; }
   /// Whether a run will reuse or compute it; a lazy stage that has never run may not be needed.
@@ -58,6 +59,9 @@ struct PlanOptions {
   std::vector<std::string> only{};  ///< the targets; empty: every sink, or without sinks every node that nothing reads
   std::vector<std::string> keep{};  ///< more targets, whose values are returned in memory
   bool look_ahead = true;           ///< false: what is certain to fail is no error yet
+  /// A failure ends only what depends on it. A node that is certain to fail, such as one whose file is truncated, is
+  /// one of those then, see Stage::faults.
+  bool keep_going = false;
 };
 
 /// What a run will do, and why. The graph must outlive it.
@@ -75,7 +79,7 @@ struct Plan {
 
 /// Determines what must run: everything if `cache` is null. With `history`, reasons name the first difference from the
 /// last run. Throws Error if a name in `options` is not a node, and GraphError with all problems that can be found
-/// before anything runs (see runner/engine/preflight.h).
+/// before anything runs (see runner/engine/preflight.h); with `keep_going`, only with those that are not one node's.
 Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options = {}, const History* history = nullptr);
 
 /// Looks up a stage whose inputs all have names. Reads the cache; changes nothing.

@@ -62,10 +62,10 @@ class Foresight {
     bool computes = false;  ///< its results are going to be computed
   };
   /// Nodes in the order of their wires.
-  std::vector<Problem> look(const std::vector<Future>& nodes) {
+  PreflightProblems look(const std::vector<Future>& nodes) {
     for (const Future& future : nodes) note_sources(*future.node);
     for (const Future& future : nodes) look_at(future);
-    if (memory_problem_) problems_.push_back(std::move(*memory_problem_));
+    if (memory_problem_) problems_.of_run.push_back(std::move(*memory_problem_));
     return std::move(problems_);
   }
   const Forecasts& forecasts() const { return forecasts_; }
@@ -117,7 +117,7 @@ class Foresight {
     // What is wrong with what comes through a wire may be so for all that read it.
     const auto wires = node.inputs.find(e.about());
     if (wires == node.inputs.end() || said_.emplace(wires->second, e.what()).second)
-      problems_.push_back(problem_of(node, e.about(), e.what()));
+      problems_.of_nodes.push_back(problem_of(node, e.about(), e.what()));
   }
 
   /// What is to be a file cannot hold others.
@@ -159,7 +159,8 @@ class Foresight {
                                       "\"$out/$scan_name\" does in a loop \"as\": \"scan\""
                                     : "");
       }
-      if (!trouble.empty() && said.insert(trouble).second) problems_.push_back(problem_of(node, f.param, trouble));
+      if (!trouble.empty() && said.insert(trouble).second)
+        problems_.of_run.push_back(problem_of(node, f.param, trouble));
     }
   }
 
@@ -172,7 +173,7 @@ class Foresight {
   std::map<FileIdentity, std::string> sources_;  ///< why each must stay
   std::map<fs::path, Writer> writers_;           ///< by place_of_file
   std::set<std::pair<std::vector<Wire>, std::string>> said_;
-  std::vector<Problem> problems_;
+  PreflightProblems problems_;
   uint64_t most_memory_ = 0;
   std::optional<Problem> memory_problem_;
 };
@@ -211,14 +212,14 @@ std::vector<bool> computed_stages(const Plan& plan) {
 
 }  // namespace
 
-std::vector<Problem> preflight_problems(Plan& plan) {
+PreflightProblems preflight_problems(Plan& plan) {
   const std::vector<bool> computes = computed_stages(plan);
   std::vector<Foresight::Future> nodes;
   for (size_t i = 0; i < plan.stages.size(); i++)
     if (const Stage& s = plan.stages[i]; s.needed)
       nodes.push_back({s.node, s.state != StageState::up_to_date, computes[i]});
   Foresight foresight(*plan.graph);
-  std::vector<Problem> problems = foresight.look(nodes);
+  PreflightProblems problems = foresight.look(nodes);
   for (Stage& s : plan.stages) s.shape = shape_of(*s.node, foresight.forecasts());
   return problems;
 }
@@ -252,8 +253,12 @@ std::vector<FileToWrite> files_to_write(const Plan& plan) {
     if (!s.needed) continue;
     if (s.known && s.known->record)
       for (const OutputFile& f : s.known->record->files) out.push_back({f.path, false, s.node->name});
-    if (const Forecast* forecast = forecasts.add(*s.node))
-      for (const FutureFile& f : forecast->files) out.push_back(file_to_write(*s.node, f));
+    try {
+      if (const Forecast* forecast = forecasts.add(*s.node))
+        for (const FutureFile& f : forecast->files) out.push_back(file_to_write(*s.node, f));
+    } catch (const Error&) {
+      // It is one of its faults, and it writes nothing.
+    }
   }
   return out;
 }
@@ -261,7 +266,9 @@ std::vector<FileToWrite> files_to_write(const Plan& plan) {
 std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes) {
   std::vector<Foresight::Future> all;
   for (const GraphNode& n : nodes) all.push_back({&n, true, false});
-  return Foresight().look(all);
+  PreflightProblems problems = Foresight().look(all);
+  std::ranges::move(problems.of_run, std::back_inserter(problems.of_nodes));
+  return std::move(problems.of_nodes);
 }
 
 std::vector<Problem> doubts_about(const Graph& graph) {

@@ -9,15 +9,23 @@
 
 namespace terrazzo {
 
-/// Certain failures of needed stages: missing sources, folders that cannot be written, two sinks that write one file.
+/// Certain failures of needed stages.
+struct PreflightProblems {
+  /// What a node itself is certain to refuse: a source that cannot be read, sizes that do not fit. What does not need
+  /// the node can run all the same.
+  std::vector<Problem> of_nodes;
+  /// What the run must not begin: folders that cannot be written, two sinks that write one file, too little memory.
+  std::vector<Problem> of_run;
+};
+
 /// Stages whose files are up to date write none. Notes in the plan what shapes stages will have.
-std::vector<Problem> preflight_problems(Plan& plan);
+PreflightProblems preflight_problems(Plan& plan);
 
 /// Images that needed stages read and that are larger than may be read, told from the size of the files alone: to be
 /// asked before a plan reads them for its keys.
 std::vector<Problem> oversize_problems(const Plan& plan);
 
-/// The same as preflight_problems for nodes of a document that cannot be planned, see LoadOptions.
+/// All that preflight_problems finds, for nodes of a document that cannot be planned, see LoadOptions.
 std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes);
 
 struct FileToWrite {

@@ -30,7 +30,7 @@ class RunObserver {
   /// Its result was not needed after all, and does not exist.
   virtual void spared(const Stage&) {}
   virtual void failed(const Stage&, const std::string& /*message*/) {}
-  /// It cannot run, as the node `because`, which it needs, has failed. Only with `keep_going`.
+  /// It cannot run, as the node `because`, which it needs, has failed. Only with `targets.keep_going`.
   virtual void skipped(const Stage&, const std::string& /*because*/) {}
 };
 
@@ -45,7 +45,6 @@ struct RunOptions {
   const std::atomic<bool>* cancelled = nullptr;  ///< set it to stop the run; may be null
   RunObserver* observer = nullptr;
   const Sandbox* sandbox = nullptr;  ///< keeps nodes from files elsewhere; may be null
-  bool keep_going = false;           ///< a failure ends only what depends on it
 };
 
 /// An activity of a worker, for `write_trace`; times in seconds since the start of the run.
@@ -99,9 +98,8 @@ struct RunResult {
 };
 
 /// Plans the graph and runs what must run. Independent nodes run in parallel; values are freed after their last reader.
-/// The first failure ends the run once running nodes have finished; with `keep_going`, all runs that does not need a
-/// failed node. Failures and cancellation are in the result; only
-/// make_plan throws.
+/// The first failure ends the run once running nodes have finished; with `targets.keep_going`, all runs that does not
+/// need a failed node. Failures and cancellation are in the result; only make_plan throws.
 RunResult run_graph(const Graph& graph, const RunOptions& options);
 
 /// Runs a plan made with the same targets, cache and history.

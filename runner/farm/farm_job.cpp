@@ -63,11 +63,11 @@ void write_farm_job(const FarmJob& job, const fs::path& folder) {
   Json units = Json::array(), keys = Json::object();
   for (const Unit& u : job.units) units.push_back(json_of_unit(u));
   for (const auto& [node, key] : job.keys) keys[node] = key.hex();
-  const Json json = {{"format", format_version}, {"name", job.name},       {"graph", job.graph},
-                     {"program", job.program},   {"targets", job.targets}, {"variables", job.variables},
-                     {"plugins", job.plugins},   {"units", units},         {"keys", keys},
-                     {"origins", job.origins}};
-  write_whole_file(folder / "job.json", json.dump(1) + "\n");
+  const Json json = {{"format", format_version}, {"name", job.name},        {"graph", job.graph},
+                     {"program", job.program},   {"targets", job.targets},  {"variables", job.variables},
+                     {"plugins", job.plugins},   {"units", units},          {"keys", keys},
+                     {"origins", job.origins},   {"left_out", job.left_out}};
+  write_whole_file(folder / "job.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 FarmJob read_farm_job(const fs::path& folder) {
@@ -86,7 +86,9 @@ FarmJob read_farm_job(const fs::path& folder) {
     json.at("plugins").get_to(job.plugins);
     for (const Json& u : json.at("units")) job.units.push_back(unit_in(u));
     for (const auto& [node, key] : json.at("keys").items()) job.keys.emplace(node, digest_in(key));
-    job.origins = json.value("origins", job.origins);  // which the first version did not write
+    // The first version did not write these.
+    job.origins = json.value("origins", job.origins);
+    job.left_out = json.value("left_out", job.left_out);
     return job;
   } catch (const std::exception& e) {
     throw Error(fmt::format("{} is no job of terrazzo, or damaged: {}; remove its folder and submit again",

@@ -24,6 +24,7 @@ struct FarmJob {
   std::vector<Unit> units;                       ///< in an order in which they can be made
   std::map<std::string, Digest> keys;            ///< of nodes whose keys were known when it was frozen
   std::map<std::string, std::string> origins;    ///< see FrozenGraph
+  std::map<std::string, std::string> left_out;   ///< by node, as the user's graph has it: why it is not in the job
 
   const Unit* find(std::string_view unit) const;
 };

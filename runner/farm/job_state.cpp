@@ -61,6 +61,7 @@ UnitState state_of_missing(Assignment::To to) {
 JobState state_of(const fs::path& folder, const FarmJob& job, const Plan& plan, const std::vector<QueuedTask>& tasks) {
   JobState state;
   state.assignment = assignment_of(folder);
+  state.left_out = int(job.left_out.size());
   std::map<std::string, std::vector<std::vector<std::string>>> arrays;
   for (const QueuedTask& t : tasks) {
     const auto [array, is_new] = arrays.try_emplace(t.array);

@@ -30,9 +30,13 @@ struct JobState {
   std::vector<UnitState> units;                 ///< as in FarmJob::units
   std::map<std::string, std::string> failures;  ///< by unit: why
   std::map<std::string, QueuedTask> tasks;      ///< by unit, of those in the queue
+  int left_out = 0;                             ///< nodes that are not in the job, see FarmJob::left_out
 
   int count(UnitState state) const;
-  bool is_complete() const { return count(UnitState::done) + count(UnitState::unneeded) == int(units.size()); }
+  /// Whether there is all that the user asked for.
+  bool is_complete() const {
+    return left_out == 0 && count(UnitState::done) + count(UnitState::unneeded) == int(units.size());
+  }
   /// Whether anything is still going to happen by itself.
   bool is_moving() const {
     return count(UnitState::running) + count(UnitState::waiting) + count(UnitState::elsewhere) > 0;

@@ -42,6 +42,15 @@ std::string batch_job_of(const QueuedTask& task) {
   return task.id.substr(0, task.id.find('_'));
 }
 
+/// What is left out tells a job from one that was submitted without it.
+Digest id_of(const FrozenGraph& graph, const std::map<std::string, std::string>& left_out) {
+  if (left_out.empty()) return graph.id;
+  Hasher h;
+  h.add(graph.id.hex());
+  for (const auto& [node, why] : left_out) h.add(node).add(why);
+  return h.digest();
+}
+
 using Needs = std::map<std::string, const std::vector<std::string>*>;  // by unit
 
 /// Batch jobs that must end before this array can begin: earlier arrays, and tasks that are in the queue already.
@@ -59,16 +68,18 @@ std::vector<std::string> jobs_before(const TaskArray& array, const std::vector<H
 
 }  // namespace
 
-PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::string>& plugins) {
+PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::string>& plugins,
+                     const std::map<std::string, std::string>& left_out) {
   PreparedJob out;
   out.graph = frozen(plan, &cache);
   FarmJob& job = out.job;
-  job.name = job_name(plan.graph->file, out.graph.id);
+  job.name = job_name(plan.graph->file, id_of(out.graph, left_out));
   job.graph = fs::absolute(plan.graph->file).string();
   job.program = std::string("terrazzo ") + TERRAZZO_VERSION;
   job.targets = out.graph.targets;
   job.origins = out.graph.origins;
   job.plugins = plugins;
+  job.left_out = left_out;
   // All that results depend on in the environment. It names a file, or something built in, such as "ocio://default".
   if (const char* config = std::getenv("OCIO")) {
     std::error_code missing;

@@ -18,8 +18,9 @@ struct PreparedJob {
   std::vector<bool> due;  ///< which of its units have to be made
 };
 
-/// What a farm would do for a plan. Writes nothing. `plugins`: files that tasks must load.
-PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::string>& plugins);
+/// What a farm would do for a plan. Writes nothing. `plugins`: files that tasks must load; `left_out`: see FarmJob.
+PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::string>& plugins,
+                     const std::map<std::string, std::string>& left_out = {});
 
 /// Writes the job, unless it is there: a job of this name is this job. Throws FileError.
 void write_job(const PreparedJob& prepared, Cache& cache);

@@ -4,6 +4,7 @@
 
 #include "core/image/image_limits.h"
 #include "runner/api/plugin.h"
+#include "runner/cache/cache_limit.h"
 #include "runner/python/bindings.h"
 #include "runner/python/errors.h"
 #include "runner/python/graphs.h"
@@ -19,8 +20,8 @@ PYBIND11_MODULE(_terrazzo, module) {
   module.def(
       "load_plugin", [](const std::filesystem::path& file) { return terrazzo::load_plugin(file).types; },
       pybind11::arg("file"), "Loads a plug-in, a shared library; gives the names of its node types.");
-  module.def("set_memory_budget", &terrazzo::set_memory_budget, pybind11::arg("bytes"),
-             "What the process is to stay within: decoded images, values and running nodes of all sessions; 0 for half "
-             "of the machine's memory, as at the start.");
+  module.def("set_memory_budget", &terrazzo::set_memory_budget);
+  module.def("bytes_from", &terrazzo::size_from);
+  module.attr("size_help") = terrazzo::size_help;
   terrazzo::load_plugins_of_environment();
 }

@@ -61,7 +61,12 @@ Json notes_json(const StageOutcome& outcome) {
   return notes;
 }
 
-Json stage_json(const Stage& stage, const StageOutcome& outcome, const Cache* cache) {
+/// Where several variations share a node, it has none.
+void add_variation(Json& out, const std::string& node, const RunSummary& s) {
+  if (const auto at = s.variations.find(node); at != s.variations.end()) out["variation"] = at->second;
+}
+
+Json stage_json(const Stage& stage, const StageOutcome& outcome, const RunSummary& s) {
   Json out = {{"node", outcome.node},
               {"type", stage.type().name},
               {"version", stage.type().version},
@@ -70,17 +75,18 @@ Json stage_json(const Stage& stage, const StageOutcome& outcome, const Cache* ca
               {"reason", reason_of(stage, outcome)},
               {"key", outcome.key ? Json(outcome.key->hex()) : Json()},
               {"seconds", outcome.seconds},
-              {"stored_bytes", stored_bytes(outcome, cache)},
+              {"stored_bytes", stored_bytes(outcome, s.cache)},
               {"files", files_json(outcome)},
               {"notes", notes_json(outcome)}};
   if (!outcome.because.empty()) out["because"] = outcome.because;
+  add_variation(out, outcome.node, s);
   return out;
 }
 
 Json stages_json(const RunSummary& s) {
   Json out = Json::array();
   for (size_t i = 0; s.plan && s.result && i < s.plan->stages.size(); i++)
-    out.push_back(stage_json(s.plan->stages[i], s.result->stages[i], s.cache));
+    out.push_back(stage_json(s.plan->stages[i], s.result->stages[i], s));
   return out;
 }
 
@@ -97,9 +103,15 @@ std::span<const Problem> shown(const std::vector<Problem>& problems) {
 Json failures_json(const RunSummary& s) {
   Json out = Json::array();
   if (s.result)
-    for (const Failure& f : s.result->failures) out.push_back({{"message", f.message}, {"node", f.node}});
+    for (const Failure& f : s.result->failures) {
+      out.push_back({{"message", f.message}, {"node", f.node}});
+      add_variation(out.back(), f.node, s);
+    }
   if (const auto* graph = dynamic_cast<const GraphError*>(s.error)) {
-    for (const Problem& p : shown(graph->problems())) out.push_back(problem_json(graph->file(), p));
+    for (const Problem& p : shown(graph->problems())) {
+      out.push_back(problem_json(graph->file(), p));
+      add_variation(out.back(), p.node, s);
+    }
     if (const std::string more = problems_not_shown(graph->problems().size()); !more.empty())
       out.push_back({{"message", more}});
   } else if (s.error) {

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,8 +18,9 @@ struct RunSummary {
   const Plan* plan = nullptr;         ///< null if there was none: the graph is invalid
   const RunResult* result = nullptr;  ///< null if nothing ran
   Cache* cache = nullptr;
-  std::vector<std::string> warnings{};    ///< that are not about a node
-  const std::exception* error = nullptr;  ///< why there was no run, or why its results could not be written
+  std::vector<std::string> warnings{};              ///< that are not about a node
+  std::map<std::string, std::string> variations{};  ///< of a sweep or table: the one that a node is made for, by name
+  const std::exception* error = nullptr;            ///< why there was no run, or why its results could not be written
   int exit_code = 0;
 };
 

@@ -112,7 +112,7 @@ Names nodes_for_report(const Graph& graph, const Names& only, Cache* cache) {
     add_origins(graph, n, origins);
   }
   std::optional<Plan> plan;
-  if (cache) plan = make_plan(graph, cache, {.only = nodes_meant(graph, only), .keep = names});
+  if (cache) plan = make_plan(graph, cache, {.only = nodes_meant(graph, only), .keep = names, .keep_going = true});
   for (const std::string& name : origins) {
     const auto at = std::ranges::find(graph.nodes, name, &GraphNode::name) - graph.nodes.begin();
     if (names.size() < most_shown_nodes && (!plan || is_cheap(plan->stages[size_t(at)]))) add_once(names, name);

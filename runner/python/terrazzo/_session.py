@@ -9,11 +9,32 @@ from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, Union
 
 from . import _terrazzo
-from ._errors import Cancelled, Failure, GraphError, RunError, UnknownName
+from ._errors import Cancelled, Error, Failure, GraphError, RunError, UnknownName
 from ._graph import Graph, PathLike, Value, _checked, _unknown, _with
 from ._nodes import _cause_of
 
 Names = Union[str, Sequence[str]]
+
+
+#: A number, or a size as the command line takes it, such as "300M".
+Bytes = Union[int, str]
+
+
+def _bytes(what: str, size: Bytes) -> int:
+    if isinstance(size, str):
+        number = _terrazzo.bytes_from(size)
+        if number is None:
+            raise ValueError(f'{what}: {_terrazzo.size_help}; "{size}" is not one')
+        return number
+    if not hasattr(size, "__index__") or size < 0:
+        raise TypeError(f'{what}: expected a number of bytes, or a size such as "300M", found {size!r}')
+    return int(size)
+
+
+def set_memory_budget(size: Bytes) -> None:
+    """What the process is to stay within: decoded images, values and running nodes of all sessions. A number of bytes, or
+    a size such as "300M"; 0 for half of the machine's memory, as at the start."""
+    _terrazzo.set_memory_budget(_bytes("memory budget", size))
 
 
 def _list(names: Names) -> list[str]:
@@ -156,19 +177,17 @@ class _Progress:
 class Session:
     """A cache that is open, and how to run. Threads may share one; each run has the session's threads and memory.
 
-    cache: its folder; None for the usual one, False for none. threads: 0 for one per core. memory: a budget in bytes
-    for values and running nodes; 0 for that of set_memory_budget, which also bounds decoded images.
+    cache: its folder; None for the usual one, False for none. threads: 0 for one per core. memory: a budget for
+    values and running nodes, in bytes or as "300M"; 0 for that of set_memory_budget, which also bounds decoded images.
 
     checked: runs every node twice, one at a time and without a cache, and watches which files those in Python open. One
     that gives something else the second time, or reads what no parameter of type Path names, fails."""
 
     def __init__(
-        self, cache: PathLike | bool | None = None, threads: int = 0, memory: int = 0, checked: bool = False
+        self, cache: PathLike | bool | None = None, threads: int = 0, memory: Bytes = 0, checked: bool = False
     ) -> None:
-        if not hasattr(memory, "__index__") or memory < 0:
-            raise TypeError(f"memory: expected a number of bytes, such as 300 * 2**20, found {memory!r}")
         folder = Path() if cache is None or isinstance(cache, bool) else Path(cache)
-        self._session = _terrazzo.Session(folder, cache is not False, threads, int(memory), checked)
+        self._session = _terrazzo.Session(folder, cache is not False, threads, _bytes("memory", memory), checked)
 
     def __enter__(self) -> Session:
         return self
@@ -225,19 +244,31 @@ class Session:
         **more: Iterable[Any],
     ) -> Iterator[Variation]:
         """The graph with every combination of several values: sweep(g, seed=range(64)), or {"lattice.mode": [...]} for
-        names with dots; the last changes fastest. A list of dictionaries is a table with a row for each variation.
+        names with dots; the last changes fastest. A text is one value. A list of dictionaries is a table with a row for
+        each variation.
 
         All variations are checked before the first is there. Each runs when something of it is asked for; what they
         share is in the cache."""
         rows = [dict(r) for r in values] if values is not None and not isinstance(values, Mapping) else [{}]
         columns = {**(values if isinstance(values, Mapping) else {}), **more}
-        lists = [list(v) for v in columns.values()]
+        lists = [_several(name, v) for name, v in columns.items()]
         combinations = [dict(zip(columns, c)) for c in itertools.product(*lists)]
         all_values = [{**row, **c} for row in rows for c in combinations]
         graphs = [_with(graph, v) for v in all_values]
         for g in graphs:
             _check_but_unset(g)
-        return (Variation(self, g, v, progress) for g, v in zip(graphs, all_values))
+        written: dict[str, str] = {}
+        return (Variation(self, g, v, progress, written) for g, v in zip(graphs, all_values))
+
+
+def _several(name: str, values: Any) -> list[Any]:
+    """The values to sweep over; a text is one, not its letters."""
+    if isinstance(values, (str, bytes)):
+        return [values]
+    try:
+        return list(values)
+    except TypeError:
+        raise TypeError(f"{name}: expected several values, such as [{values!r}], found {values!r}") from None
 
 
 def _check_but_unset(graph: Graph) -> None:
@@ -257,11 +288,14 @@ class Variation:
     """One of a sweep: a graph, its values, and what a run of it gives."""
 
     def __init__(
-        self, session: Session, graph: Graph, values: dict[str, Any], progress: Callable[[Event], Any] | None
+        self, session: Session, graph: Graph, values: dict[str, Any], progress: Callable[[Event], Any] | None,
+        written: dict[str, str],
     ) -> None:
         self._session = session
         self._progress = progress
         self._results: dict[str, Result] = {}
+        #: by what variations of the sweep have exported: which of them it was
+        self._written = written
         #: with the values set
         self.graph = graph
         #: by name
@@ -289,10 +323,24 @@ class Variation:
             text = text.replace("{" + name + "}", _shown(value))
         return text
 
+    def _take(self, pattern: str) -> None:
+        """Of a size or material in the name nobody knows here what it comes to."""
+        if any(place in pattern for place in ("{width}", "{height}", "{material}")):
+            return
+        other = self._written.setdefault(os.path.abspath(_pattern(pattern)), self.label)
+        if other != self.label:
+            name = next(iter(self.values), "label")
+            raise Error(
+                f"{pattern} would be written for {other} and for {self.label}; let the path tell them apart, as "
+                f'v.export("out/{{{name}}}") or v.export("out/{{label}}") does'
+            )
+
     def export(self, path: PathLike, node: str | None = None) -> list[Path]:
         """Writes maps: of the node's material or, without one, what the graph's first export would write, as it would
-        write it. A path that does not end like a picture's is a folder. {seed}, {label} and so on stand for the values."""
+        write it. A path that does not end like a picture's is a folder. {seed}, {label} and so on stand for the values;
+        a path that does not tell it from another variation of the sweep is refused."""
         pattern = self._filled(path)
+        self._take(pattern)
         if node is not None:
             return export(self[node], pattern, session=self._session)
         sinks = [n for n in self.graph if self.graph._outline()["nodes"][n]["type"] == "export"]

@@ -141,9 +141,10 @@ class Session:
 def load_plugin(file: Path | str) -> list[str]:
     """Loads a plug-in, a shared library; gives the names of its node types."""
 
-def set_memory_budget(bytes: int) -> None:
-    """What the process is to stay within: decoded images, values and running nodes of all sessions; 0 for half of the
-    machine's memory, as at the start."""
+size_help: str
+
+def set_memory_budget(bytes: int) -> None: ...
+def bytes_from(text: str) -> int | None: ...
 
 def register_node(description: dict[str, Any], function: Callable[..., Any]) -> None: ...
 def node_type_names() -> list[str]: ...

@@ -37,6 +37,12 @@ TEST_CASE("a suggestion falls back to the valid names") {
 TEST_CASE("long lists of names are shortened") {
   CHECK(listed({"a"}) == "\"a\"");
   CHECK(listed({"a", "b", "c"}) == "\"a\", \"b\" or \"c\"");
-  const std::string many = listed(std::vector<std::string>(40, "a"));
-  CHECK(many.ends_with("\"a\" and 24 more"));
+  std::vector<std::string> names;
+  for (int i = 0; i < 40; i++) names.push_back(std::to_string(i));
+  CHECK(listed(names).ends_with("\"15\" and 24 more"));
+}
+
+TEST_CASE("each name is listed once") {
+  CHECK(listed({"a", "b", "a", "a"}) == "\"a\" or \"b\"");
+  CHECK(suggestion("quantum", {"pca", "pca"}) == " (valid: \"pca\")");
 }

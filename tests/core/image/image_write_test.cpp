@@ -11,6 +11,7 @@
 #include "core/image/image_file.h"
 #include "tests/odd_images.h"
 #include "tests/run_node.h"
+#include "tests/texts.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -66,6 +67,32 @@ TEST_CASE("halfs and floats are written as they are") {
       CHECK(read(folder.path() / name)->pixels() == image->pixels());
       CHECK(read(folder.path() / name)->info().depth == depth);
     }
+}
+
+TEST_CASE("a byte of the pixels that is altered later does not go unnoticed in a lossless file") {
+  const TemporaryFolder folder;
+  const ImagePtr image = make_image({60, 40}, 3, [](int x, int y, int c) {
+    return float(x * 3 + y * 2 + c * 9 + int(random_bits(1, x, y, c) & 3)) / 255.0f;
+  });
+  const std::pair<const char*, Depth> kinds[] = {
+      {"a.png", Depth::u8}, {"a.tif", Depth::u8}, {"a.exr", Depth::f16}, {"b.exr", Depth::f32}};
+  for (const auto& [name, depth] : kinds) {
+    const fs::path path = folder.path() / name;
+    write(image, path, depth);
+    const std::vector<float> right = read(path)->pixels();
+    const std::string good = read_file(path);
+    for (size_t i = 0; i < 32; i++) {
+      std::string altered = good;
+      altered[good.size() / 3 + i * good.size() / 100] ^= 0x15;
+      write_text(path, altered);
+      INFO(name << ", byte " << good.size() / 3 + i * good.size() / 100 << " of " << good.size());
+      try {
+        CHECK(read(path)->pixels() == right);
+      } catch (const Error&) {
+        continue;
+      }
+    }
+  }
 }
 
 TEST_CASE("one to four channels survive every lossless format") {

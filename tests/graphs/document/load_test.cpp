@@ -284,26 +284,6 @@ TEST_CASE("the problems of a document are there one by one, in the order of the 
   }
 }
 
-TEST_CASE("every port knows which of the graph's paths its files come from") {
-  const LoadedGraph loaded = load_fake(document(R"("a": {"type": "photo", "file": "$one"},
-      "b": {"type": "adjust", "image": "@a", "steps": "$steps"},
-      "c": {"type": "photo", "file": "maps/${two}.png"},
-      "all": {"type": "gather", "images": ["@b", "@c"]},
-      "files": {"type": "write", "material": "@all", "path": "$$one/$out/{map}.png"})",
-                                                R"("one": {"type": "path", "default": "a.png", "help": "."},
-      "two": {"type": "path", "default": "b", "help": "."}, "out": {"type": "path", "default": "o", "help": "."},
-      "steps": {"type": "int", "default": 3, "help": "."})"));
-  using Names = std::set<std::string>;
-  const auto by = [&](const char* node, const char* about) { return loaded.graph.find(node)->files_by.at(about); };
-  CHECK(by("a", "file") == Names{"one"});
-  CHECK(by("b", "image") == Names{"one"});
-  CHECK(by("c", "file") == Names{"two"});
-  CHECK(by("all", "images") == Names{"one", "two"});
-  CHECK(by("files", "material") == Names{"one", "two"});
-  CHECK(by("files", "path") == Names{"out"});
-  CHECK_FALSE(loaded.graph.find("b")->files_by.contains("steps"));
-}
-
 TEST_CASE("long chains of nodes are ordered, whichever way they are written") {
   constexpr int count = 2000;
   for (const bool backwards : {false, true}) {

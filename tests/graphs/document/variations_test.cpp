@@ -49,6 +49,7 @@ TEST_CASE("sweeps that mean nothing are refused") {
   const auto problem = [](const std::vector<std::string>& sweeps) { return trouble([&] { swept(sweeps); }); };
   CHECK(problem({"seed"}) == "\"seed\": expected name=values, such as seed=1..8 or size=512,1024");
   CHECK(problem({"seed="}).find("expected name=values") != std::string::npos);
+  CHECK(problem({"seed=1...3"}) == "\"seed=1...3\": a range has two dots, as in 1..3");
   CHECK(problem({"seed=1,,2"}) == "\"seed=1,,2\": expected a value between commas");
   CHECK(problem({"seed=1..5:-1"}) == "\"seed=1..5:-1\": expected a step that leads from 1 to 5");
   CHECK(problem({"seed=1..5:0"}).find("expected a step") != std::string::npos);

@@ -80,6 +80,21 @@ TEST_CASE("resolve_uv holds the exemplar's maps and the uv map; more to blend an
   CHECK(ahead("resolve_uv", inputs, {{"join", 8.0}}) == plain + uint64_t(8.0 / 3 * double(mib)));
 }
 
+TEST_CASE("resolve_uv holds the exemplar's maps, whatever the size of the uv map") {
+  Forecast material{.maps = {"base_color", "height"}, .possible_maps = std::vector<std::string>{}};
+  material.images = {{"base_color", {.size = exemplar, .channels = 3, .semantic = Semantic::base_color}},
+                     {"height", {.size = exemplar, .channels = 1, .semantic = Semantic::height}}};
+  const NodeType& tileable = *find_node_type("make_tileable");
+  Params params;
+  for (const Param& p : tileable.params)
+    if (p.fallback) params.emplace(p.name, *p.fallback);
+  params["fit"] = std::string("repeats");
+  const Forecast uv = tileable.infer(params, index_and()).at("uv");
+  REQUIRE_FALSE(uv.size);
+  CHECK(ahead("resolve_uv", {{"uv", {uv}}, {"material", {material}}}) == 4 * 4 * pixels);
+  CHECK(ahead("resolve_uv", {{"uv", {uv}}, {"material", {{}}}}) == 0);
+}
+
 TEST_CASE("occlusion and bent normals are held as a whole") {
   CHECK(ahead("make_occlusion", {{"height", {image({1024, 1024})}}}) == 4 * mib);
   CHECK(ahead("make_bent_normal", {{"height", {image({1024, 1024})}}}) == 12 * mib);

@@ -115,6 +115,10 @@ TEST_CASE("library list finds by words and tags, and shows pictures") {
   const ProgramRun none = w.run({"library", "list", "marble"});
   CHECK(none.code == 0);
   CHECK(contains(none.err, "holds nothing like that"));
+  CHECK_FALSE(contains(none.err, "tag"));
+  CHECK(contains(w.run({"library", "list", "--tag", "wal"}).err,
+                 "no entry has the tag \"wal\" (did you mean \"wall\"?)"));
+  CHECK_FALSE(contains(w.run({"library", "list", "marble", "--tag", "Wall"}).err, "has the tag"));
   const json all = json::parse(w.run({"library", "list", "--json", "--sheet", "sheet.html"}).out);
   REQUIRE(all.size() == 2);
   CHECK(all[0]["settings"][0] == "weighted.weights.height=2");

@@ -122,7 +122,9 @@ TEST_CASE("progress none writes nothing but warnings and errors") {
   CHECK(quiet.out == "");
   CHECK(quiet.err == "");
   CHECK(fs::exists(w.path / "out/base_color.png"));
-  write_text(w.path / "photo.png", "no picture");
+  std::string damaged = read_text(w.path / "photo.png");
+  damaged.replace(damaged.size() / 2, 8, "no pixel");
+  write_text(w.path / "photo.png", damaged);
   const ProgramRun failed = w.run({"run", "soft.json", "--progress", "none"});
   CHECK(failed.code == 1);
   CHECK_MESSAGE(failed.err.find("error: ") == 0, failed.err);
@@ -190,4 +192,54 @@ TEST_CASE("what cannot be written to standard output ends every command with cod
     CHECK(read_text(w.path / "messages") == "error: cannot write to standard output: Bad file descriptor\n");
   }
   REQUIRE(w.run({"run", "soft.json"}).code == 0);
+}
+
+TEST_CASE("of what a sweep or a table gives, problems say where it is") {
+  const Workplace w;
+  const auto said = [&](const std::vector<std::string>& variations) {
+    std::vector<std::string> words = {"run", "soft.json"};
+    words.insert(words.end(), variations.begin(), variations.end());
+    const ProgramRun r = w.run(words);
+    CHECK(r.code == 2);
+    return r.err;
+  };
+  CHECK(said({"--sweep", "soft.radius=1-8"}).find("soft.json: --sweep \"soft.radius=1-8\": expected a number") == 7);
+  CHECK(said({"--sweep", "soft.radius=1-8"}).find("; a range is written soft.radius=1..8\n") != std::string::npos);
+  CHECK(said({"--sweep", "soft.radius=1...3"}).find("a range has two dots, as in 1..3") != std::string::npos);
+  write_text(w.path / "t.csv", "photo.path,soft.radius\nphoto.png,1\nphoto.png,wide\n");
+  CHECK(said({"--table", "t.csv"}).find("error: t.csv:3:11: column \"soft.radius\": expected a number") !=
+        std::string::npos);
+  write_text(w.path / "t.csv", "\"photo.path\",soft.radios\nphoto.png,1\n");
+  const std::string wrong_name = said({"--table", "t.csv"});
+  CHECK_MESSAGE(wrong_name.find("t.csv:2:11: column \"soft.radios\": ") == 7, wrong_name);
+  CHECK(wrong_name.find("(did you mean \"radius\"?)") != std::string::npos);
+  write_text(w.path / "t.json", "[{\"soft.radius\": 1},\n {\"soft.radios\": 2}]");
+  CHECK(said({"--table", "t.json"}).find("error: t.json:2:3: member \"soft.radios\": ") != std::string::npos);
+}
+
+TEST_CASE("a file that is no image is called what it is") {
+  const Workplace w;
+  const auto said = [&](const std::string& bytes) {
+    write_text(w.path / "photo.png", bytes);
+    const ProgramRun r = w.run({"run", "soft.json"});
+    CHECK(r.code == 2);
+    return r.err;
+  };
+  CHECK(said("%PDF-1.7 and so on")
+            .find("photo.png: it is a PDF document, whatever its name says; save the image as PNG") !=
+        std::string::npos);
+  CHECK(said("  <!DOCTYPE html><html>").find("it is an HTML page, as a download that failed is") != std::string::npos);
+  CHECK(said("version https://git-lfs.github.com/spec/v1\noid").find("\"git lfs pull\"") != std::string::npos);
+  CHECK(said("nothing but words").find("it is text, whatever") != std::string::npos);
+}
+
+TEST_CASE("a folder with the name of a map is told of") {
+  const Workplace w;
+  write_picture(w.path / "maps/stone_basecolor.png", 5);
+  std::filesystem::create_directories(w.path / "maps/stone_height.png");
+  write_text(w.path / "maps.json", R"({"terrazzo": 1, "nodes": {"all": {"type": "load_material", "path": "maps"}}})");
+  const ProgramRun r = w.run({"run", "maps.json"});
+  CHECK_MESSAGE(r.code == 0, r.err);
+  CHECK_MESSAGE(r.err.find("warning: node \"all\": stone_height.png is a folder, and so no map") != std::string::npos,
+                r.err);
 }

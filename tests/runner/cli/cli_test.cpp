@@ -144,7 +144,9 @@ TEST_CASE("the same bytes come out with and without cache, and on any number of 
 
 TEST_CASE("a file that cannot be read ends a run with code 1, and names graph, place, node and parameter") {
   const Workplace w;
-  write_text(w.path / "photo.png", "no picture");
+  std::string damaged = read_text(w.path / "photo.png");
+  damaged.replace(damaged.size() / 2, 8, "no pixel");
+  write_text(w.path / "photo.png", damaged);
   const ProgramRun r = w.run({"run", "soft.json"});
   CHECK(r.code == 1);
   CHECK(r.err.find("error: soft.json:6:5: node \"photo\" (load_map)") != std::string::npos);

@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/file/file_io.h"
@@ -86,6 +87,91 @@ TEST_CASE("with --keep-going the branch that is sound is made, and exit code and
   CHECK(summary["failures"][0]["node"] == "bad");
   CHECK(stage_of(summary, "soft_file")["did"] == "skipped");
   CHECK(stage_of(summary, "soft_file")["because"] == "bad");
+}
+
+namespace {
+
+/// Three pictures, the second of them cut off, and ways to make something of each.
+struct ThreePictures : Workplace {
+  ThreePictures() {
+    for (const int i : {1, 2, 3}) write_picture(path / fmt::format("in/n{}.png", i), i);
+    fs::resize_file(path / "in/n2.png", fs::file_size(path / "in/n2.png") - 40);
+    write_text(path / "one.json", R"({"terrazzo": 1, "parameters": {"file": {"type": "path"}, "out": {"type": "path"}},
+  "nodes": {
+  "map": {"type": "load_map", "path": "$file"},
+  "small": {"type": "resize", "material": "@map", "size": [8, 8]},
+  "file": {"type": "export", "material": "@small", "path": "$out"}
+}})");
+    std::string larger = read_text(path / "one.json");
+    larger.replace(larger.find("[8, 8]"), 6, "\"=@map.size * 2\"");
+    write_text(path / "larger.json", larger);
+    write_text(path / "all.json", R"({"terrazzo": 1, "nodes": {"all": {"type": "one.json",
+  "foreach": {"files": "in/*.png", "as": "scan"}, "file": "$scan", "out": "out/$scan_name.png"}}})");
+    write_text(path / "table.csv", "file,out\nin/n1.png,out/n1.png\nin/n2.png,out/n2.png\nin/n3.png,out/n3.png\n");
+  }
+  std::vector<std::string> made() const { return listing(path / "out"); }
+};
+
+const std::vector<std::string> first_and_third = {"n1.png", "n3.png"};
+
+}  // namespace
+
+TEST_CASE("with --keep-going a source that is cut off fails the variations and rounds that need it, and no others") {
+  const std::vector<std::string> jobs[] = {
+      {"run", "one.json", "--table", "table.csv"}, {"run", "larger.json", "--table", "table.csv"}, {"run", "all.json"}};
+  for (const std::vector<std::string>& job : jobs) {
+    CAPTURE(job[1]);
+    const ThreePictures w;
+    const ProgramRun strict = w.run(job);
+    CHECK(strict.code == 2);
+    CHECK_FALSE(fs::exists(w.path / "out"));
+    std::vector<std::string> going = job;
+    going.insert(going.end(), {"--keep-going", "--summary", "sum.json", "--report", "report.html"});
+    const ProgramRun r = w.run(going);
+    CHECK_MESSAGE(r.code == 1, r.err);
+    CHECK(w.made() == first_and_third);
+    CHECK_MESSAGE(r.err.find("n2.png: it is truncated") != std::string::npos, r.err);
+    const Json summary = json_in(w.path / "sum.json");
+    check_against_schema(summary);
+    CHECK(summary["status"] == "failed");
+    REQUIRE(summary["failures"].size() == 1);
+    CHECK(stage_of(summary, summary["failures"][0]["node"])["did"] == "failed");
+    CHECK(summary["counts"]["not_run"] == 0);
+    const std::string variation = job[1] == "all.json" ? "" : "file=in/n2.png, out=out/n2.png";
+    CHECK(summary["failures"][0].value("variation", "") == variation);
+    CHECK(stage_of(summary, summary["failures"][0]["node"]).value("variation", "") == variation);
+  }
+}
+
+TEST_CASE("in the summary a stage has its variation, unless several share it") {
+  const ThreePictures w;
+  write_text(w.path / "table.csv", "file,out\nin/n1.png,out/a.png\nin/n1.png,out/b.png\n");
+  REQUIRE(w.run({"run", "one.json", "--table", "table.csv", "--summary", "sum.json"}).code == 0);
+  std::map<std::string, int> stages;
+  const Json summary = json_in(w.path / "sum.json");
+  for (const Json& s : summary["stages"]) stages[s.value("variation", "shared")]++;
+  CHECK(stages == std::map<std::string, int>{
+                      {"shared", 2}, {"file=in/n1.png, out=out/a.png", 1}, {"file=in/n1.png, out=out/b.png", 1}});
+  write_text(w.path / "table.csv", "file,out\nin/n1.png,out/a.png\nin/n2.png,out/b.png\n");
+  CHECK(w.run({"run", "one.json", "--table", "table.csv", "--summary", "sum.json"}).code == 2);
+  const Json invalid = json_in(w.path / "sum.json");
+  check_against_schema(invalid);
+}
+
+TEST_CASE("a source larger than may be read fails only what needs it, with --keep-going") {
+  const ThreePictures w;
+  write_picture(w.path / "in/n2.png", 2, Semantic::base_color, {300, 300});
+  const ProgramRun r = w.run({"run", "all.json", "--max-pixels", "2000", "--keep-going"});
+  CHECK_MESSAGE(r.code == 1, r.err);
+  CHECK(w.made() == first_and_third);
+}
+
+TEST_CASE("with --keep-going files that two variations would write end the run before it begins") {
+  const ThreePictures w;
+  write_text(w.path / "table.csv", "file,out\nin/n1.png,out/n1.png\nin/n2.png,out/n2.png\nin/n3.png,out/n1.png\n");
+  const ProgramRun r = w.run({"run", "one.json", "--table", "table.csv", "--keep-going"});
+  CHECK_MESSAGE(r.code == 2, r.err);
+  CHECK_FALSE(fs::exists(w.path / "out"));
 }
 
 TEST_CASE("the summary of a run has its files with digests, and of the next one that all was there") {

@@ -254,7 +254,7 @@ TEST_CASE("a run that keeps going makes what does not need a failed node, and sa
     RunOptions options;
     options.threads = threads;
     options.cache = &cache;
-    options.keep_going = true;
+    options.targets.keep_going = true;
     Skips observer;
     options.observer = &observer;
     for (const char* right : {"run", "reused"}) {
@@ -284,7 +284,7 @@ TEST_CASE("what does not need a failed node again is taken from the cache") {
   t.quick.compute = [](NodeContext&) { throw Error("broken"); };
   add(g, "new", t.sum, {{"plus", 2.0}}, {"a", "kept"});
   RunOptions options = keeping({"kept", "new"}, &cache);
-  options.keep_going = true;
+  options.targets.keep_going = true;
   const RunResult r = run_graph(g, options);
   CHECK(outcome(r, "kept") == "reused");
   CHECK(kept_number(r, "kept") == 2);
@@ -312,7 +312,7 @@ TEST_CASE("runs that keep going come to an end, whatever fails") {
     }
     RunOptions options;
     options.cache = &cache;
-    options.keep_going = true;
+    options.targets.keep_going = true;
     for (const GraphNode& n : g.nodes) options.targets.keep.push_back(n.name);
     for (int round = 0; round < 2; round++) {
       const RunResult r = run_graph(g, options);

@@ -156,7 +156,7 @@ TEST_CASE("a dropped value that has vanished from the cache is computed again") 
     Cache cache(folder.path());
     lose_entries_once(t, folder.path());
     RunOptions options = tight(&cache, 1);
-    options.keep_going = keep_going;
+    options.targets.keep_going = keep_going;
     const RunResult r = run_graph(six_planes(t), options);
     REQUIRE(r.ok());
     CHECK(kept_number(r, "total") == 21);
@@ -176,7 +176,7 @@ TEST_CASE("a dropped value that can be neither loaded nor computed again is an e
       if (!before.insert(key).second) throw Error("not a second time");
     };
     RunOptions options = tight(&cache, 1);
-    options.keep_going = keep_going;
+    options.targets.keep_going = keep_going;
     const RunResult r = run_graph(six_planes(t), options);
     REQUIRE(r.failures.size() >= 1);
     CHECK(r.failures.front().message.find("not a second time") != std::string::npos);

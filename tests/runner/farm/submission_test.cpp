@@ -102,3 +102,83 @@ TEST_CASE("a job for another scheduler is not Slurm's to ask about, to cancel or
   }
   CHECK(farm.submitted() == 0);
 }
+
+namespace {
+
+/// Two pictures, the second of them cut off.
+struct HalfAFarm : Farm {
+  HalfAFarm() {
+    write_picture(w.path / "b.png", 2);
+    fs::resize_file(w.path / "b.png", fs::file_size(w.path / "b.png") - 40);
+    write_text(w.path / "one.json",
+               R"({"terrazzo": 1, "parameters": {"file": {"type": "path"}, "out": {"type": "path"}},
+      "nodes": {
+      "map": {"type": "load_map", "path": "$file"},
+      "small": {"type": "resize", "material": "@map", "size": [8, 8]},
+      "x": {"type": "export", "material": "@small", "path": "$out"}}})");
+    std::string larger = read_text(w.path / "one.json");
+    larger.replace(larger.find("[8, 8]"), 6, "\"=@map.size * 2\"");
+    write_text(w.path / "larger.json", larger);
+    write_text(w.path / "table.csv", "file,out\na.png,out/a.png\nb.png,out/b.png\n");
+    write_text(w.path / "bad.csv", "file,out\nb.png,out/b.png\n");
+  }
+};
+
+}  // namespace
+
+TEST_CASE("with --keep-going a variation whose source is cut off is left out, and told of") {
+  for (const char* graph : {"one.json", "larger.json"}) {
+    CAPTURE(graph);
+    const HalfAFarm farm;
+    const std::vector<std::string> strict = {"submit", graph, "--table", "table.csv"};
+    std::vector<std::string> going = strict, printed = strict;
+    going.emplace_back("--keep-going");
+    printed.insert(printed.end(), {"--keep-going", "--print"});
+    CHECK(farm.w.run(strict).code == 2);
+    CHECK_FALSE(fs::exists(farm.w.path / "cache/farm/jobs"));
+
+    const ProgramRun scripts = farm.w.run(printed);
+    CHECK(scripts.code == 1);
+    CHECK(scripts.out.find("#SBATCH") != std::string::npos);
+    CHECK_MESSAGE(scripts.err.find("left out: ") != std::string::npos, scripts.err);
+    CHECK_MESSAGE(scripts.err.find("b.png: it is truncated") != std::string::npos, scripts.err);
+
+    const ProgramRun submitted = farm.w.run(going);
+    CHECK(submitted.code == 1);
+    CHECK(farm.submitted() == 1);
+    CHECK_MESSAGE(submitted.err.find("b.png: it is truncated") != std::string::npos, submitted.err);
+    const nlohmann::json state = nlohmann::json::parse(farm.w.run({"submit", farm.job(), "--status", "--json"}).out);
+    CHECK_FALSE(state.at("complete").get<bool>());
+    CHECK(state.at("units").size() == 1);
+    REQUIRE_FALSE(state.at("left_out").empty());
+    CHECK(state.at("left_out").dump().find("it is truncated") != std::string::npos);
+
+    // Made by hand: all that is in the job is done, and what is not in it is still missing.
+    const fs::path folder = FarmFolder(farm.w.path / "cache").jobs() / farm.job();
+    const std::string unit = state.at("units").at(0).at("name").get<std::string>();
+    CHECK(farm.w.run({"task", folder.string(), unit}).code == 0);
+    CHECK(listing(farm.w.path / "out") == std::vector<std::string>{"a.png"});
+    const ProgramRun shown = farm.w.run({"submit", farm.job(), "--status"});
+    CHECK(shown.code == 1);
+    CHECK_MESSAGE(shown.out.find("1 of 1 done; ") != std::string::npos, shown.out);
+    CHECK(shown.out.find("it is truncated") != std::string::npos);
+    CHECK(farm.w.run({"submit", farm.job(), "--wait"}).code == 1);
+    CHECK(farm.w.run(going).code == 1);
+    CHECK(farm.submitted() == 1);
+
+    // The sound variation alone is another job, which is complete.
+    write_text(farm.w.path / "table.csv", "file,out\na.png,out/a.png\n");
+    const ProgramRun alone = farm.w.run(going);
+    CHECK(alone.code == 0);
+    CHECK(alone.out.find("nothing to do") != std::string::npos);
+  }
+}
+
+TEST_CASE("with --keep-going nothing is submitted where nothing can be made") {
+  const HalfAFarm farm;
+  const ProgramRun r = farm.w.run({"submit", "one.json", "--table", "bad.csv", "--keep-going"});
+  CHECK(r.code == 1);
+  CHECK_MESSAGE(r.err.find("it is truncated") != std::string::npos, r.err);
+  CHECK_MESSAGE(r.err.find("nothing can be made without that") != std::string::npos, r.err);
+  CHECK_FALSE(fs::exists(farm.w.path / "cache/farm/jobs"));
+}

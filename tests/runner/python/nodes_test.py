@@ -5,6 +5,7 @@ import random
 import subprocess
 import sys
 import threading
+import time
 import unittest
 from typing import Literal
 
@@ -99,6 +100,15 @@ def module(path, text):
     return out
 
 
+@tz.node(version=1)
+def test_wavering(image: tz.Image) -> tz.Image:
+    """Reports less than before, as work that is shared does."""
+    for fraction in (0.5, 0.2, 0.8, 0.3):
+        tz.progress(fraction)
+        time.sleep(0.15)  # so that each is delivered by itself
+    return image
+
+
 class NodesTest(Case):
     def amplified(self, **params):
         return graph({"sharp": {"type": "test_amplify", "image": "@soft", **params}})
@@ -113,6 +123,12 @@ class NodesTest(Case):
         self.assertEqual(g["sharp"].amount, 0.5)
         self.assertRaises(AttributeError, lambda: g["sharp"].amuont)
         self.assertIn("4 cached, 0 run", s.run(g, "sharp").summary + s.plan(g, "sharp").summary)
+
+    def test_progress_never_goes_back(self):
+        events = []
+        self.session().run(graph({"slow": {"type": "test_wavering", "image": "@soft"}}), "slow", progress=events.append)
+        told = [e.fraction for e in events if e.kind == "progress" and e.node == "slow"]
+        self.assertEqual(told, [0.5, 0.8])
 
     def test_parameters_are_checked_like_those_of_others(self):
         problems = self.amplified(way="sideways", amount="much").check()

@@ -215,10 +215,33 @@ class RunTest(Case):
         self.assertRaises(tz.UnknownName, s.sweep, g, sead=[1])
         self.assertRaises(tz.GraphError, s.sweep, g, seed=[1, "two"])
 
+    def test_a_text_is_one_value_of_a_sweep(self):
+        g = self.small()
+        self.assertEqual([v.values for v in self.session().sweep(g, {"height.map": "height"})], [{"height.map": "height"}])
+        with self.assertRaisesRegex(TypeError, r"seed: expected several values, such as \[3\], found 3"):
+            self.session().sweep(g, seed=3)
+
+    def test_variations_do_not_overwrite_one_another(self):
+        first, second = self.session().sweep(self.small(), seed=[1, 2])
+        files = first.export("same")
+        before = files[0].read_bytes()
+        with self.assertRaisesRegex(tz.Error, r'same would be written for seed=1 and for seed=2; .*"out/{seed}"'):
+            second.export("same")
+        with self.assertRaisesRegex(tz.Error, "would be written for seed=1"):
+            second.export(self.folder / "same/{map}.png", "surface")
+        self.assertEqual(files[0].read_bytes(), before)
+        self.assertEqual(first.export("same"), files)
+
     def test_values_of_other_types_are_told_in_words(self):
-        for memory in ("300M", 1.5, -1):
-            with self.assertRaisesRegex(TypeError, "memory: expected a number of bytes, such as 300"):
-                tz.Session(memory=memory)
+        for memory in (1.5, -1, None):
+            for call in (tz.set_memory_budget, lambda m: tz.Session(cache=False, memory=m)):
+                with self.assertRaisesRegex(TypeError, "memory.*: expected a number of bytes, or a size such as"):
+                    call(memory)
+        for memory in ("300", "much", ""):
+            for call in (tz.set_memory_budget, lambda m: tz.Session(cache=False, memory=m)):
+                with self.assertRaisesRegex(ValueError, f'memory.*512M.*"{memory}" is not one'):
+                    call(memory)
+        tz.Session(cache=False, memory="300M").close()
         tz.Session(cache=False, memory=np.int64(300 << 20)).close()
         for call in (self.session().run, self.session().plan):
             with self.assertRaisesRegex(TypeError, "expected a Graph, as Graph.load gives, found 'small.json'"):
@@ -228,7 +251,9 @@ class RunTest(Case):
         with self.session() as s:
             pass
         self.assertRaises(tz.Error, s.run, self.small())
-        self.assertRaises(tz.Error, tz.Session, cache="/dev/null/cache")
+        with self.assertRaises(tz.Error) as raised:
+            tz.Session(cache="/dev/null/cache")
+        self.assertNotIn("--", str(raised.exception))  # options of the command line
 
     def test_the_budget_of_the_process_bounds_what_is_decoded(self):
         self.session().run(self.small())
@@ -237,6 +262,8 @@ class RunTest(Case):
         tz.set_memory_budget(1024)
         with self.assertRaisesRegex(tz.Error, "at most 2730 are read"):
             self.session().run(read)
+        tz.set_memory_budget("1M")
+        self.session().run(read)
         tz.set_memory_budget(0)
         self.assertEqual(self.session().run(read)["m"].numpy().shape, (48, 64))
 
