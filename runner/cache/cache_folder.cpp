@@ -75,10 +75,10 @@ CacheFolder::CacheFolder(const std::filesystem::path& folder) : root_(folder / "
   std::error_code failure;
   std::filesystem::create_directories(root_, failure);
   if (failure)
-    throw Error(
-        fmt::format("cannot make the cache folder {}: {}; choose another, which $TERRAZZO_CACHE may name, or do without "
-                    "a cache",
-                    folder.string(), failure.message()));
+    throw Error(fmt::format(
+        "cannot make the cache folder {}: {}; choose another, which $TERRAZZO_CACHE may name, or do without "
+        "a cache",
+        folder.string(), failure.message()));
   for (const std::string_view kind : kind_folders) std::filesystem::create_directory(root_ / kind, failure);
   std::filesystem::create_directory(pins(), failure);
   std::filesystem::create_directory(leases(), failure);
