@@ -29,6 +29,19 @@ TEST_CASE("the cache commands make no folder: a name that was misspelt is an err
   }
 }
 
+TEST_CASE("the cache command says how large the cache is, checks it and clears it") {
+  const Workplace w;
+  REQUIRE(w.run({"run", "soft.json"}).code == 0);
+  const ProgramRun status = w.run({"cache", "status"});
+  CHECK(status.code == 0);
+  CHECK(status.out.find("folder  " + (w.path / "cache").string()) == 0);
+  CHECK(status.out.find("stages  3") != std::string::npos);
+  CHECK(w.run({"cache", "verify"}).out == "every entry is sound\n");
+  CHECK(w.run({"cache", "gc", "--limit", "1K"}).code == 0);
+  CHECK(w.run({"cache", "clear"}).out.find(" freed\n") != std::string::npos);
+  CHECK(w.run({"cache", "status", "--cache", "cache"}).out.find("stages  0") != std::string::npos);
+}
+
 TEST_CASE("a run takes the size of the cache from --cache-size, and evicts at its end") {
   const Workplace w;
   REQUIRE(w.run({"run", "soft.json"}).code == 0);

@@ -316,19 +316,6 @@ TEST_CASE("nodes and schema describe what there is, for people and for programs"
   CHECK(nlohmann::json::parse(w.run({"schema"}).out).contains("$schema"));
 }
 
-TEST_CASE("the cache command says how large the cache is, checks it and clears it") {
-  const Workplace w;
-  REQUIRE(w.run({"run", "soft.json"}).code == 0);
-  const ProgramRun status = w.run({"cache", "status"});
-  CHECK(status.code == 0);
-  CHECK(status.out.find("folder  " + (w.path / "cache").string()) == 0);
-  CHECK(status.out.find("stages  3") != std::string::npos);
-  CHECK(w.run({"cache", "verify"}).out == "every entry is sound\n");
-  CHECK(w.run({"cache", "gc", "--limit", "1K"}).code == 0);
-  CHECK(w.run({"cache", "clear"}).out.find(" freed\n") != std::string::npos);
-  CHECK(w.run({"cache", "status", "--cache", "cache"}).out.find("stages  0") != std::string::npos);
-}
-
 TEST_CASE("compare prints figures as a table or as json") {
   const Workplace w;
   write_picture(w.path / "other.png", 7);
