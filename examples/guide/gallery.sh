@@ -51,6 +51,10 @@ if gallery_of texture; then
   make texture --set image=$g/gravel/base_color.png
   show texture '["gravel/base_color.png"]' '["exemplar"]' --set picture=texture/base_color.png
 fi
+if gallery_of noise; then
+  make noise --set material=$g/grit
+  show noise '["grit/preview.png"]' '["exemplar"]'
+fi
 if gallery_of make_tileable; then
   make make_tileable --set material=$g/cut
   show make_tileable '["cut/preview.png"]' '["exemplar, repeated"]' --set repeats=2 --set caption="result, repeated" \
