@@ -7,7 +7,7 @@ std::vector<std::string> give_inputs(JsonValue& document, const std::map<std::st
   JsonValue *inputs = document.find("inputs"), *nodes = document.find("nodes");
   for (const auto& [name, type] : types) {
     if (!inputs || !inputs->find(name) || !nodes || !nodes->is_object()) continue;
-    std::erase_if(inputs->members, [&](const JsonMember& m) { return m.name == name; });
+    std::erase_if(inputs->members, [&, name = name](const JsonMember& m) { return m.name == name; });
     JsonValue node = JsonValue::empty_object();
     node.set("type", JsonValue::of(type->name));
     nodes->set(name, std::move(node));

@@ -40,7 +40,7 @@ PlanShape shape_of(const GraphNode& node, const Forecasts& forecasts) {
 
 std::string describe(const PlanShape& shape) {
   if (!shape.size && !shape.channels) return "-";
-  const std::string channels = shape.channels ? fmt::format("{}ch", *shape.channels) : "";
+  std::string channels = shape.channels ? fmt::format("{}ch", *shape.channels) : "";
   if (!shape.size) return channels;
   return fmt::format("{}x{}{}{}", shape.size->width, shape.size->height, shape.channels ? " " : "", channels);
 }
