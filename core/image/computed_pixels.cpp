@@ -111,6 +111,7 @@ ComputedPixels::ComputedPixels(Size size, int channels, Operation operation)
 std::shared_ptr<const ComputedPixels> ComputedPixels::make(Size size, int channels, Operation operation) {
   std::shared_ptr<ComputedPixels> made(new ComputedPixels(size, channels, std::move(operation)));
   made->choose_kept();
+  if (made->operation_->keeps) made->to_be_kept_ = true;
   return made;
 }
 

@@ -113,6 +113,9 @@ struct Operation {
   /// About how many values are multiplied, added or looked up for each value of the result. Weighs what it costs to
   /// compute pixels twice; says nothing about the result.
   double work = 1;
+  /// Whether the pixels are computed as a whole and kept in any case: for those that take much of their surroundings to
+  /// compute a single row. Says nothing about the result.
+  bool keeps = false;
 };
 
 /// An immutable picture: a description and a way to read it region by region. Values of maps read from 8- and 16-bit

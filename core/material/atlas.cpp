@@ -6,10 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/base/tuning.h"
-#include "core/image/color.h"
 #include "core/image/image_ops.h"
+#include "core/material/adapted_map.h"
 #include "core/material/map_names.h"
 
 namespace terrazzo {
@@ -109,36 +108,6 @@ Layout layout_of(const std::vector<Size>& sizes, int gap, int multiple) {
   return layout;
 }
 
-// --- Maps that agree
-
-std::string nth(size_t i, const Material& m) {
-  return m.name().empty() ? fmt::format("material {}", i + 1) : fmt::format("material {} (\"{}\")", i + 1, m.name());
-}
-
-ImagePtr with_green_reversed(const ImagePtr& normals) {
-  ImageInfo info = normals->info();
-  info.normal_y = info.normal_y == NormalY::up ? NormalY::down : NormalY::up;
-  const Digest recipe = Hasher().add("green reversed").add(normals->digest()).digest();
-  return pixel_by_pixel(info, recipe, {normals}, [n = info.channels](auto in, float* out, int64_t count) {
-    std::copy_n(in[0], count * n, out);
-    for (int64_t i = 0; i < count; i++) out[i * n + 1] = 1 - out[i * n + 1];
-  });
-}
-
-/// The i-th exemplar's map, its values meaning what those of `first` mean.
-ImagePtr adapted(ImagePtr map, const ImageInfo& first, const std::string& name, size_t i, const Material& material) {
-  const ImageInfo& own = map->info();
-  if (own.semantic != first.semantic || own.channels != first.channels)
-    throw Error("materials",
-                fmt::format("expected map \"{}\" to be the same in all materials, {} with {} in the first; "
-                            "in {} it is {} with {}",
-                            name, name_of(first.semantic), counted(first.channels, "channel"), nth(i, material),
-                            name_of(own.semantic), own.channels));
-  if (own.semantic == Semantic::normal && own.channels >= 2 && own.normal_y != first.normal_y)
-    map = with_green_reversed(map);
-  return map->info().color_space == first.color_space ? map : convert_color(map, first.color_space);
-}
-
 // --- Images
 
 /// What one exemplar shows in a map of the atlas.
@@ -207,7 +176,7 @@ ImagePtr atlas_map(const std::vector<Exemplar>& exemplars, const std::string& na
   std::vector<Part> parts;
   for (size_t i = 0; i < exemplars.size(); i++) {
     const Material& material = *exemplars[i].material;
-    const ImagePtr map = adapted(material.find(name), info, name, i, material);
+    const ImagePtr map = adapted_map(material, i, name, info);
     info.depth = std::max(info.depth, map->info().depth);
     const Rect place = divided(layout.places[i], divisor);
     parts.push_back({nearest_at_size(map, {place.width, place.height}), place, divided(layout.cells[i], divisor)});

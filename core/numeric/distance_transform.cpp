@@ -8,10 +8,21 @@ namespace terrazzo {
 
 namespace {
 
+/// Which threads work on the lines of a mask.
+enum class Threads : uint8_t { all, own };
+
+template <typename Visit>
+void for_each_line(Threads threads, int count, const Visit& visit) {
+  if (threads == Threads::all)
+    tbb::parallel_for(0, count, visit);
+  else
+    for (int i = 0; i < count; i++) visit(i);
+}
+
 /// Distance to the nearest set pixel of the same column, at most `far`.
-std::vector<int> column_distances(const std::vector<uint8_t>& mask, Size size, bool wraps, int far) {
+std::vector<int> column_distances(const std::vector<uint8_t>& mask, Size size, bool wraps, int far, Threads threads) {
   std::vector<int> g(mask.size());
-  tbb::parallel_for(0, size.width, [&](int x) {
+  for_each_line(threads, size.width, [&](int x) {
     const auto at = [&](int y) { return size_t(y) * size.width + x; };
     // A second lap carries what the first has found around the border.
     const int laps = wraps ? 2 : 1;
@@ -67,9 +78,9 @@ std::vector<int> lowest_parabolas(const std::vector<int64_t>& g) {
 /// Visits every pixel with the nearest set pixel's column, which may lie beyond a border, and its distances along x
 /// and y. `visit(x, y, column, dx, dy)`
 template <typename Visit>
-void for_each_nearest(const std::vector<uint8_t>& mask, Size size, bool wraps, const Visit& visit) {
-  const std::vector<int> g = column_distances(mask, size, wraps, size.width + size.height);
-  tbb::parallel_for(0, size.height, [&](int y) {
+void for_each_nearest(const std::vector<uint8_t>& mask, Size size, bool wraps, Threads threads, const Visit& visit) {
+  const std::vector<int> g = column_distances(mask, size, wraps, size.width + size.height, threads);
+  for_each_line(threads, size.height, [&](int y) {
     // Where distances wrap, half a line more on either side holds every site that can be nearest.
     const int margin = wraps ? (size.width + 1) / 2 : 0;
     std::vector<int64_t> line(size_t(size.width) + 2 * margin);
@@ -82,21 +93,39 @@ void for_each_nearest(const std::vector<uint8_t>& mask, Size size, bool wraps, c
   });
 }
 
-}  // namespace
-
-std::vector<int64_t> squared_distances(const std::vector<uint8_t>& mask, Size size, bool wraps) {
+std::vector<int64_t> squared_distances(const std::vector<uint8_t>& mask, Size size, bool wraps, Threads threads) {
   const int64_t far = size.width + size.height;
   std::vector<int64_t> out(mask.size());
-  for_each_nearest(mask, size, wraps, [&](int x, int y, int, int64_t dx, int64_t dy) {
+  for_each_nearest(mask, size, wraps, threads, [&](int x, int y, int, int64_t dx, int64_t dy) {
     out[size_t(y) * size.width + x] = std::min(dx * dx + dy * dy, far * far);
   });
   return out;
 }
 
+std::vector<float> signed_distances(const std::vector<uint8_t>& mask, Size size, bool wraps, float limit,
+                                    Threads threads) {
+  std::vector<uint8_t> inverse(mask.size());
+  for (size_t i = 0; i < mask.size(); i++) inverse[i] = !mask[i];
+  const std::vector<int64_t> to_set = squared_distances(mask, size, wraps, threads);
+  const std::vector<int64_t> to_unset = squared_distances(inverse, size, wraps, threads);
+  std::vector<float> out(mask.size());
+  for (size_t i = 0; i < mask.size(); i++) {
+    const double d = mask[i] ? 0.5 - std::sqrt(double(to_unset[i])) : std::sqrt(double(to_set[i])) - 0.5;
+    out[i] = std::clamp(float(d), -limit, limit);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<int64_t> squared_distances(const std::vector<uint8_t>& mask, Size size, bool wraps) {
+  return squared_distances(mask, size, wraps, Threads::all);
+}
+
 std::vector<uint32_t> nearest_set(const std::vector<uint8_t>& mask, Size size, bool wraps) {
   std::vector<uint32_t> out(mask.size());
   const auto at = [&](int x, int y) { return size_t(wrap(y, size.height)) * size.width + wrap(x, size.width); };
-  for_each_nearest(mask, size, wraps, [&](int x, int y, int column, int64_t, int64_t dy) {
+  for_each_nearest(mask, size, wraps, Threads::all, [&](int x, int y, int column, int64_t, int64_t dy) {
     const bool above = (wraps || y - dy >= 0) && mask[at(column, int(y - dy))];
     out[at(x, y)] = uint32_t(at(column, int(above ? y - dy : y + dy)));
   });
@@ -104,16 +133,11 @@ std::vector<uint32_t> nearest_set(const std::vector<uint8_t>& mask, Size size, b
 }
 
 std::vector<float> signed_distances(const std::vector<uint8_t>& mask, Size size, bool wraps, float limit) {
-  std::vector<uint8_t> inverse(mask.size());
-  for (size_t i = 0; i < mask.size(); i++) inverse[i] = !mask[i];
-  const std::vector<int64_t> to_set = squared_distances(mask, size, wraps);
-  const std::vector<int64_t> to_unset = squared_distances(inverse, size, wraps);
-  std::vector<float> out(mask.size());
-  for (size_t i = 0; i < mask.size(); i++) {
-    const double d = mask[i] ? 0.5 - std::sqrt(double(to_unset[i])) : std::sqrt(double(to_set[i])) - 0.5;
-    out[i] = std::clamp(float(d), -limit, limit);
-  }
-  return out;
+  return signed_distances(mask, size, wraps, limit, Threads::all);
+}
+
+std::vector<float> signed_distances_here(const std::vector<uint8_t>& mask, Size size, float limit) {
+  return signed_distances(mask, size, false, limit, Threads::own);
 }
 
 }  // namespace terrazzo

@@ -17,5 +17,7 @@ std::vector<uint32_t> nearest_set(const std::vector<uint8_t>& mask, Size size, b
 /// Distance to the nearest pixel of the other kind, less a half, negative where the mask is set: 0 lies on the outline.
 /// In pixels, at most `limit` in size.
 std::vector<float> signed_distances(const std::vector<uint8_t>& mask, Size size, bool wraps, float limit);
+/// The same without wrapping, on the calling thread only: for operations that must not wait for others.
+std::vector<float> signed_distances_here(const std::vector<uint8_t>& mask, Size size, float limit);
 
 }  // namespace terrazzo

@@ -46,6 +46,8 @@ std::vector<GoldenDocument> stock_documents() {
       stock("variants", {"material={in}/photo", small, "scales=[0.8]", "rotations=[90]", "mirror=x"}),
       stock("several", {"first={in}/wall", "second={in}/wall2", small}),
       stock("mix", {"first={in}/wall", "second={in}/wall2", "mix={in}/ramp.png", small, "leeway=4"}),
+      stock("mix", {"first={in}/wall", "second={in}/wall2", "mix={in}/ramp.png", small, "border=height", "width=20"},
+            "height"),
       stock("labels", {wall, "labels={in}/labels.png", "target={in}/layout.png", small, "leeway=3"}),
       stock("progression", {"material={in}/blend", "target={in}/ramp.png", small}),
       stock("transfer", {"material={in}/blend", "target={in}/ramp.png", small, "strength=3"}),

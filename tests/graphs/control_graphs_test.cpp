@@ -71,6 +71,34 @@ TEST_CASE("mix shows the second material where the mix map is white") {
   CHECK(light_part(light, 33, 60) > 0.98);
 }
 
+TEST_CASE("mix fades one material into the other, or says what comparing heights needs") {
+  const Workplace w;
+  write_grey(w.path / "dark/basecolor.png", {48, 48}, [](int x, int y) { return 0.1 + grain(x, y); });
+  write_grey(w.path / "light/basecolor.png", {40, 56}, [](int x, int y) { return 0.7 + grain(x, y); });
+  write_halves(w.path / "map.png");
+  const std::vector<std::string> settings = {"first=dark", "second=light", "mix=map.png", "width=20"};
+  std::vector<std::string> soft = settings;
+  soft.emplace_back("border=soft");
+  const std::vector<bool> light = light_pixels(w, "mix", soft);
+  CHECK(light_part(light, 0, 20) == 0);
+  CHECK(light_part(light, 40, 60) == 1);
+  const ImagePtr image = read_image(w.path / "mix/base_color.png", ImageInfo{}, [](const std::string&) {});
+  const auto mean_of = [&](int x) {
+    double sum = 0;
+    for (const float v : image->read({x, 0, 1, 40})) sum += double(v);
+    return sum / 120;
+  };
+  for (int x = 21; x < 38; x++) CHECK(mean_of(x) < mean_of(x + 1) + 0.03);  // up, but for the grain
+  CHECK(mean_of(29) > mean_of(20) + 0.2);
+  CHECK(mean_of(29) < mean_of(40) - 0.1);
+  std::vector<std::string> args = {"run", TERRAZZO_SOURCE_DIR "/graphs/mix.json", "--set", "size=60x40"};
+  for (const std::string& s : settings) args.insert(args.end(), {"--set", s});
+  args.insert(args.end(), {"--set", "border=height"});
+  const ProgramRun run = w.run(args);
+  CHECK(run.code != 0);
+  CHECK(run.err.find("height compares height maps, and material 1 has only base_color") != std::string::npos);
+}
+
 TEST_CASE("labels lays the exemplar's parts out as painted") {
   const Workplace w;
   write_two_tones(w.path / "stone/basecolor.png");

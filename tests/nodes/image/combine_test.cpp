@@ -55,3 +55,21 @@ TEST_CASE("combine takes a mask for each material, or none") {
   CHECK_THROWS_WITH_AS(run_node("combine", no_gap, {{"materials", {a}}, {"masks", {wide}}}),
                        doctest::Contains("expected an image with the aspect ratio of its material, 8x8 pixels"), Error);
 }
+
+TEST_CASE("with a mix map materials lie over each other, and the user hears which shows where") {
+  const MaterialPtr a = exemplar({24, 16}, 1), b = exemplar({24, 16}, 2);
+  const ImagePtr map = make_image(
+      {12, 8}, 1, [](int x, int, int) { return x < 3 ? 0.f : 1.f; }, Semantic::mask);
+  const NodeRun run = run_node("combine", {}, {{"materials", {a, b}}, {"mix", {map}}});
+  CHECK(run.get<Material>("material")->size() == Size{24, 16});
+  CHECK(run.get<Material>("material")->find("roughness")->read({0, 0, 5, 16}) ==
+        a->find("roughness")->read({0, 0, 5, 16}));
+  CHECK(run.get<Image>("mask")->pixels() == std::vector<float>(24 * 16, 1.f));
+  CHECK(run.get<Image>("labels")->read({5, 5, 2, 1}) == std::vector<float>{0, 1});
+  CHECK(run.says("the materials cover 25 %, 75 % of 24x16 pixels"));
+  const ImagePtr white = flat_image({9, 3}, {1}, Semantic::mask);
+  const NodeRun one = run_node("combine", {{"border", "soft"}}, {{"materials", {a, b}}, {"mix", {white}}});
+  CHECK(one.says("\"mix\" shows only 1 of the 2 materials"));
+  CHECK(one.says("the mix map of 9x3 pixels is stretched to the materials' 24x16"));
+  CHECK(one.get<Material>("material")->find("roughness")->pixels() == b->find("roughness")->pixels());
+}
