@@ -1,5 +1,6 @@
 #include "core/exemplar/elements.h"
 
+#include <cmath>
 #include <set>
 
 namespace terrazzo {
@@ -11,6 +12,14 @@ int whole_elements(const Elements& elements, bool wraps) {
   for (size_t x = 0; x < width; x++) cut.insert({elements.at[x], elements.at[(height - 1) * width + x]});
   for (size_t y = 0; y < height; y++) cut.insert({elements.at[y * width], elements.at[y * width + width - 1]});
   return elements.count - int(cut.size());
+}
+
+double typical_side(const Elements& elements) {
+  std::vector<int64_t> areas(size_t(elements.count));
+  for (const uint16_t e : elements.at) areas[e]++;
+  double squares = 0;
+  for (const int64_t a : areas) squares += double(a) * double(a);
+  return std::sqrt(squares / double(elements.at.size()));
 }
 
 }  // namespace terrazzo

@@ -27,6 +27,9 @@ struct Elements {
 /// How many of them no border cuts. `wraps`: the exemplar tiles.
 int whole_elements(const Elements& elements, bool wraps);
 
+/// The side of a square as large as the element that a pixel belongs to, in the mean of all pixels; in pixels.
+double typical_side(const Elements& elements);
+
 /// Null: none are known.
 using ElementsPtr = std::shared_ptr<const Elements>;
 

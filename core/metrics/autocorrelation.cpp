@@ -110,6 +110,26 @@ double autocorrelation_difference(const Planes& exemplar, const Planes& output, 
   return sum / double(a.front().values.size());
 }
 
+int correlation_length(const Planes& image, const Task& task) {
+  constexpr double falls_to = 0.36787944117144233;  // 1/e
+  const int side = std::min(image.size.width, image.size.height), most = std::max(1, side / 4);
+  const Planes coarse = box_blurred(image, side / 8.0, task);
+  Planes fine = image;
+  for (size_t i = 0; i < fine.values.size(); i++) fine.values[i] -= coarse.values[i];
+  std::vector<double> sums(size_t(most) + 1), counts(sums.size());
+  for (const Correlogram& r : correlograms(without_mean(std::move(fine)), {most, most}, task))
+    for (int dy = 1 - most; dy < most; dy++)
+      for (int dx = 0; dx < most; dx++) {
+        const double apart = std::sqrt(double(dx * dx + dy * dy));
+        if (apart + 0.5 >= double(sums.size())) continue;
+        sums[size_t(apart + 0.5)] += r.at(dx, dy);
+        counts[size_t(apart + 0.5)]++;
+      }
+  for (int lag = 1; lag < most; lag++)
+    if (sums[lag] / counts[lag] < falls_to * sums[1] / counts[1]) return lag;
+  return most;
+}
+
 double repetition(const Planes& exemplar, const Planes& output, const Task& task) {
   const int near = std::max(1, shorter_side(exemplar, output) / 8);
   return std::max(0.0, far_peak(output, near, task) - far_peak(exemplar, near, task));

@@ -27,4 +27,9 @@ double autocorrelation_difference(const Planes& exemplar, const Planes& output, 
 /// repetition.
 double repetition(const Planes& exemplar, const Planes& output, const Task& task);
 
+/// The lag at which what lies apart no longer has to do with one another: the radial mean of the channels'
+/// autocorrelations falls below 1/e of what it is one pixel away. Undulations longer than an eighth of the shorter side
+/// do not count. At most a quarter of that side. About a quarter of the width of stones that differ in colour.
+int correlation_length(const Planes& image, const Task& task);
+
 }  // namespace terrazzo

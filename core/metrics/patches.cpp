@@ -18,13 +18,16 @@ constexpr size_t learnt_patches = 20000;  ///< of which components are learnt
 constexpr int lane = 8;                   ///< outputs computed at once
 constexpr int at_once = 4;                ///< patches computed at once
 
-void gather(const Planes& image, uint32_t patch, const std::vector<float>& mean, float* out) {
-  const int across = patch_positions(image.size).width, row = patch_side * image.channels;
+void gather(const Planes& image, uint32_t patch, int step, const std::vector<float>& mean, float* out) {
+  const int across = patch_positions(image.size, step).width, channels = image.channels;
   const int x = int(patch % uint32_t(across)), y = int(patch / uint32_t(across));
-  for (int dy = 0; dy < patch_side; dy++) {
-    const float* from = image.at(x, y + dy);
-    for (int i = 0; i < row; i++) out[dy * row + i] = from[i] - mean[size_t(dy) * row + i];
-  }
+  const int run = step == 1 ? patch_side * channels : channels, runs = patch_side * channels / run;
+  const float* subtracted = mean.data();
+  for (int dy = 0; dy < patch_side; dy++)
+    for (int k = 0; k < runs; k++) {
+      const float* from = image.at(x + k * step, y + dy * step);
+      for (int i = 0; i < run; i++) *out++ = from[i] - *subtracted++;
+    }
 }
 
 /// `at_once` patches (rows of `inputs` values) times all weights.
@@ -43,18 +46,19 @@ void multiply(const float* patches, const Projection& p, float* const* out) {
 
 }  // namespace
 
-Size patch_positions(Size image) {
-  return {image.width - patch_side + 1, image.height - patch_side + 1};
+Size patch_positions(Size image, int step) {
+  const int reach = (patch_side - 1) * step;
+  return {image.width - reach, image.height - reach};
 }
 
-PatchList all_patches(Size image) {
-  PatchList out(size_t(patch_positions(image).area()));
+PatchList all_patches(Size image, int step) {
+  PatchList out(size_t(patch_positions(image, step).area()));
   std::iota(out.begin(), out.end(), 0u);
   return out;
 }
 
-PatchList random_patches(Size image, size_t count, uint64_t seed) {
-  PatchList out = all_patches(image);
+PatchList random_patches(Size image, size_t count, uint64_t seed, int step) {
+  PatchList out = all_patches(image, step);
   count = std::min(count, out.size());
   for (size_t i = 0; i < count; i++) {
     const uint32_t left = uint32_t(out.size() - i);
@@ -64,21 +68,23 @@ PatchList random_patches(Size image, size_t count, uint64_t seed) {
   return out;
 }
 
-Projection principal_projection(const Planes& image, const PatchList& patches, int outputs, const Task& task) {
+Projection principal_projection(const Planes& image, const PatchList& patches, int outputs, const Task& task,
+                                int step) {
   const int inputs = patch_values(image);
   const size_t count = std::min(patches.size(), learnt_patches);
   std::vector<float> rows(count * inputs);
   const std::vector<float> nothing(inputs);
-  for (size_t i = 0; i < count; i++) gather(image, patches[i * patches.size() / count], nothing, &rows[i * inputs]);
+  for (size_t i = 0; i < count; i++)
+    gather(image, patches[i * patches.size() / count], step, nothing, &rows[i * inputs]);
   const PrincipalComponents pca = principal_components(rows, inputs, outputs, task);
-  Projection p{inputs, outputs, pca.mean, std::vector<float>(size_t(inputs) * outputs)};
+  Projection p{inputs, outputs, step, pca.mean, std::vector<float>(size_t(inputs) * outputs)};
   for (size_t k = 0; k < pca.variances.size(); k++)
     for (int i = 0; i < inputs; i++) p.weights[size_t(i) * outputs + k] = pca.components[k * inputs + i];
   return p;
 }
 
 Projection random_directions(int inputs, int outputs, uint64_t seed) {
-  Projection p{inputs, outputs, std::vector<float>(inputs), std::vector<float>(size_t(inputs) * outputs)};
+  Projection p{inputs, outputs, 1, std::vector<float>(inputs), std::vector<float>(size_t(inputs) * outputs)};
   std::vector<double> direction(inputs);
   for (int k = 0; k < outputs; k++) {
     double norm = 0;
@@ -105,7 +111,7 @@ std::vector<float> project(const Planes& image, const PatchList& patches, const 
       for (int i = 0; i < at_once; i++) {
         const bool real = s + i < range.end();
         to[i] = real ? &out[(s + i) * p.outputs] : spare.data();
-        if (real) gather(image, patches[s + i], p.mean, &gathered[size_t(i) * p.inputs]);
+        if (real) gather(image, patches[s + i], p.step, p.mean, &gathered[size_t(i) * p.inputs]);
       }
       multiply(gathered.data(), p, to);
     }

@@ -10,6 +10,7 @@
 #include "core/metrics/cooccurrence.h"
 #include "core/metrics/copies.h"
 #include "core/metrics/patch_statistics.h"
+#include "core/metrics/structure.h"
 
 namespace terrazzo {
 
@@ -83,6 +84,22 @@ void check_size(const char* port, Size size) {
                             smallest_measured, size.width, size.height));
 }
 
+/// Both with all levels of a pyramid.
+struct Pyramids {
+  std::vector<Planes> exemplar;
+  std::vector<Planes> output;
+};
+
+double structure_of(const Pyramids& pyramids, const QualityParts& parts, const Task& task) {
+  const Size size = pyramids.exemplar[0].size, output = pyramids.output[0].size;
+  const double element = parts.element > 0 ? parts.element : 4 * correlation_length(pyramids.exemplar[0], task);
+  const StructureWindow w =
+      structure_window(element, {std::min(size.width, output.width), std::min(size.height, output.height)});
+  const int whole_steps = 1 << w.level;
+  const bool wraps = parts.wraps && size.width % whole_steps == 0 && size.height % whole_steps == 0;
+  return foreign_structure(pyramids.exemplar[w.level], pyramids.output[w.level], w.step, wraps, task);
+}
+
 }  // namespace
 
 std::vector<std::string> compared_maps(const Material& exemplar, const Material& output,
@@ -127,10 +144,12 @@ Quality measure_quality(Planes exemplar, Planes output, const QualityParts& part
   q.repeat = repetition(exemplar, output, task);
   task.progress(0.2);
   const int levels = level_count(exemplar, output);
-  const std::vector<Planes> e = gaussian_pyramid(std::move(exemplar), levels);
-  const std::vector<Planes> o = gaussian_pyramid(std::move(output), levels);
+  const Pyramids pyramids{gaussian_pyramid(std::move(exemplar), levels), gaussian_pyramid(std::move(output), levels)};
+  const std::vector<Planes>&e = pyramids.exemplar, &o = pyramids.output;
   const int half = std::min(1, levels - 1), compared = std::min(patch_levels, levels);
   if (parts.verbatim) q.verbatim = verbatim_copies(e[half], o[half], task);
+  task.progress(0.3);
+  q.structure = structure_of(pyramids, parts, task);
   task.progress(0.4);
   for (int i = 0; i < levels; i++) q.swd += sliced_wasserstein(e[i], o[i], task) / levels;
   task.progress(0.6);

@@ -17,9 +17,10 @@ struct Quality {
   double coherence = 0;     ///< see PatchSimilarity; mean over up to 3 levels
   double completeness = 0;
   double broken = 0;
-  double acf = 0;       ///< see autocorrelation_difference
-  double verbatim = 0;  ///< see verbatim_copies; at half size
-  double repeat = 0;    ///< see repetition
+  double structure = 0;  ///< see foreign_structure; in windows of a third to a half of an element
+  double acf = 0;        ///< see autocorrelation_difference
+  double verbatim = 0;   ///< see verbatim_copies; at half size
+  double repeat = 0;     ///< see repetition
 };
 
 /// Pixels a side of the smallest image that can be measured.
@@ -27,9 +28,11 @@ inline constexpr int smallest_measured = 16;
 /// Pixels a side; of larger images only the top left part is measured.
 inline constexpr int largest_measured = 2048;
 
-/// What to measure; the rest stays 0.
+/// What to measure, and what is known of the exemplar.
 struct QualityParts {
-  bool verbatim = true;  ///< not needed with a uv map
+  bool verbatim = true;  ///< not needed with a uv map; stays 0 then
+  double element = 0;    ///< side of its typical element in pixels; 0: four times its correlation_length
+  bool wraps = false;    ///< it tiles
 };
 
 /// Both images have the same channels and at least smallest_measured pixels a side. Deterministic. Thread-safe; throws

@@ -39,6 +39,10 @@ void add_pixel_figures(const Quality& q, std::vector<Report::Figure>& out) {
   out.push_back(
       {"broken", rounded(q.broken),
        "share of output patches unlike anything in the exemplar (cut features, hard seams); lower is better"});
+  out.push_back(
+      {"structure", rounded(q.structure),
+       "share of windows, up to half an element wide, whose edges run as nowhere in the exemplar (joints that "
+       "end in a stone, courses that jog); lower is better, another sample has about 0.05"});
   out.push_back({"acf", rounded(q.acf),
                  "difference of the autocorrelations (long-range structure: courses, weaves); lower is better"});
 }
@@ -119,6 +123,15 @@ const UvMapPtr& require_uv(const UvMapPtr& uv) {
   return uv;
 }
 
+/// None if the labels do not tell several apart.
+std::optional<Elements> given_elements(NodeContext& node, const UvMapPtr& uv) {
+  const ImagePtr labels = node.optional_input<Image>("labels");
+  if (!labels) return std::nullopt;
+  Elements elements = labelled_elements(labels, require_uv(uv)->exemplar(), node.task());
+  if (elements.count <= 1) return std::nullopt;
+  return elements;
+}
+
 void compute(NodeContext& node) {
   const MaterialPtr exemplar = node.input<Material>("exemplar"), output = node.input<Material>("output");
   const UvMapPtr uv = node.optional_input<UvMap>("uv");
@@ -132,8 +145,14 @@ void compute(NodeContext& node) {
                             std::min(material->size().height, largest_measured)));
 
   std::optional<LayoutFigures> layout;
-  if (uv) layout = layout_figures(*uv, planes.exemplar, node.flag("wraps") || uv->wraps().exemplar);
-  const QualityParts parts{.verbatim = !layout};
+  const bool wraps = node.flag("wraps") || (uv && uv->wraps().exemplar);
+  if (uv) layout = layout_figures(*uv, planes.exemplar, wraps);
+  const std::optional<Elements> elements = given_elements(node, uv);
+  const bool is_whole = planes.exemplar.size == exemplar->size();
+  const QualityParts parts{
+      .verbatim = !layout,
+      .element = elements ? typical_side(*elements) * exemplar->size().width / elements->size.width : 0,
+      .wraps = wraps && is_whole};
   const Quality q = measure_quality(std::move(planes.exemplar), std::move(planes.output), parts, node.task());
 
   std::vector<Report::Figure> figures;
@@ -146,10 +165,7 @@ void compute(NodeContext& node) {
   figures.push_back(
       {"repeat", rounded(q.repeat), "how much stronger the output repeats itself than the exemplar; lower is better"});
   if (layout) add_layout_figures(*layout, figures);
-  if (const ImagePtr labels = node.optional_input<Image>("labels")) {
-    const Elements elements = labelled_elements(labels, require_uv(uv)->exemplar(), node.task());
-    if (elements.count > 1) add_element_figures(hybrid_elements(*uv, elements, node.task()), figures);
-  }
+  if (elements) add_element_figures(hybrid_elements(*uv, *elements, node.task()), figures);
   add_wrap_figures(*output, maps, expected_wraps(node.text("tileable"), uv.get()), figures);
 
   const ImagePtr sheet = comparison_sheet(*exemplar, *output, maps, int(node.integer("sheet_size")));
@@ -175,7 +191,8 @@ size_t memory_hint(const NodeContext& node) {
 std::vector<ComparedFigure> compared_figures(const Params& params, bool has_uv, bool has_labels) {
   using Better = ComparedFigure::Better;
   std::vector<ComparedFigure> out;
-  for (const char* name : {"swd", "cooccurrence", "coherence", "completeness", "broken", "acf", "verbatim", "repeat"})
+  for (const char* name :
+       {"swd", "cooccurrence", "coherence", "completeness", "broken", "structure", "acf", "verbatim", "repeat"})
     out.push_back({name});
   if (has_uv)
     for (const char* name : {"largest_copy", "usage_entropy", "seam_share", "seam_difference", "seam_energy"})
@@ -192,13 +209,14 @@ std::vector<ComparedFigure> compared_figures(const Params& params, bool has_uv, 
 NodeType compare_node() {
   NodeType t;
   t.name = "compare";
-  t.version = 5;
+  t.version = 6;
   t.category = "sink";
   t.summary = "Scores a result against its exemplar";
   t.help =
       "Measures how well an output reproduces its exemplar's texture, without learned weights: patch statistics over "
       "several scales (sliced Wasserstein distance), co-occurrence of values, bidirectional patch similarity (Simakov "
-      "et al. 2008), autocorrelation, repetition and verbatim copies; with the uv map also seams, evenness of use and "
+      "et al. 2008), structure at the scale of elements, autocorrelation, repetition and verbatim copies; with the uv "
+      "map also seams, evenness of use and "
       "the exact size of copies. Read the figures together: plain tiling wins all of them except verbatim and repeat.";
   t.inputs = {
       {.name = "exemplar", .type = ValueType::material, .help = "what the output should look like"},
@@ -210,7 +228,7 @@ NodeType compare_node() {
       {.name = "labels",
        .type = ValueType::image,
        .help = "the exemplar's elements, one value for each, as \"elements\" gives them: adds the figures hybrids and "
-               "hybrids_by_number; needs \"uv\"",
+               "hybrids_by_number, and tells structure how large elements are; needs \"uv\"",
        .optional = true},
   };
   t.outputs = {

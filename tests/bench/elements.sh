@@ -11,8 +11,8 @@ folders=()
 for folder; do folders+=("$(realpath "$folder")"); done
 cd "$(dirname "$0")/../.."
 export TERRAZZO_CACHE=$out/cache
-echo "| exemplar | seed | certainty | | hybrids | by number | broken | swd | coherence | complete | s |"
-echo "|---|---|---|---|---|---|---|---|---|---|---|"
+echo "| exemplar | seed | certainty | | hybrids | by number | broken | structure | swd | coherence | complete | s |"
+echo "|---|---|---|---|---|---|---|---|---|---|---|---|"
 for folder in "${folders[@]}"; do
   name=$(basename "$folder")
   for seed in ${SEEDS:-1}; do
@@ -30,7 +30,7 @@ sure = re.search(r'"elements": .*certainty ([0-9.]+)', log)
 took = re.search(r"layout \(synthesize\) ([0-9.]+) s", log)
 cells = [name, seed, sure.group(1) if sure else "none", to.rsplit("-", 1)[1]]
 cells += [f"{figures[k]:.3f}" if k in figures else "-"
-          for k in ("hybrids", "hybrids_by_number", "broken", "swd", "coherence", "completeness")]
+          for k in ("hybrids", "hybrids_by_number", "broken", "structure", "swd", "coherence", "completeness")]
 print("| " + " | ".join(cells + [took.group(1) if took else "cached"]) + " |")
 P
     done

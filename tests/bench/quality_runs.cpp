@@ -119,7 +119,7 @@ const std::vector<Column>& columns() {
   static const std::vector<Column> all = {
       {"swd", &Quality::swd, 4},       {"coherence", &Quality::coherence, 3}, {"complete", &Quality::completeness, 3},
       {"acf", &Quality::acf, 4},       {"broken", &Quality::broken, 4},       {"verbatim", &Quality::verbatim, 3},
-      {"repeat", &Quality::repeat, 3}, {"cooccur", &Quality::cooccurrence, 4}};
+      {"repeat", &Quality::repeat, 3}, {"structure", &Quality::structure, 3}, {"cooccur", &Quality::cooccurrence, 4}};
   return all;
 }
 

@@ -60,6 +60,7 @@ TEST_CASE("a thing compared with itself has no distance, though not all of its p
   CHECK(q.coherence == 0);
   CHECK(q.completeness == 0);
   CHECK(q.broken == 0);
+  CHECK(q.structure == 0);
 }
 
 TEST_CASE("distances of distributions rise from tiling over a new sample to spoilt outputs") {
@@ -75,6 +76,22 @@ TEST_CASE("patch similarity tells whole features from cut, smeared and foreign o
 
 TEST_CASE("autocorrelation tells whether courses were kept") {
   check_order(&Quality::acf, {{"tiling"}, {"sample"}, {"blocks", "blur"}, {"shuffled"}, {"different"}});
+}
+
+TEST_CASE("structure tells whole courses from cut, smeared and foreign ones") {
+  check_order(&Quality::structure, {{"tiling"}, {"sample"}, {"blocks"}, {"blur", "shuffled", "different"}});
+}
+
+TEST_CASE("windows of structure are as large as elements that are known, else as the texture's correlation") {
+  const Planes exemplar = bricks({128, 128}, 1), output = random_blocks(exemplar, {160, 160}, 40, 3);
+  const auto structure = [&](const QualityParts& parts) {
+    ComparedPlanes planes = compared_planes(*material(exemplar), *material(output), {});
+    return measure_quality(std::move(planes.exemplar), std::move(planes.output), parts, Task()).structure;
+  };
+  const double small = structure({.verbatim = false, .element = 14}), large = structure({.element = 64});
+  CHECK(small > 0);
+  CHECK(large > small);
+  CHECK(structure({}) > 0);
 }
 
 TEST_CASE("copies and repeats are found in a tiling and not in a new sample") {
@@ -115,8 +132,8 @@ TEST_CASE("figures do not depend on the number of threads") {
   const auto run = [&](int threads) {
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     const Quality q = measured(exemplar, output);
-    return std::vector<double>{q.swd,    q.cooccurrence, q.coherence, q.completeness,
-                               q.broken, q.acf,          q.verbatim,  q.repeat};
+    return std::vector<double>{q.swd,       q.cooccurrence, q.coherence, q.completeness, q.broken,
+                               q.structure, q.acf,          q.verbatim,  q.repeat};
   };
   CHECK(run(1) == run(4));
 }

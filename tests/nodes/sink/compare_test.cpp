@@ -62,9 +62,10 @@ TEST_CASE("compare reports figures and a sheet, and figures of the layout when i
                                                             {"output", {image(output)}}};
   const NodeRun plain = run_node("compare", {}, inputs);
   const auto without = figures(plain);
-  for (const char* name : {"swd", "cooccurrence", "coherence", "completeness", "broken", "acf", "verbatim", "repeat"})
+  for (const char* name :
+       {"swd", "cooccurrence", "coherence", "completeness", "broken", "structure", "acf", "verbatim", "repeat"})
     CHECK_MESSAGE(without.count(name), name);
-  CHECK(without.size() == 8);
+  CHECK(without.size() == 9);
   CHECK(plain.get<Image>("sheet")->size() == Size{32 + 48 + 18, 64 + 12 + 9});
   CHECK(plain.get<Report>("report")->pictures().size() == 1);
 
@@ -74,7 +75,7 @@ TEST_CASE("compare reports figures and a sheet, and figures of the layout when i
   auto with_uv = inputs;
   with_uv["uv"] = {UvMap::make({48, 64}, {32, 32}, pixels)};
   const auto with = figures(run_node("compare", {}, with_uv));
-  CHECK(with.size() == 13);
+  CHECK(with.size() == 14);
   CHECK(with.at("largest_copy") == 1);
   CHECK(with.at("seam_share") > 0);
   CHECK(figures(run_node("compare", {{"wraps", true}}, with_uv)).at("seam_share") == 0);
