@@ -111,13 +111,13 @@ class LatticePhase {
   bool is_whole() const { return whole_; }
 
   /// What the exemplar position (u, v) has too much to be in phase with the output position (x, y), in pixels.
-  Vector2d excess(int u, int v, double x, double y) const {
+  [[gnu::always_inline]] Vector2d excess(int u, int v, double x, double y) const {
     const Vector2d c = cells(u, v, x, y);
     return first_ * (c.x() - nearest(c.x())) + second_ * (c.y() - nearest(c.y()));
   }
 
   /// Moves (u, v) into phase with (x, y); where cells are not resolved, to the position in reach that is nearest to it.
-  void snap(double x, double y, int& u, int& v) const {
+  [[gnu::always_inline]] void snap(double x, double y, int& u, int& v) const {
     if (!active()) return;
     if (!resolves_cells_) {
       search(x, y, u, v);
@@ -129,7 +129,7 @@ class LatticePhase {
   }
 
   /// Factor on the cost of a candidate that is further out of phase than the lattice's certainty leaves open.
-  double penalty(int u, int v, double x, double y) const { return penalty(excess(u, v, x, y)); }
+  [[gnu::always_inline]] double penalty(int u, int v, double x, double y) const { return penalty(excess(u, v, x, y)); }
 
   /// One of the result's positions that are in phase with the exemplar position (u, v). Only where nothing bends.
   Vector2d shown_at(int u, int v) const {
@@ -139,14 +139,14 @@ class LatticePhase {
 
  private:
   static Matrix2d to_cells(const Lattice& lattice, double scale);
-  static double nearest(double v) { return std::floor(v + 0.5); }
-  double penalty(const Vector2d& excess) const {
+  [[gnu::always_inline]] static double nearest(double v) { return std::floor(v + 0.5); }
+  [[gnu::always_inline]] double penalty(const Vector2d& excess) const {
     const double misfit = excess.squaredNorm() * stiffness_;
     return misfit <= 1 ? 1.0 : 1.0 + misfit;
   }
 
   /// By how many cells, in each direction, the exemplar position (u, v) is too far on for the output position (x, y).
-  Vector2d cells(int u, int v, double x, double y) const {
+  [[gnu::always_inline]] Vector2d cells(int u, int v, double x, double y) const {
     Vector2d straight = to_exemplar_.col(0) * double(u) + to_exemplar_.col(1) * double(v) - to_output_.col(0) * x -
                         to_output_.col(1) * y + origin_;
     if (bent_x_.empty()) return straight;
@@ -156,7 +156,9 @@ class LatticePhase {
   /// level on which the lattice misses whole cells by `misfit`.
   std::vector<Vector2d> bent(int length, const Vector2d& misfit, int level, const LatticeGap& gap) const;
   /// What it costs to take a step: of several positions in phase the nearest is the best.
-  static double cost(double penalty, int dx, int dy) { return penalty + 0.001 * (dx * dx + dy * dy); }
+  [[gnu::always_inline]] static double cost(double penalty, int dx, int dy) {
+    return penalty + 0.001 * (dx * dx + dy * dy);
+  }
 
   // A step's bit: the rows of a square, each in a byte.
   static constexpr int farthest = 3;
@@ -165,10 +167,12 @@ class LatticePhase {
   static constexpr int step_y(int bit) { return bit / 8 - farthest; }
 
   static constexpr int bins = 64;
-  static int bin_of(double cells) { return std::min(bins - 1, int((cells - std::floor(cells)) * bins)); }
+  [[gnu::always_inline]] static int bin_of(double cells) {
+    return std::min(bins - 1, int((cells - std::floor(cells)) * bins));
+  }
 
   /// Takes the cheapest of the steps to pixels up to `farthest` away along each axis.
-  void search(double x, double y, int& u, int& v) const {
+  [[gnu::always_inline]] void search(double x, double y, int& u, int& v) const {
     const Vector2d place = cells(u, v, x, y);
     uint64_t left = promising_[size_t(bin_of(place.x()) + (rank_ == 1 ? 0 : bin_of(place.y()) * bins))];
     int best = std::countr_zero(left);

@@ -40,6 +40,36 @@ Correlogram normalized(const std::vector<std::complex<double>>& sums, bool imagi
   return out;
 }
 
+using Grid = std::vector<std::complex<double>>;
+
+Size padded_size(const Planes& image, Size lags) {
+  return {padded_length(image.size.width + lags.width), padded_length(image.size.height + lags.height)};
+}
+
+/// The power spectra of two channels, as real and imaginary parts: two real channels travel as one complex grid. That
+/// of the last of an odd number of channels comes with 0.
+Grid power_spectra(const Planes& image, int c, Size padded) {
+  const bool two = c + 1 < image.channels;
+  Grid grid(size_t(padded.area()));
+  for (int y = 0; y < image.size.height; y++)
+    for (int x = 0; x < image.size.width; x++) {
+      const float* v = image.at(x, y) + c;
+      grid[size_t(y) * padded.width + x] = {v[0], two ? v[1] : 0.0};
+    }
+  transform_2d(grid, padded.width, padded.height, false, image.size.height, padded.width);
+  Grid power(grid.size());
+  for (int y = 0; y < padded.height; y++) {
+    const std::complex<double>* row = &grid[size_t(y) * padded.width];
+    const std::complex<double>* mirrored = &grid[size_t((padded.height - y) % padded.height) * padded.width];
+    std::complex<double>* out = &power[size_t(y) * padded.width];
+    for (int x = 0; x < padded.width; x++) {
+      const std::complex<double> z = row[x], m = std::conj(mirrored[x == 0 ? 0 : padded.width - x]);
+      out[x] = {squared(z + m) / 4, squared(z - m) / 4};
+    }
+  }
+  return power;
+}
+
 /// The channel that far_peak looks at: details up to the size `near`, of all channels together.
 Planes details(const Planes& image, int near) {
   const Planes smooth = blurred(image, 1, Beyond::mirrored);
@@ -69,32 +99,28 @@ double far_peak(const Planes& image, int near, const Task& task) {
 }  // namespace
 
 std::vector<Correlogram> correlograms(const Planes& image, Size lags, const Task& task) {
-  const Size padded{padded_length(image.size.width + lags.width), padded_length(image.size.height + lags.height)};
+  const Size padded = padded_size(image, lags);
   std::vector<Correlogram> out;
   for (int c = 0; c < image.channels; c += 2) {
     task.check();
-    const bool two = c + 1 < image.channels;
-    // Two real channels travel as one complex grid, and so do their power spectra on the way back.
-    std::vector<std::complex<double>> grid(size_t(padded.area()));
-    for (int y = 0; y < image.size.height; y++)
-      for (int x = 0; x < image.size.width; x++) {
-        const float* v = image.at(x, y) + c;
-        grid[size_t(y) * padded.width + x] = {v[0], two ? v[1] : 0.0};
-      }
-    transform_2d(grid, padded.width, padded.height, false);
-    std::vector<std::complex<double>> power(grid.size());
-    for (int y = 0; y < padded.height; y++)
-      for (int x = 0; x < padded.width; x++) {
-        const size_t mirror =
-            size_t((padded.height - y) % padded.height) * padded.width + size_t((padded.width - x) % padded.width);
-        const std::complex<double> z = grid[size_t(y) * padded.width + x], m = std::conj(grid[mirror]);
-        power[size_t(y) * padded.width + x] = {squared(z + m) / 4, squared(z - m) / 4};
-      }
-    transform_2d(power, padded.width, padded.height, true);
+    Grid power = power_spectra(image, c, padded);
+    transform_2d(power, padded.width, padded.height, true, padded.height, lags.width);
     out.push_back(normalized(power, false, image.size, padded, lags));
-    if (two) out.push_back(normalized(power, true, image.size, padded, lags));
+    if (c + 1 < image.channels) out.push_back(normalized(power, true, image.size, padded, lags));
   }
   return out;
+}
+
+Correlogram pooled_correlogram(const Planes& image, Size lags, const Task& task) {
+  const Size padded = padded_size(image, lags);
+  Grid sum(size_t(padded.area()));
+  for (int c = 0; c < image.channels; c += 2) {
+    task.check();
+    const Grid power = power_spectra(image, c, padded);
+    for (size_t i = 0; i < sum.size(); i++) sum[i] += power[i].real() + power[i].imag();
+  }
+  transform_2d(sum, padded.width, padded.height, true, padded.height, lags.width);
+  return normalized(sum, false, image.size, padded, lags);
 }
 
 double autocorrelation_difference(const Planes& exemplar, const Planes& output, const Task& task) {

@@ -18,6 +18,9 @@ struct Correlogram {
 /// Per channel; subtract the mean first. `lags`: at most the image's size. Throws Cancelled.
 std::vector<Correlogram> correlograms(const Planes& image, Size lags, const Task& task);
 
+/// Of all channels together, each counting by its variance; subtract the means first. Throws Cancelled.
+Correlogram pooled_correlogram(const Planes& image, Size lags, const Task& task);
+
 /// Mean absolute difference of the images' autocorrelations, averaged over channels, at lags up to a quarter of the
 /// smaller image's shorter side. 0 = equal; measures whether long-range structure (courses, weaves) was kept.
 double autocorrelation_difference(const Planes& exemplar, const Planes& output, const Task& task);

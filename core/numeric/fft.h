@@ -19,11 +19,17 @@ class Fft {
 
  private:
   int length_;
-  std::vector<std::complex<double>> twiddles_;  ///< exp(-2 pi i k / length), k < length / 2
+  /// exp(-2 pi i k / order), k < order / 2, for the orders 2, 4, ... length one after another.
+  std::vector<std::complex<double>> twiddles_;
   std::vector<int> reversed_;
 };
 
 /// A grid of width * height complex numbers, row by row, transformed along both axes.
 void transform_2d(std::vector<std::complex<double>>& grid, int width, int height, bool inverse);
+
+/// The same in less time if only the first `filled_rows` rows hold anything but 0, and only the first `wanted_columns`
+/// columns of the result are asked for; others are left undefined.
+void transform_2d(std::vector<std::complex<double>>& grid, int width, int height, bool inverse, int filled_rows,
+                  int wanted_columns);
 
 }  // namespace terrazzo

@@ -1,8 +1,19 @@
 #include "core/numeric/grid_cut.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace terrazzo {
+
+namespace {
+
+constexpr int out_of_reach = std::numeric_limits<int>::max();
+
+constexpr int back(int side) {
+  return (side + 2) % 4;
+}
+
+}  // namespace
 
 void GridCut::reset(int nodes) {
   nodes_.assign(size_t(nodes), {});
@@ -11,86 +22,166 @@ void GridCut::reset(int nodes) {
 void GridCut::join(int node, int side, int other, int64_t cost) {
   Node& n = nodes_[size_t(node)];
   n.to[size_t(side)] = other;
-  n.capacity[size_t(side)] = cost;
+  n.capacity[size_t(side)] = int32_t(cost);
 }
 
 void GridCut::solve() {
-  while (find_distances())
-    for (size_t n = 0; n < nodes_.size(); n++)
-      while (nodes_[n].excess > 0 && nodes_[n].distance > 0 && push_from(int(n))) {
-      }
-  find_source_side();
-}
-
-/// Whether the sink can be reached from the source.
-bool GridCut::find_distances() {
-  queue_.clear();
-  for (size_t n = 0; n < nodes_.size(); n++) {
-    nodes_[n].distance = nodes_[n].excess < 0 ? 1 : 0;
-    nodes_[n].side = 0;
-    if (nodes_[n].distance > 0) queue_.push_back(int(n));
+  active_.clear();
+  time_ = 0;
+  for (size_t i = 0; i < nodes_.size(); i++) {
+    Node& n = nodes_[i];
+    if (n.excess == 0) continue;
+    n.tree = n.excess > 0 ? Tree::source : Tree::sink;
+    n.parent = terminal;
+    n.distance = 1;
+    activate(int(i));
   }
-  bool reached = false;
-  for (size_t i = 0; i < queue_.size(); i++) {
-    const Node& n = nodes_[size_t(queue_[i])];
-    for (size_t s = 0; s < 4; s++) {
-      if (n.to[s] < 0) continue;
-      Node& before = nodes_[size_t(n.to[s])];
-      if (before.distance > 0 || before.capacity[(s + 2) % 4] <= 0) continue;
-      before.distance = n.distance + 1;
-      reached |= before.excess > 0;
-      queue_.push_back(n.to[s]);
+  for (size_t i = 0; i < active_.size(); i++) {
+    const int node = active_[i];
+    while (nodes_[size_t(node)].tree != Tree::none) {
+      const Join join = grow(node);
+      if (join.node < 0) break;
+      time_++;
+      augment(join);
+      adopt_orphans();
     }
+    nodes_[size_t(node)].active = false;
   }
-  return reached;
 }
 
-/// Lets as much flow as one shortest way takes. False if none is left from here.
-bool GridCut::push_from(int start) {
-  way_.clear();
-  int at = start;
-  while (nodes_[size_t(at)].excess >= 0) {
-    Node& n = nodes_[size_t(at)];
-    const auto leads_nearer = [&](int s) {
-      return n.to[size_t(s)] >= 0 && n.capacity[size_t(s)] > 0 &&
-             nodes_[size_t(n.to[size_t(s)])].distance == n.distance - 1;
-    };
-    while (n.side < 4 && (n.distance <= 1 || !leads_nearer(n.side))) n.side++;
-    if (n.side < 4) {
-      way_.push_back({at, n.side});
-      at = n.to[size_t(n.side)];
+/// Of the join on that side: what can still flow out of the node, or into it.
+int32_t& GridCut::capacity(Node& n, int side, bool out) {
+  return out ? n.capacity[size_t(side)] : beside(n, side).capacity[size_t(back(side))];
+}
+
+void GridCut::activate(int node) {
+  if (nodes_[size_t(node)].active) return;
+  nodes_[size_t(node)].active = true;
+  active_.push_back(node);
+}
+
+/// Takes in free neighbours, until one of the other tree is met.
+GridCut::Join GridCut::grow(int node) {
+  Node& n = nodes_[size_t(node)];
+  for (int side = 0; side < 4; side++) {
+    if (n.to[size_t(side)] < 0 || capacity(n, side, n.tree == Tree::source) <= 0) continue;
+    Node& m = beside(n, side);
+    if (m.tree == Tree::none) {
+      m.tree = n.tree;
+      activate(n.to[size_t(side)]);
+    } else if (m.tree != n.tree) {
+      return n.tree == Tree::source ? Join{node, side} : Join{n.to[size_t(side)], back(side)};
+    } else if (m.looked_at > n.looked_at || m.distance <= n.distance + 1) {
+      continue;  // it is as near to the terminal without this node
+    }
+    m.parent = int8_t(back(side));
+    m.distance = n.distance + 1;
+    m.looked_at = n.looked_at;
+  }
+  return {};
+}
+
+/// Sends as much as fits along the way that the join completes.
+void GridCut::augment(const Join& join) {
+  Node& n = nodes_[size_t(join.node)];
+  const int other = n.to[size_t(join.side)];
+  const int64_t flow = std::min({int64_t{n.capacity[size_t(join.side)]}, least_on_way(join.node), least_on_way(other)});
+  n.capacity[size_t(join.side)] -= int32_t(flow);
+  beside(n, join.side).capacity[size_t(back(join.side))] += int32_t(flow);
+  send(join.node, flow);
+  send(other, flow);
+}
+
+/// What fits between a node and its terminal.
+int64_t GridCut::least_on_way(int node) {
+  int64_t least = std::numeric_limits<int64_t>::max();
+  Node* n = &nodes_[size_t(node)];
+  const bool towards_sink = n->tree == Tree::sink;
+  for (; n->parent != terminal; n = &beside(*n, n->parent))
+    least = std::min(least, int64_t{capacity(*n, n->parent, towards_sink)});
+  return std::min(least, towards_sink ? -n->excess : n->excess);
+}
+
+/// Sends flow between a node and its terminal. Nodes whose way to it is used up become orphans.
+void GridCut::send(int node, int64_t flow) {
+  Node* n = &nodes_[size_t(node)];
+  const bool towards_sink = n->tree == Tree::sink;
+  const auto orphan = [&](Node& m) {
+    m.parent = orphaned;
+    orphans_.push_back(int(&m - nodes_.data()));
+  };
+  while (n->parent != terminal) {
+    const int side = n->parent;
+    Node& parent = beside(*n, side);
+    capacity(*n, side, !towards_sink) += int32_t(flow);
+    int32_t& left = capacity(*n, side, towards_sink);
+    left -= int32_t(flow);
+    if (left == 0) orphan(*n);
+    n = &parent;
+  }
+  n->excess += towards_sink ? flow : -flow;
+  if (n->excess == 0) orphan(*n);
+}
+
+void GridCut::adopt_orphans() {
+  for (size_t i = 0; i < orphans_.size(); i++)
+    if (!find_parent(nodes_[size_t(orphans_[i])])) give_up(orphans_[i]);
+  orphans_.clear();
+}
+
+/// The neighbour of the same tree that is nearest to the terminal, if one is joined to it still.
+bool GridCut::find_parent(Node& orphan) {
+  int least = out_of_reach;
+  int8_t parent = orphaned;
+  for (int side = 0; side < 4; side++) {
+    if (orphan.to[size_t(side)] < 0 || beside(orphan, side).tree != orphan.tree ||
+        capacity(orphan, side, orphan.tree == Tree::sink) <= 0)
       continue;
-    }
-    if (way_.empty()) return false;
-    at = way_.back()[0];
-    way_.pop_back();
-    nodes_[size_t(at)].side++;
+    const int found = distance(orphan.to[size_t(side)]);
+    if (found >= least) continue;
+    least = found;
+    parent = int8_t(side);
   }
-  int64_t flow = std::min(nodes_[size_t(start)].excess, -nodes_[size_t(at)].excess);
-  for (const auto& [n, s] : way_) flow = std::min(flow, nodes_[size_t(n)].capacity[size_t(s)]);
-  for (const auto& [n, s] : way_) {
-    nodes_[size_t(n)].capacity[size_t(s)] -= flow;
-    nodes_[size_t(nodes_[size_t(n)].to[size_t(s)])].capacity[size_t(s + 2) % 4] += flow;
-  }
-  nodes_[size_t(start)].excess -= flow;
-  nodes_[size_t(at)].excess += flow;
+  if (parent == orphaned) return false;
+  orphan.parent = parent;
+  orphan.distance = least + 1;
+  orphan.looked_at = time_;
   return true;
 }
 
-void GridCut::find_source_side() {
-  queue_.clear();
-  for (size_t n = 0; n < nodes_.size(); n++) {
-    nodes_[n].distance = nodes_[n].excess > 0 ? 1 : 0;
-    if (nodes_[n].distance > 0) queue_.push_back(int(n));
+/// How many steps lead to the terminal; remembered for all nodes on the way.
+int GridCut::distance(int node) {
+  int steps = 0;
+  Node* n = &nodes_[size_t(node)];
+  for (; n->looked_at != time_; n = &beside(*n, n->parent), steps++) {
+    if (n->parent == orphaned) return out_of_reach;
+    if (n->parent != terminal) continue;
+    n->distance = 1;
+    n->looked_at = time_;
+    break;
   }
-  for (size_t i = 0; i < queue_.size(); i++) {
-    const Node& n = nodes_[size_t(queue_[i])];
-    for (size_t s = 0; s < 4; s++)
-      if (n.to[s] >= 0 && n.capacity[s] > 0 && nodes_[size_t(n.to[s])].distance == 0) {
-        nodes_[size_t(n.to[s])].distance = n.distance + 1;
-        queue_.push_back(n.to[s]);
-      }
+  const int found = n->distance + steps;
+  int left = found;
+  for (n = &nodes_[size_t(node)]; n->looked_at != time_; n = &beside(*n, n->parent)) {
+    n->distance = left--;
+    n->looked_at = time_;
   }
+  return found;
+}
+
+/// Leaves an orphan to either tree, and its children as orphans.
+void GridCut::give_up(int node) {
+  Node& n = nodes_[size_t(node)];
+  for (int side = 0; side < 4; side++) {
+    if (n.to[size_t(side)] < 0) continue;
+    Node& m = beside(n, side);
+    if (m.tree != n.tree) continue;
+    if (capacity(n, side, n.tree == Tree::sink) > 0) activate(n.to[size_t(side)]);
+    if (m.parent != back(side)) continue;
+    m.parent = orphaned;
+    orphans_.push_back(n.to[size_t(side)]);
+  }
+  n.tree = Tree::none;
 }
 
 }  // namespace terrazzo

@@ -1,9 +1,12 @@
 #include "core/numeric/nearest.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+
+#include "core/numeric/leaf_distances.h"
 
 namespace terrazzo {
 
@@ -70,20 +73,9 @@ void NearestPoints::add_leaf(const std::vector<float>& points, const uint32_t* b
 }
 
 void NearestPoints::scan(uint32_t leaf, Search& search) const {
+  std::array<float, leaf_size> squared;
   const float* values = &leaf_values_[size_t(leaf) * dimensions_ * leaf_size];
-  float squared[leaf_size] = {};
-  for (int k = 0; k < dimensions_;) {
-    for (const int stop = std::min(k + 8, dimensions_); k < stop; k++, values += leaf_size) {
-      const float q = search.query[k];
-      for (int i = 0; i < leaf_size; i++) {
-        const float d = values[i] - q;
-        squared[i] += d * d;
-      }
-    }
-    bool any = false;
-    for (const float s : squared) any |= s <= search.best.squared;
-    if (!any) return;
-  }
+  if (!leaf_distances(values, search.query, dimensions_, search.best.squared, squared.data())) return;
   const uint32_t* indices = &leaf_indices_[size_t(leaf) * leaf_size];
   for (int i = 0; i < leaf_size; i++) {
     const bool better =

@@ -4,6 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "core/numeric/leaf_distances.h"
+
 namespace terrazzo {
 
 /// A kd-tree over points (Bentley 1975) with the bounded-error search of Arya & Mount (1998). Immutable once built;
@@ -25,7 +27,7 @@ class NearestPoints {
   Match find(const float* query, double slack, const std::function<bool(uint32_t)>& left_out = {}) const;
 
  private:
-  static constexpr int leaf_size = 16;
+  static constexpr int leaf_size = leaf_points;
   struct Node {
     int axis = -1;       ///< -1: a leaf
     float low = 0;       ///< where the lower half ends, and

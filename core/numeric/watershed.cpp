@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <queue>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -21,6 +22,24 @@ void for_neighbours(uint32_t at, Size size, bool wraps, Visit visit) {
   if (x + 1 < w || wraps) visit(x + 1 < w ? at + 1 : at + 1 - w);
   if (y > 0 || wraps) visit(y > 0 ? at - w : at + w * (h - 1));
   if (y + 1 < h || wraps) visit(y + 1 < h ? at + w : at - w * (h - 1));
+}
+
+/// Calls `visit` for all pixels beside each other that lie in two regions: with the regions, the lower first, and the
+/// pixels.
+template <typename Visit>
+void for_pairs(const Regions& regions, Size size, bool wraps, Visit visit) {
+  const auto compare = [&](uint32_t p, uint32_t q) {
+    const uint32_t a = regions.at[p], b = regions.at[q];
+    if (a != b) visit(std::min(a, b), std::max(a, b), p, q);
+  };
+  const auto w = uint32_t(size.width), h = uint32_t(size.height);
+  for (uint32_t y = 0; y < h; y++) {
+    const uint32_t row = y * w, below = y + 1 < h ? row + w : 0;
+    for (uint32_t x = 0; x + 1 < w; x++) compare(row + x, row + x + 1);
+    if (wraps) compare(row + w - 1, row);
+    if (y + 1 < h || wraps)
+      for (uint32_t x = 0; x < w; x++) compare(row + x, below + x);
+  }
 }
 
 /// Plateaus without a lower neighbour, numbered from 0.
@@ -69,6 +88,7 @@ class Neighbours {
     sum.height += s.height;
     return sum;
   }
+  void reserve(size_t count) { all_.reserve(count); }
   void erase(uint32_t with) {
     if (find(with)) all_.erase(place_of(with));
   }
@@ -87,6 +107,7 @@ class Joining {
   Joining(const Regions& regions, const std::vector<RegionBorder>& borders, const JoiningRule& rule)
       : rule_(rule), joined_(size_t(regions.count)), areas_(size_t(regions.count)), neighbours_(size_t(regions.count)) {
     for (const uint32_t r : regions.at) areas_[r]++;
+    reserve_neighbours(borders);
     for (const RegionBorder& b : borders) {
       neighbours_[b.a].add({b.b, b.length, b.height});
       neighbours_[b.b].add({b.a, b.length, b.height});
@@ -110,6 +131,17 @@ class Joining {
 
  private:
   static constexpr double never = 1e9;
+
+  /// Growing lists one by one would take most of the time.
+  void reserve_neighbours(const std::vector<RegionBorder>& borders) {
+    std::vector<uint32_t> counts(neighbours_.size());
+    for (const RegionBorder& b : borders) {
+      counts[b.a]++;
+      counts[b.b]++;
+    }
+    for (size_t r = 0; r < counts.size(); r++) neighbours_[r].reserve(counts[r]);
+  }
+
   struct Candidate {
     double order;
     uint32_t a, b;
@@ -177,27 +209,28 @@ Regions flooded(const std::vector<uint8_t>& relief, Size size, bool wraps, std::
 
 std::vector<RegionBorder> region_borders(const Regions& regions, const std::vector<uint8_t>& relief, Size size,
                                          bool wraps) {
+  // The pairs of pixels beside each other are put in order by their lower region, then by the other one.
   struct Pair {
-    uint32_t a, b;
+    uint32_t b;
     uint8_t height;
   };
-  std::vector<Pair> pairs;
-  const auto add = [&](uint32_t p, uint32_t q) {
-    const auto [a, b] = std::minmax(regions.at[p], regions.at[q]);
-    if (a != b) pairs.push_back({a, b, std::max(relief[p], relief[q])});
-  };
-  for (int y = 0; y < size.height; y++)
-    for (int x = 0; x < size.width; x++) {
-      const auto p = uint32_t(y * size.width + x);
-      if (x + 1 < size.width || wraps) add(p, uint32_t(y * size.width + (x + 1) % size.width));
-      if (y + 1 < size.height || wraps) add(p, uint32_t((y + 1) % size.height * size.width + x));
-    }
-  std::ranges::sort(pairs, {}, [](const Pair& p) { return uint64_t{p.a} << 32 | p.b; });
+  std::vector<uint32_t> ends(size_t(regions.count) + 1);
+  for_pairs(regions, size, wraps, [&](uint32_t a, uint32_t, uint32_t, uint32_t) { ends[a + 1]++; });
+  for (size_t r = 1; r < ends.size(); r++) ends[r] += ends[r - 1];
+  std::vector<Pair> pairs(ends.back());
+  std::vector<uint32_t> next(ends.begin(), ends.end() - 1);
+  for_pairs(regions, size, wraps, [&](uint32_t a, uint32_t b, uint32_t p, uint32_t q) {
+    pairs[next[a]++] = {b, std::max(relief[p], relief[q])};
+  });
   std::vector<RegionBorder> out;
-  for (const Pair& p : pairs) {
-    if (out.empty() || out.back().a != p.a || out.back().b != p.b) out.push_back({p.a, p.b});
-    out.back().length++;
-    out.back().height += p.height;
+  for (uint32_t a = 0; a + 1 < ends.size(); a++) {
+    const std::span all = std::span(pairs).subspan(ends[a], ends[a + 1] - ends[a]);
+    std::ranges::sort(all, {}, &Pair::b);
+    for (size_t i = 0; i < all.size(); i++) {
+      if (i == 0 || all[i].b != all[i - 1].b) out.push_back({a, all[i].b});
+      out.back().length++;
+      out.back().height += all[i].height;
+    }
   }
   return out;
 }

@@ -21,7 +21,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 22;
+inline constexpr int synthesis_version = 23;
 
 /// The finest level that is worked out for the plane as a whole: patches are laid, pieces aligned and their seams moved
 /// on every level but the finest.
@@ -132,6 +132,12 @@ struct Step {
 
 /// All steps, in the order in which they run.
 std::span<const Step> synthesis_steps();
+
+/// Called by benchmarks with what has run, on which level, and how many CPU seconds of all threads it took.
+using StepWatcher = std::function<void(const Step&, const LevelFacts&, double)>;
+/// From now on every step that has run is told to `watch`, on the thread that ran it. Not thread-safe: call it before
+/// anything is synthesized.
+void watch_steps(StepWatcher watch);
 
 /// Runs the steps of a phase that apply, and calls `after_each`, if given, after each of them.
 void run_steps(Phase phase, StepContext& context, const std::function<void()>& after_each = {});

@@ -62,7 +62,7 @@ void compute(NodeContext& node) {
 NodeType elements_node() {
   NodeType t;
   t.name = "elements";
-  t.version = 1;
+  t.version = 2;
   t.category = "analysis";
   t.summary = "Parts an exemplar into its elements: stones, bricks, slates, tiles";
   t.help =

@@ -116,7 +116,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 13;
+  t.version = 14;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =

@@ -1,14 +1,18 @@
 // The whole command line with tuning constants that can be changed without recompiling (core/base/tuning.h).
 
 #include <charconv>
+#include <map>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/tuning.h"
+#include "core/synthesis/steps.h"
 #include "runner/cli/cli_commands.h"
 
 using namespace terrazzo;
@@ -16,10 +20,11 @@ using namespace terrazzo;
 namespace {
 
 constexpr std::string_view usage =
-    "usage: terrazzo_tuned [--tune NAME=VALUE]... COMMAND...    terrazzo with other constants; its results have cache "
-    "keys "
-    "of their own\n"
-    "       terrazzo_tuned --tunings                            lists the constants\n";
+    "usage: terrazzo_tuned [--tune NAME=VALUE]... [--step-times] COMMAND...\n"
+    "           terrazzo with other constants; its results have cache keys of their own\n"
+    "           --step-times: prints the milliseconds of every step on every level, on standard error\n"
+    "       terrazzo_tuned --tunings\n"
+    "           lists the constants\n";
 
 /// The word after `option`, or its value after "="; moves on to it. Null if the word is another one.
 const char* value_of(std::string_view option, int& i, int argc, const char* const* argv) {
@@ -58,15 +63,36 @@ void list() {
                c->trades, evidence(*c));
 }
 
+/// What the steps of one process have taken.
+class StepTimes {
+ public:
+  void add(const Step& step, const LevelFacts& facts, double seconds) {
+    const std::scoped_lock lock(mutex_);
+    const auto row = size_t(&step - synthesis_steps().data());
+    milliseconds_[{-facts.level, row}] += 1e3 * seconds;
+  }
+  void print() const {
+    for (const auto& [key, milliseconds] : milliseconds_)
+      fmt::print(stderr, "level {}, {:<18} {:>8.1f} ms\n", -key.first, synthesis_steps()[key.second].name,
+                 milliseconds);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::pair<int, size_t>, double> milliseconds_;  // the coarsest level first
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::vector<const char*> rest = {argv[0]};
-  bool lists = false;
+  bool lists = false, times = false;
   try {
     for (int i = 1; i < argc; i++) {
       if (std::string_view(argv[i]) == "--tunings")
         lists = true;
+      else if (std::string_view(argv[i]) == "--step-times")
+        times = true;
       else if (const char* text = value_of("--tune", i, argc, argv))
         tune(text);
       else
@@ -80,5 +106,9 @@ int main(int argc, char** argv) {
     list();
     return 0;
   }
-  return run_command_line(int(rest.size()), rest.data());
+  StepTimes taken;
+  if (times) watch_steps([&](const Step& s, const LevelFacts& f, double seconds) { taken.add(s, f, seconds); });
+  const int status = run_command_line(int(rest.size()), rest.data());
+  taken.print();
+  return status;
 }

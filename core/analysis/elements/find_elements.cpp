@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/analysis/elements/line_responses.h"
 #include "core/analysis/elements/partition.h"
@@ -18,6 +19,7 @@ struct Tuning {
   int most_side = 256;
   int scales = 3;
   int components = 3;
+  int clues = 4;
   int rounds = 2;
   double unsure = 2;
   double sure = 6;
@@ -32,6 +34,8 @@ const Tunable<Tuning> tuning(
          "elements", 1, 6},
         {&Tuning::components, "components", "components", "principal components that are looked at. Costs time",
          "elements", 1, 16},
+        {&Tuning::clues, "clues", "signed components",
+         "that are tried at the finest scale, those best at coarser ones. Costs time", "elements", 1, 64},
         {&Tuning::rounds, "rounds", "rounds", "of learning what joints look like. Costs time", "elements", 0, 8},
         {&Tuning::unsure, "unsure", "quality", "that noise, grass and sand come to", "elements"},
         {&Tuning::sure, "sure", "quality", "from which on it is certain", "elements", 0.1},
@@ -63,11 +67,13 @@ struct Found {
   double quality = 0;
 };
 
-void consider(const std::vector<float>& lines, const Planes& at, size_t scale, Found& best) {
+/// Takes over what is better than the best so far. Returns the quality.
+double consider(const std::vector<float>& lines, const Planes& at, size_t scale, Found& best) {
   std::vector<uint8_t> relief = as_relief(lines);
   Partition p = partitioned(relief, at.size, at.wraps, line_width);
   const double quality = p.quality();
   if (quality > best.quality) best = {std::move(p), std::move(relief), at.size, scale, quality};
+  return quality;
 }
 
 std::vector<float> along(const Planes& responses, const VectorXd& direction) {
@@ -99,23 +105,47 @@ VectorXd telling_direction(const Planes& responses, const Partition& p) {
   return solve_positive_definite(within, joints.mean_vector() - inside.mean_vector());
 }
 
+/// Something that may be high where joints are: a channel of line_responses, upright or upside down.
+struct Clue {
+  int channel;
+  double sign;
+  double quality = 0;  ///< the best at the scales tried so far
+};
+
+/// Joints are not where there are no edges, the last channel.
+std::vector<Clue> clues_of(int channels) {
+  std::vector<Clue> out;
+  for (int c = 0; c < channels; c++)
+    for (const double sign : {-1.0, 1.0})
+      if (c + 1 < channels || sign > 0) out.push_back({c, sign});
+  return out;
+}
+
+/// From the coarsest scale on, where all clues are tried, to the finest, which takes most of the time and tries the
+/// best of them.
 Found best_partition(const Planes& picture, const Task& task) {
-  Found best;
   std::vector<Planes> responses;
   Planes level = picture;
-  for (int s = 0; s < tuning->scales; s++) {
+  for (int s = 0; s < tuning->scales && std::min(level.size.width, level.size.height) >= 16; s++) {
     task.check();
-    if (std::min(level.size.width, level.size.height) < 16) break;
     responses.push_back(line_responses(level, task));
-    const Planes& r = responses.back();
-    for (int c = 0; c < r.channels; c++)
-      for (const double sign : {-1.0, 1.0}) {
-        if (c + 1 == r.channels && sign < 0) continue;  // joints are not where there are no edges
-        VectorXd direction = VectorXd::Zero(r.channels);
-        direction[c] = sign;
-        consider(along(r, direction), r, size_t(s), best);
-      }
     level = halved(level);
+  }
+  Found best;
+  if (responses.empty()) return best;
+  std::vector<Clue> clues = clues_of(responses.front().channels);
+  for (size_t s = responses.size(); s-- > 0;) {
+    if (s == 0 && responses.size() > 1) {
+      std::ranges::stable_sort(clues, std::greater<>(), &Clue::quality);
+      clues.resize(std::min(clues.size(), size_t(tuning->clues)));
+    }
+    for (Clue& clue : clues) {
+      task.check();
+      const Planes& r = responses[s];
+      VectorXd direction = VectorXd::Zero(r.channels);
+      direction[clue.channel] = clue.sign;
+      clue.quality = std::max(clue.quality, consider(along(r, direction), r, s, best));
+    }
   }
   for (int round = 0; round < tuning->rounds && best.quality > 0; round++) {
     task.check();

@@ -83,19 +83,8 @@ Correlation correlate(const Planes& planes, const std::vector<float>& counts, co
     for (size_t i = 0; i < details.values.size(); i++) details.values[i] *= counts[i / planes.channels];
   const Size size = planes.size;
   const Size within = planes.wraps ? size : Size{size.width * 5 / 6, size.height * 5 / 6};
-  std::vector<double> variance(planes.channels, 0.0);
-  for (size_t i = 0; i < details.values.size(); i++)
-    variance[i % planes.channels] += double(details.values[i]) * details.values[i];
-  double total = 1e-12;
-  for (const double v : variance) total += v;
-  std::vector<double> sum;
-  const std::vector<Correlogram> all = correlograms(details, within, task);
-  for (int c = 0; c < planes.channels; c++) {
-    const std::vector<double> values = planes.wraps ? around_borders(all[c], size) : all[c].values;
-    sum.resize(values.size(), 0.0);
-    for (size_t i = 0; i < sum.size(); i++) sum[i] += values[i] * variance[c] / total;
-  }
-  return {std::move(sum), within, size, planes.wraps};
+  Correlogram r = pooled_correlogram(details, within, task);
+  return {planes.wraps ? around_borders(r, size) : std::move(r.values), within, size, planes.wraps};
 }
 
 Correlation pooled(const std::vector<Correlation>& all) {

@@ -22,6 +22,9 @@ struct Tuning {
   double least_alike_of_few = 0.6;
   double least_sure_stripes = 0.6;
   double least_turned = 0.6;
+  double quick_share = 0.7;
+  int quick_lag = 4;
+  int quick_side = 128;
 };
 const Tunable<Tuning> tuning("regularity",
                              {
@@ -49,6 +52,17 @@ const Tunable<Tuning> tuning("regularity",
                                   "of orientations that turned cells lack. Higher: they are taken for one another; "
                                   "lower: threads of a weave are told apart by chance",
                                   "regularity", 0, 1},
+                                 {&Tuning::quick_share, "quick_share", "of the certainty asked for",
+                                  "that something must correlate by at half the size. Higher: less is searched for "
+                                  "a lattice; lower: no lattice is missed",
+                                  "wrap_detection", 0, 1},
+                                 {&Tuning::quick_lag, "quick_lag", "pixels at half the size",
+                                  "from which on repeats count there. Higher: grain counts for less; lower: cells that "
+                                  "come only twice are seen",
+                                  "not measured: of fine cells several lie that far apart", 1, 1000},
+                                 {&Tuning::quick_side, "quick_side", "pixels",
+                                  "the least side that is looked at quickly",
+                                  "not measured: smaller exemplars take no time", 16, 100000},
                              });
 
 Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
@@ -99,6 +113,16 @@ Found searched(const Correlation& values, const Correlation& joints, double leas
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
 }
 
+/// The highest correlation of all lags of so many pixels and more, up to half the exemplar's sides: parts of it that
+/// were shown twice to make it tile lie farther apart.
+double highest_from(const Correlation& r, int least_lag) {
+  double highest = 0;
+  for (int dy = -r.exemplar().height / 2; dy <= r.exemplar().height / 2; dy++)
+    for (int dx = 0; dx <= r.exemplar().width / 2; dx++)
+      if (dx * dx + dy * dy >= least_lag * least_lag) highest = std::max(highest, r.at(dx, dy));
+  return highest;
+}
+
 /// The lattice, or a multiple of it if its cells are turned or mirrored: the columns of a chevron floor.
 Lattice told_by_orientation(const Lattice& lattice, const std::vector<const ExemplarView*>& views, const Task& task) {
   std::vector<Correlation> all;
@@ -144,6 +168,16 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
   if (best.rank == 2 && best.cell_area() < tuning->smallest_cell * tuning->smallest_cell)
     best = two_by_two(best, size, wraps);
   return {best, too_few};
+}
+
+bool may_have_lattice(const Features& features, double least_certainty, const Task& task) {
+  if (std::min(features.size().width, features.size().height) < tuning->quick_side || !allowed_pixels(features).empty())
+    return true;
+  const Planes half = halved(weighted_planes(features, task));
+  for (const Planes& planes : {half, outlines(half)})
+    if (highest_from(correlate(planes, {}, task), tuning->quick_lag) >= tuning->quick_share * least_certainty)
+      return true;
+  return false;
 }
 
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task) {

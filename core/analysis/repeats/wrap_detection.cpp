@@ -252,6 +252,7 @@ bool borders_fit(const Material& material) {
 /// chequered tiles has borders that go on smoothly, and yet like meets like there.
 bool cells_deny(const Material& material, const Task& task) {
   const FeaturesPtr features = weighted_features(material, weights_of_chosen(material, {}), false);
+  if (!may_have_lattice(*features, tuning->least_certainty, task)) return false;
   const Lattice lattice = find_lattice(*features, tuning->least_certainty, task).lattice;
   const Size size = material.size();
   return lattice.rank == 2 && !(lattice.fits(size, true, false, tuning->most_excess * size.width) &&

@@ -29,8 +29,8 @@ const Tunable<Tuning> tuning(
          "seams", 0, 1},
     });
 
-double distance(const AppearanceVector* a, const AppearanceVector* b) {
-  return std::sqrt(double(squared_distance(*a, *b)));
+float distance(const AppearanceVector* a, const AppearanceVector* b) {
+  return std::sqrt(float(squared_distance(*a, *b)));
 }
 
 }  // namespace
@@ -41,8 +41,8 @@ ExpansionGround::ExpansionGround(Field& f, const CorrectionLevel& l, int b, bool
       block(b),
       along_edges(edges_hide),
       node(f.pixels.size(), untouched),
-      edge_(tuning->edge),
-      seen_on_edges_(tuning->seen_on_edges) {
+      edge_(float(tuning->edge)),
+      seen_on_edges_(float(tuning->seen_on_edges)) {
   if (along_edges) find_edges();
 }
 
@@ -53,8 +53,8 @@ void ExpansionGround::find_edges() {
   tbb::parallel_for(-1, e.size().height + 1, [&](int y) {
     for (int x = -1; x <= e.size().width; x++) {
       const AppearanceVector* v = e.at(x, y);
-      edges_[0][size_t(v - first)] = float(distance(v, v + 1));
-      edges_[1][size_t(v - first)] = float(distance(v, v + e.stride()));
+      edges_[0][size_t(v - first)] = distance(v, v + 1);
+      edges_[1][size_t(v - first)] = distance(v, v + e.stride());
     }
   });
 }
@@ -70,19 +70,19 @@ int64_t ExpansionGround::mismatch(ExemplarPixel a, ExemplarPixel b, int side) co
   const PaddedLevel& e = level.exemplar;
   const int dx = sides[side][0], dy = sides[side][1];
   const ptrdiff_t step = dy * e.stride() + dx;
-  double sum = 0;
+  float sum = 0;
   for (int k = 0; k < block; k++) {
     const AppearanceVector* here = on_side(a, dx, dy, k);
     const AppearanceVector* there = on_side(b, -dx, -dy, k);
     // Distances, not their squares: only for a metric is a minimum cut the best expansion.
-    double visible = distance(here, there - step) + distance(here + step, there);
+    float visible = distance(here, there - step) + distance(here + step, there);
     if (along_edges) {
-      const double hiding = 1 + (edge_at(here, step) + edge_at(there - step, step)) / edge_;
+      const float hiding = 1 + (edge_at(here, step) + edge_at(there - step, step)) / edge_;
       visible *= seen_on_edges_ + (1 - seen_on_edges_) / (hiding * std::sqrt(hiding));
     }
     sum += visible;
   }
-  return int64_t(sum * mismatch_unit);
+  return int64_t(sum * float(mismatch_unit));
 }
 
 uint64_t ExpansionGround::control_cost(int pixel, ExemplarPixel shown) const {
@@ -97,7 +97,7 @@ uint64_t ExpansionGround::control_cost(int pixel, ExemplarPixel shown) const {
   return sum;
 }
 
-double ExpansionGround::edge_at(const AppearanceVector* v, ptrdiff_t step) const {
+float ExpansionGround::edge_at(const AppearanceVector* v, ptrdiff_t step) const {
   const bool along_row = std::abs(step) == 1;
   return edges_[along_row ? 0 : 1][size_t((step < 0 ? v + step : v) - level.exemplar.at(-1, -1))];
 }

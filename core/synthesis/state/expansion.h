@@ -40,12 +40,12 @@ struct ExpansionGround {
   /// The cost of showing the exemplar pixel, or a block of them, under the controls.
   uint64_t control_cost(int pixel, ExemplarPixel shown) const;
   /// How much an exemplar pixel differs from the one a step away.
-  double edge_at(const AppearanceVector* v, ptrdiff_t step) const;
+  float edge_at(const AppearanceVector* v, ptrdiff_t step) const;
   bool continues(ExemplarPixel a, ExemplarPixel b, int side) const;
   /// The k-th of a block's pixels along its side towards (dx, dy).
   const AppearanceVector* on_side(ExemplarPixel p, int dx, int dy, int k) const;
 
-  double edge_, seen_on_edges_;              // tuning constants, at hand for inner loops
+  float edge_, seen_on_edges_;               // tuning constants, at hand for inner loops
   std::array<std::vector<float>, 2> edges_;  // distances to the right and downwards, laid out as the padded exemplar
 };
 

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/tuning.h"
+#include "core/numeric/window_distance.h"
 
 namespace terrazzo {
 
@@ -40,21 +41,15 @@ const Tunable<Tuning> tuning(
          "not measured: symmetric to alike", 1, 100},
     });
 
+constexpr uint32_t golden_ratio = 0x9e3779b1;  // of 2^32: multiplicative hashing
 constexpr int64_t no_distance = std::numeric_limits<int64_t>::max();
-
-/// The squared distance between a window's row and the exemplar's row from `first` on.
-int64_t row_distance(const AppearanceVector* const* row, const AppearanceVector* first) {
-  int64_t sum = 0;
-  for (int x = 0; x < side; x++) sum += squared_distance(*row[x], first[x]);
-  return sum;
-}
 
 /// Searches the exemplar's window that is nearest to a given one, and nearer than a limit.
 class NearestWindow {
  public:
   NearestWindow(const CorrectionLevel& level, const WindowCoherence::Window& shown, int64_t limit = no_distance)
       : level_(level), shown_(shown), least_(limit) {
-    for (size_t i = 0; i < shown.size(); i++) wanted_[i] = level.exemplar.at(shown[i].x, shown[i].y);
+    for (size_t i = 0; i < shown.size(); i++) wanted_[i] = *level.exemplar.at(shown[i].x, shown[i].y);
   }
   /// The squared distance to the nearest so far; the limit if there is none.
   int64_t distance() const { return least_; }
@@ -86,28 +81,37 @@ class NearestWindow {
     const Size size = level_.exemplar.size();
     if (u < reach || v < reach || u >= size.width - reach || v >= size.height - reach) return;
     if (!level_.exemplar.is_usable(u, v)) return;
-    const uint32_t place = uint32_t(v) << 16 | uint32_t(u);
-    if (std::find(tried_.begin(), tried_.begin() + count_, place) != tried_.begin() + count_) return;
-    tried_[count_++] = place;
+    if (!is_new(u, v)) return;
     const AppearanceVector* first = level_.exemplar.at(u - reach, v - reach);
-    int64_t sum = 0;
-    for (int y = 0; y < side && sum < least_; y++, first += level_.exemplar.stride())
-      sum += row_distance(&wanted_[size_t(y) * side], first);
-    least_ = std::min(least_, sum);
+    least_ = std::min(least_, window_distance(wanted_[0].data(), first->data(),
+                                              ptrdiff_t{level_.exemplar.stride()} * appearance_dimensions,
+                                              side * appearance_dimensions, side, least_));
   }
 
   /// Leaves a place out.
-  void forget(int u, int v) { tried_[count_++] = uint32_t(v) << 16 | uint32_t(u); }
+  void forget(int u, int v) { is_new(u, v); }
 
  private:
+  /// Whether the place is seen for the first time. Most pixels of a window continue one of a few places; a filter tells
+  /// places that surely are new without a search.
+  bool is_new(int u, int v) {
+    const uint32_t place = uint32_t(v) << 16 | uint32_t(u);
+    const uint64_t bit = uint64_t{1} << (place * golden_ratio >> 26);
+    if ((filter_ & bit) != 0 && std::find(tried_.begin(), tried_.begin() + count_, place) != tried_.begin() + count_)
+      return false;
+    filter_ |= bit;
+    tried_[size_t(count_++)] = place;
+    return true;
+  }
   void continue_with(int i) { consider(shown_[i].x - (i % side - reach), shown_[i].y - (i / side - reach)); }
 
   const CorrectionLevel& level_;
   const WindowCoherence::Window& shown_;
-  std::array<const AppearanceVector*, side * side> wanted_;
+  std::array<AppearanceVector, side * side> wanted_;
   // The window's pixels, the candidates of five of them, and own_distance()'s place and its four neighbours.
   std::array<uint32_t, side * side + 5 * most_similar + 5> tried_;
   ptrdiff_t count_ = 0;
+  uint64_t filter_ = 0;
   int64_t least_;
 };
 

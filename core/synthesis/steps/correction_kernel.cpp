@@ -9,6 +9,7 @@
 
 #include "core/base/geometry.h"
 #include "core/base/hash.h"
+#include "core/synthesis/steps/candidate_set.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace terrazzo {
@@ -29,9 +30,9 @@ class PixelCorrector {
         exemplar_(level_.exemplar.at(0, 0)),
         stride_(level_.exemplar.stride()),
         pass_bits_(random_bits(pass_.seed, level_.level, pass_.pass)),
-        coherence_may_cost_(!pass_.piece_coherence.empty() || pass_.coherence > unit_factor),
         repeat_penalty_(inputs.repeat_penalty),
-        taps_(int(pass_.window->size())) {
+        taps_(int(pass_.window->size())),
+        candidates_(level_, !pass_.piece_coherence.empty() || pass_.coherence > unit_factor) {
     for (int t = 0; t < taps_; t++) {
       const auto [dx, dy] = (*pass_.window)[t];
       exemplar_offsets_[t] = dy * stride_ + dx;
@@ -55,26 +56,26 @@ class PixelCorrector {
     else
       gather_at_border(x, y);
     if (level_.elements) own_element_ = element_at(own->x, own->y);
-    candidates_ = 0;
     best_cost_ = ~uint64_t{0};
     best_ = *own;
-    propose_continued(own->x, own->y, coherence(own));
-    consider(ids_[0], factors_[0]);
+    candidates_.clear();
+    candidates_.add_continued(own->x, own->y, coherence(own));
+    consider(candidates_.id(0), candidates_.factor(0), tap_distance(exemplar_at(candidates_.id(0)), 0));
     // Nothing is cheaper than what costs nothing, as inside a piece of the exemplar.
     if (best_cost_ == 0) return best_;
     propose_others();
-    for (size_t i = 1; i < continued_candidates_; i++) consider(ids_[i], factors_[i]);
-    for (size_t i = continued_candidates_; i < candidates_; i++) consider(ids_[i], unit_factor);
+    compare_nearest(1);
+    const size_t continued = candidates_.continued(), count = candidates_.count();
+    for (size_t i = 1; i < continued; i++) consider(candidates_.id(i), candidates_.factor(i), nearest_[i]);
+    for (size_t i = continued; i < count; i++) consider(candidates_.id(i), unit_factor, nearest_[i]);
     return best_;
   }
 
  private:
-  static uint32_t packed(int x, int y) { return (uint32_t(y) << 16) + uint32_t(x); }
-  static uint32_t packed(const ExemplarPixel& p) { return packed(p.x, p.y); }
-
-  static constexpr int step(int n, int axis) {
-    constexpr int steps[9][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
-    return steps[n][axis];
+  static constexpr int step(int n, int axis) { return CandidateSet::step(n, axis); }
+  template <typename... Of>
+  static uint32_t packed(const Of&... of) {
+    return CandidateSet::packed(of...);
   }
 
   /// Whether all neighbours lie within the field.
@@ -119,7 +120,7 @@ class PixelCorrector {
     for (int r = 0; r < rings; r++)
       for (int n = 0; n < 8; n++) {
         const ExemplarPixel* p = neighbour(x + ring_radii[r] * step(n + 1, 0), y + ring_radii[r] * step(n + 1, 1));
-        ring_ids_[r][n] = p ? packed(*p) : no_id;
+        ring_ids_[r][n] = p ? packed(*p) : CandidateSet::no_id;
       }
     count_ = 0;
     for (int t = 0; t < taps_; t++) {
@@ -134,76 +135,42 @@ class PixelCorrector {
     offsets_[tap] = offset;
   }
 
-  HWY_INLINE void propose_continued(int x, int y, uint32_t factor) {
-    level_.exemplar.settle_inside(x, y);
-    const uint32_t id = packed(x, y);
-    for (size_t i = 0; i < candidates_; i++)
-      if (ids_[i] == id) return;
-    ids_[candidates_] = id;
-    factors_[candidates_++] = factor;
-  }
-
   HWY_ATTR void propose_others() {
     for (int n = 1; n < 9; n++)
-      if (around_[n]) propose_continued(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), coherence(around_[n]));
-    continued_candidates_ = candidates_;
-    size_t count = 0;
-    const size_t per_pixel = size_t(level_.per_pixel), width = size_t(level_.exemplar.size().width);
-    for (int n = 0; n < 9; n++) {
-      if (!around_[n]) continue;
-      const ExemplarPixel* similar = level_.similar.data() + (around_[n]->y * width + around_[n]->x) * per_pixel;
-      for (size_t k = 0; k < per_pixel; k++, count++) {
-        proposed_x_[count] = similar[k].x - step(n, 0);
-        proposed_y_[count] = similar[k].y - step(n, 1);
-      }
-    }
+      if (around_[n])
+        candidates_.add_continued(around_[n]->x - step(n, 0), around_[n]->y - step(n, 1), coherence(around_[n]));
+    for (int n = 0; n < 9; n++)
+      if (around_[n]) candidates_.propose_similar(*around_[n], n);
     const uint64_t bits = more_random_bits(pass_bits_, x_, y_);
-    for (int k = 0; k < pass_.random_candidates; k++, count++) {
+    for (int k = 0; k < pass_.random_candidates; k++) {
       auto [u, v] = level_.exemplar.place(more_random_bits(bits, k));
       level_.phase.snap(x_, y_, u, v);
       level_.exemplar.unwind(u, v);
-      proposed_x_[count] = u;
-      proposed_y_[count] = v;
+      candidates_.propose(u, v);
     }
-    settle_proposed(count);
-    add_new(count);
+    candidates_.add_proposed();
   }
 
-  /// Adds the proposed candidates that continue no neighbour. Duplicates only cost time, so that a small hash table,
-  /// which misses some, will do. Only a candidate that continues a neighbour must not come back without its coherence
-  /// factor.
-  HWY_ATTR void add_new(size_t count) {
-    recent_.fill(no_id);
-    size_t candidates = candidates_;
-    for (size_t i = 0; i < count; i++) {
-      const uint32_t id = settled_ids_[i];
-      uint32_t& recent = recent_[(id * golden_ratio) >> (32 - recent_bits)];
-      bool is_new = recent != id;
-      recent = id;
-      if (coherence_may_cost_)
-        for (size_t c = 0; c < continued_candidates_; c++) is_new &= ids_[c] != id;
-      ids_[candidates] = id;
-      candidates += is_new;
-    }
-    candidates_ = candidates;
+  const AppearanceVector* exemplar_at(uint32_t id) const {
+    return exemplar_ + (ptrdiff_t(id >> 16) * stride_ + ptrdiff_t(id & 0xffff));
   }
 
-  HWY_INLINE HWY_ATTR void consider(uint32_t id, uint32_t factor) {
+  /// `nearest`: its distance in the nearest pixels of the window, which rejects most candidates before terms that take
+  /// longer and only raise the cost.
+  HWY_INLINE HWY_ATTR void consider(uint32_t id, uint32_t factor, uint32_t nearest) {
     const int x = int(id & 0xffff), y = int(id >> 16);
     if (level_.elements && element_at(x, y) != own_element_) return;
-    uint64_t difference = 0;
+    uint64_t difference = nearest;
     if constexpr (steered) {
       if (!level_.exemplar.is_usable(x, y)) return;
-      if (level_.control) difference = level_.control->cost(x, y, target_) * uint64_t(count_);
+      if (level_.control) difference += level_.control->cost(x, y, target_) * uint64_t(count_);
     }
     if (usage_.active()) factor = uint32_t((uint64_t{factor} * usage_.factor(x, y)) / unit_factor);
     if (nearby_) factor = uint32_t(uint64_t{factor} * nearby_[usage_.cell(x, y)] / unit_factor);
-    const AppearanceVector* centre = exemplar_ + (y * stride_ + x);
-    // The nearest pixels reject most candidates, before terms that take longer and only raise the cost.
-    difference += tap_distance(centre, 0);
     if (difference * factor >= best_cost_) return;
     factor += uint32_t(uint64_t{factor} * repeat_penalty_ / unit_factor) * repeats(id);
     if (level_.phase.active()) factor = uint32_t(std::min(most_factor, factor * level_.phase.penalty(x, y, x_, y_)));
+    const AppearanceVector* centre = exemplar_at(id);
     for (int t = taps_at_once; t < count_ && difference * factor < best_cost_; t += taps_at_once)
       difference += tap_distance(centre, t);
     if (difference * factor >= best_cost_) return;
@@ -211,13 +178,13 @@ class PixelCorrector {
     best_ = {uint16_t(x), uint16_t(y)};
   }
 
+  HWY_ATTR void compare_nearest_one_by_one(size_t first) {
+    for (size_t i = first; i < candidates_.count(); i++) nearest_[i] = tap_distance(exemplar_at(candidates_.id(i)), 0);
+  }
+
 #if HWY_TARGET == HWY_SCALAR
-  void settle_proposed(size_t count) {
-    for (size_t i = 0; i < count; i++) {
-      int x = proposed_x_[i], y = proposed_y_[i];
-      level_.exemplar.settle_inside(x, y);
-      settled_ids_[i] = packed(x, y);
-    }
+  void compare_nearest(size_t first) {
+    compare_nearest_one_by_one(first);
   }
   uint32_t repeats(uint32_t id) const {
     const auto is_near = [](uint32_t a, uint32_t b, int radius) { return 2 * std::abs(int(a) - int(b)) < radius; };
@@ -237,20 +204,33 @@ class PixelCorrector {
     to = from;
   }
 #else
-  /// PaddedLevel::settle_inside for all proposed candidates.
-  HWY_ATTR void settle_proposed(size_t count) {
-    const hn::CappedTag<int32_t, 16> d;
-    const PaddedLevel& exemplar = level_.exemplar;
-    const auto least = hn::Set(d, exemplar.keep_off());
-    const auto settle = [&](auto v, int length) HWY_ATTR {
-      return hn::Min(hn::Max(v, least), hn::Set(d, length - 1 - exemplar.keep_off()));
-    };
-    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-      const auto x = settle(hn::Load(d, &proposed_x_[i]), exemplar.size().width);
-      const auto y = settle(hn::Load(d, &proposed_y_[i]), exemplar.size().height);
-      hn::Store(hn::BitCast(hn::RebindToUnsigned<decltype(d)>(), hn::Or(x, hn::ShiftLeft<16>(y))),
-                hn::RebindToUnsigned<decltype(d)>(), &settled_ids_[i]);
+  /// The distances of the candidates from `first` on in the nearest pixels of the window. Four at once: none waits for
+  /// the sum of another's.
+  HWY_ATTR void compare_nearest(size_t first) {
+    if (count_ < taps_at_once) return compare_nearest_one_by_one(first);
+    const hn::Full128<int32_t> d;
+    const uint32_t* ids = candidates_.ids();
+    for (size_t i = first; i < candidates_.count(); i += 4) {
+      const auto a = first_taps(ids[i]), b = first_taps(ids[i + 1]);
+      const auto c = first_taps(ids[i + 2]), e = first_taps(ids[i + 3]);
+      const auto ab = hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
+      const auto ce = hn::Add(hn::InterleaveLower(d, c, e), hn::InterleaveUpper(d, c, e));
+      const auto sums = hn::Add(hn::ConcatLowerLower(d, ce, ab), hn::ConcatUpperUpper(d, ce, ab));
+      hn::StoreU(hn::BitCast(hn::Full128<uint32_t>(), sums), hn::Full128<uint32_t>(), &nearest_[i]);
     }
+  }
+  /// Parts of the squared distance in the first pixels of the window.
+  HWY_INLINE HWY_ATTR hn::Vec<hn::Full128<int32_t>> first_taps(uint32_t id) const {
+    const hn::Full128<int16_t> d16;
+    const hn::Full128<int32_t> d32;
+    const AppearanceVector* centre = exemplar_at(id);
+    auto even = hn::Zero(d32), odd = hn::Zero(d32);
+#pragma GCC unroll 8
+    for (int t = 0; t < taps_at_once; t++) {
+      const auto difference = hn::Sub(hn::Load(d16, wanted_[t].data()), hn::LoadU(d16, centre[offsets_[t]].data()));
+      even = hn::ReorderWidenMulAccumulate(d32, difference, difference, even, odd);
+    }
+    return hn::Add(even, odd);
   }
 
   /// How many pixels of the rings show nearly what the candidate would show here. Pieces that repeat after a few pixels
@@ -301,14 +281,6 @@ class PixelCorrector {
   static constexpr int rings = 3;
   static constexpr int ring_radii[rings] = {1, 3, correction_reach};
   static constexpr int most_taps = most_window_pixels;
-  static constexpr int most_candidates = 128;
-  static_assert(9 + 9 * most_similar + most_random_candidates <= most_candidates,
-                "room for a pixel, its eight neighbours, and their k-coherent candidates");
-  static constexpr int recent_bits = 7;
-  static constexpr uint32_t golden_ratio = 0x9e3779b1;  // of 2^32: multiplicative hashing
-  static constexpr uint32_t no_id = ~uint32_t{0};       // no exemplar is so large
-  template <typename T>
-  using ForCandidates = std::array<T, most_candidates>;
 
   const Field& field_;
   const CorrectionLevel& level_;
@@ -317,7 +289,6 @@ class PixelCorrector {
   const AppearanceVector* exemplar_;  // its first pixel
   ptrdiff_t stride_;
   uint64_t pass_bits_;
-  bool coherence_may_cost_;  // continuing a neighbour may cost more than other candidates
   uint32_t repeat_penalty_;  // in unit_factor
   int taps_;
   std::array<ptrdiff_t, 9> around_offsets_{};
@@ -334,11 +305,8 @@ class PixelCorrector {
   int count_ = 0;  // pixels of the window
   std::array<ptrdiff_t, most_taps> offsets_;
   alignas(16) std::array<AppearanceVector, most_taps> wanted_;
-  alignas(64) ForCandidates<int32_t> proposed_x_{}, proposed_y_{};
-  alignas(64) ForCandidates<uint32_t> settled_ids_;
-  ForCandidates<uint32_t> ids_, factors_;
-  size_t candidates_ = 0, continued_candidates_ = 0;
-  std::array<uint32_t, 1 << recent_bits> recent_;
+  CandidateSet candidates_;
+  CandidateSet::ForEach<uint32_t> nearest_;  // of each candidate: the distance in the first pixels of the window
   uint64_t best_cost_ = 0;
   ExemplarPixel best_;
 };

@@ -44,6 +44,17 @@ TEST_CASE("the inverse transform of a grid gives the grid times its area") {
   CHECK(worst < 1e-13);
 }
 
+TEST_CASE("rows of zeros and columns that nobody wants change nothing of what is wanted") {
+  constexpr int width = 16, height = 32, filled = 5, wanted = 11;
+  std::vector<std::complex<double>> grid = noise(width * height);
+  std::fill(grid.begin() + ptrdiff_t{filled} * width, grid.end(), 0);
+  std::vector<std::complex<double>> whole = grid;
+  transform_2d(whole, width, height, false);
+  transform_2d(grid, width, height, false, filled, wanted);
+  for (int y = 0; y < height; y++)
+    for (int x = 0; x < wanted; x++) REQUIRE(grid[size_t(y) * width + x] == whole[size_t(y) * width + x]);
+}
+
 TEST_CASE("lengths are padded to a power of two") {
   CHECK(padded_length(1) == 1);
   CHECK(padded_length(576) == 1024);
