@@ -9,6 +9,8 @@ namespace {
 struct Tuning {
   double shortest_brick = 64;
   double surest_lattice = 0.4;
+  double surest_courses = 0.9;
+  double shortest_course = 24;
 };
 const Tunable<Tuning> tuning(
     "shared_work", {{&Tuning::shortest_brick, "shortest_brick", "pixels",
@@ -17,7 +19,21 @@ const Tunable<Tuning> tuning(
                     {&Tuning::surest_lattice, "surest_lattice", "certainty",
                      "of cells that repeat, from which on elements keep to them rather than being laid one by one. "
                      "Higher: more is laid; lower: fewer walls whose stones vary have whole ones",
+                     "element_layout"},
+                    {&Tuning::surest_courses, "surest_courses", "certainty",
+                     "the same of straight courses, whose bricks and boards are laid along them. Higher: boards are "
+                     "squeezed between others; lower: stones that lie in rough courses are cut",
+                     "element_layout"},
+                    {&Tuning::shortest_course, "shortest_course", "pixels",
+                     "the height from which on that holds. Lower: fine bricks are laid along courses, too, and cut",
                      "element_layout"}});
+
+/// Whether elements keep to a lattice, rather than being laid one by one.
+bool keeps_elements(const Lattice& lattice) {
+  if (lattice.rank == 2) return lattice.certainty >= tuning->surest_lattice;
+  return lattice.rank == 1 && lattice.certainty >= tuning->surest_courses &&
+         lattice.first.norm() >= tuning->shortest_course;
+}
 
 }  // namespace
 
@@ -64,8 +80,7 @@ LevelFacts SharedWork::facts(int level) const {
           .steered = !controls.empty(),
           .may_have_bricks = options.whole_bricks && index.appearance()->repeats().parts.empty() &&
                              (lattice.rank == 1 || lattice.longest_step() >= tuning->shortest_brick),
-          .has_elements = options.whole_bricks && has_elements(*index.appearance()) &&
-                          !(lattice.rank == 2 && lattice.certainty >= tuning->surest_lattice)};
+          .has_elements = options.whole_bricks && has_elements(*index.appearance()) && !keeps_elements(lattice)};
 }
 
 }  // namespace terrazzo

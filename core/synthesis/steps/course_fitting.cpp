@@ -14,18 +14,20 @@ constexpr int difference_shift = 3;  // differences are in eighths of squared ap
 /// Runs of a result that wraps. In a path twice around, a cut in the middle does not depend on the ends. A second path
 /// begins and ends there.
 std::vector<CourseRun> runs_around(const CourseLabels& labels, const CourseFit& fit,
-                                   const std::vector<ColumnLook>& shown, const std::vector<ColumnPrice>& prices) {
+                                   const std::vector<ColumnLook>& shown, const CoursePriceList& prices) {
   const int length = int(shown.size());
   const auto path = [&](int from, int times, CutIndex first) {
     std::vector<ColumnLook> looks;
     for (int x = 0; x < times * length; x++) looks.push_back(shown[size_t((x + from) % length)]);
-    std::vector<ColumnPrice> moved;
+    CoursePriceList moved;
     for (int turn = -1; turn <= times; turn++)
-      for (ColumnPrice p : prices) {
+      for (ColumnPrice p : prices.columns) {
         p.begin += turn * length - from;
         p.end += turn * length - from;
-        moved.push_back(p);
+        moved.columns.push_back(p);
       }
+    if (!prices.cuts.empty())
+      for (int x = 0; x < times * length; x++) moved.cuts.push_back(prices.cuts[size_t((x + from) % length)]);
     return cheapest_path(labels, fit, looks, moved, from, first);
   };
   const std::vector<CourseRun> twice = path(0, 2, no_cut);
@@ -50,7 +52,7 @@ int32_t difference(const ColumnLook& a, const ColumnLook& b) {
 }
 
 std::vector<CourseRun> fitting_runs(const std::vector<ColumnLook>& shown, const std::vector<TriedCourse>& courses,
-                                    const std::vector<ColumnPrice>& prices, const CourseFit& fit) {
+                                    const CoursePriceList& prices, const CourseFit& fit) {
   const CourseLabels labels(courses, fit);
   return fit.closed ? runs_around(labels, fit, shown, prices) : cheapest_path(labels, fit, shown, prices, 0, no_cut);
 }

@@ -63,6 +63,13 @@ struct CourseFit {
   bool closed = false;          ///< the result wraps: its last run continues with its first columns
 };
 
+/// What a result's course costs beyond its look.
+struct CoursePriceList {
+  std::vector<ColumnPrice> columns{};
+  /// Of a run that begins in each of the result's columns; empty: nothing.
+  std::vector<int32_t> cuts{};
+};
+
 /// The squared distance of two columns, scaled.
 int32_t difference(const ColumnLook& a, const ColumnLook& b);
 
@@ -70,6 +77,6 @@ int32_t difference(const ColumnLook& a, const ColumnLook& b);
 /// and cuts (dynamic programming; Viterbi, Error bounds for convolutional codes, 1967). `courses` have at most 65534
 /// cuts in all. Empty if a result that wraps cannot be cut at all. Thread-safe.
 std::vector<CourseRun> fitting_runs(const std::vector<ColumnLook>& shown, const std::vector<TriedCourse>& courses,
-                                    const std::vector<ColumnPrice>& prices, const CourseFit& fit);
+                                    const CoursePriceList& prices, const CourseFit& fit);
 
 }  // namespace terrazzo

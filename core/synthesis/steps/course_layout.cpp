@@ -122,9 +122,16 @@ class CourseLayout {
     if (tried.empty()) return;
     std::vector<TriedCourse> courses;
     for (const int c : tried) courses.push_back(in_phase(c, course));
-    course.runs = fitting_runs(looks_of(course), courses, prices_.of(at, tried), fit_);
+    course.runs = fitting_runs(looks_of(course), courses, prices_of(at, tried), fit_);
     for (CourseRun& r : course.runs) r.course = tried[size_t(r.course)];
     for (size_t i = 0; i < course.runs.size(); i++) show(course.runs[i], result_.end_of(course, i), course);
+  }
+
+  /// Where a lattice knows the bond, it says which joints stand above one another.
+  CoursePriceList prices_of(int at, const std::vector<int>& tried) const {
+    CoursePriceList prices = prices_.of(at, tried);
+    if (appearance_.lattice().rank == 2) prices.cuts.clear();
+    return prices;
   }
 
   /// What each column of a course shows.

@@ -62,10 +62,11 @@ class Recent {
 class PathSearch {
  public:
   PathSearch(const CourseLabels& labels, const CourseFit& fit, const std::vector<ColumnLook>& shown,
-             const std::vector<ColumnPrice>& prices, int origin, CutIndex first)
+             const CoursePriceList& prices, int origin, CutIndex first)
       : labels_(labels),
         fit_(fit),
         shown_(shown),
+        cut_prices_(prices.cuts),
         origin_(origin),
         first_(first),
         cut_count_(labels.cuts.size()),
@@ -77,7 +78,7 @@ class PathSearch {
         start_cost_(fit.shortest + 1, cut_count_, impossible),
         previous_cut_(shown.size() * cut_count_, no_cut),
         completes_(shown.size() * cut_count_, 0) {
-    for (const ColumnPrice& p : prices) {
+    for (const ColumnPrice& p : prices.columns) {
       if (p.end <= 0 || p.begin >= length()) continue;
       const auto label = size_t(labels.begin(p.course) + p.column);
       changes_[size_t(std::max(0, p.begin))].push_back({label, p.price});
@@ -228,6 +229,7 @@ class PathSearch {
   void start_in_course(int x, int course, const CheapestEnds& before, const CheapestEnds& behind,
                        const std::vector<int32_t>& ends) {
     const int begin = labels_.cuts_begin(course), end = labels_.cuts_end(course);
+    const int32_t price = cut_prices_.empty() ? 0 : cut_prices_[size_t(x)];
     std::vector<Cheapest> from(size_t(end - begin));
     CheapestEnds onward(fit_.per_gap), back(fit_.per_gap);
     for (int k = begin; k < end; k++) {
@@ -243,7 +245,7 @@ class PathSearch {
     for (int k = begin; k < end; k++) {
       const Cheapest& c = from[size_t(k - begin)];
       const CourseLabels::Cut& cut = labels_.cuts[size_t(k)];
-      start_cost_.at(x)[size_t(k)] = c.cost < impossible && can_begin(x, cut) ? c.cost + cut.cost : impossible;
+      start_cost_.at(x)[size_t(k)] = c.cost < impossible && can_begin(x, cut) ? c.cost + cut.cost + price : impossible;
       previous_cut_[size_t(x) * cut_count_ + size_t(k)] = c.cut;
     }
   }
@@ -289,6 +291,7 @@ class PathSearch {
   const CourseLabels& labels_;
   const CourseFit& fit_;
   const std::vector<ColumnLook>& shown_;
+  const std::vector<int32_t>& cut_prices_;
   int origin_;
   CutIndex first_;
   size_t cut_count_;
@@ -329,8 +332,8 @@ CourseRun CourseLabels::run(int x, int label) const {
 }
 
 std::vector<CourseRun> cheapest_path(const CourseLabels& labels, const CourseFit& fit,
-                                     const std::vector<ColumnLook>& shown, const std::vector<ColumnPrice>& prices,
-                                     int origin, CutIndex first) {
+                                     const std::vector<ColumnLook>& shown, const CoursePriceList& prices, int origin,
+                                     CutIndex first) {
   return PathSearch(labels, fit, shown, prices, origin, first).runs();
 }
 

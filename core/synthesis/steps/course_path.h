@@ -50,7 +50,7 @@ class CourseLabels {
 /// result's column `origin`, and columns count from there. `first`: the cut at which the path begins, and also ends;
 /// no_cut: it begins and ends anywhere.
 std::vector<CourseRun> cheapest_path(const CourseLabels& labels, const CourseFit& fit,
-                                     const std::vector<ColumnLook>& shown, const std::vector<ColumnPrice>& prices,
-                                     int origin, CutIndex first);
+                                     const std::vector<ColumnLook>& shown, const CoursePriceList& prices, int origin,
+                                     CutIndex first);
 
 }  // namespace terrazzo

@@ -19,6 +19,8 @@ struct Tuning {
   double even = 1;
   double most_excess = 3;
   double use_reach = 0.25;
+  double aligned = 3;
+  double aligned_reach = 0.7;
   int close_periods = 1;
 };
 const Tunable<Tuning> tuning(
@@ -52,6 +54,11 @@ const Tunable<Tuning> tuning(
         {&Tuning::use_reach, "use_reach", "course heights",
          "to each side, over which use is averaged. Higher: whole bricks count alike; lower: single columns do",
          "not measured: half a course height in all, less than a brick", 0, 100},
+        {&Tuning::aligned, "aligned", "mean differences times course heights",
+         "what a cut right above or below another one costs. Higher: cuts are scattered; lower: bricks fit better",
+         "course_layout", 0, 1000},
+        {&Tuning::aligned_reach, "aligned_reach", "course heights", "as far as that counts, less and less",
+         "not measured: less than a brick", 0, 100},
         {&Tuning::close_periods, "close_periods", "periods of the coursing",
          "how many away courses count as adjacent. Higher: repeats are farther apart; costs time, as fewer courses are "
          "laid at once",
@@ -81,7 +88,8 @@ CoursePrices::CoursePrices(const ResultCourses& result, const BlockSource& sourc
       source_(source),
       coursing_(coursing),
       columns_(columns),
-      near_(int(tuning->near * height / result.step())) {}
+      height_(height / result.step()),
+      near_(int(tuning->near * height_)) {}
 
 int CoursePrices::reach() const {
   return tuning->close_periods * int(coursing_.beds.size());
@@ -112,11 +120,32 @@ void CoursePrices::count_use() {
   }
 }
 
-std::vector<ColumnPrice> CoursePrices::of(int at, const std::vector<int>& tried) const {
-  std::vector<ColumnPrice> prices;
-  add_repeats(at, tried, prices);
-  add_continued(result_.all[size_t(at)], tried, prices);
-  add_use(tried, prices);
+CoursePriceList CoursePrices::of(int at, const std::vector<int>& tried) const {
+  CoursePriceList prices;
+  add_repeats(at, tried, prices.columns);
+  add_continued(result_.all[size_t(at)], tried, prices.columns);
+  add_use(tried, prices.columns);
+  prices.cuts = cuts(at);
+  return prices;
+}
+
+/// Keeps cuts from standing one above the other, as where a board ends at the exemplar's border in every course.
+std::vector<int32_t> CoursePrices::cuts(int at) const {
+  const int count = int(result_.all.size());
+  const double reach = std::max(1.0, tuning->aligned_reach * height_);
+  std::vector<int32_t> prices(size_t(result_.length()), 0);
+  for (const int d : {-1, 1}) {
+    const int other = result_.closed_across() ? wrap(at + d, count) : at + d;
+    if (other < 0 || other >= count || other == at) continue;
+    for (const CourseRun& run : result_.all[size_t(other)].runs) {
+      if (run.begin == 0) continue;
+      for (int x = int(std::ceil(run.begin - reach)); x <= int(run.begin + reach); x++) {
+        if (!result_.closed_along() && (x < 0 || x >= result_.length())) continue;
+        const double near = 1 - std::abs(x - run.begin) / (reach + 1);
+        prices[size_t(wrap(x, result_.length()))] += cost(tuning->aligned * height_ * near);
+      }
+    }
+  }
   return prices;
 }
 

@@ -21,17 +21,19 @@ class CoursePrices {
   void count_use();
   /// The prices of course number `at`. `tried`: the exemplar's courses that it may show; prices name them by their
   /// place in that list.
-  std::vector<ColumnPrice> of(int at, const std::vector<int>& tried) const;
+  CoursePriceList of(int at, const std::vector<int>& tried) const;
 
  private:
   void add_repeats(int at, const std::vector<int>& tried, std::vector<ColumnPrice>& prices) const;
   void add_continued(const ResultCourse& course, const std::vector<int>& tried, std::vector<ColumnPrice>& prices) const;
   void add_use(const std::vector<int>& tried, std::vector<ColumnPrice>& prices) const;
+  std::vector<int32_t> cuts(int at) const;
 
   const ResultCourses& result_;
   const BlockSource& source_;
   const Coursing& coursing_;
   const std::vector<CourseColumns>& columns_;
+  double height_;                        // in columns of the result
   int near_;                             // columns of the result
   std::vector<std::vector<float>> use_;  // of each column of each course, relative to an even use
 };

@@ -78,11 +78,40 @@ TEST_CASE("columns that are not usable are not shown, dear ones only if they mus
   a.usable[brick + 1] = 0;
   CHECK(fitting_runs(shown, {{&a}, {&b}}, {}, fit).front().course == 1);
   a.usable[brick + 1] = 1;
-  CHECK(fitting_runs(shown, {{&a}, {&b}}, {{1, brick + 2, 0, 12, 5}}, fit).front().course == 0);
-  CHECK(fitting_runs(shown, {{&a}, {&b}}, {{0, brick + 2, 0, 12, 5}}, fit).front().course == 1);
+  CHECK(fitting_runs(shown, {{&a}, {&b}}, {.columns = {{1, brick + 2, 0, 12, 5}}}, fit).front().course == 0);
+  CHECK(fitting_runs(shown, {{&a}, {&b}}, {.columns = {{0, brick + 2, 0, 12, 5}}}, fit).front().course == 1);
   // Elsewhere in the result it costs nothing.
-  CHECK(fitting_runs(shown, {{&a}, {&b}}, {{0, brick + 2, 3, 12, 5}, {1, brick + 2, 0, 3, 5}}, fit).front().course ==
-        0);
+  CHECK(fitting_runs(shown, {{&a}, {&b}}, {.columns = {{0, brick + 2, 3, 12, 5}, {1, brick + 2, 0, 3, 5}}}, fit)
+            .front()
+            .course == 0);
+}
+
+TEST_CASE("a run does not begin where that is dear, unless it has to") {
+  const CourseColumns a = course({1, 2, 3, 4}), b = course({5, 6, 7, 8});
+  const std::vector<ColumnLook> shown = looks(bricks({2, 3, 3, 7, 8}));
+  const auto begins = [&](const CoursePriceList& prices, const CourseFit& f) {
+    std::vector<int> out;
+    for (const CourseRun& r : fitting_runs(shown, {{&a}, {&b}}, prices, f)) out.push_back(r.begin);
+    return out;
+  };
+  const std::vector<int> free = begins({}, fit);
+  REQUIRE(free.size() > 1);
+  CoursePriceList dear{.cuts = std::vector<int32_t>(shown.size(), 0)};
+  CHECK(begins(dear, fit) == free);
+  dear.cuts[size_t(free[1])] = 50000;
+  const std::vector<int> elsewhere = begins(dear, fit);
+  CHECK(std::ranges::find(elsewhere, free[1]) == elsewhere.end());
+  // The same for all columns changes nothing that has to be cut.
+  CoursePriceList all{.cuts = std::vector<int32_t>(shown.size(), 1)};
+  CHECK(begins(all, fit) == free);
+  CourseFit around = fit;
+  around.closed = true;
+  const std::vector<int> closed = begins({}, around);
+  REQUIRE(!closed.empty());
+  CoursePriceList there{.cuts = std::vector<int32_t>(shown.size(), 0)};
+  there.cuts[size_t(closed[0])] = 50000;
+  const std::vector<int> moved = begins(there, around);
+  CHECK(std::ranges::find(moved, closed[0]) == moved.end());
 }
 
 TEST_CASE("a course does not repeat itself at once, but goes back far enough") {

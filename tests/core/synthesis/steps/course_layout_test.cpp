@@ -1,5 +1,6 @@
 #include "core/synthesis/steps/course_layout.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -62,7 +63,33 @@ double cut_share(const Laid& laid, bool wraps = false) {
   return double(cut) / all;
 }
 
+/// Of the places in which a course goes on with another part of the exemplar, the share right above or below another.
+double aligned_share(const Laid& laid) {
+  const Size size = laid.uv->size();
+  std::vector<std::vector<int>> cuts;
+  for (int y = (DrawnWall::course + DrawnWall::joint) / 2; y < size.height; y += DrawnWall::course) {
+    std::vector<int>& here = cuts.emplace_back();
+    for (int x = 0; x + 1 < size.width; x++)
+      if (std::abs(laid.uv->at(x + 1, y).x - laid.uv->at(x, y).x - 1) > 8 && (here.empty() || x > here.back() + 8))
+        here.push_back(x);
+  }
+  int aligned = 0, all = 0;
+  for (size_t c = 1; c < cuts.size(); c++)
+    for (const int x : cuts[c]) {
+      all++;
+      aligned += std::ranges::any_of(cuts[c - 1], [&](int above) { return std::abs(above - x) <= 8; });
+    }
+  return double(aligned) / all;
+}
+
 }  // namespace
+
+TEST_CASE("courses are not cut one above the other") {
+  const DrawnWall wall({240, 220});
+  double share = 0;
+  for (const uint64_t seed : {1, 2, 3}) share += aligned_share(lay(wall, {.size = {480, 480}, .seed = seed})) / 3;
+  CHECK(share < 0.2);
+}
 
 TEST_CASE("bricks of a wall are whole in what is made of it, lying and standing") {
   for (const bool upright : {false, true}) {

@@ -76,6 +76,22 @@ TEST_CASE("elements that are too few, or not known, are not laid") {
   CHECK_FALSE(has_elements(*index_of(stones, false)->appearance()));
 }
 
+TEST_CASE("elements in straight courses that surely repeat keep to those, unless they are very low") {
+  const DrawnStones stones(exemplar);
+  const SynthesisOptions options{.size = {300, 280}, .seed = 1};
+  const auto are_laid = [&](double height, double certainty) {
+    const FeaturesPtr coursed = plain_features(stones.image(), true)->with(Lattice{1, {0, height}, {}, certainty});
+    const FeaturesPtr known = coursed->with(std::make_shared<const Elements>(stones.elements()));
+    const auto pixels = [&](const Features& f) {
+      return made(*make_index(make_appearance(f, {}, {}, task), 3, task), options)->pixels();
+    };
+    return pixels(*known) != pixels(*coursed);
+  };
+  CHECK_FALSE(are_laid(40, 0.95));
+  CHECK(are_laid(40, 0.6));
+  CHECK(are_laid(12, 0.95));
+}
+
 TEST_CASE("laid stones do not depend on the number of threads, nor on how a surface is cut into parts") {
   const DrawnStones stones(exemplar);
   const IndexPtr index = index_of(stones, true);
