@@ -36,8 +36,8 @@ void GridCut::solve() {
     n.distance = 1;
     activate(int(i));
   }
-  for (size_t i = 0; i < active_.size(); i++) {
-    const int node = active_[i];
+  for (size_t next = 0; next < active_.size();) {
+    const int node = active_[next++];  // others may be added meanwhile
     while (nodes_[size_t(node)].tree != Tree::none) {
       const Join join = grow(node);
       if (join.node < 0) break;
@@ -74,7 +74,7 @@ GridCut::Join GridCut::grow(int node) {
     } else if (m.looked_at > n.looked_at || m.distance <= n.distance + 1) {
       continue;  // it is as near to the terminal without this node
     }
-    m.parent = int8_t(back(side));
+    m.parent = int16_t(back(side));
     m.distance = n.distance + 1;
     m.looked_at = n.looked_at;
   }
@@ -124,15 +124,17 @@ void GridCut::send(int node, int64_t flow) {
 }
 
 void GridCut::adopt_orphans() {
-  for (size_t i = 0; i < orphans_.size(); i++)
-    if (!find_parent(nodes_[size_t(orphans_[i])])) give_up(orphans_[i]);
+  for (size_t next = 0; next < orphans_.size();) {
+    const int node = orphans_[next++];
+    if (!find_parent(nodes_[size_t(node)])) give_up(node);
+  }
   orphans_.clear();
 }
 
 /// The neighbour of the same tree that is nearest to the terminal, if one is joined to it still.
 bool GridCut::find_parent(Node& orphan) {
   int least = out_of_reach;
-  int8_t parent = orphaned;
+  int16_t parent = orphaned;
   for (int side = 0; side < 4; side++) {
     if (orphan.to[size_t(side)] < 0 || beside(orphan, side).tree != orphan.tree ||
         capacity(orphan, side, orphan.tree == Tree::sink) <= 0)
@@ -140,7 +142,7 @@ bool GridCut::find_parent(Node& orphan) {
     const int found = distance(orphan.to[size_t(side)]);
     if (found >= least) continue;
     least = found;
-    parent = int8_t(side);
+    parent = int16_t(side);
   }
   if (parent == orphaned) return false;
   orphan.parent = parent;

@@ -26,14 +26,14 @@ class GridCut {
 
  private:
   enum class Tree : uint8_t { none, source, sink };
-  static constexpr int8_t orphaned = -1, terminal = 4;
+  static constexpr int16_t orphaned = -1, terminal = 4;
   struct Node {
     std::array<int32_t, 4> to{-1, -1, -1, -1};
     std::array<int32_t, 4> capacity{};
     int64_t excess = 0;    // above 0: what can still come from the source, below: go to the sink
     int32_t distance = 0;  // to the terminal in steps, when it was last looked at
     int32_t looked_at = 0;
-    int8_t parent = orphaned;  // the side on which it is, or the terminal itself
+    int16_t parent = orphaned;  // the side on which it is, or the terminal itself
     Tree tree = Tree::none;
     bool active = false;
   };

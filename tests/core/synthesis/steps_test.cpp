@@ -38,7 +38,10 @@ TEST_CASE("steps stand in the order of their phases, each named after its file")
 
 TEST_CASE("which steps run is decided by the facts of a level") {
   const LevelFacts plain{.level = 2, .levels = 6};
-  CHECK(applying(plain) == "proximity_penalty initialize graphcut_repair piece_limits correction coherence_repair");
+  CHECK(applying(plain) == "proximity_penalty initialize graphcut_repair piece_limits correction");
+  LevelFacts best = plain;
+  best.quality = Quality::best;
+  CHECK(applying(best) == "proximity_penalty initialize graphcut_repair piece_limits correction coherence_repair");
   LevelFacts coarse = plain;
   coarse.level = 4;
   CHECK(applying(coarse) == "usage_penalty proximity_penalty initialize piece_limits correction");
@@ -46,11 +49,14 @@ TEST_CASE("which steps run is decided by the facts of a level") {
   draft.quality = Quality::draft;
   CHECK(applying(draft) == "proximity_penalty initialize piece_limits correction");
   const LevelFacts lattice{.level = 1, .levels = 6, .regular = true};
-  CHECK(applying(lattice) == "initialize piece_relocation alignment seams graphcut_repair correction");
+  CHECK(applying(lattice) == "initialize piece_relocation alignment seams correction");
   const LevelFacts bricks{.level = 0, .levels = 6, .regular = true, .may_have_bricks = true};
   CHECK(applying(bricks) == "initialize alignment course_layout seams correction");
   const LevelFacts kept{.level = 1, .levels = 6, .kept = true};
   CHECK(applying(kept) == "proximity_penalty initialize fixed_pixels seams graphcut_repair correction");
+  const LevelFacts kept_coarse{.level = 2, .levels = 6, .kept = true};
+  CHECK(applying(kept_coarse) ==
+        "proximity_penalty initialize fixed_pixels graphcut_repair correction coherence_repair");
   const LevelFacts steered{.level = 2, .levels = 6, .steered = true};
   CHECK(applying(steered) == "initialize correction");
 }

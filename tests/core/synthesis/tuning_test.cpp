@@ -38,7 +38,7 @@ ImagePtr spots(Size size) {
       Semantic::base_color, "srgb_texture");
 }
 
-enum class Shown : uint8_t { irregular_wall, wall_with_lattice, drawn_wall, spots };
+enum class Shown : uint8_t { irregular_wall, wall_with_lattice, drawn_wall, spots_at_best };
 
 FeaturesPtr features_of(Shown shown) {
   const DrawnWall drawn({160, 150});
@@ -49,7 +49,7 @@ FeaturesPtr features_of(Shown shown) {
       return plain_features(wall({72, 64}))->with(Lattice{2, {16, 0}, {8, 8}, 0.9});
     case Shown::drawn_wall:
       return plain_features(drawn.image())->with(drawn.lattice());
-    case Shown::spots:
+    case Shown::spots_at_best:
       break;
   }
   return plain_features(spots({160, 160}));
@@ -59,7 +59,9 @@ Digest result(Shown shown) {
   const FeaturesPtr features = features_of(shown);
   const Size size = features->size();
   const IndexPtr index = make_index(make_appearance(*features, {}, {}, Task()), 3, Task());
-  return synthesize(*index, {.size = {size.width * 5 / 4, size.height * 5 / 4}}, Task())->digest();
+  SynthesisOptions options{.size = {size.width * 5 / 4, size.height * 5 / 4}};
+  if (shown == Shown::spots_at_best) options.quality = Quality::best;
+  return synthesize(*index, options, Task())->digest();
 }
 
 struct Nudge {
@@ -90,7 +92,7 @@ TEST_CASE("another value of a constant changes the result and its cache key, and
                 {"graphcut_repair.worse", 3},
                 {"course_prices.own", 0},
                 {"coursing.smallest_period", 30}}},
-        Result{Shown::spots,
+        Result{Shown::spots_at_best,
                {{"coherence_repair.incoherent", 1}, {"k_coherence.rounds", 2}, {"patches.random_places", 0}}}}) {
     const Digest usual = result(r.shown);
     for (const Nudge& n : r.changed_by) {
