@@ -21,7 +21,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 22;
+inline constexpr int synthesis_version = 23;
 
 /// The finest level that is worked out for the plane as a whole: patches are laid, pieces aligned and their seams moved
 /// on every level but the finest.
@@ -58,6 +58,10 @@ struct LevelFacts {
   bool coarsest() const { return level == levels - 1; }
   /// Rare features are won or lost at the coarsest levels.
   bool places_landmarks() const;
+  /// Whether few levels follow on those where rare features are won or lost: exemplars under 128 pixels.
+  bool small() const;
+  /// Whether how evenly the exemplar is used counts on this level.
+  bool counts_use() const;
   /// Whether elements are laid as wholes on this level, which then stay what they are.
   bool lays_elements() const;
 };
