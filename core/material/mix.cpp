@@ -195,7 +195,7 @@ class MixedPixels {
   bool sinks_;  ///< heights of what has sunk
 };
 
-ImagePtr mixed_image(const Layers& layers, ImageInfo info, const std::vector<ImagePtr>& maps, bool sinks) {
+ImagePtr mixed_image(const Layers& layers, const ImageInfo& info, const std::vector<ImagePtr>& maps, bool sinks) {
   std::vector<ImagePtr> inputs;
   for (const std::vector<ImagePtr>& images : {layers.distances, layers.heights, maps})
     for (const ImagePtr& image : images) inputs.push_back(nearest_at_size(image, info.size));

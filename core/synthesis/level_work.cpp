@@ -14,7 +14,6 @@ namespace {
 struct Tuning {
   double least_landmark_factor = 0.5;
   double least_factor = 0.75;
-  int finest_even = 1;
   int finest_recounted = 2;
 };
 const Tunable<Tuning> tuning(
@@ -22,13 +21,10 @@ const Tunable<Tuning> tuning(
     {
         {&Tuning::least_landmark_factor, "least_landmark_factor", "factor",
          "lower: what is used too little is cheaper at the coarsest levels, and wins; finer levels break "
-         "features for it",
+         "features for it. Not for exemplars under 128 pixels (small_exemplars)",
          "not measured: that unused cells become cheaper was measured, not by how much", 0, 1},
         {&Tuning::least_factor, "least_factor", "factor", "the same at the other levels",
          "not measured: that unused cells become cheaper was measured, not by how much", 0, 1},
-        {&Tuning::finest_even, "finest_even", "level",
-         "lower: evenness counts at finer levels too, and breaks features",
-         "not measured: taken over from the code before constants were listed"},
         {&Tuning::finest_recounted, "finest_recounted", "level",
          "lower: use is counted anew in every pass of finer levels; costs time, and parts need one another",
          "not measured: parts of a surface must not depend on one another"},
@@ -57,8 +53,8 @@ LevelWork::LevelWork(const SharedWork& shared, int level)
       phase_(shared.index.appearance()->repeats(), shared.exemplar(level).size, level, shared.surface()),
       fixed_(shared.fixed(level)),
       control_(facts_.steered ? std::make_unique<LevelControl>(shared.controls, level, exemplar_) : nullptr),
-      usage_(shared.exemplar(level).size, level >= tuning->finest_even ? shared.options.evenness : 0,
-             facts_.places_landmarks() ? tuning->least_landmark_factor : tuning->least_factor,
+      usage_(shared.exemplar(level).size, facts_.counts_use() ? shared.options.evenness : 0,
+             facts_.places_landmarks() && !facts_.small() ? tuning->least_landmark_factor : tuning->least_factor,
              demand_of(shared.exemplar(level), control_.get())) {
   Field none;
   const CorrectionLevel whole = correction_level(PlaneWindow::all_of(shared_.plane(level)), fixed_);

@@ -34,6 +34,10 @@ struct Tuning {
   double stay_by_joint = 4;
   double stay_around_bricks = 1;
   int landmark_levels = 2;
+  int finest_insistent = 2;
+  int most_levels_of_small = 3;
+  int finest_even = 1;
+  int small_passes = 4;
   int finest_limited = 2;
   int finest_repaired = 2;
   int coarsest_repaired = 3;
@@ -72,6 +76,18 @@ const Tunable<Tuning> tuning(
          "not measured: only a price of 2 was compared", 0, 10000},
         {&Tuning::landmark_levels, "landmark_levels", "levels",
          "more: rare features are placed evenly; fewer: fewer of them are broken for it", "usage_penalty"},
+        {&Tuning::finest_insistent, "finest_insistent", "level",
+         "lower: the use of exemplars under 64 pixels is evened out where few passes follow, and crumbs stay",
+         "small_exemplars"},
+        {&Tuning::most_levels_of_small, "most_levels_of_small", "levels",
+         "of exemplars whose use is evened out less; 3 are those under 128 pixels. Higher: fewer crumbs, more repeats",
+         "small_exemplars"},
+        {&Tuning::finest_even, "finest_even", "level",
+         "lower: evenness counts at finer levels too, and breaks features",
+         "not measured: taken over from the code before constants were listed"},
+        {&Tuning::small_passes, "small_passes", "passes",
+         "on level 1 where it is one of the coarsest two: exemplars under 128 pixels. Higher: fewer crumbs; costs time",
+         "small_exemplars", 0, 100},
         {&Tuning::finest_limited, "finest_limited", "level",
          "lower: pieces are limited at finer levels, where they hardly grow; costs time",
          "not measured: pieces hardly grow at finer levels"},
@@ -119,7 +135,8 @@ bool always(const LevelFacts&) {
 
 /// Measured on lattices this breaks more and makes nothing more like the exemplar.
 bool insists_on_evenness(const LevelFacts& f) {
-  return f.places_landmarks() && !f.regular && !f.steered && !f.kept;
+  return f.places_landmarks() && f.level >= tuning->finest_insistent && f.counts_use() && !f.regular && !f.steered &&
+         !f.kept;
 }
 
 /// On lattices everything near by is alike, and controls say what belongs where.
@@ -329,6 +346,15 @@ bool LevelFacts::places_landmarks() const {
   return levels - 1 - level < tuning->landmark_levels;
 }
 
+bool LevelFacts::small() const {
+  return levels <= tuning->most_levels_of_small;
+}
+
+/// Of small exemplars the level after the coarsest is among the last: what breaks there for an even use stays broken.
+bool LevelFacts::counts_use() const {
+  return level >= tuning->finest_even && (!small() || level != levels - 2);
+}
+
 /// Like courses, where only seams still move. Kept pixels cut through elements, and controls say what goes where.
 bool LevelFacts::lays_elements() const {
   return has_elements && level < seam_level && quality != Quality::draft && !steered && !kept;
@@ -345,7 +371,7 @@ Effort effort_of(const LevelFacts& f) {
     return {16, f.level >= 3 ? 24 : 8, &full_window(), 16};
   }
   if (f.level == 0) return {f.coarsest() ? 2 : 1, 0, &sparse_window()};  // a tiny exemplar has no other level
-  if (f.level == 1) return {2, 0, &full_window()};
+  if (f.level == 1) return {f.places_landmarks() ? tuning->small_passes : 2, 0, &full_window()};
   return {f.kept ? 10 : 7, f.level >= 3 ? 24 : 8, &full_window()};
 }
 

@@ -58,6 +58,10 @@ struct LevelFacts {
   bool coarsest() const { return level == levels - 1; }
   /// Rare features are won or lost at the coarsest levels.
   bool places_landmarks() const;
+  /// Whether few levels follow on those where rare features are won or lost: exemplars under 128 pixels.
+  bool small() const;
+  /// Whether how evenly the exemplar is used counts on this level.
+  bool counts_use() const;
   /// Whether elements are laid as wholes on this level, which then stay what they are.
   bool lays_elements() const;
 };

@@ -45,6 +45,11 @@ TEST_CASE("which steps run is decided by the facts of a level") {
   LevelFacts coarse = plain;
   coarse.level = 4;
   CHECK(applying(coarse) == "usage_penalty proximity_penalty initialize piece_limits correction");
+  const LevelFacts small{.level = 2, .levels = 3}, finer{.level = 1, .levels = 3}, tiny{.level = 1, .levels = 2};
+  CHECK(applying(small) ==
+        "usage_penalty proximity_penalty initialize graphcut_repair piece_limits correction coherence_repair");
+  CHECK(applying(finer) == "proximity_penalty initialize correction");
+  CHECK(applying(tiny) == "proximity_penalty initialize correction");
   LevelFacts draft = plain;
   draft.quality = Quality::draft;
   CHECK(applying(draft) == "proximity_penalty initialize piece_limits correction");
@@ -79,6 +84,21 @@ TEST_CASE("every step is explained in the guide, and has its section of experime
     CHECK_MESSAGE(experiments.find("## " + std::string(s.name) + "\n") != experiments.npos,
                   "tests/bench/experiments.md has no heading of its name");
   }
+}
+
+TEST_CASE("use counts on coarse levels, but not where few passes put right what it breaks") {
+  const auto counted = [](int levels) {
+    std::vector<int> out;
+    for (int level = 0; level < levels; level++)
+      if (LevelFacts{.level = level, .levels = levels}.counts_use()) out.push_back(level);
+    return out;
+  };
+  CHECK(counted(5) == std::vector<int>{1, 2, 3, 4});
+  CHECK(counted(4) == std::vector<int>{1, 2, 3});
+  CHECK(counted(3) == std::vector<int>{2});
+  CHECK(counted(2) == std::vector<int>{1});  // the coarsest
+  CHECK(counted(1).empty());
+  CHECK(effort_of({.level = 1, .levels = 3}).passes > effort_of({.level = 1, .levels = 4}).passes);
 }
 
 TEST_CASE("effort belongs to the coarse levels, and grows with quality") {

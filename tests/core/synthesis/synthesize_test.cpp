@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include "tests/exemplars.h"
+#include "tests/overrides.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -113,6 +114,48 @@ TEST_CASE("what shows at a place seldom shows again near by") {
     careful += shown_again(0.7, seed) / 3;
   }
   CHECK(careful < careless / 5);
+}
+
+TEST_CASE("an even use leaves no crumbs of small exemplars") {
+  // Beans on dark ground.
+  const Size size{64, 64};
+  const auto bean = [](int x, int y) {
+    double nearest = 1e9, shade = 0;
+    for (int j = y / 9 - 1; j <= y / 9 + 1; j++)
+      for (int i = x / 9 - 1; i <= x / 9 + 1; i++) {
+        const uint64_t bits = random_bits(5, i, j);
+        const double dx = x - 9 * i - 9 * unit_double(bits), dy = y - 9 * j - 9 * unit_double(random_bits(bits, 1));
+        const double d = dx * dx + 2 * dy * dy;
+        if (d >= nearest) continue;
+        nearest = d;
+        shade = 0.5 + 0.4 * unit_double(random_bits(bits, 2));
+      }
+    return float(nearest < 30 ? shade - nearest / 100 : 0.1);
+  };
+  const ImagePtr image = make_image(
+      size, 1, [&](int x, int y, int) { return bean(x, y); }, Semantic::height, "raw");
+  const IndexPtr exemplar = make_index(make_appearance(*plain_features(image), {}, {}, Task()), 3, Task());
+  /// The part of the pixels that continue none of the four around them.
+  const auto crumbs = [&](double evenness) {
+    int alone = 0;
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+      const UvMapPtr uv = synthesize(*exemplar, {.size = {192, 192}, .seed = seed, .evenness = evenness}, Task());
+      const auto goes_on = [&](int x, int y, int dx, int dy) {
+        const ExemplarPixel a = uv->at(x, y), b = uv->at(x + dx, y + dy);
+        return b.x == a.x + dx && b.y == a.y + dy;
+      };
+      for (int y = 1; y < 191; y++)
+        for (int x = 1; x < 191; x++)
+          alone += !goes_on(x, y, 1, 0) && !goes_on(x, y, -1, 0) && !goes_on(x, y, 0, 1) && !goes_on(x, y, 0, -1);
+    }
+    return alone / (3 * 190.0 * 190.0);
+  };
+  const double careless = crumbs(0), even = crumbs(0.7);
+  CHECK(even < 1.5 * careless);
+  // As they were when use counted on all but the finest level.
+  const Override large("steps.most_levels_of_small", 0), insistent("steps.finest_insistent", 0),
+      passes("steps.small_passes", 2);
+  CHECK(crumbs(0.7) > 1.5 * careless);
 }
 
 TEST_CASE("rare features come about as often as in the exemplar") {
