@@ -37,7 +37,6 @@ struct Tuning {
   int finest_insistent = 2;
   int most_levels_of_small = 3;
   int finest_even = 1;
-  int small_passes = 4;
   int finest_limited = 2;
   int finest_repaired = 2;
   int coarsest_repaired = 3;
@@ -85,9 +84,6 @@ const Tunable<Tuning> tuning(
         {&Tuning::finest_even, "finest_even", "level",
          "lower: evenness counts at finer levels too, and breaks features",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::small_passes, "small_passes", "passes",
-         "on level 1 where it is one of the coarsest two: exemplars under 128 pixels. Higher: fewer crumbs; costs time",
-         "small_exemplars", 0, 100},
         {&Tuning::finest_limited, "finest_limited", "level",
          "lower: pieces are limited at finer levels, where they hardly grow; costs time",
          "not measured: pieces hardly grow at finer levels"},
@@ -358,25 +354,6 @@ bool LevelFacts::counts_use() const {
 /// Like courses, where only seams still move. Kept pixels cut through elements, and controls say what goes where.
 bool LevelFacts::lays_elements() const {
   return has_elements && level < seam_level && quality != Quality::draft && !steered && !kept;
-}
-
-Effort effort_of(const LevelFacts& f) {
-  if (f.quality == Quality::draft) {
-    if (f.level <= 1) return {f.kept ? 3 : f.level + 1, 0, &sparse_window()};
-    return {5, f.level >= 3 ? 16 : 4, &full_window()};
-  }
-  if (f.kept && f.level <= 1) return {6, 4, &full_window()};
-  if (f.quality == Quality::best) {
-    if (f.level <= 1) return {f.level == 0 ? 4 : 6, f.level == 0 ? 0 : 4, &full_window(), 16};
-    return {16, f.level >= 3 ? 24 : 8, &full_window(), 16};
-  }
-  if (f.level == 0) return {f.coarsest() ? 2 : 1, 0, &sparse_window()};  // a tiny exemplar has no other level
-  if (f.level == 1) return {f.places_landmarks() ? tuning->small_passes : 2, 0, &full_window()};
-  return {f.kept ? 10 : 7, f.level >= 3 ? 24 : 8, &full_window()};
-}
-
-int reach_of(int passes) {
-  return passes * sub_passes * correction_reach;
 }
 
 double coherence_of(const LevelFacts& f, double coherence) {

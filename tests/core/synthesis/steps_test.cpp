@@ -46,8 +46,7 @@ TEST_CASE("which steps run is decided by the facts of a level") {
   coarse.level = 4;
   CHECK(applying(coarse) == "usage_penalty proximity_penalty initialize piece_limits correction");
   const LevelFacts small{.level = 2, .levels = 3}, finer{.level = 1, .levels = 3}, tiny{.level = 1, .levels = 2};
-  CHECK(applying(small) ==
-        "usage_penalty proximity_penalty initialize graphcut_repair piece_limits correction coherence_repair");
+  CHECK(applying(small) == "usage_penalty proximity_penalty initialize graphcut_repair piece_limits correction");
   CHECK(applying(finer) == "proximity_penalty initialize correction");
   CHECK(applying(tiny) == "proximity_penalty initialize correction");
   LevelFacts draft = plain;

@@ -154,7 +154,7 @@ TEST_CASE("an even use leaves no crumbs of small exemplars") {
   CHECK(even < 1.5 * careless);
   // As they were when use counted on all but the finest level.
   const Override large("steps.most_levels_of_small", 0), insistent("steps.finest_insistent", 0),
-      passes("steps.small_passes", 2);
+      passes("effort.small_passes", 2);
   CHECK(crumbs(0.7) > 1.5 * careless);
 }
 

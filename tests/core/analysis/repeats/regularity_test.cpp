@@ -394,16 +394,3 @@ TEST_CASE("of a masked exemplar the part that may be seen tells how it repeats")
   // Of too little nothing is told.
   CHECK(lattice_of(masked(squares, [](int x, int) { return x < 12; })).rank == 0);
 }
-
-TEST_CASE("a quick look never rules out a lattice that is there, and rules it out in noise") {
-  for (const Pattern pattern : {running_bond, english_bond, basket_weave, herringbone, squares})
-    for (const double unit : {10.0, 24.0, 47.0}) {
-      CAPTURE(unit);
-      const FeaturesPtr features = picture(pattern, unit, 0.3, 0.7);
-      const double certainty = find_lattice(*features, 0.5, Task()).lattice.certainty;
-      CHECK(may_have_lattice(*features, certainty, Task()));
-    }
-  const FeaturesPtr noise = plain_features(
-      make_image({192, 192}, 1, [](int x, int y, int) { return float(unit_double(random_bits(7, x / 3, y / 3))); }));
-  CHECK_FALSE(may_have_lattice(*noise, 0.75, Task()));
-}

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "core/analysis/repeats/regularity.h"
 #include "tests/exemplars.h"
 
 using namespace terrazzo;
@@ -93,4 +94,18 @@ TEST_CASE("tiles of which a border cuts off a little do not tile") {
   };
   CHECK(seems_to_tile(*tiles(24), Task()));
   CHECK_FALSE(seems_to_tile(*tiles(23.7), Task()));
+}
+
+TEST_CASE("a quick look never rules out a lattice that is there, and rules it out in noise") {
+  for (const double side : {9.0, 16.0, 27.4, 48.0}) {
+    CAPTURE(side);
+    const FeaturesPtr tiles = plain_features(make_image({192, 192}, 1, [side](int x, int y, int) {
+      const double u = x - side * std::floor(x / side), v = y - side * std::floor(y / side);
+      return (std::min(u, v) < 2 ? 0.f : 0.5f) + 0.1f * float(unit_double(random_bits(6, x, y)));
+    }));
+    CHECK(may_have_lattice(*tiles, 0.75, Task()));
+  }
+  const FeaturesPtr noise = plain_features(
+      make_image({192, 192}, 1, [](int x, int y, int) { return float(unit_double(random_bits(7, x / 3, y / 3))); }));
+  CHECK_FALSE(may_have_lattice(*noise, 0.75, Task()));
 }
