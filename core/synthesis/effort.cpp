@@ -7,6 +7,7 @@ namespace {
 
 struct Tuning {
   int small_passes = 4;
+  int places_tried = 1;
 };
 const Tunable<Tuning> tuning(
     "effort",
@@ -14,6 +15,9 @@ const Tunable<Tuning> tuning(
         {&Tuning::small_passes, "small_passes", "passes",
          "on level 1 where it is one of the coarsest two: exemplars under 128 pixels. Higher: fewer crumbs; costs time",
          "small_exemplars", 0, 100},
+        {&Tuning::places_tried, "places_tried", "places",
+         "for a window that is unlike the exemplar. Higher: little less is left broken; costs time", "coherence_repair",
+         0, 1000},
     });
 
 }  // namespace
@@ -30,7 +34,8 @@ Effort effort_of(const LevelFacts& f) {
   }
   if (f.level == 0) return {f.coarsest() ? 2 : 1, 0, &sparse_window()};  // a tiny exemplar has no other level
   if (f.level == 1) return {f.places_landmarks() ? tuning->small_passes : 2, 0, &full_window()};
-  return {f.kept ? 10 : 7, f.level >= 3 ? 24 : 8, &full_window()};
+  if (f.kept) return {10, f.level >= 3 ? 24 : 8, &full_window()};
+  return {7, f.level >= 3 ? 24 : 8, &full_window(), tuning->places_tried};
 }
 
 int reach_of(int passes) {

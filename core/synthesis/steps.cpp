@@ -181,11 +181,10 @@ bool limits_pieces(const LevelFacts& f) {
   return f.level >= tuning->finest_limited && !f.kept && !f.steered;
 }
 
-/// Measured on lattices this brings next to nothing. Elsewhere a tenth of what is broken, for a fifth of the time: only
-/// where more is broken, or asked for.
+/// Measured on lattices this brings next to nothing.
 bool repairs_incoherent(const LevelFacts& f) {
-  return (f.kept || f.quality == Quality::best) && f.level >= tuning->finest_incoherent &&
-         f.level <= tuning->coarsest_incoherent && !f.regular && !f.steered && !is_draft(f);
+  return f.level >= tuning->finest_incoherent && f.level <= tuning->coarsest_incoherent && !f.regular && !f.steered &&
+         !is_draft(f);
 }
 
 // What they do.

@@ -38,15 +38,13 @@ TEST_CASE("steps stand in the order of their phases, each named after its file")
 
 TEST_CASE("which steps run is decided by the facts of a level") {
   const LevelFacts plain{.level = 2, .levels = 6};
-  CHECK(applying(plain) == "proximity_penalty initialize graphcut_repair piece_limits correction");
-  LevelFacts best = plain;
-  best.quality = Quality::best;
-  CHECK(applying(best) == "proximity_penalty initialize graphcut_repair piece_limits correction coherence_repair");
+  CHECK(applying(plain) == "proximity_penalty initialize graphcut_repair piece_limits correction coherence_repair");
   LevelFacts coarse = plain;
   coarse.level = 4;
   CHECK(applying(coarse) == "usage_penalty proximity_penalty initialize piece_limits correction");
   const LevelFacts small{.level = 2, .levels = 3}, finer{.level = 1, .levels = 3}, tiny{.level = 1, .levels = 2};
-  CHECK(applying(small) == "usage_penalty proximity_penalty initialize graphcut_repair piece_limits correction");
+  CHECK(applying(small) ==
+        "usage_penalty proximity_penalty initialize graphcut_repair piece_limits correction coherence_repair");
   CHECK(applying(finer) == "proximity_penalty initialize correction");
   CHECK(applying(tiny) == "proximity_penalty initialize correction");
   LevelFacts draft = plain;
