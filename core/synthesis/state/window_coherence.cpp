@@ -41,7 +41,6 @@ const Tunable<Tuning> tuning(
          "not measured: symmetric to alike", 1, 100},
     });
 
-constexpr uint32_t golden_ratio = 0x9e3779b1;  // of 2^32: multiplicative hashing
 constexpr int64_t no_distance = std::numeric_limits<int64_t>::max();
 
 /// Searches the exemplar's window that is nearest to a given one, and nearer than a limit.
@@ -92,14 +91,10 @@ class NearestWindow {
   void forget(int u, int v) { is_new(u, v); }
 
  private:
-  /// Whether the place is seen for the first time. Most pixels of a window continue one of a few places; a filter tells
-  /// places that surely are new without a search.
+  /// Whether the place is seen for the first time. Most pixels of a window continue one of a few.
   bool is_new(int u, int v) {
     const uint32_t place = uint32_t(v) << 16 | uint32_t(u);
-    const uint64_t bit = uint64_t{1} << (place * golden_ratio >> 26);
-    if ((filter_ & bit) != 0 && std::find(tried_.begin(), tried_.begin() + count_, place) != tried_.begin() + count_)
-      return false;
-    filter_ |= bit;
+    if (std::find(tried_.begin(), tried_.begin() + count_, place) != tried_.begin() + count_) return false;
     tried_[size_t(count_++)] = place;
     return true;
   }
@@ -111,7 +106,6 @@ class NearestWindow {
   // The window's pixels, the candidates of five of them, and own_distance()'s place and its four neighbours.
   std::array<uint32_t, side * side + 5 * most_similar + 5> tried_;
   ptrdiff_t count_ = 0;
-  uint64_t filter_ = 0;
   int64_t least_;
 };
 
