@@ -1,8 +1,10 @@
 #include "core/numeric/window_distance.h"
 
+#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <hwy/targets.h>
 
 #include "core/base/hash.h"
 
@@ -33,10 +35,15 @@ TEST_CASE("the distance of two windows is the sum of the squares of all differen
         sums.back() += d * d;
       }
     }
-    CHECK(window_distance(a.data(), b.data(), stride, row_length, rows, sums.back() + 1) == sums.back());
-    CHECK(window_distance(a.data(), b.data(), stride, row_length, rows, sums[3]) == sums[3]);
-    CHECK(window_distance(a.data(), b.data(), stride, row_length, rows, sums[3] + 1) == sums[4]);
-    CHECK(window_distance(a.data(), a.data(), row_length, row_length, rows, 1) == 0);
+    for (int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+      hwy::SetSupportedTargetsForTest(left & -left);
+      CAPTURE(std::string(hwy::TargetName(left & -left)));
+      CHECK(window_distance(a.data(), b.data(), stride, row_length, rows, sums.back() + 1) == sums.back());
+      CHECK(window_distance(a.data(), b.data(), stride, row_length, rows, sums[3]) == sums[3]);
+      CHECK(window_distance(a.data(), b.data(), stride, row_length, rows, sums[3] + 1) == sums[4]);
+      CHECK(window_distance(a.data(), a.data(), row_length, row_length, rows, 1) == 0);
+    }
+    hwy::SetSupportedTargetsForTest(0);
   }
 }
 
