@@ -1,6 +1,9 @@
+#include "core/base/hash.h"
 #include "core/base/tuning.h"
+#include "core/synthesis/state/lattice_origin.h"
 #include "core/synthesis/steps.h"
 #include "core/synthesis/steps/element_layout.h"
+#include "core/synthesis/steps/initialize.h"
 
 namespace terrazzo {
 
@@ -35,6 +38,15 @@ bool keeps_elements(const Lattice& lattice) {
          lattice.first.norm() >= tuning->shortest_course;
 }
 
+/// Parts that repeat each in its own way keep to where they lie in the exemplar, and so does what controls place.
+Vector2d lattice_start(const Index& index, const SynthesisOptions& o) {
+  const Appearance& appearance = *index.appearance();
+  if (!appearance.repeats().parts.empty()) return {double(o.origin[0]), double(o.origin[1])};
+  if (!o.kept.empty()) return lattice_origin(appearance.lattice(), o.kept, o.size);
+  if (!o.controls.empty()) return {};
+  return random_lattice_origin(appearance.lattice(), random_bits(o.seed, Purpose::first_cell));
+}
+
 }  // namespace
 
 Size level_size(Size output, int level) {
@@ -49,6 +61,7 @@ SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
       levels(int(index.levels().size())),
       lattice(index.appearance()->lattice()),
       gaps(options.kept.gaps(options.size)),
+      origin(lattice_start(index, options)),
       controls(options.controls, index.appearance()->size(), options.size, levels, task) {}
 
 Plane SharedWork::plane(int level) const {
@@ -64,11 +77,8 @@ double SharedWork::jitter(int level) const {
 /// fit, is cut where the result wraps.
 LatticeSurface SharedWork::surface() const {
   const bool fits = options.kept.empty() || lattice.fits(options.size, options.tile_x, options.tile_y);
-  return {options.size,
-          options.tile_x && (fits || gaps.x.length > 0),
-          options.tile_y && (fits || gaps.y.length > 0),
-          {double(options.origin[0]), double(options.origin[1])},
-          gaps};
+  return {options.size, options.tile_x && (fits || gaps.x.length > 0), options.tile_y && (fits || gaps.y.length > 0),
+          origin, gaps};
 }
 
 LevelFacts SharedWork::facts(int level) const {

@@ -350,9 +350,9 @@ bool LevelFacts::counts_use() const {
   return level >= tuning->finest_even && (!small() || level != levels - 2);
 }
 
-/// Like courses, where only seams still move. Kept pixels cut through elements, and controls say what goes where.
+/// Like courses, where only seams still move. Controls say what goes where.
 bool LevelFacts::lays_elements() const {
-  return has_elements && level < seam_level && quality != Quality::draft && !steered && !kept;
+  return has_elements && level < seam_level && quality != Quality::draft && !steered;
 }
 
 double coherence_of(const LevelFacts& f, double coherence) {

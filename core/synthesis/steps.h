@@ -21,7 +21,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 23;
+inline constexpr int synthesis_version = 24;
 
 /// The finest level that is worked out for the plane as a whole: patches are laid, pieces aligned and their seams moved
 /// on every level but the finest.
@@ -102,6 +102,7 @@ struct SharedWork {
   int levels;
   Lattice lattice;
   LatticeGaps gaps;  ///< between kept pixels
+  Vector2d origin;   ///< where the lattice starts in the result
   ControlPyramid controls;
   int finest = 0;  ///< the level that ends the work
 };

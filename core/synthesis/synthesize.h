@@ -27,7 +27,7 @@ struct SynthesisOptions {
   /// Weight of the usage term; 0: parts of the exemplar may be over-used.
   double evenness = 0.7;
   /// Bricks and boards of an exemplar built of courses are laid whole (lay_courses()), but in drafts, under controls
-  /// and between kept pixels; so are elements that the analysis knows (lay_elements()).
+  /// and between kept pixels; so are elements that the analysis knows (lay_elements()), between kept pixels, too.
   bool whole_bricks = true;
   /// Per level, coarsest first, in that level's exemplar pixels; missing levels have none.
   std::vector<double> jitter{};
@@ -35,7 +35,8 @@ struct SynthesisOptions {
   std::vector<Control> controls{};
   /// Output pixels that are there already: they stay bit for bit, and the others continue them.
   KeptPixels kept{};
-  /// The output position of the kept pixels' (0, 0): where a lattice starts.
+  /// The output position of the kept pixels' (0, 0): where the lattices of an exemplar's parts start. That of a whole
+  /// exemplar starts elsewhere with each seed, or where it does in what is kept.
   std::array<int, 2> origin{};
 };
 

@@ -131,6 +131,14 @@ Param whole_bricks_param() {
               "cuts some of them."};
 }
 
+Param whole_bricks_between_kept_param() {
+  Param p = whole_bricks_param();
+  p.help =
+      "For walls and floors: lays whole stones, bricks, slates and tiles if the analysis knows them (\"elements\"); "
+      "those that are kept in part go on beyond. Not in drafts. false cuts some of them.";
+  return p;
+}
+
 std::vector<Param> with_synthesis_params(std::vector<Param> own) {
   own.insert(own.end(), shared_params().begin(), shared_params().end());
   return own;

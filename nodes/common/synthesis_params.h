@@ -21,6 +21,8 @@ Param surface_param(std::string name, std::string help, int least);
 Param tileable_param();
 /// Parameter "whole_bricks", of nodes that make whole surfaces.
 Param whole_bricks_param();
+/// The same parameter of nodes that keep pixels: courses are not laid between those.
+Param whole_bricks_between_kept_param();
 /// `own` parameters, followed by those of every synthesis: seed, quality, coherence, evenness, and jitter.
 std::vector<Param> with_synthesis_params(std::vector<Param> own);
 /// Checks them; for NodeType::check.

@@ -80,6 +80,7 @@ void compute(NodeContext& node) {
   const auto uv = node.optional_input<UvMap>("uv");
   const auto holes = node.input<Image>("mask");
   SynthesisOptions options = synthesis_options(node, *index);
+  options.whole_bricks = false;  // what is kept of an exemplar ends in elements that cannot go on
   if (uv) {
     options.size = uv->size();
     options.tile_x |= uv->wraps().x;

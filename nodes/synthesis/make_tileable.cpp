@@ -62,6 +62,7 @@ void compute(NodeContext& node) {
   const auto index = node.input<Index>("index");
   if (index->appearance()->wraps()) return leave(node, *index);
   SynthesisOptions options = synthesis_options(node, *index);
+  options.whole_bricks = false;  // what is kept of an exemplar ends in elements that cannot go on
   const std::string& directions = node.text("directions");
   options.tile_x = directions != "y";
   options.tile_y = directions != "x";

@@ -9,6 +9,7 @@
 #include "core/base/tuning.h"
 #include "core/synthesis/steps/element_packing.h"
 #include "core/synthesis/steps/element_shapes.h"
+#include "core/synthesis/steps/element_warp.h"
 
 namespace terrazzo {
 
@@ -17,11 +18,10 @@ namespace {
 struct Tuning {
   double least_shown = 0.4;
   double least_shown_at_border = 0.15;
+  double least_kept = 0.03;
+  double bent = 0.5;
   int same_place = 4;
   int fewest = 4;
-  double bend_depth = 0.6;
-  double unseen = 0.75;
-  int bend_steps = 3;
 };
 const Tunable<Tuning> tuning(
     "element_layout",
@@ -31,17 +31,17 @@ const Tunable<Tuning> tuning(
          "element_layout", 0, 1},
         {&Tuning::least_shown_at_border, "least_shown_at_border", "of an element",
          "the same where the result's border cuts it", "not measured: chosen by eye", 0, 1},
+        {&Tuning::least_kept, "least_kept", "of an element",
+         "that must be kept for all of it to be shown. Higher: more is cut where kept pixels end; lower: crumbs count",
+         "not measured: chosen by eye", 0, 1},
         {&Tuning::same_place, "same_place", "pixels", "within which an element is in one place",
          "not measured: seams jog by less", 0, 64},
+        {&Tuning::bent, "bent", "inner radii",
+         "likewise, of large ones. Higher: one that comes twice in part is one; lower: one that is bent is two",
+         "element_layout", 0, 2},
         {&Tuning::fewest, "fewest", "elements",
          "that an exemplar must have whole. Higher: large tiles keep to their lattice; lower: they come back and back",
          "not measured: fewer are no choice", 1},
-        {&Tuning::bend_depth, "bend_depth", "inner radii",
-         "how deep elements bend. Higher: softer, but more of them; lower: only the rim, which is squeezed more",
-         "element_layout", 0.01, 1},
-        {&Tuning::unseen, "unseen", "blocks", "by which neighbours may miss each other without being bent",
-         "element_layout", 0, 100},
-        {&Tuning::bend_steps, "bend_steps", "steps", "of following the outline. Costs time", "element_layout", 1, 32},
     });
 
 /// Where an element of the exemplar lies when it is shown with a shift.
@@ -62,7 +62,14 @@ class ElementLayout {
         packing_(shapes_, field.size, level.window.closed_x, level.window.closed_y) {}
 
   void lay(const Task& task) {
-    packing_.pack(shown(), task);
+    const Places places = shown();
+    std::vector<PlacedElement> placed;
+    for (const auto& of_element : places)
+      for (const Shown& s : of_element)
+        if (s.placed.stays || is_shown(s)) placed.push_back(s.placed);
+    if (level_.fixed.any()) packing_.keep_off(kept_without(places));
+    packing_.pack(std::move(placed), task);
+    for (int i = 0; i < int(packing_.placed().size()); i++) warps_.emplace_back(shapes_, packing_, i);
     tbb::parallel_for(0, field_.size.height, [&](int row) {
       for (int column = 0; column < field_.size.width; column++) show(column, row);
     });
@@ -86,35 +93,73 @@ class ElementLayout {
   struct Shown {
     PlacedElement placed;
     int64_t blocks = 0;
+    int64_t kept = 0;  ///< of them, those that are kept
   };
+  using Places = std::vector<std::vector<Shown>>;  // of each element
 
-  /// The elements that the field shows for the most part.
-  std::vector<PlacedElement> shown() const {
-    std::map<Vote, int64_t> votes;
+  bool is_kept(int column, int row) const { return level_.fixed.at(level_.window.index(column, row)); }
+
+  /// What the field shows of elements, and where.
+  Places shown() const {
+    struct Count {
+      int64_t blocks = 0, kept = 0;
+    };
+    std::map<Vote, Count> votes;
     for (int row = 0; row < field_.size.height; row++)
-      for (int column = 0; column < field_.size.width; column++) votes[vote_of(column, row)]++;
-    std::vector<std::pair<Vote, int64_t>> by_size(votes.begin(), votes.end());
-    std::ranges::stable_sort(by_size, [](const auto& a, const auto& b) { return a.second > b.second; });
-    std::vector<std::vector<Shown>> places(shapes_.all.size());
-    for (const auto& [vote, blocks] : by_size) add_to_nearest(places[size_t(vote.element)], vote, blocks);
-    std::vector<PlacedElement> out;
-    for (const auto& of_element : places)
-      for (const Shown& s : of_element)
-        if (stays(s)) out.push_back(s.placed);
+      for (int column = 0; column < field_.size.width; column++) {
+        Count& count = votes[vote_of(column, row)];
+        count.blocks++;
+        count.kept += is_kept(column, row);
+      }
+    std::vector<std::pair<Vote, Count>> by_size(votes.begin(), votes.end());
+    std::ranges::stable_sort(by_size, [](const auto& a, const auto& b) { return a.second.blocks > b.second.blocks; });
+    Places places(shapes_.all.size());
+    for (const auto& [vote, count] : by_size) {
+      Shown& s = place_of(places[size_t(vote.element)], vote);
+      s.blocks += count.blocks;
+      s.kept += count.kept;
+    }
+    for (auto& of_element : places)
+      for (Shown& s : of_element) s.placed.stays = is_continued(s);
+    return places;
+  }
+
+  /// An element of a kept result that was bent to meet its neighbours is still in one place.
+  const Shown* find_place(const std::vector<Shown>& places, const Vote& vote) const {
+    const double deep = level_.fixed.any() ? double(shapes_[vote.element].inner_radius) * block_ : 0;
+    const int reach = std::max(tuning->same_place, int(tuning->bent * deep));
+    const auto at = std::ranges::find_if(places, [&](const Shown& s) {
+      return std::abs(s.placed.shift_x - vote.shift_x) <= reach && std::abs(s.placed.shift_y - vote.shift_y) <= reach;
+    });
+    return at == places.end() ? nullptr : &*at;
+  }
+
+  Shown& place_of(std::vector<Shown>& places, const Vote& vote) const {
+    if (const Shown* s = find_place(places, vote)) return places[size_t(s - places.data())];
+    return places.emplace_back(Shown{{vote.element, vote.shift_x, vote.shift_y}});
+  }
+
+  /// Whether an element that is partly kept goes on beyond that.
+  bool is_continued(const Shown& s) const {
+    const ElementShape& shape = shapes_[s.placed.element];
+    return !shape.cut && s.kept > 0 && double(s.kept) >= tuning->least_kept * double(shape.area);
+  }
+
+  /// The kept blocks that show none of the elements that go on.
+  std::vector<uint8_t> kept_without(const Places& places) const {
+    std::vector<uint8_t> out(field_.pixels.size());
+    for (int row = 0; row < field_.size.height; row++)
+      for (int column = 0; column < field_.size.width; column++) {
+        if (!is_kept(column, row)) continue;
+        const Vote vote = vote_of(column, row);
+        const Shown* s = find_place(places[size_t(vote.element)], vote);
+        out[size_t(row) * size_t(field_.size.width) + size_t(column)] = !s || !s->placed.stays;
+      }
     return out;
   }
 
-  void add_to_nearest(std::vector<Shown>& places, const Vote& vote, int64_t blocks) const {
-    const int reach = tuning->same_place;
-    for (Shown& s : places)
-      if (std::abs(s.placed.shift_x - vote.shift_x) <= reach && std::abs(s.placed.shift_y - vote.shift_y) <= reach) {
-        s.blocks += blocks;
-        return;
-      }
-    places.push_back({{vote.element, vote.shift_x, vote.shift_y}, blocks});
-  }
-
-  bool stays(const Shown& s) const {
+  /// Whether the field shows an element for the most part.
+  bool is_shown(const Shown& s) const {
     const ElementShape& shape = shapes_[s.placed.element];
     if (shape.cut) return false;
     const int x = packing_.column_of(s.placed) + shape.box.x, y = packing_.row_of(s.placed) + shape.box.y;
@@ -124,43 +169,15 @@ class ElementLayout {
     return double(s.blocks) >= least * double(shape.area);
   }
 
-  /// A place of an element that is bent to meet its neighbours: from its centre, in blocks.
-  struct Bent {
-    double x, y;
-  };
-
-  /// Bends along the slope of the depth: at the outline until the element ends half-way between its own outline and its
-  /// neighbour's, and the less the deeper inside.
-  Bent bent(const ElementShape& shape, const ElementPacking::Place& place, Bent at) const {
-    if (place.neighbour <= ElementShape::unknown_depth) return at;
-    const double wanted = (double(place.depth) - double(place.neighbour)) / 2;
-    const double weight = 1 - wanted / std::max(1.0, tuning->bend_depth * double(shape.inner_radius));
-    if (weight <= 0 || std::abs(wanted - double(place.depth)) < tuning->unseen) return at;
-    const auto depth = [&](double x, double y) { return shape.depth_between(x, y); };
-    const double first = double(place.depth) + weight * (wanted - double(place.depth));
-    for (int i = 0; i < tuning->bend_steps; i++) {
-      const double off = first - depth(at.x, at.y);
-      const double slope_x = depth(at.x + 1, at.y) - depth(at.x - 1, at.y);
-      const double slope_y = depth(at.x, at.y + 1) - depth(at.x, at.y - 1);
-      const double slope = std::sqrt(slope_x * slope_x + slope_y * slope_y);
-      if (std::abs(off) < 0.05 || slope < 0.5 || slope > 8) break;
-      const double by = std::clamp(off, -4.0, 4.0) / slope;
-      at.x += by * slope_x;
-      at.y += by * slope_y;
-    }
-    return at;
-  }
-
   void show(int column, int row) {
     const ElementPacking::Place& place = packing_.at(column, row);
-    if (place.placed < 0) return;
+    if (place.placed < 0 || is_kept(column, row)) return;
     const PlacedElement& p = packing_.placed()[size_t(place.placed)];
-    const ElementShape& shape = shapes_[p.element];
     int x = column - packing_.column_of(p), y = row - packing_.row_of(p);
     if (level_.window.closed_x) x = wrap(x + field_.size.width / 2, field_.size.width) - field_.size.width / 2;
     if (level_.window.closed_y) y = wrap(y + field_.size.height / 2, field_.size.height) - field_.size.height / 2;
-    const Bent to = bent(shape, place, {double(x), double(y)});
-    // What is not bent keeps its shift, which need not be whole blocks.
+    const ElementWarp::At to = warps_[size_t(place.placed)]({double(x), double(y)});
+    // What is not moved keeps its shift, which need not be whole blocks.
     int u = (x + packing_.column_of(p)) * block_ + p.shift_x + int(std::floor((to.x - x) * block_ + 0.5));
     int v = (y + packing_.row_of(p)) * block_ + p.shift_y + int(std::floor((to.y - y) * block_ + 0.5));
     if (wraps_) {
@@ -180,6 +197,7 @@ class ElementLayout {
   bool wraps_;
   ElementShapes shapes_;
   ElementPacking packing_;
+  std::vector<ElementWarp> warps_;  // of each placed element
 };
 
 }  // namespace

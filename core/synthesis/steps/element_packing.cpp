@@ -23,6 +23,10 @@ struct Tuning {
   double around = 6;
   double used = 0.08;
   double step = 0.12;
+  double contact = 0.3;
+  double contact_within = 0.08;
+  double farthest_moved = 0.2;
+  int settling = 4;
   int rounds = 7;
 };
 const Tunable<Tuning> tuning(
@@ -53,13 +57,28 @@ const Tunable<Tuning> tuning(
          0, 100},
         {&Tuning::step, "step", "typical sides", "between places that are tried. Lower: better fits; costs time",
          "element_layout", 0.01, 4},
+        {&Tuning::contact, "contact", "of an element's area",
+         "what it is worth to end where all neighbours begin. Higher: neighbours meet; lower: holes are filled",
+         "element_layout", 0, 100},
+        {&Tuning::contact_within, "contact_within", "typical sides",
+         "by which they may miss each other. Higher: near misses count as well", "element_layout", 0.001, 4},
+        {&Tuning::farthest_moved, "farthest_moved", "typical sides",
+         "that an element moves at a time to meet its neighbours", "element_layout", 0, 4},
+        {&Tuning::settling, "settling", "rounds", "of moving elements. Costs time", "element_layout", 0, 100},
         {&Tuning::rounds, "rounds", "rounds", "of taking away and filling. Costs time", "element_layout", 1, 100},
     });
+
+constexpr float farthest = 1e6f;  // of what is kept, where nothing is
 
 }  // namespace
 
 ElementPacking::ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y)
     : shapes_(shapes), size_(size), closed_x_(closed_x), closed_y_(closed_y) {}
+
+void ElementPacking::keep_off(const std::vector<uint8_t>& blocks) {
+  kept_depth_ = signed_distances(blocks, size_, closed_x_ && closed_y_, farthest);
+  for (float& d : kept_depth_) d = -d;
+}
 
 /// Calls visit(index, depth) for the blocks of an element's box that the result has.
 template <typename Visit>
@@ -93,6 +112,7 @@ void ElementPacking::paint(size_t placed) {
 
 void ElementPacking::paint_all() {
   places_.assign(size_t(size_.area()), {-1, ElementShape::unknown_depth, ElementShape::unknown_depth});
+  for (size_t i = 0; i < kept_depth_.size(); i++) places_[i].depth = kept_depth_[i];
   of_element_.assign(shapes_.all.size(), {});
   for (size_t i = 0; i < placed_.size(); i++) {
     paint(i);
@@ -120,7 +140,7 @@ void ElementPacking::take_away_covered(const Task& task) {
     measure_clear();
     std::vector<size_t> covered;
     for (size_t i = 0; i < placed_.size(); i++)
-      if (placed_[i].clear < tuning->least_clear) covered.push_back(i);
+      if (!placed_[i].stays && placed_[i].clear < tuning->least_clear) covered.push_back(i);
     if (covered.empty()) return;
     std::ranges::stable_sort(covered, {}, [&](size_t i) { return placed_[i].clear; });
     std::vector<uint8_t> stays(placed_.size(), 0), goes(placed_.size(), 0);
@@ -169,26 +189,41 @@ double ElementPacking::seen_around(int element, int column, int row) const {
   return sum;
 }
 
-/// The share of an element, its centre at a place, that fills holes, less what it covers of others.
-double ElementPacking::gain(const ElementShape& shape, int column, int row, double overlap) const {
+double ElementPacking::Fit::value() const {
+  return gain + tuning->contact * contact;
+}
+
+/// Its centre at a place; `but`: as if that placed element were not there.
+ElementPacking::Fit ElementPacking::fit(const ElementShape& shape, int column, int row, double overlap, int but) const {
+  Fit out;
   const double soft = tuning->soft * shapes_.typical_side;
-  double sum = 0;
   for (const ElementSample& s : shape.samples) {
     const int64_t i = index(column + s.x, row + s.y);
     if (i < 0) continue;
-    const float there = places_[size_t(i)].depth;
-    sum += there < 0 ? 1 : -overlap * std::min(1.0, double(std::min(there, s.depth)) / soft);
+    const float there = depth_but(places_[size_t(i)], but);
+    out.gain += there < 0 ? 1 : -overlap * std::min(1.0, double(std::min(there, s.depth)) / soft);
   }
-  return sum / double(shape.samples.size());
+  out.gain /= double(shape.samples.size());
+  const double within = std::max(1.0, tuning->contact_within * shapes_.typical_side);
+  int inside = 0;
+  for (const ElementSample& s : shape.outline) {
+    const int64_t i = index(column + s.x, row + s.y);
+    if (i < 0) continue;
+    inside++;
+    out.contact += std::max(0.0, 1 - std::abs(double(depth_but(places_[size_t(i)], but) + s.depth)) / within);
+  }
+  if (inside > 0) out.contact /= inside;
+  return out;
 }
 
 bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
   const double typical = shapes_.typical_side;
   const int step = std::max(1, int(tuning->step * typical));
   const double usual = double(placed_.size()) / std::max(1, shapes_.whole);
-  struct Fit {
+  struct Best {
     int element = -1, column = 0, row = 0;
-    double gain = 0, value = -1e9;
+    Fit fit{};
+    double value = -1e9;
   } best;
   for (int e = 0; e < int(shapes_.all.size()); e++) {
     const ElementShape& shape = shapes_[e];
@@ -196,23 +231,25 @@ bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
     const double often = std::max(0.0, double(of_element_[size_t(e)].size()) / std::max(1.0, usual) - 1);
     const double price = tuning->seen_around * seen_around(e, hole.column, hole.row) + tuning->used * often;
     const double weight = double(shape.area);
-    if ((1 - price) * weight <= best.value) continue;
+    if ((1 + tuning->contact - price) * weight <= best.value) continue;
     const int across = std::max(0, shape.box.width / 2 - int(tuning->step * 4 * typical));
     const int down = std::max(0, shape.box.height / 2 - int(tuning->step * 4 * typical));
     for (int y = -down; y <= down; y += step)
       for (int x = -across; x <= across; x += step) {
-        const double g = gain(shape, hole.column + x, hole.row + y, terms.overlap), value = (g - price) * weight;
-        if (value > best.value) best = {e, hole.column + x, hole.row + y, g, value};
+        const Fit f = fit(shape, hole.column + x, hole.row + y, terms.overlap);
+        const double value = (f.value() - price) * weight;
+        if (value > best.value) best = {e, hole.column + x, hole.row + y, f, value};
       }
   }
-  if (best.element < 0 || best.gain < terms.least_gain) return false;
+  if (best.element < 0 || best.fit.gain < terms.least_gain) return false;
   const ElementShape& shape = shapes_[best.element];
   for (int reach = step / 2; reach > 0; reach /= 2)
     for (bool moved = true; moved;) {
       moved = false;
       for (const auto& [x, y] : {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}})
-        if (const double g = gain(shape, best.column + x, best.row + y, terms.overlap); g > best.gain + 1e-9) {
-          best = {best.element, best.column + x, best.row + y, g, best.value};
+        if (const Fit f = fit(shape, best.column + x, best.row + y, terms.overlap);
+            f.value() > best.fit.value() + 1e-9) {
+          best = {best.element, best.column + x, best.row + y, f, best.value};
           moved = true;
         }
     }
@@ -223,6 +260,36 @@ bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
   placed_.push_back(placed);
   paint(placed_.size() - 1);
   return true;
+}
+
+/// Elements move to where they meet their neighbours, all at once, half the way each, for those move as well.
+void ElementPacking::settle(const Task& task) {
+  const int farthest = std::max(1, int(tuning->farthest_moved * shapes_.typical_side));
+  for (int round = 0; round < tuning->settling; round++) {
+    task.check();
+    std::vector<PlacedElement> moved = placed_;
+    for (size_t i = 0; i < placed_.size(); i++) {
+      if (placed_[i].stays) continue;
+      const ElementShape& shape = shapes_[placed_[i].element];
+      const int column = column_of(placed_[i]), row = row_of(placed_[i]);
+      const auto value = [&](int x, int y) { return fit(shape, column + x, row + y, tuning->overlap, int(i)).value(); };
+      int x = 0, y = 0;
+      double best = value(0, 0);
+      const double least = best + 0.02;
+      for (int reach = farthest; reach > 0; reach /= 2)
+        for (const auto& [dx, dy] : {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}})
+          if (const double v = value(x + dx, y + dy); v > best) {
+            best = v;
+            x += dx;
+            y += dy;
+          }
+      if (best < least) continue;
+      moved[i].shift_x -= (x + (x > 0 ? 1 : 0)) / 2 * shapes_.block;
+      moved[i].shift_y -= (y + (y > 0 ? 1 : 0)) / 2 * shapes_.block;
+    }
+    placed_ = std::move(moved);
+    paint_all();
+  }
 }
 
 int ElementPacking::fill_holes(const Terms& terms, const Task& task) {
@@ -251,9 +318,11 @@ void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task) {
     const Terms terms{part * tuning->least_gain,
                       tuning->least_overlap + part * (tuning->overlap - tuning->least_overlap)};
     if (fill_holes(terms, task) == 0 && part == 0) break;
+    settle(task);
   }
   take_away_covered(task);
-  fill_holes({-1, tuning->least_overlap}, task);
+  // Between kept pixels a hole may be too small for any.
+  fill_holes({kept_depth_.empty() ? -1.0 : 0.0, tuning->least_overlap}, task);
 }
 
 }  // namespace terrazzo

@@ -14,7 +14,8 @@ namespace terrazzo {
 struct PlacedElement {
   int element = 0;
   int shift_x = 0, shift_y = 0;
-  double clear = 1;  ///< the share of it that lies on no other
+  double clear = 1;    ///< the share of it that lies on no other
+  bool stays = false;  ///< part of it is kept: it is not taken away
 };
 
 /// Elements side by side: all of the result belongs to one of them.
@@ -23,6 +24,9 @@ class ElementPacking {
   /// `size`: of the result, in blocks of the shapes. `closed_x`, `closed_y`: it wraps around.
   ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y);
 
+  /// Of each block of the result whether something is kept there that belongs to none of the elements.
+  void keep_off(const std::vector<uint8_t>& blocks);
+
   /// Takes away what others cover and fills the holes with the elements that fit them best and are seen least around
   /// there, until there is no hole left that one fits. Whole-element placement, as Hurtut et al., Appearance-guided
   /// synthesis of element arrangements by example (2009), with depth fields in place of their distances. Throws
@@ -30,12 +34,17 @@ class ElementPacking {
   void pack(std::vector<PlacedElement> placed, const Task& task);
 
   struct Place {
-    int placed = -1;      ///< which one the block belongs to: the one in which it lies deepest
-    float depth = 0;      ///< in it
+    int placed = -1;  ///< which one the block belongs to: the one in which it lies deepest; -1: what keep_off() names
+    float depth = 0;  ///< in it
     float neighbour = 0;  ///< depth in the next one, mostly negative; ElementShape::unknown_depth if there is none near
   };
   const std::vector<PlacedElement>& placed() const { return placed_; }
   const Place& at(int x, int y) const { return places_[size_t(y) * size_t(size_.width) + size_t(x)]; }
+  /// The same around the borders of a result that wraps; null outside of one that does not.
+  const Place* find(int x, int y) const {
+    const int64_t i = index(x, y);
+    return i < 0 ? nullptr : &places_[size_t(i)];
+  }
 
   /// Of an element's centre, in blocks.
   int column_of(const PlacedElement& p) const { return shapes_[p.element].centre_x - block_shift(p.shift_x); }
@@ -63,13 +72,22 @@ class ElementPacking {
   std::vector<Hole> holes() const;
   bool fill(const Hole& hole, const Terms& terms);
   double seen_around(int element, int column, int row) const;
-  double gain(const ElementShape& shape, int column, int row, double overlap) const;
+  /// How well an element fits somewhere.
+  struct Fit {
+    double gain = 0;     ///< the share of it that fills holes, less what it covers of others
+    double contact = 0;  ///< the share of its outline along which others end
+    double value() const;
+  };
+  Fit fit(const ElementShape& shape, int column, int row, double overlap, int but = -1) const;
+  float depth_but(const Place& p, int but) const { return p.placed == but && but >= 0 ? p.neighbour : p.depth; }
+  void settle(const Task& task);
 
   const ElementShapes& shapes_;
   Size size_;
   bool closed_x_, closed_y_;
   std::vector<PlacedElement> placed_;
   std::vector<Place> places_;
+  std::vector<float> kept_depth_;                ///< of each block in what is kept; empty: nothing is
   std::vector<std::vector<size_t>> of_element_;  ///< of each element: where in placed_ it is
 };
 

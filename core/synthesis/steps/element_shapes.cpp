@@ -15,6 +15,7 @@ namespace {
 struct Tuning {
   double margin = 0.4;
   int samples = 36;
+  int outline = 40;
 };
 const Tunable<Tuning> tuning("element_shapes",
                              {
@@ -25,6 +26,8 @@ const Tunable<Tuning> tuning("element_shapes",
                                  {&Tuning::samples, "samples", "blocks of an element",
                                   "that are compared when places for it are tried. Costs time", "element_layout", 1,
                                   100000},
+                                 {&Tuning::outline, "outline", "blocks of its outline", "that are compared likewise",
+                                  "element_layout", 4, 100000},
                              });
 
 /// The exemplar's regions, one per block.
@@ -96,6 +99,13 @@ void measure(const Grid& grid, int element, int margin, const Extent& e, Element
     for (int x = step / 2; x < shape.box.width; x += step)
       if (const float d = shape.depths[size_t(y) * size_t(shape.box.width) + size_t(x)]; d > 0)
         shape.samples.push_back({int16_t(x + shape.box.x), int16_t(y + shape.box.y), d});
+  std::vector<ElementSample> outline;
+  for (int y = 0; y < shape.box.height; y++)
+    for (int x = 0; x < shape.box.width; x++)
+      if (const float d = shape.depths[size_t(y) * size_t(shape.box.width) + size_t(x)]; std::abs(d) < 1)
+        outline.push_back({int16_t(x + shape.box.x), int16_t(y + shape.box.y), d});
+  const size_t every = std::max<size_t>(1, outline.size() / size_t(tuning->outline));
+  for (size_t i = 0; i < outline.size(); i += every) shape.outline.push_back(outline[i]);
 }
 
 }  // namespace

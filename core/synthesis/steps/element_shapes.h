@@ -22,6 +22,7 @@ struct ElementShape {
   /// For each of them the distance to the element's outline, in blocks: positive inside, the middle of the joint is 0.
   std::vector<float> depths;
   std::vector<ElementSample> samples;  ///< some of its blocks, evenly
+  std::vector<ElementSample> outline;  ///< some of the blocks along its outline, on both sides
   int64_t area = 0;                    ///< blocks
   float inner_radius = 0;              ///< the greatest depth
   bool cut = false;                    ///< by the border of an exemplar that does not tile, or by a mask

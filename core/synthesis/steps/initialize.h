@@ -18,7 +18,8 @@ enum Purpose : uint64_t {
   correction = 3,
   graphcut_repair = 4,
   piece_relocation = 5,
-  coherence_repair = 6
+  coherence_repair = 6,
+  first_cell = 7
 };
 
 /// The coarsest level: square blocks of a quarter of the exemplar's side, each the best of several random ones: the one

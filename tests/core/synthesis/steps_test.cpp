@@ -56,6 +56,8 @@ TEST_CASE("which steps run is decided by the facts of a level") {
   CHECK(applying(bricks) == "initialize alignment course_layout seams correction");
   const LevelFacts kept{.level = 1, .levels = 6, .kept = true};
   CHECK(applying(kept) == "proximity_penalty initialize fixed_pixels seams graphcut_repair correction");
+  const LevelFacts kept_elements{.level = 0, .levels = 6, .kept = true, .has_elements = true};
+  CHECK(applying(kept_elements) == "proximity_penalty initialize fixed_pixels element_layout correction");
   const LevelFacts kept_coarse{.level = 2, .levels = 6, .kept = true};
   CHECK(applying(kept_coarse) ==
         "proximity_penalty initialize fixed_pixels graphcut_repair correction coherence_repair");

@@ -57,6 +57,28 @@ TEST_CASE("a result that wraps has whole stones across its borders") {
   CHECK(hybrids(stones, *uv) < 0.05);
 }
 
+TEST_CASE("around a result that is kept to the pixel, its stones go on and others join them whole") {
+  const DrawnStones stones(exemplar);
+  const IndexPtr index = index_of(stones, true);
+  const UvMapPtr small = made(*index, {.size = {200, 190}, .seed = 4});
+  SynthesisOptions options{.size = {420, 400}, .seed = 5, .origin = {96, 104}};
+  options.kept.keep.resize(size_t(options.size.area()), Keep::never);
+  options.kept.pixels.resize(options.kept.keep.size());
+  for (int y = 0; y < small->size().height; y++)
+    for (int x = 0; x < small->size().width; x++) {
+      const size_t to = size_t(y + options.origin[1]) * size_t(options.size.width) + size_t(x + options.origin[0]);
+      options.kept.keep[to] = Keep::always;
+      options.kept.pixels[to] = small->at(x, y);
+    }
+  const UvMapPtr larger = made(*index, options);
+  CHECK(hybrids(stones, *larger) < 0.05);
+  for (int y = 0; y < small->size().height; y++)
+    for (int x = 0; x < small->size().width; x++)
+      REQUIRE(larger->at(x + options.origin[0], y + options.origin[1]) == small->at(x, y));
+  options.whole_bricks = false;
+  CHECK(hybrids(stones, *made(*index, options)) > 0.15);
+}
+
 TEST_CASE("drafts, and results that ask for no whole bricks, are made as without elements") {
   const DrawnStones stones(exemplar);
   const IndexPtr plain = index_of(stones, false), known = index_of(stones, true);
