@@ -83,7 +83,6 @@ TEST_CASE("another value of a constant changes the result and its cache key, and
                 {"initialize.free_draws", 1},
                 {"initialize.blocks_per_side", 3},
                 {"piece_limits.large", 0.02},
-                {"graphcut_repair.worse", 3},
                 {"usage_penalty.gain", 0.9},
                 {"proximity_penalty.far_reach", 1}}},
         Result{Shown::wall_with_lattice,
@@ -91,7 +90,10 @@ TEST_CASE("another value of a constant changes the result and its cache key, and
         Result{Shown::drawn_wall,
                {{"alignment.worthwhile", 30}, {"course_prices.own", 0}, {"coursing.smallest_period", 30}}},
         Result{Shown::spots_at_best,
-               {{"coherence_repair.incoherent", 1}, {"k_coherence.rounds", 2}, {"patches.random_places", 0}}}}) {
+               {{"coherence_repair.incoherent", 1},
+                {"k_coherence.rounds", 2},
+                {"patches.random_places", 0},
+                {"graphcut_repair.worse", 3}}}}) {
     const Digest usual = result(r.shown);
     for (const Nudge& n : r.changed_by) {
       CAPTURE(int(r.shown));
