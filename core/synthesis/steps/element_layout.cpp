@@ -142,7 +142,7 @@ class ElementLayout {
   /// Whether an element that is partly kept goes on beyond that.
   bool is_continued(const Shown& s) const {
     const ElementShape& shape = shapes_[s.placed.element];
-    return !shape.cut && s.kept > 0 && double(s.kept) >= tuning->least_kept * double(shape.area);
+    return !shape.unusable && s.kept > 0 && double(s.kept) >= tuning->least_kept * double(shape.area);
   }
 
   /// The kept blocks that show none of the elements that go on.
@@ -161,7 +161,7 @@ class ElementLayout {
   /// Whether the field shows an element for the most part.
   bool is_shown(const Shown& s) const {
     const ElementShape& shape = shapes_[s.placed.element];
-    if (shape.cut) return false;
+    if (shape.unusable) return false;
     const int x = packing_.column_of(s.placed) + shape.box.x, y = packing_.row_of(s.placed) + shape.box.y;
     const bool inside_x = level_.window.closed_x || (x >= 0 && x + shape.box.width <= field_.size.width);
     const bool inside_y = level_.window.closed_y || (y >= 0 && y + shape.box.height <= field_.size.height);

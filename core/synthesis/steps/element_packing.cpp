@@ -227,7 +227,7 @@ bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
   } best;
   for (int e = 0; e < int(shapes_.all.size()); e++) {
     const ElementShape& shape = shapes_[e];
-    if (shape.cut || shape.samples.empty()) continue;
+    if (shape.unusable || shape.samples.empty()) continue;
     const double often = std::max(0.0, double(of_element_[size_t(e)].size()) / std::max(1.0, usual) - 1);
     const double price = tuning->seen_around * seen_around(e, hole.column, hole.row) + tuning->used * often;
     const double weight = double(shape.area);

@@ -14,6 +14,7 @@ namespace {
 
 struct Tuning {
   double margin = 0.4;
+  double ragged = 2.5;
   int samples = 36;
   int outline = 40;
 };
@@ -23,6 +24,10 @@ const Tunable<Tuning> tuning("element_shapes",
                                   "around an element within which its neighbours matter to it. Higher: wider gaps are "
                                   "closed; costs time and memory",
                                   "element_layout", 0.01, 4},
+                                 {&Tuning::ragged, "ragged", "times the median",
+                                  "of the area in squared inner radii, from which on an element is several that were "
+                                  "not parted. Higher: rows of stones come back as one; lower: long ones are lost",
+                                  "element_layout", 1, 100},
                                  {&Tuning::samples, "samples", "blocks of an element",
                                   "that are compared when places for it are tried. Costs time", "element_layout", 1,
                                   100000},
@@ -74,7 +79,7 @@ void add_block(const Grid& grid, int x, int y, Extent& e, ElementShape& shape) {
   e.sum_y += v;
   shape.area++;
   const bool at_border = x == 0 || y == 0 || x == grid.size.width - 1 || y == grid.size.height - 1;
-  shape.cut |= !grid.wraps && at_border;
+  shape.unusable |= !grid.wraps && at_border;
 }
 
 void measure(const Grid& grid, int element, int margin, const Extent& e, ElementShape& shape) {
@@ -83,7 +88,7 @@ void measure(const Grid& grid, int element, int margin, const Extent& e, Element
   shape.box = {e.left - margin - shape.centre_x, e.top - margin - shape.centre_y, e.right - e.left + 1 + 2 * margin,
                e.bottom - e.top + 1 + 2 * margin};
   // One that reaches around the exemplar to itself has no outline of its own.
-  shape.cut |= e.right - e.left + 1 >= grid.size.width || e.bottom - e.top + 1 >= grid.size.height;
+  shape.unusable |= e.right - e.left + 1 >= grid.size.width || e.bottom - e.top + 1 >= grid.size.height;
   std::vector<uint8_t> inside(size_t(shape.box.area()));
   for (int y = 0; y < shape.box.height; y++)
     for (int x = 0; x < shape.box.width; x++)
@@ -106,6 +111,22 @@ void measure(const Grid& grid, int element, int margin, const Extent& e, Element
         outline.push_back({int16_t(x + shape.box.x), int16_t(y + shape.box.y), d});
   const size_t every = std::max<size_t>(1, outline.size() / size_t(tuning->outline));
   for (size_t i = 0; i < outline.size(); i += every) shape.outline.push_back(outline[i]);
+}
+
+/// How far from round: 3.1 for a disc, 4 for a square, the more the longer or the more branched.
+double raggedness(const ElementShape& s) {
+  return double(s.area) / std::max(1.0, double(s.inner_radius) * double(s.inner_radius));
+}
+
+void leave_out_ragged(std::vector<ElementShape>& shapes) {
+  std::vector<double> all;
+  for (const ElementShape& s : shapes)
+    if (!s.unusable) all.push_back(raggedness(s));
+  if (all.empty()) return;
+  const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  const double most = tuning->ragged * *middle;
+  for (ElementShape& s : shapes) s.unusable |= raggedness(s) > most;
 }
 
 }  // namespace
@@ -131,7 +152,7 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
       const uint16_t element = elements.at[pixel];
       grid.at.push_back(element);
       add_block(grid, x, y, extents[element], out.all[element]);
-      if (!usable.empty() && !usable[pixel]) out.all[element].cut = true;
+      if (!usable.empty() && !usable[pixel]) out.all[element].unusable = true;
     }
   double squares = 0;
   for (const ElementShape& s : out.all) squares += double(s.area) * double(s.area);
@@ -140,11 +161,12 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
   tbb::parallel_for(0, elements.count, [&](int e) {
     // Blocks may miss the smallest regions.
     if (out.all[size_t(e)].area == 0)
-      out.all[size_t(e)].cut = true;
+      out.all[size_t(e)].unusable = true;
     else
       measure(grid, e, margin, extents[size_t(e)], out.all[size_t(e)]);
   });
-  out.whole = int(std::ranges::count_if(out.all, [](const ElementShape& s) { return !s.cut; }));
+  leave_out_ragged(out.all);
+  out.whole = int(std::ranges::count_if(out.all, [](const ElementShape& s) { return !s.unusable; }));
   return out;
 }
 

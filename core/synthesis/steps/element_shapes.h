@@ -25,7 +25,9 @@ struct ElementShape {
   std::vector<ElementSample> outline;  ///< some of the blocks along its outline, on both sides
   int64_t area = 0;                    ///< blocks
   float inner_radius = 0;              ///< the greatest depth
-  bool cut = false;                    ///< by the border of an exemplar that does not tile, or by a mask
+  /// Cut by the border of an exemplar that does not tile, or by a mask, or so much longer or more ragged than the
+  /// others that it must be several whose joints were missed.
+  bool unusable = false;
 
   /// (x, y) from the centre; far outside if it is not in the box.
   float depth(int x, int y) const {
@@ -45,7 +47,7 @@ struct ElementShapes {
   bool wraps = false;
   std::vector<ElementShape> all;
   double typical_side = 0;  ///< of the element that a random block lies in, in blocks
-  int whole = 0;            ///< elements that are not cut
+  int whole = 0;            ///< elements that are usable
 
   const ElementShape& operator[](int element) const { return all[size_t(element)]; }
 };
