@@ -16,24 +16,27 @@ struct Tuning {
   double shortest_course = 24;
 };
 const Tunable<Tuning> tuning(
-    "shared_work", {{&Tuning::shortest_brick, "shortest_brick", "pixels",
-                     "lower: bricks that are laid well enough as they are cost time as well",
-                     "not measured: what is shorter looked well enough laid by seams"},
-                    {&Tuning::surest_lattice, "surest_lattice", "certainty",
-                     "of cells that repeat, from which on elements keep to them rather than being laid one by one. "
-                     "Higher: more is laid; lower: fewer walls whose stones vary have whole ones",
-                     "element_layout"},
-                    {&Tuning::surest_courses, "surest_courses", "certainty",
-                     "the same of straight courses, whose bricks and boards are laid along them. Higher: boards are "
-                     "squeezed between others; lower: stones that lie in rough courses are cut",
-                     "element_layout"},
-                    {&Tuning::shortest_course, "shortest_course", "pixels",
-                     "the height from which on that holds. Lower: fine bricks are laid along courses, too, and cut",
-                     "element_layout"}});
+    "shared_work",
+    {{&Tuning::shortest_brick, "shortest_brick", "pixels",
+      "of bricks, and of elements that keep to a lattice. Lower: what seams lay well enough costs time as "
+      "well, and thin joints suffer",
+      "element_layout"},
+     {&Tuning::surest_lattice, "surest_lattice", "certainty",
+      "of cells that repeat, from which on elements are laid in phase with them rather than anywhere. Higher: "
+      "straight rows bend; lower: stones that vary overlap",
+      "element_layout"},
+     {&Tuning::surest_courses, "surest_courses", "certainty",
+      "the same of straight courses, whose bricks and boards are laid along them. Higher: boards are "
+      "squeezed between others; lower: stones that lie in rough courses are cut",
+      "element_layout"},
+     {&Tuning::shortest_course, "shortest_course", "pixels",
+      "the height from which on that holds. Lower: fine bricks are laid along courses, too, and cut",
+      "element_layout"}});
 
-/// Whether elements keep to a lattice, rather than being laid one by one.
-bool keeps_elements(const Lattice& lattice) {
-  if (lattice.rank == 2) return lattice.certainty >= tuning->surest_lattice;
+/// Whether what keeps to courses, or to a lattice, is better laid as bricks, or by seams, than as elements.
+bool keeps_to_lattice(const Lattice& lattice, const Elements& elements) {
+  if (lattice.rank == 2)
+    return lattice.certainty >= tuning->surest_lattice && typical_side(elements) < tuning->shortest_brick;
   return lattice.rank == 1 && lattice.certainty >= tuning->surest_courses &&
          lattice.first.norm() >= tuning->shortest_course;
 }
@@ -81,6 +84,11 @@ LatticeSurface SharedWork::surface() const {
           origin, gaps};
 }
 
+const Lattice* SharedWork::element_lattice() const {
+  const bool sure = lattice.rank == 2 && lattice.certainty >= tuning->surest_lattice;
+  return sure && index.appearance()->repeats().parts.empty() ? &lattice : nullptr;
+}
+
 LevelFacts SharedWork::facts(int level) const {
   return {.level = level,
           .levels = levels,
@@ -90,7 +98,9 @@ LevelFacts SharedWork::facts(int level) const {
           .steered = !controls.empty(),
           .may_have_bricks = options.whole_bricks && index.appearance()->repeats().parts.empty() &&
                              (lattice.rank == 1 || lattice.longest_step() >= tuning->shortest_brick),
-          .has_elements = options.whole_bricks && has_elements(*index.appearance()) && !keeps_elements(lattice)};
+          .has_elements = options.whole_bricks && has_elements(*index.appearance()) &&
+                          !keeps_to_lattice(lattice, *index.appearance()->elements()),
+          .elements_on_lattice = element_lattice() != nullptr};
 }
 
 }  // namespace terrazzo

@@ -143,7 +143,8 @@ bool avoids_repeats(const LevelFacts& f) {
 /// Seams between courses or tiles show more than others, and so do those along an outline that was drawn. Measured on
 /// other exemplars moving seams brings nothing. Between elements that are laid as wholes there is nothing to move.
 bool moves_seams(const LevelFacts& f) {
-  return f.level <= seam_level && (f.regular || f.kept) && !is_draft(f) && !f.lays_elements();
+  return f.level <= seam_level && (f.regular || f.kept) && !is_draft(f) &&
+         (!f.lays_elements() || f.elements_on_lattice);
 }
 
 /// The first time that seams move. Measured on exemplars without a lattice this brings nothing either, and controls
@@ -248,7 +249,7 @@ void lay_whole_bricks(StepContext& c) {
 }
 
 void lay_whole_elements(StepContext& c) {
-  lay_elements(c.field, 2, c.level, *c.shared.index.appearance(), c.shared.task);
+  lay_elements(c.field, 2, c.level, *c.shared.index.appearance(), c.shared.element_lattice(), c.shared.task);
 }
 
 /// At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a

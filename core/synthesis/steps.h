@@ -53,7 +53,8 @@ struct LevelFacts {
   /// Whole bricks are asked for, and the lattice may be one of bricks: the same all over the exemplar, of courses alone
   /// or of cells that are worth it.
   bool may_have_bricks = false;
-  bool has_elements = false;  ///< that are laid as wholes
+  bool has_elements = false;         ///< that are laid as wholes
+  bool elements_on_lattice = false;  ///< which then keep to it
 
   bool coarsest() const { return level == levels - 1; }
   /// Rare features are won or lost at the coarsest levels.
@@ -95,6 +96,8 @@ struct SharedWork {
   /// What the exemplar's lattice covers, made to wrap around with the result.
   LatticeSurface surface() const;
   LevelFacts facts(int level) const;
+  /// The lattice that elements keep to when they are laid as wholes; null: none.
+  const Lattice* element_lattice() const;
 
   const Index& index;
   const SynthesisOptions& options;

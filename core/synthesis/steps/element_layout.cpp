@@ -52,12 +52,14 @@ struct Vote {
 
 class ElementLayout {
  public:
-  ElementLayout(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance)
+  ElementLayout(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
+                const Lattice* lattice)
       : field_(field),
         block_(block),
         level_(level),
         elements_(*appearance.elements()),
         wraps_(appearance.wraps()),
+        lattice_(lattice),
         shapes_(element_shapes(elements_, appearance.levels().front().usable, block, wraps_)),
         packing_(shapes_, field.size, level.window.closed_x, level.window.closed_y) {}
 
@@ -66,7 +68,8 @@ class ElementLayout {
     std::vector<PlacedElement> placed;
     for (const auto& of_element : places)
       for (const Shown& s : of_element)
-        if (s.placed.stays || is_shown(s)) placed.push_back(s.placed);
+        if (s.placed.stays || (is_shown(s) && is_in_phase(s.placed))) placed.push_back(s.placed);
+    if (lattice_) packing_.keep_to(*lattice_, level_.phase);
     if (level_.fixed.any()) packing_.keep_off(kept_without(places));
     packing_.pack(std::move(placed), task);
     for (int i = 0; i < int(packing_.placed().size()); i++) warps_.emplace_back(shapes_, packing_, i);
@@ -158,6 +161,15 @@ class ElementLayout {
     return out;
   }
 
+  /// Whether an element lies where the lattice that it keeps to has it, give or take seams.
+  bool is_in_phase(const PlacedElement& p) const {
+    if (!lattice_) return true;
+    const int x = packing_.column_of(p) * block_, y = packing_.row_of(p) * block_;
+    int u = x + p.shift_x, v = y + p.shift_y;
+    level_.phase.snap(x, y, u, v);
+    return std::max(std::abs(u - x - p.shift_x), std::abs(v - y - p.shift_y)) <= tuning->same_place / 2;
+  }
+
   /// Whether the field shows an element for the most part.
   bool is_shown(const Shown& s) const {
     const ElementShape& shape = shapes_[s.placed.element];
@@ -195,6 +207,7 @@ class ElementLayout {
   const CorrectionLevel& level_;
   const Elements& elements_;
   bool wraps_;
+  const Lattice* lattice_;
   ElementShapes shapes_;
   ElementPacking packing_;
   std::vector<ElementWarp> warps_;  // of each placed element
@@ -208,8 +221,8 @@ bool has_elements(const Appearance& appearance) {
 }
 
 void lay_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
-                  const Task& task) {
-  ElementLayout layout(field, block, level, appearance);
+                  const Lattice* lattice, const Task& task) {
+  ElementLayout layout(field, block, level, appearance, lattice);
   layout.lay(task);
 }
 

@@ -10,9 +10,10 @@ namespace terrazzo {
 /// Lays a result anew from whole elements of the exemplar: those that the field shows for the most part stay where they
 /// are, the others give way to ones that fit the room (ElementPacking). Where two neighbours overlap or leave a gap,
 /// both are bent a little along their outlines, so that joints meet. Each pixel of the field stands for a block of
-/// `block` x `block` pixels of the finest level. Throws Cancelled.
+/// `block` x `block` pixels of the finest level. `lattice`: what they keep to, of rank 2; null: nothing. Throws
+/// Cancelled.
 void lay_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
-                  const Task& task);
+                  const Lattice* lattice, const Task& task);
 
 /// Whether an exemplar has elements, and enough of them whole, to be laid. How sure they must be was asked where they
 /// were found.

@@ -75,6 +75,11 @@ constexpr float farthest = 1e6f;  // of what is kept, where nothing is
 ElementPacking::ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y)
     : shapes_(shapes), size_(size), closed_x_(closed_x), closed_y_(closed_y) {}
 
+void ElementPacking::keep_to(const Lattice& lattice, const PartPhases& phase) {
+  lattice_ = lattice;
+  phase_ = &phase;
+}
+
 void ElementPacking::keep_off(const std::vector<uint8_t>& blocks) {
   kept_depth_ = signed_distances(blocks, size_, closed_x_ && closed_y_, farthest);
   for (float& d : kept_depth_) d = -d;
@@ -216,9 +221,35 @@ ElementPacking::Fit ElementPacking::fit(const ElementShape& shape, int column, i
   return out;
 }
 
+int ElementPacking::step() const {
+  return std::max(1, int(tuning->step * shapes_.typical_side));
+}
+
+/// Calls visit(column, row) with places for an element's centre around a hole.
+template <typename Visit>
+void ElementPacking::for_places(const ElementShape& shape, const Hole& hole, Visit visit) const {
+  if (phase_) return for_places_in_phase(shape, hole, visit);
+  const int off = int(tuning->step * 4 * shapes_.typical_side);
+  const int across = std::max(0, shape.box.width / 2 - off), down = std::max(0, shape.box.height / 2 - off);
+  for (int y = -down; y <= down; y += step())
+    for (int x = -across; x <= across; x += step()) visit(hole.column + x, hole.row + y);
+}
+
+template <typename Visit>
+void ElementPacking::for_places_in_phase(const ElementShape& shape, const Hole& hole, Visit visit) const {
+  const int x = hole.column * shapes_.block, y = hole.row * shapes_.block;
+  const int u = shape.centre_x * shapes_.block, v = shape.centre_y * shapes_.block;
+  int in_u = u, in_v = v;
+  phase_->snap(x, y, in_u, in_v);
+  for (int j = -1; j <= 1; j++)
+    for (int i = -1; i <= 1; i++) {
+      const Vector2d cells = lattice_.at({double(i), double(j)});
+      const double to_x = (x + u - in_u + cells.x()) / shapes_.block, to_y = (y + v - in_v + cells.y()) / shapes_.block;
+      visit(int(std::floor(to_x + 0.5)), int(std::floor(to_y + 0.5)));
+    }
+}
+
 bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
-  const double typical = shapes_.typical_side;
-  const int step = std::max(1, int(tuning->step * typical));
   const double usual = double(placed_.size()) / std::max(1, shapes_.whole);
   struct Best {
     int element = -1, column = 0, row = 0;
@@ -230,20 +261,17 @@ bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
     if (shape.unusable || shape.samples.empty()) continue;
     const double often = std::max(0.0, double(of_element_[size_t(e)].size()) / std::max(1.0, usual) - 1);
     const double price = tuning->seen_around * seen_around(e, hole.column, hole.row) + tuning->used * often;
-    const double weight = double(shape.area);
+    const auto weight = double(shape.area);
     if ((1 + tuning->contact - price) * weight <= best.value) continue;
-    const int across = std::max(0, shape.box.width / 2 - int(tuning->step * 4 * typical));
-    const int down = std::max(0, shape.box.height / 2 - int(tuning->step * 4 * typical));
-    for (int y = -down; y <= down; y += step)
-      for (int x = -across; x <= across; x += step) {
-        const Fit f = fit(shape, hole.column + x, hole.row + y, terms.overlap);
-        const double value = (f.value() - price) * weight;
-        if (value > best.value) best = {e, hole.column + x, hole.row + y, f, value};
-      }
+    for_places(shape, hole, [&](int column, int row) {
+      const Fit f = fit(shape, column, row, terms.overlap);
+      const double value = (f.value() - price) * weight;
+      if (value > best.value) best = {e, column, row, f, value};
+    });
   }
   if (best.element < 0 || best.fit.gain < terms.least_gain) return false;
   const ElementShape& shape = shapes_[best.element];
-  for (int reach = step / 2; reach > 0; reach /= 2)
+  for (int reach = phase_ ? 0 : step() / 2; reach > 0; reach /= 2)
     for (bool moved = true; moved;) {
       moved = false;
       for (const auto& [x, y] : {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}})
@@ -265,6 +293,7 @@ bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
 /// Elements move to where they meet their neighbours, all at once, half the way each, for those move as well.
 void ElementPacking::settle(const Task& task) {
   const int farthest = std::max(1, int(tuning->farthest_moved * shapes_.typical_side));
+  if (phase_) return;
   for (int round = 0; round < tuning->settling; round++) {
     task.check();
     std::vector<PlacedElement> moved = placed_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/task.h"
+#include "core/exemplar/repeats.h"
 #include "core/synthesis/state/field.h"
 #include "core/synthesis/steps/element_shapes.h"
 
@@ -23,6 +24,9 @@ class ElementPacking {
  public:
   /// `size`: of the result, in blocks of the shapes. `closed_x`, `closed_y`: it wraps around.
   ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y);
+
+  /// Elements come where they are in phase with a lattice of rank 2 only. Borrows `phase`.
+  void keep_to(const Lattice& lattice, const PartPhases& phase);
 
   /// Of each block of the result whether something is kept there that belongs to none of the elements.
   void keep_off(const std::vector<uint8_t>& blocks);
@@ -71,6 +75,11 @@ class ElementPacking {
   };
   std::vector<Hole> holes() const;
   bool fill(const Hole& hole, const Terms& terms);
+  template <typename Visit>
+  void for_places(const ElementShape& shape, const Hole& hole, Visit visit) const;
+  template <typename Visit>
+  void for_places_in_phase(const ElementShape& shape, const Hole& hole, Visit visit) const;
+  int step() const;
   double seen_around(int element, int column, int row) const;
   /// How well an element fits somewhere.
   struct Fit {
@@ -85,6 +94,8 @@ class ElementPacking {
   const ElementShapes& shapes_;
   Size size_;
   bool closed_x_, closed_y_;
+  Lattice lattice_;  ///< of rank 0: elements come anywhere
+  const PartPhases* phase_ = nullptr;
   std::vector<PlacedElement> placed_;
   std::vector<Place> places_;
   std::vector<float> kept_depth_;                ///< of each block in what is kept; empty: nothing is

@@ -54,6 +54,8 @@ TEST_CASE("which steps run is decided by the facts of a level") {
   CHECK(applying(lattice) == "initialize piece_relocation alignment seams correction");
   const LevelFacts bricks{.level = 0, .levels = 6, .regular = true, .may_have_bricks = true};
   CHECK(applying(bricks) == "initialize alignment course_layout seams correction");
+  const LevelFacts tiles{.level = 0, .levels = 6, .regular = true, .has_elements = true, .elements_on_lattice = true};
+  CHECK(applying(tiles) == "initialize alignment element_layout seams correction");
   const LevelFacts kept{.level = 1, .levels = 6, .kept = true};
   CHECK(applying(kept) == "proximity_penalty initialize fixed_pixels seams graphcut_repair correction");
   const LevelFacts kept_elements{.level = 0, .levels = 6, .kept = true, .has_elements = true};
