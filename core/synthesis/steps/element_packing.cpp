@@ -260,9 +260,10 @@ bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
     const ElementShape& shape = shapes_[e];
     if (shape.unusable || shape.samples.empty()) continue;
     const double often = std::max(0.0, double(of_element_[size_t(e)].size()) / std::max(1.0, usual) - 1);
-    const double price = tuning->seen_around * seen_around(e, hole.column, hole.row) + tuning->used * often;
+    const double price = tuning->seen_around * seen_around(e, hole.column, hole.row) + tuning->used * often * often;
     const auto weight = double(shape.area);
-    if ((1 + tuning->contact - price) * weight <= best.value) continue;
+    const double most = 1 + tuning->contact - price;
+    if (most <= 0 || most * weight <= best.value) continue;
     for_places(shape, hole, [&](int column, int row) {
       const Fit f = fit(shape, column, row, terms.overlap);
       const double value = (f.value() - price) * weight;
