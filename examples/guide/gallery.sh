@@ -113,7 +113,7 @@ if gallery_of layered; then
 fi
 if gallery_of engine; then
   make engine --set material=$g/cobbles
-  show engine '["cobbles/preview.png", "engine/occlusion_roughness_metallic.png"]' '["exemplar", "packed maps"]' \
+  show engine '["cobbles/preview.png", "engine/T_cobbles_ORM.png"]' '["exemplar", "packed maps"]' \
     --set picture=engine/lit.png --set caption="lit from four sides"
 fi
 if gallery_of generate-exemplar; then

@@ -90,7 +90,8 @@ NodeType extend_node() {
                                      .max = 32768,
                                      .unit = "pixels",
                                      .max_count = 2},
-                                    tileable_param(), whole_bricks_between_kept_param()});
+                                    tileable_param(),
+                                    whole_bricks_between_kept_param()});
   t.check = check;
   t.steps = described_synthesis_steps();
   t.infer = infer;
