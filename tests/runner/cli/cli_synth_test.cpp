@@ -212,20 +212,30 @@ TEST_CASE("-o may name places that the material and the result fill in, and says
   CHECK(contains(w.run({"synth", "--help"}).out, "{material}"));
 }
 
-TEST_CASE("the stock graph that extends keeps what synth has made, pixel by pixel") {
+TEST_CASE("the stock graph that extends keeps what synth has made, pixel by pixel, whole stones too") {
   const Workplace w;
-  write_picture(w.path / "stone/base_color.png", 5);
-  const ProgramRun made = w.run({"synth", "stone", "-o", "made", "--size", "40x32", "--seed", "3"});
-  REQUIRE_MESSAGE(made.code == 0, made.err);
-  const ProgramRun grown =
-      w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/extend.json", "--set", "material=stone", "--set", "kept=40x32",
-             "--set", "size=72x48", "--set", "at=[20,10]", "--set", "seed=3", "--set", "out=grown"});
-  REQUIRE_MESSAGE(grown.code == 0, grown.err);
-  const auto picture = [&](const std::string& name) {
-    return read_image(w.path / name / "base_color.png", ImageInfo{}, [](const std::string&) {});
+  write_picture(w.path / "plain/base_color.png", 5);
+  write_text(w.path / "cobbles.json", R"({"terrazzo": 1, "nodes": {
+    "cobbles": {"type": "pattern", "kind": "cobbles", "size": 192, "scale": 4},
+    "files":   {"type": "export", "material": "@cobbles", "path": "cobbles/{map}.png"}}})");
+  REQUIRE(w.run({"run", "cobbles.json"}).code == 0);
+  const auto keeps = [&](const std::string& material, Size size, Size larger) {
+    const std::string made = material + " made", grown = material + " grown";
+    const auto text = [](Size s) { return std::to_string(s.width) + "x" + std::to_string(s.height); };
+    const ProgramRun first = w.run({"synth", material, "-o", made, "--size", text(size), "--seed", "3"});
+    REQUIRE_MESSAGE(first.code == 0, first.err);
+    const ProgramRun second = w.run({"run", TERRAZZO_SOURCE_DIR "/graphs/extend.json", "--set", "material=" + material,
+                                     "--set", "kept=" + text(size), "--set", "size=" + text(larger), "--set",
+                                     "at=[20,10]", "--set", "seed=3", "--set", "out=" + grown});
+    REQUIRE_MESSAGE(second.code == 0, second.err);
+    const auto picture = [&](const std::string& name) {
+      return read_image(w.path / name / "base_color.png", ImageInfo{}, [](const std::string&) {});
+    };
+    REQUIRE(picture(grown)->size() == larger);
+    CHECK(picture(grown)->read({20, 10, size.width, size.height}) == picture(made)->pixels());
   };
-  REQUIRE(picture("grown")->size() == Size{72, 48});
-  CHECK(picture("grown")->read({20, 10, 40, 32}) == picture("made")->pixels());
+  keeps("plain", {40, 32}, {72, 48});
+  keeps("cobbles", {220, 200}, {260, 230});
 }
 
 TEST_CASE("what extend, inpaint and make_tileable keep stays bit for bit in every map, heights that are joined too") {
