@@ -72,7 +72,8 @@ class ElementLayout {
     if (lattice_) packing_.keep_to(*lattice_, level_.phase);
     if (level_.fixed.any()) packing_.keep_off(kept_without(places));
     packing_.pack(std::move(placed), task);
-    for (int i = 0; i < int(packing_.placed().size()); i++) warps_.emplace_back(shapes_, packing_, i);
+    warps_.resize(packing_.placed().size());
+    tbb::parallel_for(0, int(warps_.size()), [&](int i) { warps_[size_t(i)] = ElementWarp(shapes_, packing_, i); });
     tbb::parallel_for(0, field_.size.height, [&](int row) {
       for (int column = 0; column < field_.size.width; column++) show(column, row);
     });

@@ -11,6 +11,8 @@ namespace terrazzo {
 /// every machine decides alike. Thread-safe.
 class ElementWarp {
  public:
+  /// Moves nothing.
+  ElementWarp() = default;
   /// `placed`: which element of the packing.
   ElementWarp(const ElementShapes& shapes, const ElementPacking& packing, int placed);
 
