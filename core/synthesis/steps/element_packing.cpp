@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/base/geometry.h"
 #include "core/base/tuning.h"
@@ -16,6 +17,7 @@ struct Tuning {
   double soft = 0.12;
   double tolerance = 0.04;
   double hole = 0.1;
+  double farthest_filled = 2;
   double overlap = 2;
   double least_overlap = 0.6;
   double least_gain = 0.35;
@@ -41,6 +43,9 @@ const Tunable<Tuning> tuning(
         {&Tuning::tolerance, "tolerance", "typical sides", "of a gap that is no hole yet", "element_layout", 0, 4},
         {&Tuning::hole, "hole", "typical sides", "the radius of the smallest hole. Lower: small ones are filled too",
          "element_layout", 0.001, 4},
+        {&Tuning::farthest_filled, "farthest_filled", "typical sides",
+         "up to which holes are told by their size. Costs time and memory", "not measured: larger ones are rare", 0.1,
+         100},
         {&Tuning::overlap, "overlap", "times the gain of as much hole",
          "what it costs to cover others. Higher: gaps stay; lower: elements are squeezed", "element_layout", 0, 100},
         {&Tuning::least_overlap, "least_overlap", "times the gain of as much hole", "the same where nothing else fits",
@@ -105,19 +110,19 @@ void ElementPacking::for_blocks(const PlacedElement& p, Visit visit) const {
 void ElementPacking::paint(size_t placed) {
   for_blocks(placed_[placed], [&](size_t i, float depth) {
     Place& p = places_[i];
-    if (depth > p.depth) {
+    if (depth > p.depth.blocks()) {
       p.neighbour = p.depth;
-      p.depth = depth;
+      p.depth = Depth(depth);
       p.placed = int(placed);
     } else {
-      p.neighbour = std::max(p.neighbour, depth);
+      p.neighbour = Depth(std::max(p.neighbour.blocks(), depth));
     }
   });
 }
 
 void ElementPacking::paint_all() {
-  places_.assign(size_t(size_.area()), {-1, ElementShape::unknown_depth, ElementShape::unknown_depth});
-  for (size_t i = 0; i < kept_depth_.size(); i++) places_[i].depth = kept_depth_[i];
+  places_.assign(size_t(size_.area()), {-1, Depth(ElementShape::unknown_depth), Depth(ElementShape::unknown_depth)});
+  for (size_t i = 0; i < kept_depth_.size(); i++) places_[i].depth = Depth(kept_depth_[i]);
   of_element_.assign(shapes_.all.size(), {});
   for (size_t i = 0; i < placed_.size(); i++) {
     paint(i);
@@ -131,7 +136,7 @@ void ElementPacking::measure_clear() {
     for_blocks(placed_[i], [&](size_t at, float depth) {
       if (depth <= 0) return;
       all++;
-      clear += places_[at].placed == int(i) && places_[at].neighbour <= 0;
+      clear += places_[at].placed == int(i) && places_[at].neighbour.blocks() <= 0;
     });
     placed_[i].clear = all > 0 ? double(clear) / double(all) : 0;
   }
@@ -164,20 +169,39 @@ void ElementPacking::take_away_covered(const Task& task) {
   paint_all();
 }
 
+bool ElementPacking::is_filled(const Place& p) const {
+  return double(p.depth.blocks()) > -tuning->tolerance * shapes_.typical_side;
+}
+
+/// Of some rows. Larger surfaces have no room for the distances of all.
+void ElementPacking::add_holes(int top, int bottom, std::vector<Hole>& out) const {
+  const int halo = int(tuning->farthest_filled * shapes_.typical_side) + 1;
+  const int left = closed_x_ ? -halo : 0, right = size_.width + (closed_x_ ? halo : 0);
+  const int above = closed_y_ ? top - halo : std::max(0, top - halo);
+  const int below = closed_y_ ? bottom + halo : std::min(size_.height, bottom + halo);
+  std::vector<uint8_t> filled;
+  filled.reserve(size_t(right - left) * size_t(below - above));
+  for (int y = above; y < below; y++)
+    for (int x = left; x < right; x++) filled.push_back(is_filled(places_[size_t(index(x, y))]));
+  const std::vector<int64_t> distance = squared_distances(filled, {right - left, below - above}, false);
+  const double least = std::max(1.0, tuning->hole * shapes_.typical_side);
+  for (int y = top; y < bottom; y++)
+    for (int x = 0; x < size_.width; x++) {
+      const int64_t d = distance[size_t(y - above) * size_t(right - left) + size_t(x - left)];
+      if (double(d) > least * least) out.push_back({x, y, std::min(d, int64_t{halo} * halo)});
+    }
+}
+
 /// The middles of holes, the largest first.
 std::vector<ElementPacking::Hole> ElementPacking::holes() const {
-  std::vector<uint8_t> filled(places_.size());
-  const auto tolerance = float(tuning->tolerance * shapes_.typical_side);
-  for (size_t i = 0; i < filled.size(); i++) filled[i] = places_[i].depth > -tolerance;
-  if (std::ranges::find(filled, 1) == filled.end()) return {{size_.width / 2, size_.height / 2}};
-  const std::vector<int64_t> distance = squared_distances(filled, size_, closed_x_ && closed_y_);
-  const double least = std::max(1.0, tuning->hole * shapes_.typical_side);
-  std::vector<std::pair<int64_t, size_t>> found;
-  for (size_t i = 0; i < distance.size(); i++)
-    if (double(distance[i]) > least * least) found.emplace_back(-distance[i], i);
-  std::ranges::sort(found);
+  if (std::ranges::none_of(places_, [&](const Place& p) { return is_filled(p); }))
+    return {{size_.width / 2, size_.height / 2}};
   std::vector<Hole> out;
-  for (const auto& [d, i] : found) out.push_back({int(i % size_t(size_.width)), int(i / size_t(size_.width))});
+  constexpr int rows = 256;
+  for (int top = 0; top < size_.height; top += rows) add_holes(top, std::min(size_.height, top + rows), out);
+  std::ranges::sort(out, [](const Hole& a, const Hole& b) {
+    return std::tuple(-a.squared, a.row, a.column) < std::tuple(-b.squared, b.row, b.column);
+  });
   return out;
 }
 
@@ -324,12 +348,11 @@ void ElementPacking::settle(const Task& task) {
 
 int ElementPacking::fill_holes(const Terms& terms, const Task& task) {
   const int off = std::max(1, int(tuning->hole * 2 * shapes_.typical_side));
-  const auto tolerance = float(tuning->tolerance * shapes_.typical_side);
   std::vector<uint8_t> tried(places_.size(), 0);
   int filled = 0;
   for (const Hole& h : holes()) {
     const auto at = size_t(index(h.column, h.row));
-    if (tried[at] || places_[at].depth > -tolerance) continue;
+    if (tried[at] || is_filled(places_[at])) continue;
     task.check();
     if (fill(h, terms)) filled++;
     for (int y = -off; y <= off; y++)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -37,10 +39,20 @@ class ElementPacking {
   /// Cancelled.
   void pack(std::vector<PlacedElement> placed, const Task& task);
 
+  /// A depth in 32nds of a block, up to 1024 blocks: surfaces have many of them.
+  class Depth {
+   public:
+    Depth() = default;
+    explicit Depth(float blocks) : units_(int16_t(std::floor(std::clamp(blocks, -1023.0f, 1023.0f) * 32 + 0.5f))) {}
+    float blocks() const { return float(units_) / 32; }
+
+   private:
+    int16_t units_ = 0;
+  };
   struct Place {
     int placed = -1;  ///< which one the block belongs to: the one in which it lies deepest; -1: what keep_off() names
-    float depth = 0;  ///< in it
-    float neighbour = 0;  ///< depth in the next one, mostly negative; ElementShape::unknown_depth if there is none near
+    Depth depth;      ///< in it
+    Depth neighbour;  ///< in the next one, mostly negative; far below 0 if there is none near
   };
   const std::vector<PlacedElement>& placed() const { return placed_; }
   const Place& at(int x, int y) const { return places_[size_t(y) * size_t(size_.width) + size_t(x)]; }
@@ -72,8 +84,11 @@ class ElementPacking {
   int fill_holes(const Terms& terms, const Task& task);
   struct Hole {
     int column = 0, row = 0;
+    int64_t squared = 0;  ///< of its radius
   };
   std::vector<Hole> holes() const;
+  void add_holes(int top, int bottom, std::vector<Hole>& out) const;
+  bool is_filled(const Place& p) const;
   bool fill(const Hole& hole, const Terms& terms);
   template <typename Visit>
   void for_places(const ElementShape& shape, const Hole& hole, Visit visit) const;
@@ -88,7 +103,9 @@ class ElementPacking {
     double value() const;
   };
   Fit fit(const ElementShape& shape, int column, int row, double overlap, int but = -1) const;
-  float depth_but(const Place& p, int but) const { return p.placed == but && but >= 0 ? p.neighbour : p.depth; }
+  float depth_but(const Place& p, int but) const {
+    return (p.placed == but && but >= 0 ? p.neighbour : p.depth).blocks();
+  }
   void settle(const Task& task);
 
   const ElementShapes& shapes_;

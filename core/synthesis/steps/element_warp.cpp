@@ -77,7 +77,7 @@ ElementWarp::ElementWarp(const ElementShapes& shapes, const ElementPacking& pack
   const auto ahead = [&](At at) -> double {
     const ElementPacking::Place* place = packing.find(column + nearest(at.x), row + nearest(at.y));
     if (!place) return 0;
-    const double by = double(place->depth) - std::max(-farthest, double(place->neighbour));
+    const double by = double(place->depth.blocks()) - std::max(-farthest, double(place->neighbour.blocks()));
     return place->placed == placed ? std::max(1e-6, by) : std::min(-1e-6, -by);
   };
   const int count = std::clamp(2 * (shape.box.width + shape.box.height), 64, 2048);
