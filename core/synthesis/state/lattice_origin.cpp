@@ -1,7 +1,6 @@
 #include "core/synthesis/state/lattice_origin.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/base/hash.h"
@@ -82,7 +81,7 @@ class PhaseVotes {
 Vector2d random_lattice_origin(const Lattice& lattice, uint64_t bits) {
   if (lattice.rank == 0) return {};
   constexpr uint32_t range = 4096;
-  const int grain = 8;
+  const int grain = tuning->grain;
   return {double(below(uint32_t(bits), range / uint32_t(grain)) * uint32_t(grain)),
           double(below(uint32_t(bits >> 32), range / uint32_t(grain)) * uint32_t(grain))};
 }

@@ -28,6 +28,7 @@ struct Tuning {
   double contact = 0.3;
   double contact_within = 0.08;
   double farthest_moved = 0.2;
+  double worth_moving = 0.02;
   int settling = 4;
   int rounds = 7;
 };
@@ -69,6 +70,9 @@ const Tunable<Tuning> tuning(
          "by which they may miss each other. Higher: near misses count as well", "element_layout", 0.001, 4},
         {&Tuning::farthest_moved, "farthest_moved", "typical sides",
          "that an element moves at a time to meet its neighbours", "element_layout", 0, 4},
+        {&Tuning::worth_moving, "worth_moving", "of an element's area",
+         "by which it must fit better elsewhere. Higher: elements stay; lower: they creep for nothing",
+         "not measured: chosen by eye", 0, 1},
         {&Tuning::settling, "settling", "rounds", "of moving elements. Costs time", "element_layout", 0, 100},
         {&Tuning::rounds, "rounds", "rounds", "of taking away and filling. Costs time", "element_layout", 1, 100},
     });
@@ -317,8 +321,8 @@ bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
 
 /// Elements move to where they meet their neighbours, all at once, half the way each, for those move as well.
 void ElementPacking::settle(const Task& task) {
-  const int farthest = std::max(1, int(tuning->farthest_moved * shapes_.typical_side));
   if (phase_) return;
+  const int farthest = std::max(1, int(tuning->farthest_moved * shapes_.typical_side));
   for (int round = 0; round < tuning->settling; round++) {
     task.check();
     std::vector<PlacedElement> moved = placed_;
@@ -329,7 +333,7 @@ void ElementPacking::settle(const Task& task) {
       const auto value = [&](int x, int y) { return fit(shape, column + x, row + y, tuning->overlap, int(i)).value(); };
       int x = 0, y = 0;
       double best = value(0, 0);
-      const double least = best + 0.02;
+      const double least = best + tuning->worth_moving;
       for (int reach = farthest; reach > 0; reach /= 2)
         for (const auto& [dx, dy] : {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}})
           if (const double v = value(x + dx, y + dy); v > best) {
