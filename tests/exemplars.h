@@ -22,6 +22,22 @@ inline ImagePtr wall(Size size) {
       Semantic::base_color, "srgb_texture");
 }
 
+/// Brushed metal: every row, or column, has streaks of its own, about 64 pixels long.
+inline ImagePtr brushed(Size size, bool along_x = true) {
+  constexpr double length = 64;
+  return make_image(
+      size, 3,
+      [=](int x, int y, int c) {
+        const int along = along_x ? x : y, row = along_x ? y : x;
+        const double at = along / length + unit_double(random_bits(7, row));
+        const auto begun = uint64_t(at);
+        const auto shade = [row](uint64_t streak) { return unit_double(random_bits(8, row, streak)); };
+        const double part = at - double(begun);
+        return float(0.3 + 0.4 * ((1 - part) * shade(begun) + part * shade(begun + 1)) - 0.02 * c);
+      },
+      Semantic::base_color, "srgb_texture");
+}
+
 /// Features of an image as they are, without going through colour.
 inline FeaturesPtr plain_features(const ImagePtr& image, bool wraps = false) {
   return Features::make(image->size(), {{image, std::vector<double>(image->channels(), 1.0)}}, wraps);

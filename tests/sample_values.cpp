@@ -49,6 +49,19 @@ AppearancePtr sample_appearance() {
   return Appearance::make(std::move(levels), 2, true, repeats, sample_fingerprint(), sample_elements({16, 12}));
 }
 
+/// Of an exemplar of streaks.
+AppearancePtr shortened_appearance() {
+  AppearanceLevel l;
+  l.size = {16, 20};
+  l.vectors.resize(320);
+  l.dimensions = 1;
+  l.mean.assign(25, 0.5f);
+  l.basis.assign(25, 0.25f);
+  Repeats repeats(Lattice{1, {0, 2}, {}, 0.25});
+  repeats.streaks.x = 4;
+  return Appearance::make({l}, 1, false, repeats, nullptr, nullptr, {67, 20});
+}
+
 IndexPtr sample_index() {
   AppearancePtr appearance = sample_appearance();
   std::vector<SimilarSets> levels;
@@ -99,8 +112,9 @@ struct SameContent {
     return same;
   }
   bool operator()(const AppearancePtr& a, const AppearancePtr& b) const {
-    bool same = a->wraps() == b->wraps() && a->channels() == b->channels() && a->repeats() == b->repeats() &&
-                a->levels().size() == b->levels().size() && (*this)(a->fingerprint(), b->fingerprint());
+    bool same = a->size() == b->size() && a->wraps() == b->wraps() && a->channels() == b->channels() &&
+                a->repeats() == b->repeats() && a->levels().size() == b->levels().size() &&
+                (*this)(a->fingerprint(), b->fingerprint());
     for (size_t i = 0; same && i < a->levels().size(); i++) {
       const AppearanceLevel &l = a->levels()[i], &m = b->levels()[i];
       same = l.size == m.size && l.vectors == m.vectors && l.usable == m.usable && l.dimensions == m.dimensions &&
@@ -153,7 +167,8 @@ std::vector<Value> sample_values() {
           sample_appearance(),
           sample_index(),
           sample_uv_map(),
-          Report::make("quality", std::move(figures), {{"side by side", color}})};
+          Report::make("quality", std::move(figures), {{"side by side", color}}),
+          shortened_appearance()};
 }
 
 bool same_content(const Value& a, const Value& b) {

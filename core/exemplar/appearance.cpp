@@ -6,13 +6,16 @@
 namespace terrazzo {
 
 AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Repeats& repeats,
-                               FingerprintPtr fingerprint, ElementsPtr elements) {
+                               FingerprintPtr fingerprint, ElementsPtr elements, Size exemplar) {
+  if (exemplar.area() == 0) exemplar = levels.front().size;
   Hasher h;
   h.add("appearance").add(channels).add(wraps).add(int64_t(levels.size()));
   repeats.add_to(h);
   if (fingerprint) fingerprint->add_to(h);
-  if (elements && elements->size != levels.front().size)
-    throw std::logic_error("elements need the finest level's size");
+  if (repeats.streaks.shortened(exemplar) != levels.front().size)
+    throw std::logic_error("the finest level needs the exemplar's size, along streaks as much shortened as they are");
+  if (repeats.streaks.any()) h.add(exemplar.width).add(exemplar.height);
+  if (elements && elements->size != exemplar) throw std::logic_error("elements need the exemplar's size");
   if (elements) elements->add_to(h.add("elements"));
   for (const AppearanceLevel& l : levels) {
     if (l.vectors.size() != size_t(l.size.area())) throw std::logic_error("one appearance vector per pixel");
@@ -27,6 +30,7 @@ AppearancePtr Appearance::make(std::vector<AppearanceLevel> levels, int channels
     h.bytes(l.basis.data(), l.basis.size() * sizeof(float));
   }
   auto a = std::shared_ptr<Appearance>(new Appearance);
+  a->size_ = exemplar;
   a->levels_ = std::move(levels);
   a->channels_ = channels;
   a->wraps_ = wraps;

@@ -40,15 +40,17 @@ class Appearance;
 using AppearancePtr = std::shared_ptr<const Appearance>;
 
 /// An exemplar in appearance space (Lefebvre & Hoppe, Appearance-space texture synthesis, 2006): a Gaussian pyramid,
-/// finest level first, each level with a PCA of its own. Immutable.
+/// finest level first, each level with a PCA of its own. Of an exemplar of streaks (Repeats::streaks) all levels are
+/// shortened along them. Immutable.
 class Appearance {
  public:
-  /// `fingerprint`: of the exemplar's maps; null if it is not known.
+  /// `fingerprint`: of the exemplar's maps; null if it is not known. `exemplar`: its size; 0x0 for that of the finest
+  /// level, which it has unless streaks were shortened.
   static AppearancePtr make(std::vector<AppearanceLevel> levels, int channels, bool wraps, const Repeats& repeats = {},
-                            FingerprintPtr fingerprint = nullptr, ElementsPtr elements = nullptr);
+                            FingerprintPtr fingerprint = nullptr, ElementsPtr elements = nullptr, Size exemplar = {});
 
   const std::vector<AppearanceLevel>& levels() const { return levels_; }
-  Size size() const { return levels_.front().size; }
+  Size size() const { return size_; }                                 ///< of the exemplar
   int channels() const { return channels_; }                          ///< features and guidance channels that went in
   bool wraps() const { return wraps_; }                               ///< the exemplar tiles in x and y
   const Repeats& repeats() const { return repeats_; }                 ///< how the exemplar repeats, if it does
@@ -59,6 +61,7 @@ class Appearance {
 
  private:
   Appearance() = default;
+  Size size_;
   std::vector<AppearanceLevel> levels_;
   int channels_ = 0;
   bool wraps_ = false;

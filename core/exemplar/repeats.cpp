@@ -51,6 +51,7 @@ Repeats::Repeats(std::vector<LatticePart> several) : parts(std::move(several)) {
 
 void Repeats::add_to(Hasher& h) const {
   lattice.add_to(h);
+  if (streaks.any()) h.add("streaks").add(streaks.x).add(streaks.y);
   if (parts.empty()) return;
   h.add(int64_t(parts.size()));
   for (const LatticePart& p : parts) {

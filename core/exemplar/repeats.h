@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/exemplar/lattice.h"
+#include "core/exemplar/streaks.h"
 
 /// How exemplars repeat that consist of several, side by side.
 namespace terrazzo {
@@ -31,6 +32,7 @@ struct Repeats {
 
   Lattice lattice;                 ///< of all of the exemplar, or of most of it
   std::vector<LatticePart> parts;  ///< none: it repeats as one
+  Streaks streaks;                 ///< what goes on along an axis; none of an exemplar of rank 2 or of several parts
 
   bool operator==(const Repeats&) const = default;
   void add_to(Hasher& h) const;

@@ -58,6 +58,8 @@ void check_levels(const std::vector<AppearanceLevel>& levels, int channels) {
 
 void check_repeats(const Repeats& repeats, Size exemplar) {
   check_lattice(repeats.lattice);
+  require(repeats.streaks.is_valid() && (!repeats.streaks.any() || repeats.parts.empty()),
+          "the streaks in it are impossible");
   for (const LatticePart& p : repeats.parts) {
     check_lattice(p.lattice);
     check_lattice(p.shown);

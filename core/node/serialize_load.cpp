@@ -45,8 +45,7 @@ class ValueReader {
 
   Size exemplar_of_index() {
     require(file_->header().type == uint32_t(ValueType::index), "it holds no index");
-    appearance_start();
-    return size();
+    return appearance_start().exemplar;
   }
 
  private:
@@ -131,6 +130,7 @@ class ValueReader {
 
   Repeats repeats() {
     Repeats r = lattice();
+    for (int* v : {&r.streaks.x, &r.streaks.y}) *v = in_.get<uint8_t>();
     const int count = in_.get<uint8_t>();
     for (int i = 0; i < count; i++) {
       LatticePart p;
@@ -143,12 +143,12 @@ class ValueReader {
     return r;
   }
 
-  /// `of`: the size that they must have; 0x0 if that is not known yet.
+  /// `of`: the size that they must have.
   ElementsPtr elements(Size of) {
     if (in_.get_below<uint8_t>(2) == 0) return nullptr;
     auto out = std::make_shared<Elements>();
     out->size = size();
-    require(of.area() == 0 || out->size == of, "elements have another size than the exemplar");
+    require(out->size == of, "elements have another size than the exemplar");
     out->count = in_.get<int32_t>();
     require(out->count > 0 && out->count <= most_elements, "a number of elements is out of range");
     out->certainty = in_.get<double>();
@@ -236,6 +236,7 @@ class ValueReader {
 
   /// What stands before an appearance's levels.
   struct AppearanceStart {
+    Size exemplar;
     int channels = 0;
     bool wraps = false;
     Repeats repeats;
@@ -246,12 +247,14 @@ class ValueReader {
 
   AppearanceStart appearance_start() {
     AppearanceStart a;
+    a.exemplar = size();
     a.channels = in_.get<int32_t>();
     require(a.channels > 0, "an appearance has no channels");
     a.wraps = in_.get_below<uint8_t>(2) != 0;
     a.repeats = repeats();
     a.maps = fingerprint();
-    a.elements = elements({});
+    check_repeats(a.repeats, a.exemplar);
+    a.elements = elements(a.exemplar);
     a.levels = in_.get<uint32_t>();
     require(a.levels > 0, "an appearance has no levels");
     return a;
@@ -262,12 +265,11 @@ class ValueReader {
     std::vector<AppearanceLevel> levels;
     for (uint32_t i = 0; i < start.levels; i++) levels.push_back(level());
     check_levels(levels, start.channels);
-    check_repeats(start.repeats, levels.front().size);
-    require(!start.elements || start.elements->size == levels.front().size,
-            "elements have another size than the exemplar");
+    require(start.repeats.streaks.shortened(start.exemplar) == levels.front().size,
+            "its finest level has another size than the exemplar");
     return checked([&] {
       return Appearance::make(std::move(levels), start.channels, start.wraps, start.repeats, std::move(start.maps),
-                              std::move(start.elements));
+                              std::move(start.elements), start.exemplar);
     });
   }
 

@@ -87,6 +87,7 @@ class ValueWriter {
   }
 
   void operator()(const AppearancePtr& appearance) {
+    put(appearance->size());
     out_.put(int32_t(appearance->channels()));
     out_.put(uint8_t(appearance->wraps()));
     put(appearance->repeats());
@@ -155,6 +156,7 @@ class ValueWriter {
 
   void put(const Repeats& repeats) {
     put(repeats.lattice);
+    for (const int v : {repeats.streaks.x, repeats.streaks.y}) out_.put(uint8_t(v));
     out_.put(uint8_t(repeats.parts.size()));
     for (const LatticePart& p : repeats.parts) {
       for (const int v : {p.place.x, p.place.y, p.place.width, p.place.height}) out_.put(int32_t(v));

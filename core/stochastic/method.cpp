@@ -83,6 +83,7 @@ double structure(const Features& features, const Task& task) {
 }
 
 MethodChoice suitable_method(const Features& features, const Task& task) {
+  if (features.repeats().streaks.any()) return {Method::layout, "it has streaks"};
   if (features.repeats().lattice.rank > 0) return {Method::layout, "it repeats"};
   if (features.elements())
     return {Method::layout, fmt::format("its {} elements stay whole", features.elements()->count)};

@@ -65,7 +65,7 @@ SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
       lattice(index.appearance()->lattice()),
       gaps(options.kept.gaps(options.size)),
       origin(lattice_start(index, options)),
-      controls(options.controls, index.appearance()->size(), options.size, levels, task) {}
+      controls(options.controls, index.appearance()->size(), exemplar(0).size, options.size, levels, task) {}
 
 Plane SharedWork::plane(int level) const {
   return {level_size(options.size, level), options.tile_x, options.tile_y};

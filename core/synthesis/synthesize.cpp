@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/image/image_ops.h"
 #include "core/synthesis/level_work.h"
+#include "core/synthesis/streaked_surface.h"
 
 namespace terrazzo {
 
@@ -56,25 +57,35 @@ Field refined_field(const SharedWork& s, std::span<const ExemplarPixel> coarse, 
   return cropped(std::move(field), window, region);
 }
 
-UvMapPtr finest_uv(const SharedWork& s, std::span<const ExemplarPixel> coarse, const Rect& region) {
+/// Of the surface, of which `s` synthesizes what is shortened.
+UvMapPtr finest_uv(const SharedWork& s, const StreakedSurface& surface, const SynthesisOptions& options,
+                   std::span<const ExemplarPixel> coarse, const Rect& region) {
   const Appearance& appearance = *s.index.appearance();
-  Field field = refined_field(s, coarse, region);
+  Field field = surface.drawn_out(refined_field(s, coarse, surface.shortened(region)), region);
   return UvMap::make(field.size, appearance.size(), std::move(field.pixels),
-                     {s.options.tile_x && region.width == s.options.size.width,
-                      s.options.tile_y && region.height == s.options.size.height, appearance.wraps()},
+                     {options.tile_x && region.width == options.size.width,
+                      options.tile_y && region.height == options.size.height, appearance.wraps()},
                      appearance.fingerprint());
 }
 
-void require_coarse(const SharedWork& s, const UvMap& coarse) {
-  const Size size = s.plane(coarse_level(s)).size;
-  const Size exemplar = s.exemplar(std::max(0, coarse_level(s) - 1)).size;
-  const UvWraps wraps{s.options.tile_x, s.options.tile_y, s.index.appearance()->wraps()};
+/// The upper left part of a field of that size or larger, or the field with arbitrary pixels added.
+Field of_size(Size size, Size from, std::span<const ExemplarPixel> pixels) {
+  Field out{size, std::vector<ExemplarPixel>(size_t(size.area()))};
+  for (int y = 0; y < std::min(size.height, from.height); y++)
+    std::copy_n(pixels.data() + size_t(y) * from.width, std::min(size.width, from.width), &out.at(0, y));
+  return out;
+}
+
+void require_coarse(const Appearance& appearance, const SynthesisOptions& options, const UvMap& coarse) {
+  const Size size = coarse_size(options.size, int(appearance.levels().size()));
+  const Size exemplar = appearance.size();
+  const UvWraps wraps{options.tile_x, options.tile_y, appearance.wraps()};
   const auto directions = [](const UvWraps& w) { return w.x ? w.y ? "x and y" : "x" : w.y ? "y" : "no direction"; };
   if (coarse.exemplar() != exemplar)
     throw Error("coarse", fmt::format("expected the coarse levels made from the same index (for an exemplar of {}), "
                                       "found a uv map of an exemplar of {}",
                                       describe(exemplar), describe(coarse.exemplar())));
-  require_coarse_size(s.options.size, size, coarse.size());
+  require_coarse_size(options.size, size, coarse.size());
   if (coarse.wraps() != wraps)
     throw Error("coarse", fmt::format("these coarse levels wrap around in {}, the result in {}; give both nodes the "
                                       "same \"tileable\"",
@@ -95,16 +106,22 @@ void require_inside(const SynthesisOptions& options, const Rect& region) {
 }  // namespace
 
 UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const Task& task) {
-  const SharedWork shared(index, options, task);
-  return finest_uv(shared, coarse_field(shared).pixels, whole(options.size));
+  const StreakedSurface surface(*index.appearance(), options);
+  const SharedWork shared(index, surface.shortened(), task);
+  return finest_uv(shared, surface, options, coarse_field(shared).pixels, whole(options.size));
 }
 
 UvMapPtr coarse_uv(const Index& index, const SynthesisOptions& options, const Task& task) {
-  SharedWork shared(index, options, task);
+  const Appearance& appearance = *index.appearance();
+  const StreakedSurface surface(appearance, options);
+  SharedWork shared(index, surface.shortened(), task);
   shared.finest = coarse_level(shared);
   Field field = coarse_field(shared);
-  return UvMap::make(field.size, shared.exemplar(std::max(0, coarse_level(shared) - 1)).size, std::move(field.pixels),
-                     {options.tile_x, options.tile_y, index.appearance()->wraps()}, index.appearance()->fingerprint());
+  // Whether a surface has streaks is not known before its exemplar is analysed: coarse levels have one size.
+  const Size size = coarse_size(options.size, shared.levels);
+  if (field.size != size) field = of_size(size, field.size, field.pixels);
+  return UvMap::make(size, appearance.size(), std::move(field.pixels),
+                     {options.tile_x, options.tile_y, appearance.wraps()}, appearance.fingerprint());
 }
 
 Size coarse_size(Size surface, int levels) {
@@ -120,10 +137,14 @@ void require_coarse_size(Size surface, Size expected, Size found) {
 
 UvMapPtr refine(const Index& index, const UvMap& coarse, const SynthesisOptions& options, const Rect& region,
                 const Task& task) {
-  const SharedWork shared(index, options, task);
-  require_coarse(shared, coarse);
+  require_coarse(*index.appearance(), options, coarse);
   require_inside(options, region);
-  return finest_uv(shared, coarse.pixels(), region);
+  const StreakedSurface surface(*index.appearance(), options);
+  const SharedWork shared(index, surface.shortened(), task);
+  const Size needed = shared.plane(coarse_level(shared)).size;
+  if (needed == coarse.size()) return finest_uv(shared, surface, options, coarse.pixels(), region);
+  const Field held = of_size(needed, coarse.size(), coarse.pixels());
+  return finest_uv(shared, surface, options, held.pixels, region);
 }
 
 }  // namespace terrazzo

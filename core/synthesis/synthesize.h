@@ -42,7 +42,8 @@ struct SynthesisOptions {
 
 /// Synthesizes a uv map coarse to fine (Lefebvre & Hoppe 2005 and 2006): random blocks of the exemplar at the coarsest
 /// level, then per level upsampling, jitter and correction passes, most of them where pixels are few. The result is a
-/// function of the index and the options alone. Throws Cancelled, and Error if a control does not suit.
+/// function of the index and the options alone. What an index of streaks is made of (Repeats::streaks) is made as much
+/// shorter, and then drawn out to its length. Throws Cancelled, and Error if a control does not suit.
 UvMapPtr synthesize(const Index& index, const SynthesisOptions& options, const Task& task);
 
 /// The same in two steps, so that parts of a surface can be made apart from one another, by any number of machines.

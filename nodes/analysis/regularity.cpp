@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/analysis/repeats/part_lattices.h"
+#include "core/analysis/repeats/streaks.h"
 #include "core/node/node.h"
 #include "nodes/common/analysis_memory.h"
 #include "nodes/common/shape_rules.h"
@@ -67,6 +68,14 @@ FoundLattice lattice_of_all(NodeContext& node, const Features& features) {
   return find_lattice(features, node.number("least_certainty"), node.task());
 }
 
+/// Adds the streaks of an exemplar to how it repeats.
+void add_streaks(NodeContext& node, const Features& features, Repeats& repeats) {
+  repeats = with_streaks(*features.with(repeats), node.task());
+  if (!repeats.streaks.any()) return;
+  node.note(fmt::format("streaks along {}, of which synthesis sees one in {} pixels", repeats.streaks.x > 1 ? "x" : "y",
+                        std::max(repeats.streaks.x, repeats.streaks.y)));
+}
+
 void compute(NodeContext& node) {
   const auto features = node.input<Features>("features");
   const ImagePtr labels = node.optional_input<Image>("labels");
@@ -83,10 +92,11 @@ void compute(NodeContext& node) {
     repeats = Repeats(std::move(all.parts));
   } else if (node.text("mode") != "off") {
     const FoundLattice found = lattice_of_all(node, *features);
-    node.note(described(found.lattice, least));
     too_few = found.too_few;
     repeats = found.lattice;
   }
+  if (!labels && node.text("streaks") == "auto") add_streaks(node, *features, repeats);
+  if (!labels && node.text("mode") != "off") node.note(described(repeats.lattice, least));
   if (too_few)
     node.warn(
         "there is a grid of joints, but with too few tiles, or too different ones, to find its lattice: results may "
@@ -116,7 +126,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType regularity_node() {
   NodeType t;
   t.name = "regularity";
-  t.version = 14;
+  t.version = 15;
   t.category = "analysis";
   t.summary = "Finds the lattice of a regular exemplar";
   t.help =
@@ -144,6 +154,13 @@ NodeType regularity_node() {
                "six cells, 0.6 is needed.",
        .min = 0,
        .max = 1},
+      {.name = "streaks",
+       .type = ParamType::choice,
+       .fallback = "auto",
+       .help = "auto looks for streaks that go on along x or y, as of brushed metal, wood grain and pipes, where there "
+               "are no cells. Synthesis then sees more of each streak, and lets streaks end one by one rather than "
+               "along seams across them. off sees them as anything else.",
+       .choices = {"auto", "off"}},
       {.name = "alike",
        .type = ParamType::boolean,
        .fallback = false,

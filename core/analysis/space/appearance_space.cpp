@@ -164,6 +164,14 @@ Planes joined(const Planes& features, const Planes& guidance, double weight) {
   return out;
 }
 
+/// How the exemplar repeats, as far as the appearance can show it: where a mask or elements part it, streaks stay
+/// whole.
+Repeats repeats_shown(const Features& features) {
+  Repeats repeats = features.repeats();
+  if (features.mask() || features.elements()) repeats.streaks = {};
+  return repeats;
+}
+
 }  // namespace
 
 int appearance_levels(Size exemplar) {
@@ -185,11 +193,14 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
                               const AppearanceOptions& options, const Task& task) {
   const Size size = features.size();
   require_analysable(size);
-  const int count = appearance_levels(size);
+  const Repeats repeats = repeats_shown(features);
+  const Size finest = repeats.streaks.shortened(size);
+  const int count = appearance_levels(finest);
   Planes planes = unmasked_planes(features, task);
   auto fingerprint = std::make_shared<Fingerprint>(fingerprint_of(features, planes));
   fill_masked(planes, features);
-  Planes guides = guidance_planes(features, guidance, task);
+  planes = shortened(planes, repeats.streaks);
+  Planes guides = shortened(guidance_planes(features, guidance, task), repeats.streaks);
   const std::vector<uint8_t> allowed = allowed_pixels(features);
   std::vector<AppearanceLevel> levels;
   for (int l = 0; l < count; l++) {
@@ -198,7 +209,7 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
     const bool guided = guides.channels > 0 && weight > 0;
     const Planes both = guided ? joined(planes, guides, weight) : Planes();
     levels.push_back(
-        make_level(guided ? both : planes, usable_pixels(allowed, size, l, features.wraps()), options, task));
+        make_level(guided ? both : planes, usable_pixels(allowed, finest, l, features.wraps()), options, task));
     if (l + 1 < count) {
       planes = halved(planes);
       guides = halved(guides);
@@ -206,8 +217,8 @@ AppearancePtr make_appearance(const Features& features, const std::vector<ImageP
     // Each level has a quarter of the pixels of the one before.
     task.progress(1 - 1.0 / double(int64_t{4} << (2 * l)));
   }
-  return Appearance::make(std::move(levels), planes.channels + guides.channels, features.wraps(), features.repeats(),
-                          std::move(fingerprint), features.elements());
+  return Appearance::make(std::move(levels), planes.channels + guides.channels, features.wraps(), repeats,
+                          std::move(fingerprint), features.elements(), size);
 }
 
 PixelChannels pixel_channels(const AppearanceLevel& level, int most) {

@@ -276,7 +276,7 @@ IndexPtr make_index(const AppearancePtr& appearance, int per_pixel, const Task& 
   Sets parent;
   for (int l = int(levels.size()) - 1; l >= std::min(tuning->finest_searched, int(levels.size()) - 1); l--) {
     const LevelSearch level(levels[l], appearance->wraps(),
-                            PartPhases(appearance->repeats(), levels[l].size, l, {appearance->size()}));
+                            PartPhases(appearance->repeats(), levels[l].size, l, {appearance->levels().front().size}));
     Sets sets(level.size(), per_pixel);
     if (level.size().area() <= tuning->exhaustive_area) {
       search_all(level, sets, task);

@@ -142,6 +142,22 @@ Planes halved(const Planes& in) {
   return out;
 }
 
+Planes shortened(const Planes& in, const Streaks& streaks) {
+  if (!streaks.any()) return in;
+  Planes out = Planes::zeros(streaks.shortened(in.size), in.channels, in.wraps);
+  const float share = 1.0f / float(streaks.x * streaks.y);
+  const int n = in.channels;
+  tbb::parallel_for(0, out.size.height, [&](int y) {
+    for (int x = 0; x < out.size.width; x++)
+      for (int j = 0; j < streaks.y; j++)
+        for (int i = 0; i < streaks.x; i++) {
+          const float* v = in.at(x * streaks.x + i, y * streaks.y + j);
+          for (int c = 0; c < n; c++) out.at(x, y)[c] += share * v[c];
+        }
+  });
+  return out;
+}
+
 std::vector<float> leading_component(const Planes& planes, const Task& task) {
   const int n = planes.channels;
   const std::vector<float> axis = principal_components(planes.values, n, 1, task).components;

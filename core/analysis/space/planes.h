@@ -4,6 +4,7 @@
 
 #include "core/base/task.h"
 #include "core/exemplar/features.h"
+#include "core/exemplar/streaks.h"
 #include "core/image/float_planes.h"
 #include "core/image/image_facts.h"
 
@@ -32,6 +33,9 @@ Planes cropped(const Planes& planes, const Rect& part);
 /// Half the size (rounded up), filtered with the binomial kernel 1 3 3 1 in each direction. Normals are not
 /// renormalised: their length measures how much they agree.
 Planes halved(const Planes& planes);
+
+/// The mean of each so many pixels, along streaks. What is left over at the right or the bottom is left out.
+Planes shortened(const Planes& planes, const Streaks& streaks);
 
 /// The pixels' values along the first principal component of all channels. Throws Cancelled.
 std::vector<float> leading_component(const Planes& planes, const Task& task);

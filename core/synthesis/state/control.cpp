@@ -202,25 +202,25 @@ void require_control(Control::Mode mode, const ImageFacts& exemplar_control, con
                                     describe(exemplar_control), describe(target)));
 }
 
-ControlPyramid::ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size output, int levels,
-                               const Task& task) {
+ControlPyramid::ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size finest, Size output,
+                               int levels, const Task& task) {
   if (controls.empty()) return;
   int channels = 0;
   std::vector<PaintedLabels> labels;
   for (const Control& control : controls) {
     require_control(control.mode, facts_of(control.exemplar->info()), facts_of(control.target->info()), exemplar);
     const bool is_labels = control.mode == Control::Mode::labels;
-    labels.push_back(is_labels ? painted_labels(control, exemplar, output, task) : PaintedLabels{});
+    labels.push_back(is_labels ? painted_labels(control, finest, output, task) : PaintedLabels{});
     const int count = is_labels ? labels.back().count : control.exemplar->channels();
     parts_.push_back({channels, count, control.strength, is_labels});
     channels += count;
   }
-  exemplar_.push_back(terrazzo::empty(exemplar, channels));
+  exemplar_.push_back(terrazzo::empty(finest, channels));
   target_.push_back(terrazzo::empty(output, channels));
   for (size_t i = 0; i < controls.size(); i++) {
     task.check();
     if (parts_[i].labels) {
-      put_labels(wanted_labels(labels[i].exemplar, labels[i].count, exemplar, 0, task), parts_[i], exemplar_[0]);
+      put_labels(wanted_labels(labels[i].exemplar, labels[i].count, finest, 0, task), parts_[i], exemplar_[0]);
       put_labels(wanted_labels(labels[i].target, labels[i].count, output, controls[i].leeway, task), parts_[i],
                  target_[0]);
     } else {

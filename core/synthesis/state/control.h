@@ -48,8 +48,10 @@ struct ControlPlanes {
 class ControlPyramid {
  public:
   /// Throws Error about "exemplar_control" or "target" if an image does not suit. Each level has half the size of the
-  /// finer one, rounded up, and averages its pixels; for labels these are the areas that each label covers.
-  ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size output, int levels, const Task& task);
+  /// finer one, rounded up, and averages its pixels; for labels these are the areas that each label covers. `finest`:
+  /// the size of the exemplar's finest level.
+  ControlPyramid(const std::vector<Control>& controls, Size exemplar, Size finest, Size output, int levels,
+                 const Task& task);
 
   /// The channels of one control.
   struct Part {

@@ -83,7 +83,7 @@ TEST_CASE("a seam does not go where controls want something else") {
     // Either piece shows one label, wherever it goes on, and the result wants them to meet where they do.
     const std::vector<Control> controls = {
         {.exemplar = halves(side, 24), .target = halves(field.size, seam), .mode = Control::Mode::labels}};
-    const ControlPyramid pyramid(controls, side, field.size, 1, Task());
+    const ControlPyramid pyramid(controls, side, side, field.size, 1, Task());
     const LevelControl control(pyramid, 0, exemplar);
     CorrectionLevel level = test::level_of(exemplar);
     level.window = PlaneWindow::all_of({field.size, false, false});

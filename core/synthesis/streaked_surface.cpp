@@ -1,0 +1,152 @@
+#include "core/synthesis/streaked_surface.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <tbb/parallel_for.h>
+
+#include "core/base/hash.h"
+#include "core/base/tuning.h"
+
+namespace terrazzo {
+
+namespace {
+
+struct Tuning {
+  double coherence = 0.4;
+};
+const Tunable<Tuning> tuning("streaked_surface",
+                             {{&Tuning::coherence, "coherence", "factor on the cost of continuing a piece",
+                               "of streaks. Higher: more of them end, and short ones look like crumbs; lower: streaks "
+                               "are copied many side by side, and end along upright seams",
+                               "streaks", 0, 1}});
+
+}  // namespace
+
+/// The axis that streaks lie along, and the steps of it that a region needs.
+struct StreakedSurface::Axis {
+  bool x;         ///< or y
+  int step;       ///< pixels that are synthesized as one
+  int steps;      ///< of the whole surface
+  bool tiles;     ///< the surface, along it
+  int first = 0;  ///< step that is held
+  int held = 0;   ///< steps
+
+  /// The place of a step among those that are held; nothing if it lies outside.
+  std::optional<int> place(int s) const {
+    if (s < 0 && !tiles) return std::nullopt;
+    const int at = s - first;
+    return at < 0 ? at + steps : at;
+  }
+};
+
+StreakedSurface::StreakedSurface(const Appearance& appearance, const SynthesisOptions& options)
+    : options_(options),
+      streaks_(appearance.repeats().streaks),
+      exemplar_(appearance.size()),
+      wraps_(appearance.wraps()) {
+  if (!streaks_.any()) return;
+  KeptPixels kept = shortened_kept();
+  shortened_ = {.size = streaks_.covering(options.size),
+                .seed = options.seed,
+                .tile_x = options.tile_x,
+                .tile_y = options.tile_y,
+                .quality = options.quality,
+                .coherence = options.coherence * tuning->coherence,
+                .evenness = options.evenness,
+                .whole_bricks = options.whole_bricks,
+                .jitter = options.jitter,
+                .controls = options.controls,
+                .kept = std::move(kept),
+                .origin = {options.origin[0] / streaks_.x, options.origin[1] / streaks_.y}};
+}
+
+ExemplarPixel StreakedSurface::shortened(ExemplarPixel p) const {
+  const Size most = streaks_.shortened(exemplar_);
+  return {uint16_t(std::min(p.x / streaks_.x, most.width - 1)), uint16_t(std::min(p.y / streaks_.y, most.height - 1))};
+}
+
+/// A step is kept as long as each of its pixels; the one in its middle stands for it.
+KeptPixels StreakedSurface::shortened_kept() const {
+  if (options_.kept.empty()) return {};
+  const Size from = options_.size, to = streaks_.covering(from);
+  KeptPixels kept;
+  kept.keep.assign(size_t(to.area()), Keep::always);
+  for (int y = 0; y < from.height; y++)
+    for (int x = 0; x < from.width; x++) {
+      Keep& keep = kept.keep[size_t(y / streaks_.y) * to.width + x / streaks_.x];
+      keep = std::min(keep, options_.kept.keep[size_t(y) * from.width + x]);
+    }
+  for (int y = 0; y < to.height; y++)
+    for (int x = 0; x < to.width; x++) {
+      const int u = std::min(x * streaks_.x + streaks_.x / 2, from.width - 1);
+      const int v = std::min(y * streaks_.y + streaks_.y / 2, from.height - 1);
+      kept.pixels.push_back(shortened(options_.kept.pixels[size_t(v) * from.width + u]));
+    }
+  return kept;
+}
+
+StreakedSurface::Axis StreakedSurface::along(const Rect& region) const {
+  const bool x = streaks_.x > 1;
+  const Size covering = streaks_.covering(options_.size);
+  Axis a{x, x ? streaks_.x : streaks_.y, x ? covering.width : covering.height, x ? options_.tile_x : options_.tile_y};
+  const int begin = x ? region.x : region.y, end = x ? region.right() : region.bottom();
+  const int side = x ? options_.size.width : options_.size.height;
+  // The step before the first may be continued into it.
+  const int from = begin / a.step - 1;
+  const int to = end <= side ? (end + a.step - 1) / a.step : a.steps + (end - side + a.step - 1) / a.step;
+  a.first = from >= 0 ? from : a.tiles ? a.steps - 1 : 0;
+  a.held = to - from - (from < 0 && !a.tiles ? 1 : 0);
+  if (a.held < a.steps) return a;
+  a.first = 0;
+  a.held = a.steps;
+  return a;
+}
+
+Rect StreakedSurface::shortened(const Rect& region) const {
+  if (!streaks_.any()) return region;
+  const Axis a = along(region);
+  return a.x ? Rect{a.first, region.y, a.held, region.height} : Rect{region.x, a.first, region.width, a.held};
+}
+
+Field StreakedSurface::drawn_out(Field field, const Rect& region) const {
+  if (!streaks_.any()) return field;
+  const Axis a = along(region);
+  const Size surface = options_.size;
+  const auto shown = [&](int step, int row) -> std::optional<ExemplarPixel> {
+    const std::optional<int> at = a.place(step);
+    if (!at) return std::nullopt;
+    return a.x ? field.at(*at, row) : field.at(row, *at);
+  };
+  /// The i-th pixel from where p begins, which may lie in what follows on it.
+  const auto pixel_of = [&](ExemplarPixel p, int i) -> std::optional<ExemplarPixel> {
+    const int side = a.x ? exemplar_.width : exemplar_.height;
+    int v = (a.x ? p.x : p.y) * a.step + i;
+    if (v >= side && !wraps_) return std::nullopt;
+    v = wrap(v, side);
+    return a.x ? ExemplarPixel{uint16_t(v), p.y} : ExemplarPixel{p.x, uint16_t(v)};
+  };
+  Field out{{region.width, region.height}, std::vector<ExemplarPixel>(size_t(region.area()))};
+  tbb::parallel_for(0, region.height, [&](int j) {
+    for (int i = 0; i < region.width; i++) {
+      const int x = (region.x + i) % surface.width, y = (region.y + j) % surface.height;
+      const int step = (a.x ? x : y) / a.step, within = (a.x ? x : y) % a.step, row = a.x ? j : i;
+      const ExemplarPixel own = *shown(step, row);
+      ExemplarPixel& p = out.at(i, j);
+      p = *pixel_of(own, within);
+      // Where a streak ends is drawn by lot, so that ends do not line up.
+      const uint64_t end = random_bits(options_.seed, uint64_t(step), uint64_t(a.x ? y : x)) % uint64_t(a.step);
+      if (within < int(end))
+        if (const std::optional<ExemplarPixel> before = shown(step - 1, row))
+          p = pixel_of(*before, a.step + within).value_or(p);
+      if (options_.kept.empty()) continue;
+      const size_t at = size_t(y) * surface.width + x;
+      const Keep keep = options_.kept.keep[at];
+      const bool unchanged = keep == Keep::at_first && shortened(options_.kept.pixels[at]) == own;
+      if (keep == Keep::always || unchanged) p = options_.kept.pixels[at];
+    }
+  });
+  return out;
+}
+
+}  // namespace terrazzo

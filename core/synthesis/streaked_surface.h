@@ -1,0 +1,36 @@
+#pragma once
+
+#include "core/exemplar/appearance.h"
+#include "core/exemplar/uv_map.h"
+#include "core/synthesis/state/field.h"
+#include "core/synthesis/synthesize.h"
+
+namespace terrazzo {
+
+/// A surface whose streaks are synthesized shortened, as its index shows them, and then drawn out to their length.
+/// Without streaks, the surface itself. What it is made from must outlive it.
+class StreakedSurface {
+ public:
+  StreakedSurface(const Appearance& appearance, const SynthesisOptions& options);
+
+  /// The options that synthesize the shortened surface.
+  const SynthesisOptions& shortened() const { return streaks_.any() ? shortened_ : options_; }
+  /// The part of the shortened surface that drawing out a region looks at.
+  Rect shortened(const Rect& region) const;
+  /// A region of the surface. `field`: the part of the shortened surface for it.
+  Field drawn_out(Field field, const Rect& region) const;
+
+ private:
+  struct Axis;
+  Axis along(const Rect& region) const;
+  ExemplarPixel shortened(ExemplarPixel p) const;
+  KeptPixels shortened_kept() const;
+
+  const SynthesisOptions& options_;
+  Streaks streaks_;
+  Size exemplar_;
+  bool wraps_;  // the exemplar
+  SynthesisOptions shortened_;
+};
+
+}  // namespace terrazzo
