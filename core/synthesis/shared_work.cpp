@@ -90,17 +90,20 @@ const Lattice* SharedWork::element_lattice() const {
 }
 
 LevelFacts SharedWork::facts(int level) const {
+  const Appearance& appearance = *index.appearance();
+  const bool elements = options.whole_bricks && has_elements(appearance);
+  const bool laid = elements && !keeps_to_lattice(lattice, *appearance.elements());
   return {.level = level,
           .levels = levels,
           .quality = options.quality,
           .regular = lattice.rank > 0,
           .kept = fixed(level).any(),
           .steered = !controls.empty(),
-          .may_have_bricks = options.whole_bricks && index.appearance()->repeats().parts.empty() &&
+          .may_have_bricks = options.whole_bricks && appearance.repeats().parts.empty() &&
                              (lattice.rank == 1 || lattice.longest_step() >= tuning->shortest_brick),
-          .has_elements = options.whole_bricks && has_elements(*index.appearance()) &&
-                          !keeps_to_lattice(lattice, *index.appearance()->elements()),
-          .elements_on_lattice = element_lattice() != nullptr};
+          .has_elements = laid,
+          .elements_on_lattice = element_lattice() != nullptr,
+          .small_elements = elements && !laid && element_lattice()};
 }
 
 }  // namespace terrazzo

@@ -12,6 +12,7 @@
 #include "core/synthesis/steps/alignment.h"
 #include "core/synthesis/steps/coherence_repair.h"
 #include "core/synthesis/steps/course_layout.h"
+#include "core/synthesis/steps/element_cores.h"
 #include "core/synthesis/steps/element_layout.h"
 #include "core/synthesis/steps/graphcut_repair.h"
 #include "core/synthesis/steps/initialize.h"
@@ -252,6 +253,10 @@ void lay_whole_elements(StepContext& c) {
   lay_elements(c.field, 2, c.level, *c.shared.index.appearance(), c.shared.element_lattice(), c.shared.task);
 }
 
+void complete(StepContext& c) {
+  complete_elements(c.field, 2, c.level, *c.shared.index.appearance());
+}
+
 /// At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
 /// brick away. Courses do not tell how long bricks are.
 SeamMoves seams_to_joints(const StepContext& c) {
@@ -324,6 +329,8 @@ const Step all_steps[] = {
      lay_whole_bricks},
     {"element_layout", Phase::upsampling, "stones, bricks and tiles are laid as wholes", lays_elements,
      lay_whole_elements},
+    {"element_cores", Phase::upsampling, "small tiles and bricks become whole where they lie",
+     [](const LevelFacts& f) { return f.completes_elements(); }, complete},
     {"seams", Phase::upsampling, "seams between pieces move to joints", moves_seams, move_to_joints},
     {"graphcut_repair", Phase::before_pass, "the worst seams are covered with patches along minimum cuts",
      repairs_seams, repair, with_candidates},
@@ -354,6 +361,10 @@ bool LevelFacts::counts_use() const {
 /// Like courses, where only seams still move. Controls say what goes where.
 bool LevelFacts::lays_elements() const {
   return has_elements && level < seam_level && quality != Quality::draft && !steered;
+}
+
+bool LevelFacts::completes_elements() const {
+  return small_elements && level < seam_level && quality != Quality::draft && !steered;
 }
 
 double coherence_of(const LevelFacts& f, double coherence) {

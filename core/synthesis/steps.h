@@ -21,7 +21,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 24;
+inline constexpr int synthesis_version = 25;
 
 /// The finest level that is worked out for the plane as a whole: patches are laid, pieces aligned and their seams moved
 /// on every level but the finest.
@@ -55,6 +55,7 @@ struct LevelFacts {
   bool may_have_bricks = false;
   bool has_elements = false;         ///< that are laid as wholes
   bool elements_on_lattice = false;  ///< which then keep to it
+  bool small_elements = false;       ///< of a lattice, too small to be laid: they are completed
 
   bool coarsest() const { return level == levels - 1; }
   /// Rare features are won or lost at the coarsest levels.
@@ -65,6 +66,8 @@ struct LevelFacts {
   bool counts_use() const;
   /// Whether elements are laid as wholes on this level, which then stay what they are.
   bool lays_elements() const;
+  /// Whether elements too small for that are made whole where they lie.
+  bool completes_elements() const;
 };
 
 /// How much work goes into a level.

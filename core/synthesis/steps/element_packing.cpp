@@ -98,7 +98,7 @@ void ElementPacking::keep_off(const std::vector<uint8_t>& blocks) {
 template <typename Visit>
 void ElementPacking::for_blocks(const PlacedElement& p, Visit visit) const {
   const ElementShape& shape = shapes_[p.element];
-  const int left = column_of(p) + shape.box.x, top = row_of(p) + shape.box.y;
+  const int left = shapes_.column_of(p) + shape.box.x, top = shapes_.row_of(p) + shape.box.y;
   const int first_y = closed_y_ ? 0 : std::max(0, -top);
   const int end_y = closed_y_ ? shape.box.height : std::min(shape.box.height, size_.height - top);
   const int first_x = closed_x_ ? 0 : std::max(0, -left);
@@ -214,7 +214,7 @@ double ElementPacking::seen_around(int element, int column, int row) const {
   const double reach = tuning->around * shapes_.typical_side;
   double sum = 0;
   for (const size_t i : of_element_[size_t(element)]) {
-    int x = std::abs(column_of(placed_[i]) - column), y = std::abs(row_of(placed_[i]) - row);
+    int x = std::abs(shapes_.column_of(placed_[i]) - column), y = std::abs(shapes_.row_of(placed_[i]) - row);
     if (closed_x_) x = std::min(wrap(x, size_.width), size_.width - wrap(x, size_.width));
     if (closed_y_) y = std::min(wrap(y, size_.height), size_.height - wrap(y, size_.height));
     sum += std::max(0.0, 1 - std::sqrt(double(x) * x + double(y) * y) / reach);
@@ -329,7 +329,7 @@ void ElementPacking::settle(const Task& task) {
     for (size_t i = 0; i < placed_.size(); i++) {
       if (placed_[i].stays) continue;
       const ElementShape& shape = shapes_[placed_[i].element];
-      const int column = column_of(placed_[i]), row = row_of(placed_[i]);
+      const int column = shapes_.column_of(placed_[i]), row = shapes_.row_of(placed_[i]);
       const auto value = [&](int x, int y) { return fit(shape, column + x, row + y, tuning->overlap, int(i)).value(); };
       int x = 0, y = 0;
       double best = value(0, 0);

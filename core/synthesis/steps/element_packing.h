@@ -12,15 +12,6 @@
 
 namespace terrazzo {
 
-/// An element of the exemplar somewhere in the result: position + shift is the exemplar pixel that is shown there, in
-/// pixels of the finest level.
-struct PlacedElement {
-  int element = 0;
-  int shift_x = 0, shift_y = 0;
-  double clear = 1;    ///< the share of it that lies on no other
-  bool stays = false;  ///< part of it is kept: it is not taken away
-};
-
 /// Elements side by side: all of the result belongs to one of them.
 class ElementPacking {
  public:
@@ -62,14 +53,7 @@ class ElementPacking {
     return i < 0 ? nullptr : &places_[size_t(i)];
   }
 
-  /// Of an element's centre, in blocks.
-  int column_of(const PlacedElement& p) const { return shapes_[p.element].centre_x - block_shift(p.shift_x); }
-  int row_of(const PlacedElement& p) const { return shapes_[p.element].centre_y - block_shift(p.shift_y); }
-
  private:
-  int block_shift(int shift) const {
-    return shift >= 0 ? shift / shapes_.block : -((-shift + shapes_.block - 1) / shapes_.block);
-  }
   template <typename Visit>
   void for_blocks(const PlacedElement& p, Visit visit) const;
   int64_t index(int column, int row) const { return pixel_index(size_, column, row, closed_x_, closed_y_); }

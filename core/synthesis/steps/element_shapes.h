@@ -41,6 +41,15 @@ struct ElementShape {
   static constexpr float unknown_depth = -1e6f;
 };
 
+/// An element of the exemplar somewhere in the result: position + shift is the exemplar pixel that is shown there, in
+/// pixels of the finest level.
+struct PlacedElement {
+  int element = 0;
+  int shift_x = 0, shift_y = 0;
+  double clear = 1;    ///< the share of it that lies on no other
+  bool stays = false;  ///< part of it is kept: it is not taken away
+};
+
 struct ElementShapes {
   int block = 1;
   Size size;  ///< of the exemplar, in blocks
@@ -50,6 +59,12 @@ struct ElementShapes {
   int whole = 0;            ///< elements that are usable
 
   const ElementShape& operator[](int element) const { return all[size_t(element)]; }
+  /// Where the centre of an element lies in the result, in blocks.
+  int column_of(const PlacedElement& p) const { return all[size_t(p.element)].centre_x - block_shift(p.shift_x); }
+  int row_of(const PlacedElement& p) const { return all[size_t(p.element)].centre_y - block_shift(p.shift_y); }
+
+ private:
+  int block_shift(int shift) const { return shift >= 0 ? shift / block : -((-shift + block - 1) / block); }
 };
 
 /// `usable`: per pixel of the exemplar whether it may be shown; empty: all may.

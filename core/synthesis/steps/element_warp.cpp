@@ -70,7 +70,7 @@ int nearest(double v) {
 ElementWarp::ElementWarp(const ElementShapes& shapes, const ElementPacking& packing, int placed) {
   const PlacedElement& p = packing.placed()[size_t(placed)];
   const ElementShape& shape = shapes[p.element];
-  const int column = packing.column_of(p), row = packing.row_of(p);
+  const int column = shapes.column_of(p), row = shapes.row_of(p);
   const double farthest = shape.box.width + shape.box.height;
   const auto own = [&](At at) { return shape.depth_between(at.x, at.y); };
   // By how much deeper a place lies in this element than in the next, negative where it belongs to another.

@@ -9,6 +9,7 @@
 #include "core/metrics/hybrids.h"
 #include "core/synthesis/synthesize.h"
 #include "tests/drawn_stones.h"
+#include "tests/drawn_tiles.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -101,42 +102,10 @@ TEST_CASE("elements that are too few, or not known, are not laid") {
   CHECK_FALSE(has_elements(*index_of(stones, false)->appearance()));
 }
 
-namespace {
-
-/// Square tiles with joints, each of its own shade, which repeat.
-struct DrawnTiles {
-  explicit DrawnTiles(int side) : side(side) {
-    elements.size = {4 * side, 4 * side};
-    elements.count = 16;
-    elements.certainty = 1;
-    for (int y = 0; y < 4 * side; y++)
-      for (int x = 0; x < 4 * side; x++) elements.at.push_back(uint16_t(y / side * 4 + x / side));
-  }
-  FeaturesPtr features() const {
-    const ImagePtr image = make_image(elements.size, 1, [&](int x, int y, int) {
-      const auto noise = float(unit_double(random_bits(3, x, y)));
-      if (std::min({x % side, y % side, side - 1 - x % side, side - 1 - y % side}) < 2) return 0.1f + 0.04f * noise;
-      const size_t tile = elements.at[size_t(y) * size_t(4 * side) + size_t(x)];
-      return 0.4f + 0.5f * float(unit_double(random_bits(5, tile))) + 0.05f * noise;
-    });
-    return plain_features(image, true)->with(Lattice{2, {double(side), 0}, {0, double(side)}, 1});
-  }
-  UvMapPtr laid(bool known, const SynthesisOptions& options) const {
-    FeaturesPtr f = features();
-    if (known) f = f->with(std::make_shared<const Elements>(elements));
-    return made(*make_index(make_appearance(*f, {}, {}, task), 3, task), options);
-  }
-
-  int side;
-  Elements elements;
-};
-
-}  // namespace
-
 TEST_CASE("elements of a lattice come whole, and in phase with it") {
   const DrawnTiles tiles(72);
   const SynthesisOptions options{.size = {520, 500}, .seed = 2};
-  const UvMapPtr uv = tiles.laid(true, options);
+  const UvMapPtr uv = synthesize(*tiles.index(true), options, task);
   CHECK(hybrid_elements(*uv, tiles.elements, task).by_area < 0.02);
   std::map<std::pair<int, int>, int> phases;
   for (int y = 0; y < 500; y++)
@@ -144,12 +113,6 @@ TEST_CASE("elements of a lattice come whole, and in phase with it") {
   int most = 0;
   for (const auto& [phase, count] : phases) most = std::max(most, count);
   CHECK(most > 0.97 * 520 * 500);
-}
-
-TEST_CASE("small elements of a lattice are laid by seams") {
-  const DrawnTiles tiles(40);
-  const SynthesisOptions options{.size = {220, 200}, .seed = 2};
-  CHECK(tiles.laid(true, options)->pixels() == tiles.laid(false, options)->pixels());
 }
 
 TEST_CASE("elements in straight courses that surely repeat keep to those, unless they are very low") {
