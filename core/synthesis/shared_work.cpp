@@ -85,7 +85,7 @@ LatticeSurface SharedWork::surface() const {
 }
 
 const Lattice* SharedWork::element_lattice() const {
-  const bool sure = lattice.rank == 2 && lattice.certainty >= tuning->surest_lattice;
+  const bool sure = lattice.rank == 1 || (lattice.rank == 2 && lattice.certainty >= tuning->surest_lattice);
   return sure && index.appearance()->repeats().parts.empty() ? &lattice : nullptr;
 }
 
@@ -102,8 +102,8 @@ LevelFacts SharedWork::facts(int level) const {
           .may_have_bricks = options.whole_bricks && appearance.repeats().parts.empty() &&
                              (lattice.rank == 1 || lattice.longest_step() >= tuning->shortest_brick),
           .has_elements = laid,
-          .elements_on_lattice = element_lattice() != nullptr,
-          .small_elements = elements && !laid && element_lattice()};
+          .elements_on_lattice = lattice.rank == 2 && element_lattice() != nullptr,
+          .small_elements = elements && !laid && element_lattice() && lattice.rank == 2};
 }
 
 }  // namespace terrazzo

@@ -54,7 +54,7 @@ struct LevelFacts {
   /// or of cells that are worth it.
   bool may_have_bricks = false;
   bool has_elements = false;         ///< that are laid as wholes
-  bool elements_on_lattice = false;  ///< which then keep to it
+  bool elements_on_lattice = false;  ///< of rank 2, which they keep to
   bool small_elements = false;       ///< of a lattice, too small to be laid: they are completed
 
   bool coarsest() const { return level == levels - 1; }

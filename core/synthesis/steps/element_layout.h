@@ -11,7 +11,7 @@ namespace terrazzo {
 /// are, the others give way to ones that fit the room (ElementPacking). Where two neighbours overlap or leave a gap,
 /// the rims of both are squeezed or stretched until joints meet (ElementWarp). Kept pixels stay; elements that are kept
 /// in part go on beyond. Each pixel of the field stands for a block of `block` x `block` pixels of the finest level.
-/// `lattice`: what elements keep to, of rank 2; null: nothing. Throws Cancelled.
+/// `lattice`: what elements keep to: cells, or courses, along which they lie anywhere; null: nothing. Throws Cancelled.
 void lay_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
                   const Lattice* lattice, const Task& task);
 

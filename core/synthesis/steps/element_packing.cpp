@@ -249,6 +249,14 @@ ElementPacking::Fit ElementPacking::fit(const ElementShape& shape, int column, i
   return out;
 }
 
+std::vector<std::pair<int, int>> ElementPacking::moves(int reach) const {
+  const auto [x, y] = moving();
+  std::vector<std::pair<int, int>> out;
+  if (x) out = {{reach, 0}, {-reach, 0}};
+  if (y) out.insert(out.end(), {{0, reach}, {0, -reach}});
+  return out;
+}
+
 int ElementPacking::step() const {
   return std::max(1, int(tuning->step * shapes_.typical_side));
 }
@@ -256,11 +264,16 @@ int ElementPacking::step() const {
 /// Calls visit(column, row) with places for an element's centre around a hole.
 template <typename Visit>
 void ElementPacking::for_places(const ElementShape& shape, const Hole& hole, Visit visit) const {
-  if (phase_) return for_places_in_phase(shape, hole, visit);
   const int off = int(tuning->step * 4 * shapes_.typical_side);
-  const int across = std::max(0, shape.box.width / 2 - off), down = std::max(0, shape.box.height / 2 - off);
+  const auto [moves_x, moves_y] = moving();
+  const int across = moves_x ? std::max(0, shape.box.width / 2 - off) : 0;
+  const int down = moves_y ? std::max(0, shape.box.height / 2 - off) : 0;
   for (int y = -down; y <= down; y += step())
-    for (int x = -across; x <= across; x += step()) visit(hole.column + x, hole.row + y);
+    for (int x = -across; x <= across; x += step())
+      if (phase_)
+        for_places_in_phase(shape, {hole.column + x, hole.row + y}, visit);
+      else
+        visit(hole.column + x, hole.row + y);
 }
 
 template <typename Visit>
@@ -269,7 +282,8 @@ void ElementPacking::for_places_in_phase(const ElementShape& shape, const Hole& 
   const int u = shape.centre_x * shapes_.block, v = shape.centre_y * shapes_.block;
   int in_u = u, in_v = v;
   phase_->snap(x, y, in_u, in_v);
-  for (int j = -1; j <= 1; j++)
+  const int second = lattice_.rank == 2 ? 1 : 0;
+  for (int j = -second; j <= second; j++)
     for (int i = -1; i <= 1; i++) {
       const Vector2d cells = lattice_.at({double(i), double(j)});
       const double to_x = (x + u - in_u + cells.x()) / shapes_.block, to_y = (y + v - in_v + cells.y()) / shapes_.block;
@@ -300,10 +314,10 @@ bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
   }
   if (best.element < 0 || best.fit.gain < terms.least_gain) return false;
   const ElementShape& shape = shapes_[best.element];
-  for (int reach = phase_ ? 0 : step() / 2; reach > 0; reach /= 2)
+  for (int reach = step() / 2; reach > 0; reach /= 2)
     for (bool moved = true; moved;) {
       moved = false;
-      for (const auto& [x, y] : {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}})
+      for (const auto& [x, y] : moves(reach))
         if (const Fit f = fit(shape, best.column + x, best.row + y, terms.overlap);
             f.value() > best.fit.value() + 1e-9) {
           best = {best.element, best.column + x, best.row + y, f, best.value};
@@ -321,7 +335,7 @@ bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
 
 /// Elements move to where they meet their neighbours, all at once, half the way each, for those move as well.
 void ElementPacking::settle(const Task& task) {
-  if (phase_) return;
+  if (moves(1).empty()) return;
   const int farthest = std::max(1, int(tuning->farthest_moved * shapes_.typical_side));
   for (int round = 0; round < tuning->settling; round++) {
     task.check();
@@ -335,7 +349,7 @@ void ElementPacking::settle(const Task& task) {
       double best = value(0, 0);
       const double least = best + tuning->worth_moving;
       for (int reach = farthest; reach > 0; reach /= 2)
-        for (const auto& [dx, dy] : {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}})
+        for (const auto& [dx, dy] : moves(reach))
           if (const double v = value(x + dx, y + dy); v > best) {
             best = v;
             x += dx;

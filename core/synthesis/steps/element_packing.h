@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/base/task.h"
@@ -18,7 +19,7 @@ class ElementPacking {
   /// `size`: of the result, in blocks of the shapes. `closed_x`, `closed_y`: it wraps around.
   ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y);
 
-  /// Elements come where they are in phase with a lattice of rank 2 only. Borrows `phase`.
+  /// Elements come where they are in phase with a lattice only. Borrows `phase`.
   void keep_to(const Lattice& lattice, const PartPhases& phase);
 
   /// Of each block of the result whether something is kept there that belongs to none of the elements.
@@ -79,6 +80,13 @@ class ElementPacking {
   template <typename Visit>
   void for_places_in_phase(const ElementShape& shape, const Hole& hole, Visit visit) const;
   int step() const;
+  /// Whether elements may move along x and along y: both, along the courses that they keep to, or neither.
+  std::pair<bool, bool> moving() const {
+    const auto goes_on = [&](double first) { return !phase_ || (lattice_.rank == 1 && first == 0); };
+    return {goes_on(lattice_.first.x()), goes_on(lattice_.first.y())};
+  }
+  /// By how many columns and rows then.
+  std::vector<std::pair<int, int>> moves(int reach) const;
   double seen_around(int element, int column, int row) const;
   /// How well an element fits somewhere.
   struct Fit {

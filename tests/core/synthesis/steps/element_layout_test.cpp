@@ -131,6 +131,57 @@ TEST_CASE("elements in straight courses that surely repeat keep to those, unless
   CHECK(are_laid(12, 0.95));
 }
 
+namespace {
+
+/// Courses of two heights in turn, of stones of all lengths.
+struct DrawnCourses {
+  static constexpr int low = 40, high = 80, across = 5;
+  Elements elements{exemplar, {}, 0, 1};
+  std::vector<float> pixels;
+
+  DrawnCourses() {
+    for (int y = 0; y < exemplar.height; y++)
+      for (int x = 0; x < exemplar.width; x++) {
+        const int pair = y / (low + high), within = y % (low + high);
+        const int course = 2 * pair + (within >= low);
+        const int from_top = within < low ? within : within - low, height = within < low ? low : high;
+        int stone = 0;
+        while (stone + 1 < across && x >= joint(course, stone + 1)) stone++;
+        const int next = stone + 1 < across ? joint(course, stone + 1) : exemplar.width + joint(course, 0);
+        const int last = x < joint(course, 0) ? across - 1 : stone;
+        const int left = x < joint(course, 0) ? joint(course, across - 1) - exemplar.width : joint(course, stone);
+        const int right = x < joint(course, 0) ? joint(course, 0) : next;
+        elements.at.push_back(uint16_t(course * across + last));
+        const bool is_joint = std::min({x - left, right - 1 - x, from_top, height - 1 - from_top}) < 2;
+        const double shade = 0.4 + 0.5 * unit_double(random_bits(5, course, last));
+        pixels.push_back(float((is_joint ? 0.1 : shade) + 0.05 * unit_double(random_bits(3, x, y))));
+      }
+    elements.count = 4 * across;
+  }
+  static int joint(int course, int stone) {
+    return stone * exemplar.width / across + int(below(uint32_t(random_bits(9, course, stone)), 24));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("elements of courses stay at the height of their course") {
+  const DrawnCourses wall;
+  const ImagePtr image = make_image(
+      exemplar, 1, [&](int x, int y, int) { return wall.pixels[size_t(y) * size_t(exemplar.width) + size_t(x)]; });
+  const Lattice lattice{1, {0, double(DrawnCourses::low + DrawnCourses::high)}, {}, 0.5};
+  const FeaturesPtr features =
+      plain_features(image, true)->with(lattice)->with(std::make_shared<const Elements>(wall.elements));
+  const UvMapPtr uv = made(*make_index(make_appearance(*features, {}, {}, task), 3, task), {.size = {500, 480}});
+  CHECK(hybrid_elements(*uv, wall.elements, task).by_area < 0.05);
+  std::map<int, int> heights;
+  for (int y = 0; y < 480; y++)
+    for (int x = 0; x < 500; x++) heights[wrap(uv->at(x, y).y - y, DrawnCourses::low + DrawnCourses::high)]++;
+  int most = 0;
+  for (const auto& [height, count] : heights) most = std::max(most, count);
+  CHECK(most > 0.9 * 500 * 480);
+}
+
 TEST_CASE("laid stones do not depend on the number of threads, nor on how a surface is cut into parts") {
   const DrawnStones stones(exemplar);
   const IndexPtr index = index_of(stones, true);
