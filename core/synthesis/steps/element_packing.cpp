@@ -21,6 +21,7 @@ struct Tuning {
   double overlap = 2;
   double least_overlap = 0.6;
   double least_gain = 0.35;
+  double last_gain = 0.2;
   double seen_around = 0.15;
   double around = 6;
   double used = 0.08;
@@ -36,13 +37,11 @@ const Tunable<Tuning> tuning(
     "element_packing",
     {
         {&Tuning::least_clear, "least_clear", "of an element",
-         "that no other covers, or it goes. Higher: stones stay whole; lower: fewer are replaced", "element_layout", 0,
-         1},
+         "that no other covers, or it goes. Higher: stones stay whole; lower: fewer go", "element_layout", 0, 1},
         {&Tuning::soft, "soft", "typical sides",
-         "of overlap from which on it costs its full price. Higher: elements may be squeezed more", "element_layout",
-         0.001, 4},
+         "of overlap at which it costs its full price. Higher: more is squeezed", "element_layout", 0.001, 4},
         {&Tuning::tolerance, "tolerance", "typical sides", "of a gap that is no hole yet", "element_layout", 0, 4},
-        {&Tuning::hole, "hole", "typical sides", "the radius of the smallest hole. Lower: small ones are filled too",
+        {&Tuning::hole, "hole", "typical sides", "the least radius of holes. Lower: smaller ones are filled, too",
          "element_layout", 0.001, 4},
         {&Tuning::farthest_filled, "farthest_filled", "typical sides",
          "up to which holes are told by their size. Costs time and memory", "not measured: larger ones are rare", 0.1,
@@ -54,6 +53,9 @@ const Tunable<Tuning> tuning(
         {&Tuning::least_gain, "least_gain", "of an element's area",
          "what an element must fill, less what it covers. Higher: gaps stay; lower: elements are squeezed",
          "element_layout", 0, 1},
+        {&Tuning::last_gain, "last_gain", "of an element's area",
+         "the same where nothing else fits. Higher: neighbours close gaps; lower: stones that others cover are torn",
+         "element_layout", -10, 1},
         {&Tuning::seen_around, "seen_around", "of an element's area",
          "the price of one of the same right beside it. Higher: less repeats; lower: what is there fits better",
          "element_layout", 0, 100},
@@ -392,8 +394,7 @@ void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task) {
     settle(task);
   }
   take_away_covered(task);
-  // Between kept pixels a hole may be too small for any.
-  fill_holes({kept_depth_.empty() ? -1.0 : 0.0, tuning->least_overlap}, task);
+  fill_holes({tuning->last_gain, tuning->least_overlap}, task);
 }
 
 }  // namespace terrazzo
