@@ -80,6 +80,7 @@ int make_new(const NewFlags& flags) {
                     .notes = result.stages[0].notes,
                     .lattice_notes = result.stages[2].notes,
                     .repeats = features->repeats().lattice.rank > 0,
+                    .streaks = features->repeats().streaks.any(),
                     .tiles = features->wraps(),
                     .method = suitable_method(*features, Task())};
   write_whole_file(flags.out, starting_graph(look, stock_graph(flags.like)));

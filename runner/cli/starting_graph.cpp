@@ -102,7 +102,8 @@ void pick_material(JsonValue& graph, const std::string& name) {
 }  // namespace
 
 std::string ExemplarLook::nature() const {
-  return repeats ? "it repeats" : tiles ? "no lattice; it tiles" : "no lattice; it does not tile";
+  if (repeats) return streaks ? "it repeats, in streaks" : "it repeats";
+  return fmt::format("{}; it {}", streaks ? "streaks" : "no lattice", tiles ? "tiles" : "does not tile");
 }
 
 std::string ExemplarLook::advice() const {

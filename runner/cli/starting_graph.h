@@ -18,6 +18,7 @@ struct ExemplarLook {
   std::vector<std::string> notes;          ///< of load_material
   std::vector<std::string> lattice_notes;  ///< of regularity
   bool repeats = false;                    ///< a lattice was found
+  bool streaks = false;                    ///< it goes on along an axis
   bool tiles = false;                      ///< opposite borders fit
   MethodChoice method{};                   ///< which way suits it
 

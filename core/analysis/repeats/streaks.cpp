@@ -16,6 +16,7 @@ struct Tuning {
   double most_lost = 0.15;
   double least_counted = 0.02;
   double surest_courses = 0.8;
+  double least_sure = 0.2;
   double fewest_courses = 3;
   int longest_step = 8;
 };
@@ -35,6 +36,10 @@ const Tunable<Tuning> tuning(
       "of courses or columns whose streaks are shortened. Higher: boards are cut by upright seams; lower: pipes that "
       "lie "
       "at uneven distances end anywhere",
+      "streaks", 0, 1},
+     {&Tuning::least_sure, "least_sure", "certainty",
+      "of courses or columns of streaks that are more than chance. Higher: boards end anywhere; lower: brushed metal "
+      "repeats",
       "streaks", 0, 1},
      {&Tuning::fewest_courses, "fewest_courses", "courses",
       "that an exemplar must hold for those that are less sure to be more than chance. Higher: pipes and boards change "
@@ -119,12 +124,14 @@ bool is_sure(const Lattice& lattice) {
 }
 
 /// Whether courses, or columns, that are not sure have come about by chance: they follow one another along the streaks,
-/// or the exemplar holds few of them. Those of one that tiles are found by lines that go straight through it.
+/// are hardly alike, or the exemplar holds few of them. Those of one that tiles are found by lines that go straight
+/// through it.
 bool is_chance(const Lattice& lattice, const Streaks& streaks, const Features& features) {
   const bool across_x = streaks.y > 1;
   const bool along = across_x ? lattice.first.y() != 0 : lattice.first.x() != 0;
   const double side = across_x ? features.size().width : features.size().height;
-  return along || (!features.wraps() && lattice.first.norm() * tuning->fewest_courses > side);
+  return along || lattice.certainty < tuning->least_sure ||
+         (!features.wraps() && lattice.first.norm() * tuning->fewest_courses > side);
 }
 
 }  // namespace

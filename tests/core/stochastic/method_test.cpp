@@ -77,3 +77,12 @@ TEST_CASE("looking for structure can be cancelled") {
   const std::atomic<bool> cancelled{true};
   CHECK_THROWS_AS(structure(*features_of({128, 128}, grain), Task(&cancelled, {})), Cancelled);
 }
+
+TEST_CASE("a layout suits streaks, which noise would blur") {
+  const FeaturesPtr metal = plain_features(brushed({192, 160}));
+  Repeats repeats;
+  repeats.streaks.x = 4;
+  const MethodChoice choice = suitable_method(*metal->with(repeats), Task());
+  CHECK(choice.method == Method::layout);
+  CHECK(choice.why == "it has streaks");
+}

@@ -2,6 +2,7 @@
 
 #include "core/base/hash.h"
 #include "core/image/image_file.h"
+#include "tests/exemplars.h"
 #include "tests/runner/fakes.h"
 #include "tests/runner/program.h"
 #include "tests/runner/workplace.h"
@@ -114,4 +115,20 @@ TEST_CASE("new says which way suits the maps, in a comment too, and begins with 
   CHECK(contains(read_text(w.path / "noise.json"), "noise_by_example"));
   const ProgramRun run = w.run({"run", "noise.json", "--set", "size=64x64", "--set", "out=made"});
   CHECK_MESSAGE(run.code == 0, run.err);
+}
+
+TEST_CASE("new says that brushed metal has streaks, which its graph finds again") {
+  const Workplace w;
+  fs::create_directories(w.path / "metal");
+  write_image(*brushed({192, 160}), w.path / "metal/base_color.png", {.format = FileFormat::png, .depth = Depth::u8},
+              [](double) {});
+  const ProgramRun looked = w.run({"new", "metal", "-o", "metal.json"});
+  REQUIRE_MESSAGE(looked.code == 0, looked.err);
+  CHECK_MESSAGE(contains(looked.err, "streaks; it does not tile"), looked.err);
+  CHECK_MESSAGE(contains(looked.err, "a layout suits it: it has streaks"), looked.err);
+  CHECK(contains(read_text(w.path / "metal.json"), "streaks along x, of which synthesis sees one in 4 pixels"));
+  const ProgramRun run = w.run({"run", "metal.json", "--set", "size=300x200", "--set", "out=made"});
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  CHECK_MESSAGE(contains(run.err, "streaks along x"), run.err);
+  CHECK(read_image_info(w.path / "made/base_color.png").size == Size{300, 200});
 }

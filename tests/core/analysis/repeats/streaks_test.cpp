@@ -68,7 +68,7 @@ TEST_CASE("sure courses along streaks stay, columns across them have none") {
   CHECK(streaks_of(*metal->with(Lattice{1, {20, 0}, {}, 0.9})) == Streaks{});
 }
 
-TEST_CASE("courses that are seldom, or follow one another along the streaks, are left out if they are not sure") {
+TEST_CASE("courses that are seldom, hardly alike or follow one another along the streaks are left out") {
   const Lattice seldom{1, {0, 100}, {}, 0.5};
   const Repeats repeats = with_streaks(*plain_features(brushed(size))->with(seldom), Task());
   CHECK(repeats.streaks.any());
@@ -77,6 +77,9 @@ TEST_CASE("courses that are seldom, or follow one another along the streaks, are
   const Repeats tiles = with_streaks(*plain_features(brushed(size), true)->with(seldom), Task());
   CHECK_FALSE(tiles.streaks.any());
   CHECK(tiles.lattice == seldom);
+  const Repeats hardly = with_streaks(*plain_features(brushed(size))->with(Lattice{1, {0, 20}, {}, 0.15}), Task());
+  CHECK(hardly.streaks.any());
+  CHECK(hardly.lattice.rank == 0);
   const Repeats crossed = with_streaks(*plain_features(brushed(size))->with(Lattice{1, {20, 0}, {}, 0.5}), Task());
   CHECK(crossed.streaks.any());
   CHECK(crossed.lattice.rank == 0);
