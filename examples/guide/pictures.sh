@@ -8,5 +8,5 @@ made=out/guide-pictures
 build/terrazzo run examples/guide/pictures.json --progress none --set "out=$made"
 build/terrazzo run examples/guide/uv-picture.json --progress none --set "pictures=$made" --set "out=$made/uv.jpg"
 mkdir -p "$out"
-cp "$made"/{uv,guidance,lattice,evenness,heights}.jpg "$out"
+cp "$made"/{uv,guidance,lattice,streaks,evenness,heights}.jpg "$out"
 ls "$out"
