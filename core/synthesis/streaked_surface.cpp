@@ -1,7 +1,6 @@
 #include "core/synthesis/streaked_surface.h"
 
 #include <algorithm>
-#include <optional>
 
 #include <tbb/parallel_for.h>
 
@@ -35,8 +34,7 @@ struct StreakedSurface::Axis {
   /// The place of a step among those that are held; nothing if it lies outside.
   std::optional<int> place(int s) const {
     if (s < 0 && !tiles) return std::nullopt;
-    const int at = s - first;
-    return at < 0 ? at + steps : at;
+    return wrap(s - first, steps);
   }
 };
 
@@ -109,41 +107,66 @@ Rect StreakedSurface::shortened(const Rect& region) const {
   return a.x ? Rect{a.first, region.y, a.held, region.height} : Rect{region.x, a.first, region.width, a.held};
 }
 
+std::optional<ExemplarPixel> StreakedSurface::along_streak(const Axis& a, ExemplarPixel p, int by) const {
+  const int side = a.x ? exemplar_.width : exemplar_.height;
+  const int v = (a.x ? p.x : p.y) + by;
+  if ((v < 0 || v >= side) && !wraps_) return std::nullopt;
+  const auto at = uint16_t(wrap(v, side));
+  return a.x ? ExemplarPixel{at, p.y} : ExemplarPixel{p.x, at};
+}
+
+ExemplarPixel StreakedSurface::first_of(const Axis& a, ExemplarPixel step) const {
+  return a.x ? ExemplarPixel{uint16_t(step.x * a.step), step.y} : ExemplarPixel{step.x, uint16_t(step.y * a.step)};
+}
+
+int StreakedSurface::end_by_lot(const Axis& a, int along, int across) const {
+  return int(random_bits(options_.seed, uint64_t(along), uint64_t(across)) % uint64_t(a.step));
+}
+
+std::optional<ExemplarPixel> StreakedSurface::beside_kept(const Axis& a, int x, int y) const {
+  const Size surface = options_.size;
+  const int side = a.x ? surface.width : surface.height, across = a.x ? y : x;
+  for (int away = 1; away < a.step; away++)
+    for (const int by : {away, -away}) {
+      int along = (a.x ? x : y) + by;
+      if (!a.tiles && (along < 0 || along >= side)) continue;
+      along = wrap(along, side);
+      const size_t at = size_t(a.x ? y : along) * surface.width + size_t(a.x ? along : x);
+      if (options_.kept.keep[at] == Keep::always && away <= end_by_lot(a, along, across))
+        return along_streak(a, options_.kept.pixels[at], -by);
+    }
+  return std::nullopt;
+}
+
+std::optional<ExemplarPixel> StreakedSurface::kept_at(const Axis& a, int x, int y, ExemplarPixel step) const {
+  if (options_.kept.empty()) return std::nullopt;
+  const size_t at = size_t(y) * options_.size.width + x;
+  const Keep keep = options_.kept.keep[at];
+  const bool unchanged = keep == Keep::at_first && shortened(options_.kept.pixels[at]) == step;
+  return keep == Keep::always || unchanged ? options_.kept.pixels[at] : beside_kept(a, x, y);
+}
+
 Field StreakedSurface::drawn_out(Field field, const Rect& region) const {
   if (!streaks_.any()) return field;
   const Axis a = along(region);
-  const Size surface = options_.size;
   const auto shown = [&](int step, int row) -> std::optional<ExemplarPixel> {
     const std::optional<int> at = a.place(step);
     if (!at) return std::nullopt;
-    return a.x ? field.at(*at, row) : field.at(row, *at);
-  };
-  /// The i-th pixel from where p begins, which may lie in what follows on it.
-  const auto pixel_of = [&](ExemplarPixel p, int i) -> std::optional<ExemplarPixel> {
-    const int side = a.x ? exemplar_.width : exemplar_.height;
-    int v = (a.x ? p.x : p.y) * a.step + i;
-    if (v >= side && !wraps_) return std::nullopt;
-    v = wrap(v, side);
-    return a.x ? ExemplarPixel{uint16_t(v), p.y} : ExemplarPixel{p.x, uint16_t(v)};
+    return first_of(a, a.x ? field.at(*at, row) : field.at(row, *at));
   };
   Field out{{region.width, region.height}, std::vector<ExemplarPixel>(size_t(region.area()))};
   tbb::parallel_for(0, region.height, [&](int j) {
     for (int i = 0; i < region.width; i++) {
-      const int x = (region.x + i) % surface.width, y = (region.y + j) % surface.height;
+      const int x = (region.x + i) % options_.size.width, y = (region.y + j) % options_.size.height;
       const int step = (a.x ? x : y) / a.step, within = (a.x ? x : y) % a.step, row = a.x ? j : i;
       const ExemplarPixel own = *shown(step, row);
       ExemplarPixel& p = out.at(i, j);
-      p = *pixel_of(own, within);
+      p = *along_streak(a, own, within);
       // Where a streak ends is drawn by lot, so that ends do not line up.
-      const uint64_t end = random_bits(options_.seed, uint64_t(step), uint64_t(a.x ? y : x)) % uint64_t(a.step);
-      if (within < int(end))
-        if (const std::optional<ExemplarPixel> before = shown(step - 1, row))
-          p = pixel_of(*before, a.step + within).value_or(p);
-      if (options_.kept.empty()) continue;
-      const size_t at = size_t(y) * surface.width + x;
-      const Keep keep = options_.kept.keep[at];
-      const bool unchanged = keep == Keep::at_first && shortened(options_.kept.pixels[at]) == own;
-      if (keep == Keep::always || unchanged) p = options_.kept.pixels[at];
+      const bool goes_on = within < end_by_lot(a, step, a.x ? y : x);
+      if (const std::optional<ExemplarPixel> before = goes_on ? shown(step - 1, row) : std::nullopt)
+        p = along_streak(a, *before, a.step + within).value_or(p);
+      p = kept_at(a, x, y, shortened(own)).value_or(p);
     }
   });
   return out;

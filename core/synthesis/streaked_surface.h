@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/exemplar/appearance.h"
 #include "core/exemplar/uv_map.h"
 #include "core/synthesis/state/field.h"
@@ -25,6 +27,16 @@ class StreakedSurface {
   Axis along(const Rect& region) const;
   ExemplarPixel shortened(ExemplarPixel p) const;
   KeptPixels shortened_kept() const;
+  /// The exemplar pixel so far on along the streaks; nothing outside of an exemplar that does not tile.
+  std::optional<ExemplarPixel> along_streak(const Axis& a, ExemplarPixel p, int by) const;
+  /// The first of the pixels that a step of the shortened exemplar stands for.
+  ExemplarPixel first_of(const Axis& a, ExemplarPixel step) const;
+  /// How many pixels on a streak ends that would at the border of a step.
+  int end_by_lot(const Axis& a, int along, int across) const;
+  /// What goes on from a kept pixel less than a step away, as far as the lot says.
+  std::optional<ExemplarPixel> beside_kept(const Axis& a, int x, int y) const;
+  /// The same, or what is kept there itself.
+  std::optional<ExemplarPixel> kept_at(const Axis& a, int x, int y, ExemplarPixel step) const;
 
   const SynthesisOptions& options_;
   Streaks streaks_;

@@ -70,7 +70,10 @@ FoundLattice lattice_of_all(NodeContext& node, const Features& features) {
 
 /// Adds the streaks of an exemplar to how it repeats.
 void add_streaks(NodeContext& node, const Features& features, Repeats& repeats) {
+  const Lattice before = repeats.lattice;
   repeats = with_streaks(*features.with(repeats), node.task());
+  if (repeats.lattice.rank < before.rank)
+    node.note(fmt::format("{}, but streaks make such by chance: not used", described(before, 0)));
   if (!repeats.streaks.any()) return;
   node.note(fmt::format("streaks along {}, of which synthesis sees one in {} pixels", repeats.streaks.x > 1 ? "x" : "y",
                         std::max(repeats.streaks.x, repeats.streaks.y)));
@@ -95,8 +98,10 @@ void compute(NodeContext& node) {
     too_few = found.too_few;
     repeats = found.lattice;
   }
+  const int found_rank = repeats.lattice.rank;
   if (!labels && node.text("streaks") == "auto") add_streaks(node, *features, repeats);
-  if (!labels && node.text("mode") != "off") node.note(described(repeats.lattice, least));
+  if (!labels && node.text("mode") != "off" && repeats.lattice.rank == found_rank)
+    node.note(described(repeats.lattice, least));
   if (too_few)
     node.warn(
         "there is a grid of joints, but with too few tiles, or too different ones, to find its lattice: results may "

@@ -394,7 +394,7 @@ void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task) {
     settle(task);
   }
   take_away_covered(task);
-  fill_holes({tuning->last_gain, tuning->least_overlap}, task);
+  fill_holes({phase_ ? -1 : tuning->last_gain, tuning->least_overlap}, task);  // courses are squeezed along them
 }
 
 }  // namespace terrazzo

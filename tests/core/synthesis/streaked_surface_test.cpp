@@ -107,6 +107,14 @@ TEST_CASE("kept pixels of streaks stay as they are, also within a step") {
   for (size_t i = 0; i < options.kept.keep.size(); i++)
     changed += options.kept.keep[i] == Keep::always && uv->pixels()[i] != options.kept.pixels[i];
   CHECK(changed == 0);
+  std::set<int> places;  // of the last new pixel to the left of what is kept
+  for (int y = 10; y < 40; y++) {
+    int x = 30;
+    while (x > 0 && uv->at(x, y).x + 31 - x == uv->at(31, y).x && uv->at(x, y).y == uv->at(31, y).y) x--;
+    places.insert(x);
+  }
+  INFO("What is kept goes on to the left as well, by as much as the lot says.");
+  CHECK(places.size() > 1);
 }
 
 TEST_CASE("controls place streaks in step with the result") {
