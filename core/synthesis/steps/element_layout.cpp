@@ -48,7 +48,7 @@ class ElementLayout {
         block_(block),
         level_(level),
         lattice_(lattice),
-        places_(field, block, level, appearance),
+        places_(field, block, level, appearance, lattice),
         shapes_(places_.shapes()),
         packing_(shapes_, field.size, level.window.closed_x, level.window.closed_y) {}
 

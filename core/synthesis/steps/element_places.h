@@ -22,7 +22,9 @@ struct ShownElement {
 /// the finest level. Borrows the field, which may change meanwhile, and the level. Thread-safe.
 class ElementPlaces {
  public:
-  ElementPlaces(const Field& field, int block, const CorrectionLevel& level, const Appearance& appearance);
+  /// `courses`: see element_shapes().
+  ElementPlaces(const Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,
+                const Lattice* courses = nullptr);
 
   const ElementShapes& shapes() const { return shapes_; }
   bool is_kept(int column, int row) const { return level_.fixed.at(level_.window.index(column, row)); }

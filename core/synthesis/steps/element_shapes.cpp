@@ -15,8 +15,10 @@ namespace {
 struct Tuning {
   double margin = 0.4;
   double ragged = 2.5;
+  double surest_courses = 0.4;
   int samples = 36;
   int outline = 40;
+  int across = 3;
 };
 const Tunable<Tuning> tuning("element_shapes",
                              {
@@ -33,6 +35,14 @@ const Tunable<Tuning> tuning("element_shapes",
                                   100000},
                                  {&Tuning::outline, "outline", "blocks of its outline", "that are compared likewise",
                                   "element_layout", 4, 100000},
+                                 {&Tuning::surest_courses, "surest_courses", "certainty",
+                                  "of straight courses, in which distances across count more. Higher: stones meet at "
+                                  "slanting corners; lower: those of rough courses are cut upright",
+                                  "element_layout", 0, 1},
+                                 {&Tuning::across, "across", "times",
+                                  "that distances across courses count against those along them. Higher: neighbours in "
+                                  "a course meet in upright joints; costs time and memory",
+                                  "element_layout", 1, 16},
                              });
 
 /// The exemplar's regions, one per block.
@@ -82,7 +92,25 @@ void add_block(const Grid& grid, int x, int y, Extent& e, ElementShape& shape) {
   shape.unusable |= !grid.wraps && at_border;
 }
 
-void measure(const Grid& grid, int element, int margin, const Extent& e, ElementShape& shape) {
+/// Signed distances, positive inside, of which those in x, or those in y, count so many times.
+std::vector<float> stretched_depths(const std::vector<uint8_t>& inside, Size size, Size times) {
+  const Size large{size.width * times.width, size.height * times.height};
+  std::vector<uint8_t> mask(size_t(large.area()));
+  for (int y = 0; y < large.height; y++)
+    for (int x = 0; x < large.width; x++)
+      mask[size_t(y) * size_t(large.width) + size_t(x)] =
+          inside[size_t(y / times.height) * size_t(size.width) + size_t(x / times.width)];
+  const std::vector<float> distances = signed_distances(mask, large, false, 1e6f);
+  std::vector<float> out(inside.size());
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++)
+      out[size_t(y) * size_t(size.width) + size_t(x)] =
+          -distances[size_t(y * times.height + times.height / 2) * size_t(large.width) +
+                     size_t(x * times.width + times.width / 2)];
+  return out;
+}
+
+void measure(const Grid& grid, int element, int margin, const Extent& e, Size times, ElementShape& shape) {
   shape.centre_x = int(std::floor(e.sum_x / double(shape.area) + 0.5));
   shape.centre_y = int(std::floor(e.sum_y / double(shape.area) + 0.5));
   shape.box = {e.left - margin - shape.centre_x, e.top - margin - shape.centre_y, e.right - e.left + 1 + 2 * margin,
@@ -94,11 +122,8 @@ void measure(const Grid& grid, int element, int margin, const Extent& e, Element
     for (int x = 0; x < shape.box.width; x++)
       inside[size_t(y) * size_t(shape.box.width) + size_t(x)] =
           grid.region(x + shape.box.x + shape.centre_x, y + shape.box.y + shape.centre_y) == element;
-  shape.depths = signed_distances(inside, {shape.box.width, shape.box.height}, false, 1e6f);
-  for (float& d : shape.depths) {
-    d = -d;
-    shape.inner_radius = std::max(shape.inner_radius, d);
-  }
+  shape.depths = stretched_depths(inside, {shape.box.width, shape.box.height}, times);
+  for (const float d : shape.depths) shape.inner_radius = std::max(shape.inner_radius, d);
   const int step = std::max(1, int(std::sqrt(double(shape.area) / tuning->samples)));
   for (int y = step / 2; y < shape.box.height; y += step)
     for (int x = step / 2; x < shape.box.width; x += step)
@@ -139,7 +164,12 @@ double ElementShape::depth_between(double x, double y) const {
   return (1 - fy) * above + fy * below;
 }
 
-ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps) {
+ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps,
+                             const Lattice* courses) {
+  Size times{1, 1};
+  const bool in_courses = courses && courses->rank == 1 && courses->certainty >= tuning->surest_courses;
+  if (in_courses && courses->first.x() == 0) times.height = tuning->across;
+  if (in_courses && courses->first.y() == 0) times.width = tuning->across;
   ElementShapes out{.block = block,
                     .size = {(elements.size.width + block - 1) / block, (elements.size.height + block - 1) / block},
                     .wraps = wraps,
@@ -163,7 +193,7 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
     if (out.all[size_t(e)].area == 0)
       out.all[size_t(e)].unusable = true;
     else
-      measure(grid, e, margin, extents[size_t(e)], out.all[size_t(e)]);
+      measure(grid, e, margin, extents[size_t(e)], times, out.all[size_t(e)]);
   });
   leave_out_ragged(out.all);
   out.whole = int(std::ranges::count_if(out.all, [](const ElementShape& s) { return !s.unusable; }));

@@ -5,6 +5,7 @@
 
 #include "core/base/geometry.h"
 #include "core/exemplar/elements.h"
+#include "core/exemplar/lattice.h"
 
 namespace terrazzo {
 
@@ -67,7 +68,9 @@ struct ElementShapes {
   int block_shift(int shift) const { return shift >= 0 ? shift / block : -((-shift + block - 1) / block); }
 };
 
-/// `usable`: per pixel of the exemplar whether it may be shown; empty: all may.
-ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps);
+/// `usable`: per pixel of the exemplar whether it may be shown; empty: all may. `courses`: elements of courses or
+/// columns (rank 1) meet others of their own: depths count more across than along them. Null: alike in all directions.
+ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps,
+                             const Lattice* courses = nullptr);
 
 }  // namespace terrazzo
