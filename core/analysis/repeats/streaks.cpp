@@ -24,18 +24,15 @@ const Tunable<Tuning> tuning(
     "streaks",
     {{&Tuning::most_lost, "most_lost", "share of what the same loses across",
       "of the variance that goes when streaks are shortened. Higher: bricks and boards count as streaks, and lose "
-      "their "
-      "ends; lower: grain with a few knots is cut by upright seams",
+      "their ends; lower: grain with a few knots is cut by upright seams",
       "streaks", 0, 1},
      {&Tuning::least_counted, "least_counted", "share of the variance lost",
       "in a part of the exemplar, from which on it has a say. Higher: streaks may end in faint features; lower: noise "
-      "in "
-      "plain parts hides them",
+      "in plain parts hides them",
       "streaks", 0, 1},
      {&Tuning::surest_courses, "surest_courses", "certainty",
       "of courses or columns whose streaks are shortened. Higher: boards are cut by upright seams; lower: pipes that "
-      "lie "
-      "at uneven distances end anywhere",
+      "lie at uneven distances end anywhere",
       "streaks", 0, 1},
      {&Tuning::least_sure, "least_sure", "certainty",
       "of courses or columns of streaks that are more than chance. Higher: boards end anywhere; lower: brushed metal "
@@ -119,10 +116,6 @@ Streaks find_streaks(const Features& features, Vector2d across, const Task& task
   return found;
 }
 
-bool is_sure(const Lattice& lattice) {
-  return lattice.rank == 0 || lattice.certainty >= tuning->surest_courses;
-}
-
 /// Whether courses, or columns, that are not sure have come about by chance: they follow one another along the streaks,
 /// are hardly alike, or the exemplar holds few of them. Those of one that tiles are found by lines that go straight
 /// through it.
@@ -140,7 +133,7 @@ Repeats with_streaks(const Features& features, const Task& task) {
   Repeats repeats = features.repeats();
   const Lattice lattice = repeats.lattice;
   if (features.mask() || features.elements() || lattice.rank == 2 || !repeats.parts.empty()) return repeats;
-  const bool sure = is_sure(lattice);
+  const bool sure = lattice.rank == 0 || lattice.certainty >= tuning->surest_courses;
   const Streaks found = find_streaks(features, lattice.rank == 1 && sure ? lattice.first : Vector2d{0, 0}, task);
   if (!found.any()) return repeats;
   if (!sure) {
