@@ -90,6 +90,27 @@ refuses 'node "a" (odd), parameter "how": it is odd' "$terrazzo" run odd.json --
 refuses 'plug-in "odd" failed: out of luck' "$terrazzo" run odd.json --plugin odd0.so --set a.how=exception
 refuses 'something that is no std::exception' "$terrazzo" run odd.json --plugin odd0.so --set a.how=number
 refuses 'did not set its output' "$terrazzo" run odd.json --plugin odd0.so --set a.how=nothing
+refuses 'odd gave a null pointer for its output image' "$terrazzo" run odd.json --plugin odd0.so --set a.how=null
+refuses 'an image cannot be computed from one that is null' "$terrazzo" run odd.json --plugin odd0.so --set a.how='null source'
+for moment in check files_read preflight infer; do
+  refuses 'node "a"' "$terrazzo" run odd.json --plugin odd0.so --set a.how=$moment
+  grep -qF 'something that is no std::exception' said || complain "$moment: found: $(cat said)"
+done
+refuses 'something that is no std::exception' "$terrazzo" run odd.json --plugin odd0.so --set a.how=memory_ahead --memory 1G
+"$terrazzo" check odd.json --plugin odd0.so --set a.how=doubts >said 2>&1 || complain "check ended badly: $(cat said)"
+grep -qF 'something that is no std::exception' said || complain "doubts: found: $(cat said)"
+# Pixels are made when another node reads them; it is the one that makes them that fails.
+echo '{"terrazzo": 1, "nodes": {"a": {"type": "odd"}, "soft": {"type": "blur", "image": "@a", "radius": 2},
+  "file": {"type": "export", "material": "@soft", "path": "late.exr"}}}' >late.json
+refuses 'node "a" (odd): out of luck' "$terrazzo" run late.json --plugin odd0.so --set a.how='late exception'
+refuses 'node "a" (odd): what makes its pixels threw something that is no std::exception' \
+  "$terrazzo" run late.json --plugin odd0.so --set a.how='late number'
+# A node that ends the program does not end it as if all was done.
+for how in exit _exit; do
+  refuses 'code of the node "a" called exit() before the command was done' \
+    "$terrazzo" run late.json --plugin odd0.so --set a.how=$how
+done
+[ ! -e late.exr ] || complain "a file was written after a failure"
 
 # Nodes that lie are caught by name in a checked run; those of terrazzo do not.
 echo 0.25 >secret.txt

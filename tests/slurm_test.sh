@@ -23,7 +23,8 @@ if ! setting=$("${cluster[@]}" start "$scratch/slurm"); then
   exit 77
 fi
 export "${setting?}"
-export TERRAZZO_CACHE=$scratch/cache
+# A path in which Slurm would find patterns, and a shell words.
+export TERRAZZO_CACHE="$scratch/Stone%20Wall/%j it's/cache"
 failed=0
 
 complain() {
@@ -135,6 +136,52 @@ code=0
 [ $code = 1 ] || complain "something was left out, with exit code $code"
 grep -q 'left out.*cut/height.png: it is truncated' going.txt || { complain "it is not said what was left out"; cat going.txt >&2; }
 [ -s going/sound/height.png ] && [ ! -e going/cut ] || complain "the sound variation was not made, or the other one was"
+
+# What users have set for their own calls of Slurm's tools hides no task, beats no option, and keeps no task in the queue.
+hostile=(SQUEUE_STATES=RUNNING SQUEUE_USERS=nobody SQUEUE_PARTITION=none SQUEUE_NAMES=none SQUEUE_FORMAT=%i SQUEUE_QOS=none
+  SQUEUE_ACCOUNT=none SBATCH_JOB_NAME=other SBATCH_ARRAY_INX=5-6 SBATCH_NO_REQUEUE=1 SBATCH_MEM_PER_NODE=1 SBATCH_WAIT=1
+  SBATCH_OUTPUT=/nowhere/x SBATCH_ERROR=/nowhere/y SBATCH_PARTITION=none SBATCH_TIMELIMIT=0:01 SBATCH_EXPORT=NONE
+  SBATCH_RESERVATION=none SBATCH_CONSTRAINT=none SBATCH_DEBUG=1 SBATCH_CLUSTERS=other SBATCH_OPEN_MODE=truncate SBATCH_QOS=none
+  SLURM_CLUSTERS=other SLURM_EXIT_ERROR=9 SLURM_BITSTR_LEN=1 SLURM_NTASKS=7 SLURM_MEM_PER_CPU=1 SLURM_UMASK=0777
+  SLURM_DEBUG_FLAGS=Protocol SLURM_HOSTFILE=/nowhere SLURM_CPUS_PER_TASK=64 SLURM_WORKING_CLUSTER=other:nowhere:1:2
+  SCANCEL_STATE=SUSPENDED SCANCEL_USER=nobody SCANCEL_NAME=none SCANCEL_PARTITION=none SCANCEL_INTERACTIVE=yes SCANCEL_QOS=none
+  SCONTROL_ALL=0 SCONTROL_FEDERATION=1 SCONTROL_SIB=1 SINFO_PARTITION=none SINFO_FORMAT=%n SINFO_FEDERATION=1
+  SACCT_FORMAT=none SACCT_FEDERATION=1 SALLOC_PARTITION=none SRUN_DEBUG=9)
+"$program" run "$source/graphs/generate-exemplar.json" --set type=bricks --set size=128x128 --set out=bricks --progress none
+env "${hostile[@]}" "$program" submit walls.json --set material=bricks --set size=96x96 --sweep seed=1..3 \
+  --set "out=='hostile/' + seed" --pack 0 --wait >hostile.txt 2>&1 || { complain "settings of the user break it"; cat hostile.txt >&2; }
+[ "$(find hostile -name height.png | wc -l)" = 3 ] || complain "settings of the user change what is made"
+! grep -q 'got lost' hostile.txt || complain "settings of the user hide tasks"
+grep -q 'SBATCH_WAIT.*ignored; ask with' hostile.txt || complain "it is not said which settings are ignored"
+logs=$TERRAZZO_CACHE/farm/jobs/$(sed -n 's/^job //p' hostile.txt)/logs
+[ "$(find "$logs" -name '*_*.log' | wc -l)" -ge 3 ] || complain "a task has no log of its own"
+
+# A single setting that takes effect would be enough: each by itself, cancelled while all tasks wait.
+scontrol update PartitionName=main State=DOWN
+"$program" submit walls.json --set material=bricks --set size=80x80 --sweep seed=1..3 --set "out=='kept/' + seed" --pack 0 >kept.txt
+job=$(sed -n 's/^job //p' kept.txt)
+queued=$(squeue --all --array --noheader --name="$job" | wc -l)
+[ "$queued" -ge 3 ] || complain "only $queued tasks are in the queue"
+for setting in "${hostile[@]}"; do
+  [ "$(env "$setting" "$program" submit --status --json "$job" |
+    python3 -c "import json, sys; print(json.load(sys.stdin)['counts']['waiting'])")" = "$queued" ] || complain "$setting hides tasks"
+done
+for setting in "${hostile[@]}"; do
+  case $setting in SCANCEL_* | SQUEUE_* | SLURM_*) ;; *) continue ;; esac
+  "$program" submit walls.json --set material=bricks --set size=80x80 --sweep seed=1..3 --set "out=='kept/' + seed" --pack 0 \
+    >again.txt 2>&1 || { complain "submitting again fails"; cat again.txt >&2; }
+  env "$setting" "$program" submit "$job" --cancel >cancelled.txt 2>&1 || { complain "$setting breaks --cancel"; cat cancelled.txt >&2; }
+  [ -z "$(squeue --all --noheader --states=PENDING,RUNNING --name="$job")" ] || complain "$setting keeps tasks in the queue"
+done
+
+# Tasks that stay in the queue, as another user's do: cancelling says so.
+"$program" submit walls.json --set material=bricks --set size=80x80 --sweep seed=1..3 --set "out=='kept/' + seed" --pack 0 >again.txt
+mkdir -p deaf
+printf '#!/bin/sh\nexit 0\n' >deaf/scancel && chmod +x deaf/scancel
+! PATH=$PWD/deaf:$PATH "$program" submit "$job" --cancel >cancelled.txt 2>&1 || complain "it says that it cancelled what is still there"
+grep -q "$queued tasks of .* are still in the queue" cancelled.txt || { complain "it does not say what is still there"; cat cancelled.txt >&2; }
+"$program" submit "$job" --cancel >/dev/null
+scontrol update PartitionName=main State=UP
 
 # Snakemake makes a job by its stamps.
 if command -v snakemake >/dev/null; then

@@ -1,6 +1,8 @@
 #include "core/base/suggest.h"
 
 #include <algorithm>
+#include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -38,10 +40,53 @@ std::string letters_of(std::string_view name) {
   return out;
 }
 
-/// One is the other's beginning, as in "bool" and "boolean".
+/// One is the other's beginning, as in "bool" and "boolean", and enough of it.
 bool is_short_form(std::string_view a, std::string_view b) {
   const size_t shared = std::min(a.size(), b.size());
-  return shared >= 3 && a.substr(0, shared) == b.substr(0, shared);
+  return shared >= 3 && 3 * shared >= std::max(a.size(), b.size()) && a.substr(0, shared) == b.substr(0, shared);
+}
+
+/// How many mistakes a word of so many letters may have: with more, another one is meant.
+size_t most_mistakes(size_t letters) {
+  if (letters < 3) return 0;
+  return letters < 6 ? 1 : letters < 12 ? 2 : 3;
+}
+
+/// The ending of a file's name, ".png"; empty if there is none.
+std::string_view ending_of(std::string_view name) {
+  const size_t dot = name.rfind('.');
+  return dot == name.npos || dot == 0 ? "" : name.substr(dot);
+}
+
+/// Numbers that differ are chosen, not misspelt.
+bool have_other_numbers(std::string_view a, std::string_view b) {
+  const auto number_in = [](std::string_view name) {
+    std::string digits;
+    for (const char c : name)
+      if (is_digit(c) && !(digits.empty() && c == '0')) digits += c;
+    return digits;
+  };
+  const auto is_number = [](char c) { return is_digit(c); };
+  return std::ranges::any_of(a, is_number) && std::ranges::any_of(b, is_number) && number_in(a) != number_in(b);
+}
+
+/// As it sounds to people who write it as in their own language.
+std::string sounds_of(std::string name) {
+  for (size_t at; (at = name.find("ph")) != std::string::npos;) name.replace(at, 2, "f");
+  return name;
+}
+
+/// The mistakes that make one name of the other; nothing if these are too many to be mistakes. An ending that both
+/// have does not make them more alike.
+std::optional<size_t> mistakes(std::string_view typed, std::string_view known) {
+  if (const std::string_view ending = ending_of(typed); !ending.empty() && ending == ending_of(known)) {
+    typed.remove_suffix(ending.size());
+    known.remove_suffix(ending.size());
+  }
+  if (have_other_numbers(typed, known)) return std::nullopt;
+  const size_t most = most_mistakes(std::min(typed.size(), known.size()));
+  const size_t distance = edit_distance(typed, known, most);
+  return distance <= most ? std::optional(distance) : std::nullopt;
 }
 
 }  // namespace
@@ -53,21 +98,19 @@ std::string nearest(std::string_view wrong, const std::vector<std::string>& name
   const auto same = std::ranges::find_if(
       names, [&](const std::string& name) { return name != wrong && letters_of(name) == letters; });
   if (same != names.end() && !letters.empty()) return *same;
-  const std::string typed = lowercase(wrong);
+  const std::string typed = sounds_of(lowercase(wrong));
   std::string best;
-  size_t least = (typed.size() + 2) / 3 + 1;
+  std::optional<size_t> least;
   for (const std::string& name : names) {
     if (name == wrong) continue;
-    const std::string known = lowercase(name);
-    const size_t distance = edit_distance(typed, known, least);
-    if (distance < least && distance < std::max(typed.size(), known.size())) {
-      least = distance;
-      best = name;
-    }
+    const std::optional<size_t> found = mistakes(typed, sounds_of(lowercase(name)));
+    if (!found || (least && *found >= *least)) continue;
+    least = found;
+    best = name;
   }
   if (!best.empty()) return best;
   const auto at = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
-    return name != wrong && is_short_form(typed, lowercase(name));
+    return name != wrong && is_short_form(typed, sounds_of(lowercase(name)));
   });
   return at == names.end() ? "" : *at;
 }
@@ -83,9 +126,10 @@ std::string suggestion(std::string_view wrong, const std::vector<std::string>& n
 }
 
 std::string listed(const std::vector<std::string>& all) {
-  std::vector<std::string> names;
+  std::vector<std::string_view> names;
+  std::set<std::string_view> seen;
   for (const std::string& name : all)
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    if (seen.insert(name).second) names.push_back(name);
   constexpr size_t most = 16;
   const size_t shown = std::min(names.size(), most);
   std::string text;

@@ -138,6 +138,34 @@ fs::path temporary_beside(const fs::path& target) {
          fmt::format(".{}.{}-{}-{}-{}{}", beginning, mark, process_neighbourhood(), ::getpid(), count++, extension);
 }
 
+namespace {
+
+/// Where a link leads, and the link that is there, and so on; the last one need not exist. Throws FileError if they
+/// have no end.
+fs::path behind_links(const fs::path& path) {
+  constexpr int most_links = 40;  // as many as Linux follows
+  std::error_code none;
+  fs::path place = path;
+  for (int i = 0; i < most_links; i++) {
+    if (!fs::is_symlink(fs::symlink_status(place, none))) return place;
+    place = place.parent_path() / fs::read_symlink(place, none);
+  }
+  throw_system_error("write", path, ELOOP);
+}
+
+/// Writes a file with the mode and owner of another. Only its owner may read it before it has them.
+void write_like(const struct stat& other, const fs::path& path, std::string_view bytes) {
+  const File file(::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600));
+  if (!file.ok()) throw_system_error("write", path, errno);
+  write_file(path, bytes);
+  // Not all users may give files away, and not all file systems have owners and modes. The mode comes last: a new owner
+  // takes bits off it.
+  [[maybe_unused]] const bool has_owner = ::fchown(file.descriptor(), other.st_uid, other.st_gid) == 0;
+  [[maybe_unused]] const bool has_mode = ::fchmod(file.descriptor(), other.st_mode & 07777) == 0;
+}
+
+}  // namespace
+
 void publish_file(const fs::path& temporary, const fs::path& target, bool sync) {
   if (::rename(temporary.c_str(), target.c_str()) != 0) {
     const int code = errno;
@@ -160,10 +188,21 @@ void write_whole_file(const fs::path& target, std::string_view bytes, const fs::
 }
 
 void write_whole_file(const fs::path& target, std::string_view bytes) {
+  const fs::path place = behind_links(target);
+  struct stat before {};
+  const bool is_there = ::stat(place.c_str(), &before) == 0;
+  if (is_there && !S_ISREG(before.st_mode)) return write_file(target, bytes);
   std::error_code missing;
-  if (fs::exists(target, missing) && !fs::is_regular_file(target, missing)) return write_file(target, bytes);
-  if (target.has_parent_path()) fs::create_directories(target.parent_path(), missing);
-  write_whole_file(target, bytes, temporary_beside(target));
+  if (place.has_parent_path()) fs::create_directories(place.parent_path(), missing);
+  const fs::path temporary = temporary_beside(place);
+  if (!is_there) return write_whole_file(place, bytes, temporary);
+  try {
+    write_like(before, temporary, bytes);
+  } catch (const FileError& e) {
+    ::unlink(temporary.c_str());
+    throw_system_error("write", target, e.code());
+  }
+  publish_file(temporary, place);
 }
 
 void remove_abandoned(const fs::path& folder) {

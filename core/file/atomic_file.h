@@ -22,8 +22,8 @@ void publish_file(const std::filesystem::path& temporary, const std::filesystem:
 /// on the disk afterwards. Throws FileError naming `target`; then `temporary` is gone.
 void write_whole_file(const std::filesystem::path& target, std::string_view bytes,
                       const std::filesystem::path& temporary, bool sync = false);
-/// The same under a name of `temporary_beside`, in a folder that is made if it is missing; but a device or a pipe is
-/// written in place.
+/// The same under a name of `temporary_beside`, in a folder that is made if it is missing. Links are followed; a file
+/// that is there keeps its mode and, where that is allowed, its owner. A device or a pipe is written in place.
 void write_whole_file(const std::filesystem::path& target, std::string_view bytes);
 
 /// Removes what processes that were killed have left under names of `temporary_beside`: files of processes of this

@@ -164,6 +164,8 @@ struct TiffPieces {
   bool by_planes = false;          ///< a piece holds one sample of each pixel
   bool subsampled = false;         ///< it may hold fewer samples than pixels
   bool low_bits_first = false;
+  uint64_t photometric = 0, format = 1;
+  std::vector<uint64_t> extra_samples;
 };
 
 /// Takes in one entry of a directory.
@@ -171,7 +173,7 @@ void note_entry(TiffPieces& pieces, uint64_t tag, const std::vector<uint64_t>& n
   constexpr uint64_t tag_width = 256, tag_height = 257, tag_bits = 258, tag_compression = 259, tag_photometric = 262,
                      tag_fill_order = 266, tag_strip_offsets = 273, tag_samples = 277, tag_strip_height = 278,
                      tag_strip_bytes = 279, tag_planes = 284, tag_tile_width = 322, tag_tile_height = 323,
-                     tag_tile_offsets = 324, tag_tile_bytes = 325;
+                     tag_tile_offsets = 324, tag_tile_bytes = 325, tag_extra_samples = 338, tag_format = 339;
   constexpr uint64_t ycbcr = 6, one_plane_each = 2, low_first = 2;
   if (numbers.empty()) return;
   const uint64_t first = numbers.front();
@@ -189,6 +191,7 @@ void note_entry(TiffPieces& pieces, uint64_t tag, const std::vector<uint64_t>& n
       pieces.compression = first;
       break;
     case tag_photometric:
+      pieces.photometric = first;
       pieces.subsampled = first == ycbcr;
       break;
     case tag_fill_order:
@@ -207,6 +210,12 @@ void note_entry(TiffPieces& pieces, uint64_t tag, const std::vector<uint64_t>& n
     case tag_tile_height:
       pieces.piece_height = first;
       break;
+    case tag_extra_samples:
+      pieces.extra_samples = numbers;
+      break;
+    case tag_format:
+      pieces.format = first;
+      break;
     case tag_strip_offsets:
     case tag_tile_offsets:
       pieces.offsets = numbers;
@@ -222,7 +231,7 @@ void note_entry(TiffPieces& pieces, uint64_t tag, const std::vector<uint64_t>& n
 
 /// Those of the first image.
 TiffPieces tiff_pieces(Numbers& file) {
-  constexpr uint64_t tag_last_of_use = 325;
+  constexpr uint64_t tag_last_of_use = 339;
   TiffPieces out;
   file.set_big_endian(file.number(0, 1) == 'M');
   const bool is_big_tiff = file.number(2, 2) == 43;
@@ -261,6 +270,15 @@ bool is_sound_stream(const File& file, const std::filesystem::path& path, uint64
 }
 
 }  // namespace
+
+TiffFacts read_tiff_facts(const std::filesystem::path& path) {
+  Numbers file(path);
+  if (!is_tiff(file.number(0, 4))) return {};
+  const TiffPieces pieces = tiff_pieces(file);
+  TiffFacts facts{int(pieces.samples), int(pieces.bits), int(pieces.format), int(pieces.photometric), {}};
+  for (const uint64_t e : pieces.extra_samples) facts.extra_samples.push_back(int(e));
+  return facts;
+}
 
 bool tiff_is_complete(const std::filesystem::path& path) {
   Numbers file(path);

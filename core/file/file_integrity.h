@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "core/base/geometry.h"
 
@@ -21,6 +22,16 @@ JpegFacts read_jpeg_facts(const std::filesystem::path& path, bool to_its_end = t
 
 /// Whether the chunks of a PNG file go on to its end mark.
 bool png_is_complete(const std::filesystem::path& path);
+
+/// What a TIFF or BigTIFF file says of its first image's values (TIFF 6.0, sections 3, 18 and 19).
+struct TiffFacts {
+  int samples = 0;  ///< of a pixel; 0 if it is no TIFF file
+  int bits = 1;     ///< of each
+  int format = 1;   ///< 1 unsigned, 2 signed, 3 floating point
+  int photometric = -1;
+  std::vector<int> extra_samples{};  ///< 0 unspecified, 1 alpha that colours are multiplied by, 2 other alpha
+};
+TiffFacts read_tiff_facts(const std::filesystem::path& path);
 
 /// Whether all strips or tiles of a TIFF or BigTIFF file's first image lie inside the file.
 bool tiff_is_complete(const std::filesystem::path& path);

@@ -11,35 +11,11 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/file/file_io.h"
+#include "core/file/file_numbers.h"
 
 namespace terrazzo {
 
 namespace {
-
-/// Numbers in a file, little endian; past its end everything is 0.
-class Bytes {
- public:
-  explicit Bytes(const std::filesystem::path& path) : path_(path), file_(open_to_read(path)), size_(file_.size(path)) {}
-  uint64_t size() const { return size_; }
-  uint64_t number(uint64_t at, int bytes) const {
-    uint8_t raw[8] = {};
-    if (at <= size_ && uint64_t(bytes) <= size_ - at) file_.read_at(at, raw, size_t(bytes), path_);
-    uint64_t v = 0;
-    for (int i = 0; i < bytes; i++) v |= uint64_t{raw[i]} << 8 * i;
-    return v;
-  }
-  std::string text(uint64_t at, size_t bytes) const {
-    std::string out(bytes, '\0');
-    out.resize(file_.read_at(at, out.data(), bytes, path_));
-    return out;
-  }
-
- private:
-  const std::filesystem::path& path_;
-  File file_;
-  uint64_t size_;
-};
 
 /// What stands before the first byte that is zero.
 std::string until_zero(const std::string& bytes) {
@@ -53,7 +29,7 @@ struct ExrAttribute {
 using ExrHeader = std::map<std::string, ExrAttribute>;
 
 /// The attributes of the header at `at`, which then is where it ends. Nullopt if the file ends before.
-std::optional<ExrHeader> exr_header(const Bytes& file, uint64_t& at) {
+std::optional<ExrHeader> exr_header(const FileNumbers& file, uint64_t& at) {
   constexpr size_t longest_name = 256, most_attributes = 10000;
   ExrHeader out;
   for (size_t i = 0; i < most_attributes && at < file.size(); i++) {
@@ -69,7 +45,7 @@ std::optional<ExrHeader> exr_header(const Bytes& file, uint64_t& at) {
 }
 
 /// The headers of all parts; `at` is then where the tables of offsets begin. Empty if the file ends before.
-std::vector<ExrHeader> exr_headers(const Bytes& file, bool has_parts, uint64_t& at) {
+std::vector<ExrHeader> exr_headers(const FileNumbers& file, bool has_parts, uint64_t& at) {
   constexpr size_t most_parts = 10000;
   std::vector<ExrHeader> out;
   while (out.size() < most_parts) {
@@ -83,7 +59,7 @@ std::vector<ExrHeader> exr_headers(const Bytes& file, bool has_parts, uint64_t& 
 
 /// The number of entries in a part's table of offsets that are of the picture itself, not of smaller levels; these come
 /// after them. 0 if it is not told here.
-uint64_t exr_chunks(const Bytes& file, const ExrHeader& header) {
+uint64_t exr_chunks(const FileNumbers& file, const ExrHeader& header) {
   const auto window = header.find("dataWindow"), compression = header.find("compression"), tiles = header.find("tiles");
   if (window == header.end() || compression == header.end()) return 0;
   const auto side = [&](uint64_t axis) {
@@ -102,7 +78,7 @@ uint64_t exr_chunks(const Bytes& file, const ExrHeader& header) {
 }
 
 /// Whether all of a part's picture lies in the file; its table of offsets begins at `table`.
-bool exr_part_has_its_end(const Bytes& file, const ExrHeader& header, uint64_t table, bool has_parts) {
+bool exr_part_has_its_end(const FileNumbers& file, const ExrHeader& header, uint64_t table, bool has_parts) {
   const uint64_t chunks = exr_chunks(file, header);
   if (chunks > (file.size() - std::min(file.size(), table)) / 8) return false;
   uint64_t last = 0;
@@ -118,7 +94,7 @@ bool exr_part_has_its_end(const Bytes& file, const ExrHeader& header, uint64_t t
   return chunks == 0 || (last <= file.size() && last + head + file.number(last + head - 4, 4) <= file.size());
 }
 
-bool exr_has_its_end(const Bytes& file) {
+bool exr_has_its_end(const FileNumbers& file) {
   constexpr uint64_t deep = 0x800, parts = 0x1000;
   const uint64_t flags = file.number(4, 4);
   if ((flags & deep) != 0) return true;
@@ -134,7 +110,7 @@ bool exr_has_its_end(const Bytes& file) {
   return !headers.empty();
 }
 
-bool bmp_has_its_end(const Bytes& file) {
+bool bmp_has_its_end(const FileNumbers& file) {
   const uint64_t packing = file.number(30, 4), bits = file.number(28, 2), width = file.number(18, 4);
   const auto rows = uint64_t(std::abs(int64_t{int32_t(file.number(22, 4))}));
   const bool is_packed = packing != 0 && packing != 3;
@@ -142,7 +118,7 @@ bool bmp_has_its_end(const Bytes& file) {
   return file.number(10, 4) + (width * bits + 31) / 32 * 4 * rows <= file.size();
 }
 
-bool tga_has_its_end(const Bytes& file) {
+bool tga_has_its_end(const FileNumbers& file) {
   const uint64_t kind = file.number(2, 1), bytes = (file.number(16, 1) + 7) / 8;
   const uint64_t pixels = file.number(12, 2) * file.number(14, 2);
   uint64_t at = 18 + file.number(0, 1);
@@ -161,7 +137,7 @@ bool tga_has_its_end(const Bytes& file) {
 }
 
 /// Goes from block to block until the first image is over.
-bool gif_has_its_end(const Bytes& file) {
+bool gif_has_its_end(const FileNumbers& file) {
   const std::string all = file.text(0, file.size());
   const auto byte = [&](size_t at) { return at < all.size() ? static_cast<uint8_t>(all[at]) : uint8_t{0}; };
   const auto palette = [](uint8_t flags) { return (flags & 128) != 0 ? size_t{3} << ((flags & 7) + 1) : size_t{0}; };
@@ -196,7 +172,7 @@ size_t end_of_rows(std::string_view all, size_t at, size_t width, size_t rows) {
   return at;
 }
 
-bool hdr_has_its_end(const Bytes& file) {
+bool hdr_has_its_end(const FileNumbers& file) {
   const std::string all = file.text(0, file.size());
   const size_t blank = all.find("\n\n"), line = all.find("-Y ", blank), x = all.find("+X ", line);
   if (blank == all.npos) return false;
@@ -214,7 +190,7 @@ bool hdr_has_its_end(const Bytes& file) {
 }  // namespace
 
 bool has_its_end(const std::filesystem::path& path) {
-  const Bytes file(path);
+  const FileNumbers file(path);
   const std::string start = file.text(0, 12);
   constexpr uint64_t most_walked = uint64_t{1} << 28;  // of the formats that are read to their ends
   if (start.starts_with("\x76\x2f\x31\x01")) return exr_has_its_end(file);

@@ -2,7 +2,10 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <utility>
+
+#include "core/file/file_io.h"
 
 namespace terrazzo {
 
@@ -21,10 +24,18 @@ class WriteGuard {
     if (current_ && current_->check_) current_->check_(target);
   }
 
+  /// Makes a folder with those above it. Returns a path that means this very folder for as long as the guard lives,
+  /// whatever its name comes to lead to; without a guard it is the folder itself. Throws Error.
+  static std::filesystem::path made_folder(const std::filesystem::path& folder);
+
  private:
   static inline thread_local WriteGuard* current_ = nullptr;
+
+  std::filesystem::path hold(const std::filesystem::path& folder);
+
   Check check_;
   WriteGuard* before_;
+  std::map<std::filesystem::path, File> held_;
 };
 
 }  // namespace terrazzo

@@ -11,6 +11,7 @@ namespace terrazzo {
 
 namespace {
 
+constexpr int one_as_half = 0x3c00;
 constexpr int64_t values_at_once = int64_t{1} << 18;
 
 size_t bytes_of(Depth depth) {
@@ -48,6 +49,22 @@ FilePixels::~FilePixels() {
   ScratchFile::shared().give_back(at_, bytes());
 }
 
+void FilePixels::read_stored_floats(const Rect& region, float* out) const {
+  const Rect at{region.x + layout_.stored.x, region.y + layout_.stored.y, region.width, region.height};
+  if (layout_.depth == Depth::f32) return read_stored(at, out);
+  std::vector<uint16_t> halfs(size_t(region.area()) * size_t(layout_.channels));
+  read_stored(at, halfs.data());
+  std::transform(halfs.begin(), halfs.end(), out, [](uint16_t h) { return imath_half_to_float(h); });
+}
+
+void FilePixels::replace(int x, int y, int channel, float value) {
+  const auto channels = uint64_t(layout_.channels);
+  const uint64_t index = (uint64_t(y) * uint64_t(layout_.stored.width) + uint64_t(x)) * channels + uint64_t(channel);
+  const uint16_t half = imath_float_to_half(value);
+  const void* bytes = layout_.depth == Depth::f16 ? static_cast<const void*>(&half) : &value;
+  ScratchFile::shared().write(at_ + index * bytes_of(layout_.depth), bytes, bytes_of(layout_.depth));
+}
+
 void FilePixels::write_rows(int first, int rows, const void* values) {
   const uint64_t row = uint64_t(layout_.stored.width) * uint64_t(layout_.channels) * bytes_of(layout_.depth);
   ScratchFile::shared().write(at_ + uint64_t(first) * row, values, uint64_t(rows) * row);
@@ -78,6 +95,17 @@ void FilePixels::read_stored(const Rect& region, T* out) const {
 
 template <typename T>
 void FilePixels::read_upright(const Rect& region, T* out) const {
+  read_as_stored(region, out);
+  if (!is_opaque_) return;
+  const T one = T(layout_.depth == Depth::f16   ? one_as_half
+                  : layout_.depth == Depth::f32 ? 1
+                  : layout_.depth == Depth::u8  ? 255
+                                                : 65535);
+  for (int64_t i = 1; i <= region.area(); i++) out[i * layout_.channels - 1] = one;
+}
+
+template <typename T>
+void FilePixels::read_as_stored(const Rect& region, T* out) const {
   const Rect all = as_stored(region), from = intersect(all, layout_.stored);
   if (layout_.orientation == 1 && from == all) return read_stored(all, out);
   const int channels = layout_.channels;
@@ -171,13 +199,17 @@ class ChosenChannels : public PixelSource {
 
 }  // namespace
 
-ImagePtr chosen_channels(const ImagePtr& image, ImageInfo info, const std::vector<int>& channels, bool inverted) {
-  const auto count = size_t(info.size.area()) * channels.size();
-  auto chosen = std::make_shared<ChosenChannels>(image, channels, inverted);
-  if (!PixelRoom::has(count * sizeof(float))) return image_of_source(std::move(info), std::move(chosen));
+ImagePtr held_or_read(ImageInfo info, std::shared_ptr<const PixelSource> source) {
+  const auto count = size_t(info.size.area()) * size_t(info.channels);
+  if (!PixelRoom::has(count * sizeof(float))) return image_of_source(std::move(info), std::move(source));
   std::vector<float> out(count);
-  chosen->read(whole(info.size), out.data());
+  source->read(whole(info.size), out.data());
   return Image::from_floats(std::move(info), std::move(out));
+}
+
+ImagePtr chosen_channels(const ImagePtr& image, ImageInfo info, const std::vector<int>& channels, bool inverted) {
+  info.channels = int(channels.size());
+  return held_or_read(std::move(info), std::make_shared<ChosenChannels>(image, channels, inverted));
 }
 
 }  // namespace terrazzo

@@ -34,6 +34,12 @@ class FilePixels : public PixelSource {
 
   /// Stored rows from `first` on, values of the layout's depth.
   void write_rows(int first, int rows, const void* values);
+  /// Stored pixels as they are, whole rows or parts of them.
+  void read_stored_floats(const Rect& region, float* out) const;
+  /// Replaces one value, counted from the first stored pixel. The depth must be of floats.
+  void replace(int x, int y, int channel, float value);
+  /// From now on the last channel comes as 1.
+  void make_opaque() { is_opaque_ = true; }
   /// From now on values come as v * 0.5 + 0.5, as normals are encoded.
   void encode() { encodes_ = true; }
   void read(const Rect& region, float* out) const override;
@@ -48,20 +54,24 @@ class FilePixels : public PixelSource {
   void read_stored(const Rect& region, T* out) const;
   template <typename T>
   void read_upright(const Rect& region, T* out) const;
+  template <typename T>
+  void read_as_stored(const Rect& region, T* out) const;
   template <typename T, typename Convert>
   void read_as(const Rect& region, float* out, const Convert& convert) const;
 
   const PixelLayout layout_;
   const uint64_t at_;  ///< where they begin in the scratch file
-  bool encodes_ = false;
+  bool encodes_ = false, is_opaque_ = false;
 };
 
 /// An image of pixels that `source` has and that are read once now, strip by strip, for the digest: the same as
 /// Image::from_floats gives.
 ImagePtr image_of_source(ImageInfo info, std::shared_ptr<const PixelSource> source);
 
-/// Some channels of an image, in that order, each value v as 1 - v if `inverted`. In memory if they fit into their
-/// share of the budget, else read from the image when asked for.
+/// The same, but read whole now if the pixels fit into their share of the memory budget.
+ImagePtr held_or_read(ImageInfo info, std::shared_ptr<const PixelSource> source);
+
+/// Some channels of an image, in that order, each value v as 1 - v if `inverted`; see held_or_read.
 ImagePtr chosen_channels(const ImagePtr& image, ImageInfo info, const std::vector<int>& channels, bool inverted);
 
 }  // namespace terrazzo

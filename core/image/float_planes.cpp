@@ -54,7 +54,7 @@ Planes to_planes(const Image& image, const Rect& region, int channels) {
   return out;
 }
 
-Planes blurred(const Planes& image, double sigma, Beyond beyond) {
+Planes blurred(const Planes& image, double sigma, Beyond beyond, const Task& task) {
   if (!(sigma > 0)) return image;
   const int radius = int(4 * sigma + 0.5), c = image.channels;
   const std::vector<float> weights = gaussian_kernel(sigma, radius);
@@ -64,6 +64,7 @@ Planes blurred(const Planes& image, double sigma, Beyond beyond) {
   const auto row = [&](int y) { return beyond == Beyond::mirrored ? mirrored(y, height) : image.row(y); };
   Planes columns = Planes::zeros(image.size, c), out = Planes::zeros(image.size, c, image.wraps);
   tbb::parallel_for(0, height, [&](int y) {
+    task.check();
     float* to = columns.at(0, y);
     for (int t = -radius; t <= radius; t++) {
       const float* from = image.at(0, row(y + t));
@@ -72,6 +73,7 @@ Planes blurred(const Planes& image, double sigma, Beyond beyond) {
     }
   });
   tbb::parallel_for(0, height, [&](int y) {
+    task.check();
     std::vector<float> padded(row_values + 2 * size_t(radius) * c);
     for (int x = -radius; x < width + radius; x++)
       std::copy_n(columns.at(column(x), y), c, &padded[size_t(x + radius) * c]);
@@ -93,11 +95,11 @@ Planes box_blurred(Planes image, double sigma, const Task& task) {
   return image;
 }
 
-std::vector<Planes> gaussian_pyramid(Planes finest, int levels) {
+std::vector<Planes> gaussian_pyramid(Planes finest, int levels, const Task& task) {
   std::vector<Planes> out;
   out.push_back(std::move(finest));
   while (int(out.size()) < levels) {
-    const Planes smooth = blurred(out.back(), 0.9, Beyond::mirrored);
+    const Planes smooth = blurred(out.back(), 0.9, Beyond::mirrored, task);
     Planes half = Planes::zeros({(smooth.size.width + 1) / 2, (smooth.size.height + 1) / 2}, smooth.channels);
     for (int y = 0; y < half.size.height; y++)
       for (int x = 0; x < half.size.width; x++) std::copy_n(smooth.at(2 * x, 2 * y), smooth.channels, half.at(x, y));

@@ -34,14 +34,15 @@ Planes to_planes(const Image& image, const Rect& region, int channels);
 /// repeat).
 enum class Beyond : uint8_t { as_it_wraps, mirrored };
 
-/// A Gaussian blur, cut off at four sigma; of sigma 0 the image itself.
-Planes blurred(const Planes& image, double sigma, Beyond beyond);
+/// A Gaussian blur, cut off at four sigma; of sigma 0 the image itself. Its time grows with the area times sigma.
+/// Throws Cancelled.
+Planes blurred(const Planes& image, double sigma, Beyond beyond, const Task& task);
 
 /// A Gaussian blur of any sigma at the same cost, nearly: three box filters. Throws Cancelled.
 Planes box_blurred(Planes image, double sigma, const Task& task);
 
-/// Each level half the one before (blurred with sigma 0.9, every second pixel kept), finest first.
-std::vector<Planes> gaussian_pyramid(Planes finest, int levels);
+/// Each level half the one before (blurred with sigma 0.9, every second pixel kept), finest first. Throws Cancelled.
+std::vector<Planes> gaussian_pyramid(Planes finest, int levels, const Task& task);
 
 /// Linear interpolation when growing, an area-weighted mean when shrinking.
 Planes resampled(const Planes& image, Size size);

@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/image/computed_pixels.h"
 #include "core/image/image_limits.h"
+#include "core/image/pixel_maker.h"
 
 namespace terrazzo {
 
@@ -128,15 +129,18 @@ Image::~Image() {
 
 ImagePtr Image::computed(ImageInfo info, const Digest& recipe, Operation operation) {
   check(info);
+  if (std::ranges::find(operation.sources, nullptr) != operation.sources.end())
+    throw std::logic_error("an image cannot be computed from one that is null");
   Hasher h;
   h.add("computed image");
   info.add_to(h);
   h.add(recipe);
-  auto source = ComputedPixels::make(info.size, info.channels, std::move(operation));
+  auto source = ComputedPixels::make(info.size, info.channels, blaming_maker(std::move(operation)));
   return ImagePtr(new Image(std::move(info), h.digest(), std::move(source)));
 }
 
 ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::shared_ptr<const PixelSource> source) {
+  if (!source) throw std::logic_error("an image needs a source of pixels, found null");
   return computed(std::move(info), recipe,
                   [source = std::move(source)](const Rect& region, float* out) { source->read(region, out); });
 }
@@ -149,6 +153,7 @@ ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::function<voi
 
 ImagePtr Image::with_digest(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSource> source) {
   check(info);
+  if (!source) throw std::logic_error("an image needs a source of pixels, found null");
   return ImagePtr(new Image(std::move(info), digest, std::move(source)));
 }
 
@@ -269,6 +274,7 @@ void for_each_strip(const Image& image, const std::function<void(const Rect&, co
   const int rows = strip_rows(image);
   std::vector<float> buffer;
   for (int y = 0; y < image.height(); y += rows) {
+    WorksFor::task().check();
     const Rect r{0, y, image.width(), std::min(rows, image.height() - y)};
     if (const float* all = image.in_memory()) {
       visit(r, all + size_t(y) * image.width() * image.channels());

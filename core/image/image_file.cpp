@@ -17,7 +17,7 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 bool looks_like_image(const std::filesystem::path& path) {
   static const std::vector<std::string> known = {".png", ".jpg", ".jpeg", ".tif",  ".tiff", ".exr", ".tga",
-                                                 ".bmp", ".hdr", ".gif",  ".webp", ".psd",  ".tx"};
+                                                 ".bmp", ".hdr", ".gif",  ".webp", ".psd",  ".tx",  ".dds"};
   return std::find(known.begin(), known.end(), lower_extension(path)) != known.end();
 }
 

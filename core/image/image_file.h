@@ -29,6 +29,9 @@ struct FileInfo {
   Depth depth = Depth::u8;
   std::string description{};  ///< of PNG, TIFF and EXR files, as write_image stores it
   std::string layer{};        ///< see read_layer_infos
+  std::string color_space{};  ///< "lin_rec709" if a PNG file's gAMA chunk says that its values are linear; else empty
+  int orientation = 1;        ///< its tag, as in EXIF; `size` is that of the upright image
+  std::vector<std::string> channel_names{};  ///< as the file has them; may be empty
 };
 
 /// Whether the name ends like an image file that can be read.
@@ -50,16 +53,19 @@ std::vector<FileInfo> read_layer_infos(const std::filesystem::path& path);
 
 /// Reads the first image of the file into memory, or the EXR layer of that name; case does not count. Without a name a
 /// file's only layer is meant, or that of channels without a prefix. 1..4 channels come through; palettes are expanded;
-/// CMYK and images of more channels are refused, as are EXR files whose data window shows nothing, empty, truncated and
-/// absurdly large files (over 2^31 pixel values). Alpha is never multiplied in or divided out of formats that keep it
-/// apart. An EXR file comes as its display window, told if that is not its data window, an image with an orientation
-/// tag as it is meant to be seen. Values of 8 bits are exactly k / 255, of 16 bits k / 65535; halfs stay halfs;
-/// integers of other depths become floats. Pixels that are not finite become 0. Normals stored as signed numbers are
-/// encoded. `warn` is told whatever the user should know, a sentence each, beginning with warning_mark if it is about
-/// values that are lost. `info` gives semantic, colour space and normal convention; size, channels and depth are taken
-/// from the file.
+/// CMYK, Lab and images of more channels are refused, as are EXR files whose data window leaves a part of the display
+/// window without data, integers of 32 bits that seem to be ids, empty, truncated and absurdly large files (over 2^31
+/// pixel values). Colours come as they are without alpha: they are divided by it where the file says that they are
+/// multiplied. Alpha of colours that is 0 everywhere becomes 1. An EXR file comes as its display window, told if that
+/// is not its data window, an image with an orientation tag as it is meant to be seen. Values of 8 bits are exactly k /
+/// 255, of 16 bits k / 65535; halfs stay halfs; integers of other depths become floats. Single pixels that are not
+/// finite take the mean of their neighbours; many are refused. Normals stored as signed numbers are encoded. `warn` is
+/// told whatever the user should know, a sentence each, beginning with warning_mark if it is about values that are
+/// lost. `info` gives semantic, colour space and normal convention; size, channels and depth are taken from the file.
+/// `as_stored`: an orientation tag is ignored.
 ImagePtr read_image(const std::filesystem::path& path, const ImageInfo& info,
-                    const std::function<void(const std::string&)>& warn, const std::string& layer = "");
+                    const std::function<void(const std::string&)>& warn, const std::string& layer = "",
+                    bool as_stored = false);
 
 struct WriteOptions {
   FileFormat format = FileFormat::png;

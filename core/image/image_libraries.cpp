@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/base/thread_limits.h"
 #include "core/file/module_path.h"
 #include "core/image/image_limits.h"
 
@@ -46,6 +47,8 @@ void load_largest_first() {
 
 const ImageLibraries& load() {
   const std::filesystem::path path = libraries_path();
+  // What it brings along starts threads of its own while it is loaded, OpenVDB's logger four of them.
+  require_threads(6);
   if (memory_budget_is_set()) load_largest_first();
   const auto fail = [&] { return Error(fmt::format("cannot load {}: {}", path.string(), ::dlerror())); };
   void* module = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ namespace terrazzo {
 struct StoredImage {
   std::string format;           ///< the library's name for it: "png", "jpeg", "tiff", "openexr", ...
   Rect stored;                  ///< the pixels that are stored, in the image's coordinates
+  int left = 0, top = 0;        ///< of the image, in the file's own coordinates
   bool stored_differs = false;  ///< other parts of the file store other pixels
   Size size;                    ///< of the image as stored, before it is turned
   int slices = 1;
@@ -32,6 +34,8 @@ struct StoredImage {
   bool inks = false;          ///< the colours are printing inks
   bool by_rows = false;       ///< decoded row by row: a decoder holds little of it at once
   std::string description{};  ///< as write_image stores it; empty if there is none
+  std::string color_space{};  ///< "lin_rec709" if the file says that its colours are linear; else empty
+  std::string note{};         ///< what the user should know, a part of a sentence
 };
 
 /// An open image file.
@@ -46,6 +50,8 @@ class ImageDecoder {
   virtual std::vector<std::string> layers() const { return {""}; }
   /// Index into layers(); the first is selected to begin with.
   virtual void select(size_t) {}
+  /// Reads two or four channels without the last from now on.
+  virtual void drop_alpha() {}
   /// Reads the stored pixels of the selected layer, all channels of each together.
   virtual void read(Depth as, void* out) = 0;
   /// Reads the next rows of them, from `first` on up to `end`: top to bottom, a multiple of row_step() at a time but
@@ -81,6 +87,13 @@ class ImageEncoder {
   virtual void finish() = 0;
 };
 
+/// What a configuration names outside of its own text, with its variables of the environment filled in.
+struct ColorSources {
+  std::vector<std::string> files{};    ///< of its transforms; not all need to be there
+  std::vector<std::string> folders{};  ///< in which files without a folder of their own are looked for; absolute
+  std::map<std::string, std::string> variables{};  ///< that it uses, by name
+};
+
 /// Colour spaces by name. Thread-safe.
 class ColorConfiguration {
  public:
@@ -92,15 +105,20 @@ class ColorConfiguration {
   /// What the configuration calls a space that may go by an alias or a role; empty if it has none of that name.
   virtual std::string find(const std::string& name) const = 0;
   virtual Conversion conversion(const std::string& from, const std::string& to) const = 0;
-  virtual std::vector<std::string> search_paths() const = 0;
+  /// The files that OpenColorIO reads for that conversion.
+  virtual std::vector<std::string> files_of(const std::string& from, const std::string& to) const = 0;
+  virtual ColorSources sources() const = 0;
+  /// A text with its variables of the environment filled in; adds these to `variables`.
+  virtual std::string expanded(const std::string& text, std::map<std::string, std::string>& variables) const = 0;
 };
 
 struct ImageLibraries {
   std::unique_ptr<ImageDecoder> (*open_image)(const std::string& path);
   /// For all formats but PNG. Writes to `sink`, or to the file `name` if that is null.
   std::unique_ptr<ImageEncoder> (*create_image)(const std::string& name, const EncodedImage& image, ByteSink* sink);
-  /// An OpenColorIO configuration file; the spaces of core/color.h if the path is empty.
-  std::shared_ptr<const ColorConfiguration> (*load_colors)(const std::string& path);
+  /// The text of an OpenColorIO configuration file at that path; the spaces of core/color.h if the path is empty.
+  /// Forgets all look-up files that have been read.
+  std::shared_ptr<const ColorConfiguration> (*load_colors)(const std::string& path, const std::string& text);
 };
 
 /// Throws Error if the module is missing; does not load it.

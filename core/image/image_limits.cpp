@@ -29,7 +29,7 @@ constexpr uint64_t share_of_pixels = 4, share_of_kept = 8, share_of_a_file = 8;
 constexpr uint64_t least_most_bytes = 256 * mib;
 
 uint64_t half_of_memory() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
+  static const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
   return pages > 0 && page > 0 ? uint64_t(pages) * uint64_t(page) / 2 : uint64_t{1} << 62;
 }
 

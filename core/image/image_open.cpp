@@ -14,9 +14,12 @@
 #include "core/file/file_io.h"
 #include "core/file/file_stamp.h"
 #include "core/file/other_content.h"
+#include "core/file/path_spelling.h"
 #include "core/image/image_file.h"
 #include "core/image/image_limits.h"
 #include "core/image/png_codec.h"
+#include "core/image/psd_codec.h"
+#include "core/image/tga_codec.h"
 
 namespace terrazzo {
 
@@ -29,6 +32,8 @@ void fail_to_read(const fs::path& path, const std::string& reason) {
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  constexpr size_t most = 300;  // the library repeats itself where it finds many faults
+  if (text.size() > most) text = text.substr(0, most) + " ...";
   return text.empty() ? "the image library gives no reason" : text;
 }
 
@@ -54,7 +59,8 @@ void refuse_other_content(const fs::path& path) {
 
 std::unique_ptr<ImageDecoder> decoder_of(const fs::path& path) {
   try {
-    if (std::unique_ptr<ImageDecoder> png = open_png(path)) return png;
+    for (const auto& open : {open_png, open_psd, open_tga_with_alpha_bit})
+      if (std::unique_ptr<ImageDecoder> own = open(path)) return own;
     return image_libraries().open_image(path.string());
   } catch (const Error& e) {
     refuse_other_content(path);
@@ -82,12 +88,21 @@ void refuse_absurd_sizes(const fs::path& path, const StoredImage& header) {
 }
 
 void require_visible_pixels(const fs::path& path, const StoredImage& header) {
-  if (!intersect(header.stored, whole(header.size)).empty()) return;
+  const Rect all = whole(header.size), seen = intersect(header.stored, all);
+  if (seen == all) return;
+  if (seen.empty())
+    fail_to_read(path,
+                 fmt::format("its data window, {}, lies wholly outside its display window, {} at (0, 0), so that it "
+                             "shows nothing; save it with a display window that holds the data, with OpenImageIO "
+                             "by \"oiiotool FILE --fullpixels -o FILE\"",
+                             described_window(header.stored), describe(header.size)));
   fail_to_read(path,
-               fmt::format("its data window, {}, lies wholly outside its display window, {} at (0, 0), so that it "
-                           "shows nothing; save it with a display window that holds the data, with OpenImageIO "
-                           "by \"oiiotool FILE --fullpixels -o FILE\"",
-                           described_window(header.stored), describe(header.size)));
+               fmt::format("its data window, {}, covers only a part of its display window, {} at (0, 0): {} of {} "
+                           "pixels have no data. Crop all maps of the material alike, with OpenImageIO by \"oiiotool "
+                           "FILE --cut {}x{}+{}+{} -o FILE\"; or, if it should be 0 there, fill it by \"oiiotool FILE "
+                           "--croptofull -o FILE\"",
+                           described_window(header.stored), describe(header.size), all.area() - seen.area(), all.area(),
+                           seen.width, seen.height, seen.x + header.left, seen.y + header.top));
 }
 
 /// Of a progressive JPEG file decoders hold all coefficients.
@@ -126,10 +141,9 @@ void require_flat_picture(const fs::path& path, const OpenFile& file) {
   if (header.slices > 1)
     fail_to_read(path, fmt::format("it is a volume of {} slices; expected a flat picture", header.slices));
   if (header.deep) fail_to_read(path, "it is a deep image (several samples per pixel); expected a flat one");
-  if (header.inks || jpeg.components == 4)
-    fail_to_read(
-        path,
-        "it is CMYK, which has no colours without a printing profile; convert it to RGB in an image editor first");
+  if (header.inks || jpeg.components == 4) fail_to_read(path, refusal_of_space("CMYK"));
+  if (std::ranges::find(header.channels, "RY") != header.channels.end())
+    fail_to_read(path, "it holds luminance and chroma (channels Y, RY, BY); save it with channels R, G and B");
   // The library reads some of these as zeros.
   if (header.type == "double" && header.format == "tiff")
     fail_to_read(path, "its values are 64-bit floats; expected at most 32 bits: save it as 32-bit float");
@@ -143,14 +157,25 @@ void require_flat_picture(const fs::path& path, const OpenFile& file) {
 }
 
 FileInfo info_of(const OpenFile& file, const std::string& layer) {
-  return {file.upright(), file.channels(), file.header().depth, file.header().description, layer};
+  const StoredImage& header = file.header();
+  return {.size = file.upright(),
+          .channels = file.channels(),
+          .depth = header.depth,
+          .description = header.description,
+          .layer = layer,
+          .color_space = header.color_space,
+          .orientation = header.orientation,
+          .channel_names = header.channels};
 }
 
 }  // namespace
 
 OpenFile open_image_file(const fs::path& path, const std::string& layer) {
   require_image_file(path);
-  OpenFile file{decoder_of(path)};
+  const FormatFacts facts = format_facts(path);
+  if (!facts.refusal.empty()) fail_to_read(path, facts.refusal);
+  OpenFile file{decoder_of(path), facts};
+  if (facts.unused_alpha) file.in->drop_alpha();
   if (const std::vector<std::string> layers = file.in->layers(); layers.size() > 1 || !layer.empty())
     file.in->select(index_of_layer(path, layers, layer));
   require_flat_picture(path, file);
@@ -181,7 +206,9 @@ void require_image_file(const fs::path& path) {
     for (const fs::directory_entry& e : fs::directory_iterator(path.parent_path(), failure))
       others.push_back(e.path().filename().string());
     std::sort(others.begin(), others.end());
-    fail_to_read(path, "there is no such file" + did_you_mean(path.filename().string(), others));
+    const std::string advice = path_advice("", path.string());
+    fail_to_read(path, "there is no such file" +
+                           (advice.empty() ? did_you_mean(path.filename().string(), others) : "; " + advice));
   }
   if (::access(path.c_str(), R_OK) != 0) throw_system_error("read", path, errno);
   const auto bytes = fs::file_size(path, failure);
@@ -193,7 +220,7 @@ namespace {
 
 /// A plan looks at the same file several times, and programs plan the same graphs again and again. What is known holds
 /// for as long as the file stays; the limits are asked each time.
-FileFacts<bool> complete_files;
+FileFacts<bool> complete_files, plain_pngs;
 FileFacts<FileInfo> headers;
 
 }  // namespace
@@ -212,7 +239,7 @@ void require_readable_image(const fs::path& path) {
       fail_to_read(path, one_line(e.what()));
     }
   };
-  if (!is_plain_png()) require_image_libraries();
+  if (!plain_pngs.of(path, "", is_plain_png)) require_image_libraries();
 }
 
 FileInfo read_image_info(const fs::path& path, const std::string& layer) {

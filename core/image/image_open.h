@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/image/file_pixels.h"
+#include "core/image/format_facts.h"
 #include "core/image/image_libraries.h"
 
 /// What reading an image file (core/image/image_file.h) begins with. Thread-safe for different OpenFiles.
@@ -14,13 +15,14 @@ namespace terrazzo {
 /// An open file whose header has been found good.
 struct OpenFile {
   std::unique_ptr<ImageDecoder> in;
+  FormatFacts facts{};
+  bool as_stored = false;  ///< the orientation tag is ignored
 
   const StoredImage& header() const { return in->header(); }
   int channels() const { return int(header().channels.size()); }
   /// Of its values, kept in such a depth.
-  PixelLayout layout(Depth depth) const {
-    return {depth, header().stored, header().size, header().orientation, channels()};
-  }
+  PixelLayout layout(Depth depth) const { return {depth, header().stored, header().size, orientation(), channels()}; }
+  int orientation() const { return as_stored ? 1 : header().orientation; }
   bool is_turned() const { return layout({}).is_turned(); }
   Size upright() const { return layout({}).upright(); }
 };

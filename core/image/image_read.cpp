@@ -3,14 +3,18 @@
 #include <new>
 #include <span>
 
+#include <Imath/half.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/tuning.h"
+#include "core/image/color.h"
 #include "core/image/image_file.h"
 #include "core/image/image_open.h"
+#include "core/image/pixel_space.h"
+#include "core/image/stored_values.h"
 
 namespace terrazzo {
 
@@ -46,7 +50,7 @@ std::vector<T> read_stored(const fs::path& path, const OpenFile& file, Depth as)
 template <typename T>
 std::vector<T> placed(const OpenFile& file, std::vector<T> stored) {
   const Rect from = file.header().stored, all = whole(file.header().size);
-  const int orientation = file.header().orientation;
+  const int orientation = file.orientation();
   if (from == all && orientation == 1) return stored;
   const int channels = file.channels();
   const Size to = file.upright();
@@ -75,31 +79,35 @@ std::vector<float> as_fractions(const std::vector<T>& values) {
 
 using Warn = std::function<void(const std::string&)>;
 
-void warn_of_zeroed(const fs::path& path, size_t count, const Warn& warn) {
-  if (count)
-    warn(fmt::format("{}{}: {} not finite (NaN or infinite); set to 0", warning_mark, path.filename().string(),
-                     count == 1 ? "1 value is" : fmt::format("{} values are", count)));
+StoredMeaning meaning_of(const OpenFile& file, const ImageInfo& info) {
+  const StoredImage& header = file.header();
+  return {.facts = file.facts,
+          .stored = header.stored,
+          .channels = file.channels(),
+          .is_float = header.depth == Depth::f16 || header.depth == Depth::f32,
+          .integer_range = header.type == "uint"  ? double(std::numeric_limits<uint32_t>::max())
+                           : header.type == "int" ? double(std::numeric_limits<int32_t>::max())
+                                                  : 0,
+          .is_colour = is_color(info.semantic),
+          .can_be_averaged = can_be_averaged(info)};
 }
 
-size_t zero_unfinite(std::span<float> values) {
-  size_t count = 0;
-  for (float& v : values)
-    if (!std::isfinite(v)) {
-      v = 0;
-      count++;
-    }
-  return count;
+void warn_of_values(const fs::path& path, const StoredValues& stored, const Warn& warn) {
+  try {
+    for (const StoredValues::Remark& r : stored.remarks())
+      warn(fmt::format("{}{}: {}", r.is_loss ? warning_mark : "", path.filename().string(), r.text));
+  } catch (const Error& e) {
+    fail_to_read(path, e.what());
+  }
 }
 
-size_t zero_unfinite(std::span<uint16_t> halfs) {
-  constexpr uint16_t exponent = 0x7c00;
-  size_t count = 0;
-  for (uint16_t& h : halfs)
-    if ((h & exponent) == exponent) {
-      h = 0;
-      count++;
-    }
-  return count;
+std::vector<StoredValues::Hole> filled_holes(const fs::path& path, const StoredValues& stored,
+                                             const std::function<void(const Rect&, float*)>& read) {
+  try {
+    return stored.filled_holes(read);
+  } catch (const Error& e) {
+    fail_to_read(path, e.what());
+  }
 }
 
 bool are_signed_normals(std::span<const float> values) {
@@ -114,14 +122,12 @@ void warn_of_signed_normals(const fs::path& path, const Warn& warn) {
 
 /// Where all parts have the same window the layer is not named, so that whoever reads several of them says it once.
 void warn_of_window(const fs::path& path, const StoredImage& header, const std::string& layer, const Warn& warn) {
-  const int64_t seen = intersect(header.stored, whole(header.size)).area();
-  std::vector<std::string> what;
-  if (seen < header.size.area()) what.emplace_back("pixels without data are 0");
-  if (seen < header.stored.area()) what.emplace_back("data outside of it is left out");
-  warn(fmt::format("{}{}{}: its data window, {}, is not its display window; the display window of {} was read: {}",
-                   warning_mark, path.filename().string(),
-                   header.stored_differs && !layer.empty() ? fmt::format(" (layer {})", layer) : "",
-                   described_window(header.stored), describe(header.size), fmt::join(what, ", ")));
+  warn(
+      fmt::format("{}{}{}: its data window, {}, is larger than its display window; the display window of {} was read: "
+                  "data outside of it is left out",
+                  warning_mark, path.filename().string(),
+                  header.stored_differs && !layer.empty() ? fmt::format(" (layer {})", layer) : "",
+                  described_window(header.stored), describe(header.size)));
 }
 
 void warn_of_layout(const fs::path& path, OpenFile& file, const std::string& layer, const Warn& warn) {
@@ -129,8 +135,9 @@ void warn_of_layout(const fs::path& path, OpenFile& file, const std::string& lay
   const StoredImage& header = file.header();
   if (!header.exact) warn(fmt::format("{}: values of type {} are converted to 32-bit floats", name, header.type));
   if (header.stored != whole(header.size)) warn_of_window(path, header, layer, warn);
-  if (header.orientation != 1)
-    warn(fmt::format("{}: rotated upright, as its orientation tag ({}) says", name, header.orientation));
+  if (file.orientation() != 1)
+    warn(fmt::format("{}: rotated upright, as its orientation tag ({}) says", name, file.orientation()));
+  if (!header.note.empty()) warn(fmt::format("{}: {}", name, header.note));
   if (file.in->has_more_images()) warn(fmt::format("{}: it holds several images; the first was read", name));
 }
 
@@ -174,36 +181,65 @@ ImagePtr read_to_disk(const fs::path& path, const OpenFile& file, const ImageInf
   const Depth depth = info.depth == Depth::f16 && is_normal ? Depth::f32 : info.depth;
   const std::shared_ptr<FilePixels> pixels = FilePixels::make(file.layout(depth));
   if (!pixels) return nullptr;
-  size_t unfinite = 0;
+  StoredValues stored(meaning_of(file, info));
   bool are_signed = false;
-  const auto keep = [&](int first, int rows, auto values) { pixels->write_rows(first, rows, values.data()); };
+  const auto keep = [&](int first, int rows, auto values) {
+    stored.mend(values);
+    pixels->write_rows(first, rows, values.data());
+  };
   switch (depth) {
     case Depth::u8:
       for_stored_strips<uint8_t>(path, file, depth, keep);
       break;
     case Depth::u16:
-      for_stored_strips<uint16_t>(path, file, depth, keep);
-      break;
     case Depth::f16:
-      for_stored_strips<uint16_t>(path, file, depth, [&](int first, int rows, std::span<uint16_t> values) {
-        unfinite += zero_unfinite(values);
-        keep(first, rows, values);
-      });
+      for_stored_strips<uint16_t>(path, file, depth, keep);
       break;
     case Depth::f32:
       for_stored_strips<float>(path, file, depth, [&](int first, int rows, std::span<float> values) {
-        unfinite += zero_unfinite(values);
-        are_signed = are_signed || (is_normal && are_signed_normals(values));
         keep(first, rows, values);
+        are_signed = are_signed || (is_normal && are_signed_normals(values));
       });
       break;
   }
-  warn_of_zeroed(path, unfinite, warn);
+  const auto read = [&](const Rect& region, float* out) { pixels->read_stored_floats(region, out); };
+  for (const StoredValues::Hole& hole : filled_holes(path, stored, read))
+    pixels->replace(hole.x, hole.y, hole.channel, hole.value);
+  if (stored.is_invisible()) pixels->make_opaque();
+  warn_of_values(path, stored, warn);
   if (are_signed) {
     pixels->encode();
     warn_of_signed_normals(path, warn);
   }
   return FilePixels::image(info, pixels);
+}
+
+/// The stored pixels as the file means them, placed upright. Halfs come as their bits.
+template <typename T>
+std::vector<T> read_meant(const fs::path& path, const OpenFile& file, const ImageInfo& info, Depth as,
+                          const Warn& warn) {
+  StoredValues stored(meaning_of(file, info));
+  std::vector<T> values = read_stored<T>(path, file, as);
+  stored.mend(values);
+  const auto channels = size_t(file.channels()), width = size_t(file.header().stored.width);
+  const auto at = [&](int x, int y) { return (size_t(y) * width + size_t(x)) * channels; };
+  const auto to_float = [&](T v) { return as == Depth::f16 ? imath_half_to_float(uint16_t(v)) : float(v); };
+  const auto read = [&](const Rect& region, float* out) {
+    for (int y = region.y; y < region.bottom(); y++) {
+      const auto row = values.begin() + ptrdiff_t(at(region.x, y));
+      out = std::transform(row, row + ptrdiff_t(size_t(region.width) * channels), out, to_float);
+    }
+  };
+  for (const StoredValues::Hole& hole : filled_holes(path, stored, read))
+    values[at(hole.x, hole.y) + size_t(hole.channel)] =
+        as == Depth::f16 ? T(imath_float_to_half(hole.value)) : T(hole.value);
+  if (stored.is_invisible())
+    for (size_t i = channels - 1; i < values.size(); i += channels)
+      values[i] = as == Depth::f16   ? T(imath_float_to_half(1))
+                  : as == Depth::f32 ? T(1)
+                                     : std::numeric_limits<T>::max();
+  warn_of_values(path, stored, warn);
+  return placed(file, std::move(values));
 }
 
 ImagePtr read_opened(const fs::path& path, OpenFile& file, const ImageInfo& given, const std::string& layer,
@@ -219,16 +255,12 @@ ImagePtr read_opened(const fs::path& path, OpenFile& file, const ImageInfo& give
   const PixelRoom meanwhile(bytes);
   const bool is_normal = info.semantic == Semantic::normal;
   if (info.depth == Depth::u8)
-    return Image::from_floats(info, placed(file, as_fractions(read_stored<uint8_t>(path, file, Depth::u8))));
+    return Image::from_floats(info, as_fractions(read_meant<uint8_t>(path, file, info, Depth::u8, warn)));
   if (info.depth == Depth::u16)
-    return Image::from_floats(info, placed(file, as_fractions(read_stored<uint16_t>(path, file, Depth::u16))));
-  if (info.depth == Depth::f16 && !is_normal) {
-    std::vector<uint16_t> halfs = placed(file, read_stored<uint16_t>(path, file, Depth::f16));
-    warn_of_zeroed(path, zero_unfinite(halfs), warn);
-    return Image::from_halfs(info, std::move(halfs));
-  }
-  std::vector<float> floats = placed(file, read_stored<float>(path, file, Depth::f32));
-  warn_of_zeroed(path, zero_unfinite(floats), warn);
+    return Image::from_floats(info, as_fractions(read_meant<uint16_t>(path, file, info, Depth::u16, warn)));
+  if (info.depth == Depth::f16 && !is_normal)
+    return Image::from_halfs(info, read_meant<uint16_t>(path, file, info, Depth::f16, warn));
+  std::vector<float> floats = read_meant<float>(path, file, info, Depth::f32, warn);
   if (is_normal && are_signed_normals(floats)) {
     for (float& v : floats) v = v * 0.5f + 0.5f;
     warn_of_signed_normals(path, warn);
@@ -238,8 +270,10 @@ ImagePtr read_opened(const fs::path& path, OpenFile& file, const ImageInfo& give
 
 }  // namespace
 
-ImagePtr read_image(const fs::path& path, const ImageInfo& info, const Warn& warn, const std::string& layer) {
+ImagePtr read_image(const fs::path& path, const ImageInfo& info, const Warn& warn, const std::string& layer,
+                    bool as_stored) {
   OpenFile file = open_image_file(path, layer);
+  file.as_stored = as_stored;
   warn_of_layers(path, file, layer, warn);
   try {
     return read_opened(path, file, info, layer, warn);

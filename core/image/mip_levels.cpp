@@ -4,6 +4,7 @@
 
 #include "core/base/hash.h"
 #include "core/image/kept_pixels.h"
+#include "core/image/opacity_weights.h"
 #include "core/image/pixel_space.h"
 #include "core/image/resample.h"
 
@@ -31,16 +32,33 @@ Size half(Size size) {
   return {std::max(1, size.width / 2), std::max(1, size.height / 2)};
 }
 
-}  // namespace
-
-std::vector<ImagePtr> mip_levels(const ImagePtr& image) {
-  const bool is_label = !can_be_averaged(image->info()) || image->info().semantic == Semantic::data;
-  const std::string filter = is_label ? "nearest" : "box";
+std::vector<ImagePtr> halved_to_one(const ImagePtr& image, const std::string& filter) {
   const Digest recipe = Hasher().add("mip level").digest();
   std::vector<ImagePtr> levels = {kept(image)};
   while (levels.back()->size().area() > 1)
     levels.push_back(kept(resampled(levels.back(), half(levels.back()->size()), filter, Outside::wrap, recipe)));
   return levels;
+}
+
+/// From one pixel up, so that the colours of what is seen reach what is not.
+std::vector<ImagePtr> weighted_levels(const ImagePtr& image, const ImagePtr& weights) {
+  std::vector<ImagePtr> levels = halved_to_one(premultiplied(image, weights), "box");
+  ImagePtr coarser;
+  for (size_t i = levels.size(); i-- > 1;) {
+    ImageInfo info = image->info();
+    info.size = levels[i]->size();
+    coarser = levels[i] = kept(unpremultiplied(levels[i], info, coarser));
+  }
+  levels.front() = kept(image);
+  return levels;
+}
+
+}  // namespace
+
+std::vector<ImagePtr> mip_levels(const ImagePtr& image, const ImagePtr& weights) {
+  if (weights) return weighted_levels(image, weights);
+  const bool is_label = !can_be_averaged(image->info()) || image->info().semantic == Semantic::data;
+  return halved_to_one(image, is_label ? "nearest" : "box");
 }
 
 int mip_level_count(Size size) {

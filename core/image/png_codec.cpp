@@ -58,6 +58,7 @@ class PngDecoder final : public ImageDecoder {
     for (int i = 0; i < count; i++)
       if (const std::string_view key = texts[i].key; key == "Description" || key == "ImageDescription")
         header_.description = texts[i].text;
+    if (says_linear()) header_.color_space = "lin_rec709";
   }
   bool may_be_turned() const { return png_get_valid(png_, info_, PNG_INFO_eXIf) != 0; }
   const StoredImage& header() const override { return header_; }
@@ -73,6 +74,13 @@ class PngDecoder final : public ImageDecoder {
   }
 
  private:
+  /// What names a colour space counts more than gAMA (PNG, third edition, 4.3).
+  bool says_linear() const {
+    double gamma = 0;
+    const png_uint_32 others = PNG_INFO_sRGB | PNG_INFO_iCCP;
+    return png_get_valid(png_, info_, others) == 0 && png_get_gAMA(png_, info_, &gamma) != 0 && gamma == 1;
+  }
+
   // Nothing in these three needs destroying when libpng jumps out of them.
   bool read_info() {
     if (setjmp(png_jmpbuf(png_))) return false;

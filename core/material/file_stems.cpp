@@ -86,6 +86,7 @@ bool belong_together(const Group& a, const Group& b) {
   std::set<std::string> more;
   if (!are_related(a.stem, b.stem, more) || (a.has_color && b.has_color)) return false;
   if (!share_a_map(a, b)) return true;
+  if (!is_extension(a.stem, b.stem)) return false;
   const bool numbered = std::any_of(more.begin(), more.end(),
                                     [](const std::string& w) { return std::all_of(w.begin(), w.end(), is_digit); });
   return !numbered && a.has_color != b.has_color;
@@ -109,10 +110,14 @@ std::vector<Group> grouped(const std::vector<StemmedMap>& maps) {
   return groups;
 }
 
-std::vector<std::string> words_of_material(std::string_view file) {
+bool says_no_material_nor_filler(const std::string& word) {
+  return says_no_material(word) && !is_filler(word);
+}
+
+std::vector<std::string> words_of_material(std::string_view file, bool (*is_left_out)(const std::string&)) {
   std::vector<std::string> words;
   for (const NameWord& w : words_of_file(file))
-    if (!says_no_material(w.text)) words.push_back(w.text);
+    if (!is_left_out(w.text)) words.push_back(w.text);
   return words;
 }
 
@@ -142,10 +147,11 @@ std::string Stem::key() const {
   return key;
 }
 
-Stem stem_of(std::string_view name, const std::vector<NameWord>& words, size_t first, size_t last) {
+Stem stem_of(std::string_view name, const std::vector<NameWord>& words, size_t first, size_t last, Fillers fillers) {
   const std::optional<int> tile = tile_of(words, first, last);
   Stem stem;
-  add_words(stem, name, words, 0, first, says_no_material, tile);
+  add_words(stem, name, words, 0, first, fillers == Fillers::kept ? says_no_material_nor_filler : says_no_material,
+            tile);
   if (stem.words.empty()) add_words(stem, name, words, last, words.size(), is_neutral, tile);
   if (tile) {
     stem.words.push_back(std::to_string(*tile));
@@ -154,9 +160,15 @@ Stem stem_of(std::string_view name, const std::vector<NameWord>& words, size_t f
   return stem;
 }
 
-Stem stem_in(std::string_view text) {
+Stem stem_in(std::string_view text, Fillers fillers) {
   const std::vector<NameWord> words = words_in(text);
-  return stem_of(text, words, words.size(), words.size());
+  return stem_of(text, words, words.size(), words.size(), fillers);
+}
+
+bool is_extension(const Stem& a, const Stem& b) {
+  const auto& [shorter, longer] =
+      a.words.size() < b.words.size() ? std::tie(a.words, b.words) : std::tie(b.words, a.words);
+  return std::equal(shorter.begin(), shorter.end(), longer.begin());
 }
 
 std::vector<FolderMaterial> materials_among(const std::vector<StemmedMap>& maps) {
@@ -182,20 +194,22 @@ std::vector<FolderMaterial> materials_among(const std::vector<StemmedMap>& maps)
   return materials;
 }
 
-std::vector<FolderMaterial> materials_named(const std::vector<FolderMaterial>& all, const std::string& name,
-                                            const Stem& file_stem) {
+MeantMaterials materials_named(const std::vector<FolderMaterial>& all, const std::string& name,
+                               const std::vector<Stem>& file_stems) {
   const bool is_pattern = name.find_first_of("*?") != std::string::npos;
   const auto chosen_by = [&](const auto& is_meant) {
     std::vector<FolderMaterial> chosen;
     std::copy_if(all.begin(), all.end(), std::back_inserter(chosen), is_meant);
     return chosen;
   };
-  if (is_pattern) return chosen_by([&](const FolderMaterial& m) { return matches_pattern(m.name, name); });
-  for (const std::string& key : {stem_in(name).key(), file_stem.key()}) {
+  if (is_pattern) return {chosen_by([&](const FolderMaterial& m) { return matches_pattern(m.name, name); })};
+  std::vector<std::string> keys = {stem_in(name, Fillers::kept).key(), stem_in(name).key()};
+  for (const Stem& s : file_stems) keys.push_back(s.key());
+  for (const std::string& key : keys) {
     if (key.empty()) continue;
     auto chosen = chosen_by(
         [&](const FolderMaterial& m) { return std::find(m.stems.begin(), m.stems.end(), key) != m.stems.end(); });
-    if (!chosen.empty()) return chosen;
+    if (!chosen.empty()) return {std::move(chosen), key};
   }
   return {};
 }
@@ -214,16 +228,28 @@ std::string without_udim_tile(std::string_view name) {
 }
 
 bool may_belong_to(std::string_view file, const FolderMaterial& material) {
-  const std::vector<std::string> words = words_of_material(file);
-  return std::any_of(material.stems.begin(), material.stems.end(),
-                     [&](const std::string& key) { return key.empty() || words_in_stem(words, key) > 0; });
+  const auto begins_with = [&](const std::vector<std::string>& words) {
+    return std::any_of(material.stems.begin(), material.stems.end(),
+                       [&](const std::string& key) { return key.empty() || words_in_stem(words, key) > 0; });
+  };
+  return begins_with(words_of_material(file, says_no_material)) ||
+         begins_with(words_of_material(file, says_no_material_nor_filler));
 }
 
 std::string rest_of_name(std::string_view file, const std::vector<FolderMaterial>& materials) {
-  const std::vector<std::string> words = words_of_material(file);
-  size_t said = 0;
-  for (const FolderMaterial& m : materials)
-    for (const std::string& key : m.stems) said = std::max(said, words_in_stem(words, key));
+  const auto said_of = [&](const std::vector<std::string>& words) {
+    size_t said = 0;
+    for (const FolderMaterial& m : materials)
+      for (const std::string& key : m.stems) said = std::max(said, words_in_stem(words, key));
+    return said;
+  };
+  std::vector<std::string> words = words_of_material(file, says_no_material);
+  size_t said = said_of(words);
+  if (said == 0) {
+    words = words_of_material(file, says_no_material_nor_filler);
+    said = said_of(words);
+    if (said == 0) words = words_of_material(file, says_no_material);
+  }
   if (said == words.size()) said = 0;
   std::string rest;
   for (size_t i = said; i < words.size(); i++) rest += (rest.empty() ? "" : "_") + words[i];

@@ -27,6 +27,16 @@ std::string before_digits(const std::string& word) {
   return digits != std::string::npos && digits <= 3 ? word.substr(0, digits) : "";
 }
 
+/// "lod" and a number after it.
+void join_levels_of_detail(std::vector<NameWord>& words) {
+  for (size_t i = 0; i + 1 < words.size(); i++) {
+    if (words[i].text != "lod" || !all_digits(words[i + 1].text)) continue;
+    words[i].text += words[i + 1].text;
+    words[i].end = words[i + 1].end;
+    words.erase(words.begin() + ptrdiff_t(i) + 1);
+  }
+}
+
 }  // namespace
 
 std::vector<NameWord> words_in(std::string_view text) {
@@ -45,6 +55,7 @@ std::vector<NameWord> words_in(std::string_view text) {
     words.back().end = i + 1;
   }
   for (NameWord& w : words) w.text = lowercase(w.text);
+  join_levels_of_detail(words);
   return words;
 }
 
@@ -67,8 +78,9 @@ bool is_neutral(const std::string& word) {
   static const std::set<std::string> known = {
       "jpg", "jpeg", "png", "tif",   "tiff",   "exr",      "tga",    "map",      "tex", "texture", "image",
       "img", "srgb", "raw", "lin",   "linear", "rec709",   "acescg", "utility",  "var", "open",    "direct",
-      "x",   "u",    "v",   "final", "copy",   "seamless", "tile",   "tileable", "sml", "lod0"};
-  return is_digit(word[0]) || known.count(word) || convention(word) || known.count(before_digits(word));
+      "x",   "u",    "v",   "final", "copy",   "seamless", "tile",   "tileable", "sml"};
+  return is_digit(word[0]) || known.count(word) || convention(word) || known.count(before_digits(word)) ||
+         level_of_detail(word);
 }
 
 bool is_resolution(const std::string& word) {
@@ -80,12 +92,23 @@ bool is_resolution(const std::string& word) {
 }
 
 bool says_no_material(const std::string& word) {
-  static const std::set<std::string> known = {"jpg",   "jpeg",  "png",  "tif",    "tiff",   "exr",     "tga",
-                                              "hdr",   "webp",  "map",  "maps",   "tex",    "texture", "textures",
-                                              "image", "img",   "srgb", "linear", "rec709", "acescg",  "8bit",
-                                              "16bit", "32bit", "v",    "var",    "lod0"};
-  return is_resolution(word) || known.count(word) || convention(word) || before_digits(word) == "v" ||
-         before_digits(word) == "var";
+  static const std::set<std::string> known = {"jpg",    "jpeg", "png",   "tif",   "tiff",   "exr",
+                                              "tga",    "hdr",  "webp",  "srgb",  "linear", "rec709",
+                                              "acescg", "8bit", "16bit", "32bit", "v",      "var"};
+  return is_resolution(word) || is_filler(word) || known.count(word) || convention(word) ||
+         before_digits(word) == "v" || before_digits(word) == "var" || level_of_detail(word);
+}
+
+bool is_filler(const std::string& word) {
+  static const std::set<std::string> known = {"map", "maps", "tex", "texture", "textures", "image", "img"};
+  return known.count(word) > 0;
+}
+
+std::optional<int> level_of_detail(const std::string& word) {
+  constexpr size_t most_digits = 2;
+  if (!word.starts_with("lod") || word.size() > 3 + most_digits || !all_digits(std::string_view(word).substr(3)))
+    return std::nullopt;
+  return std::stoi(word.substr(3));
 }
 
 std::string without_digits(const std::string& word) {

@@ -17,7 +17,7 @@ struct NameWord {
 };
 
 /// The words of a text: cut at everything that is no letter or digit, and where camel case begins a word (NormalGL ->
-/// normal, gl; AOMap -> ao, map).
+/// normal, gl; AOMap -> ao, map). A level of detail is one word: LOD_1 -> lod1.
 std::vector<NameWord> words_in(std::string_view text);
 /// The same for a file's name without its extension.
 std::vector<NameWord> words_of_file(std::string_view name);
@@ -35,8 +35,14 @@ bool is_neutral(const std::string& word);
 /// wall_02 are two.
 bool says_no_material(const std::string& word);
 
+/// Whether a word stands in front of many names without naming anything: texture, tex, map, ...
+bool is_filler(const std::string& word);
+
 /// "2k", "1024", "4096x4096".
 bool is_resolution(const std::string& word);
+
+/// 1 of "lod1"; nullopt of words that name no level of detail.
+std::optional<int> level_of_detail(const std::string& word);
 
 /// Without the digits that it begins and ends with.
 std::string without_digits(const std::string& word);

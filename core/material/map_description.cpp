@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
+#include "core/image/color.h"
 #include "core/material/map_names.h"
 
 namespace terrazzo {
@@ -67,6 +69,17 @@ std::optional<FileDescription> file_description(std::string_view description) {
     if (!out.maps.empty()) return out;
   }
   return std::nullopt;
+}
+
+std::string stated_color_space(const FileInfo& file, Semantic semantic) {
+  if (!is_color(semantic)) return "";
+  const std::optional<FileDescription> said = file_description(file.description);
+  if (!said || !is_color(said->maps.front().semantic) || said->color_space.empty()) return file.color_space;
+  try {
+    return canonical_color_space(said->color_space);
+  } catch (const Error& e) {
+    throw Error("color_space", fmt::format("the file's description says: {}. Set `color_space`", e.what()));
+  }
 }
 
 std::string description_line(const FileDescription& file) {

@@ -1,5 +1,7 @@
 #include "core/material/material.h"
 
+#include <stdexcept>
+
 #include <fmt/format.h>
 
 #include "core/base/error.h"
@@ -17,6 +19,8 @@ Material::Material(std::string name, std::vector<Map> maps, PhysicalSize metres)
 
 MaterialPtr Material::make(std::string name, std::vector<Map> maps, PhysicalSize metres) {
   if (maps.empty()) throw Error("a material needs at least one map");
+  for (const Map& m : maps)
+    if (!m.image) throw std::logic_error(fmt::format("the map \"{}\" of a material is null", m.name));
   for (size_t i = 0; i < maps.size(); i++)
     for (size_t j = 0; j < i; j++)
       if (maps[i].name == maps[j].name)

@@ -26,10 +26,6 @@ const Tunable<Tuning> tuning("material_maps",
                                   "not measured: taken over from the code before constants were listed", 0, 1},
                              });
 
-bool is_one_value(Semantic s) {
-  return !is_color(s) && s != Semantic::normal && s != Semantic::data && s != Semantic::guidance;
-}
-
 /// Whether channel c of an image never differs from `value(pixel)` by more than `tolerance`.
 template <typename Value>
 bool channel_is(const Image& image, int c, float tolerance, Value value) {
@@ -62,7 +58,11 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
     const auto compression_noise = float(tuning->compression_noise);
     for (int c = 1; c < colors; c++)
       if (!channel_is(file, c, compression_noise, [](const float* p) { return p[0]; })) {
-        notes.push_back(fmt::format("{} has channels that differ in {}; the first is used", m.map, m.place()));
+        notes.push_back(
+            fmt::format("{}{}: its channels differ, but {} is one value at each pixel; red is used. If another channel "
+                        "holds it, or "
+                        "if the file holds several maps, `maps` says which: {{\"{}\": \"{}:{}g\"}}",
+                        warning_mark, m.place(), m.map, m.map, m.file, m.layer.empty() ? "" : m.layer + "."));
         break;
       }
     return {0};
@@ -73,7 +73,13 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
 
 }  // namespace
 
+bool is_one_value(Semantic semantic) {
+  return !is_color(semantic) && semantic != Semantic::normal && semantic != Semantic::data &&
+         semantic != Semantic::guidance;
+}
+
 int channels_of_map(const RecognisedMap& source, int file_channels) {
+  if (source.semantic == Semantic::normal) return 3;  // where the file has no z, it is rebuilt
   if (!source.channels.empty()) return int(source.channels.size());
   if (is_one_value(source.semantic)) return 1;
   return file_channels % 2 == 0 ? file_channels - 1 : file_channels;

@@ -9,7 +9,10 @@
 /// From the pixels of a file to its maps.
 namespace terrazzo {
 
-/// How many channels map_of_file makes of a file with `file_channels`.
+/// Whether a map of that semantic has one value at a pixel.
+bool is_one_value(Semantic semantic);
+
+/// How many channels the map has that comes of a file with `file_channels`.
 int channels_of_map(const RecognisedMap& source, int file_channels);
 
 /// Throws Error about "maps" unless a file with `file_channels` channels has those that `source` names.

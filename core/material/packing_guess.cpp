@@ -102,6 +102,18 @@ bool is_metal(const Plane& p) {
   return double(extreme) >= tuning->metal_share * double(p.size());
 }
 
+/// How far the height lies above its surroundings.
+Plane above_surroundings(const ImagePtr& height, Size size) {
+  constexpr double reach = 4;  // pixels, of at most 256
+  const ImagePtr low = small(height, size);
+  const ImagePtr around = filtered(low, low->info(), Hasher().add("around").digest(), gaussian_filter(reach),
+                                   gaussian_filter(reach), Outside::wrap);
+  Plane out = planes_of(*low).front();
+  const Plane smooth = planes_of(*around).front();
+  for (size_t i = 0; i < out.size(); i++) out[i] -= smooth[i];
+  return out;
+}
+
 /// What is known of a channel.
 struct Channel {
   Plane plane;
@@ -159,19 +171,16 @@ PackingGuess guess_of(const Layout& layout, bool have_height) {
 
 }  // namespace
 
+double hollow_correlation(const ImagePtr& occlusion, const ImagePtr& height) {
+  const Size size{std::min(side, occlusion->width()), std::min(side, occlusion->height())};
+  return correlation(planes_of(*small(occlusion, size)).front(), above_surroundings(height, size));
+}
+
 PackingGuess guess_packing(const ImagePtr& file, const ImagePtr& height) {
   const Size size{std::min(side, file->width()), std::min(side, file->height())};
   const std::vector<Plane> planes = planes_of(*small(file, size));
   Plane hollow;
-  if (height) {
-    constexpr double reach = 4;  // pixels, of at most 256
-    const ImagePtr low = small(height, size);
-    const ImagePtr around = filtered(low, low->info(), Hasher().add("around").digest(), gaussian_filter(reach),
-                                     gaussian_filter(reach), Outside::wrap);
-    hollow = planes_of(*low).front();
-    const Plane smooth = planes_of(*around).front();
-    for (size_t i = 0; i < hollow.size(); i++) hollow[i] -= smooth[i];
-  }
+  if (height) hollow = above_surroundings(height, size);
   std::vector<Channel> channels;
   for (const Plane& p : planes)
     channels.push_back({.plane = p,

@@ -27,4 +27,8 @@ struct PackingGuess {
 /// wrongly. Looks at no more than 256x256 points. Thread-safe.
 PackingGuess guess_packing(const ImagePtr& file, const ImagePtr& height);
 
+/// The correlation of occlusion with how far the height lies above its surroundings: below 0 for a height map that is
+/// dark where the surface is high.
+double hollow_correlation(const ImagePtr& occlusion, const ImagePtr& height);
+
 }  // namespace terrazzo

@@ -71,20 +71,20 @@ Grid power_spectra(const Planes& image, int c, Size padded) {
 }
 
 /// The channel that far_peak looks at: details up to the size `near`, of all channels together.
-Planes details(const Planes& image, int near) {
-  const Planes smooth = blurred(image, 1, Beyond::mirrored);
+Planes details(const Planes& image, int near, const Task& task) {
+  const Planes smooth = blurred(image, 1, Beyond::mirrored, task);
   Planes mean = Planes::zeros(image.size, 1);
   for (size_t i = 0; i < mean.values.size(); i++) {
     for (int k = 0; k < image.channels; k++) mean.values[i] += smooth.values[i * image.channels + k];
     mean.values[i] /= float(image.channels);
   }
-  const Planes coarse = blurred(mean, near, Beyond::mirrored);
+  const Planes coarse = blurred(mean, near, Beyond::mirrored, task);
   for (size_t i = 0; i < mean.values.size(); i++) mean.values[i] -= coarse.values[i];
   return mean;
 }
 
 double far_peak(const Planes& image, int near, const Task& task) {
-  const Correlogram r = correlograms(details(image, near), image.size, task).front();
+  const Correlogram r = correlograms(details(image, near, task), image.size, task).front();
   double best = -1;
   for (int dy = 1 - r.lags.height; dy < r.lags.height; dy++)
     for (int dx = 0; dx < r.lags.width; dx++) {

@@ -144,7 +144,8 @@ Quality measure_quality(Planes exemplar, Planes output, const QualityParts& part
   q.repeat = repetition(exemplar, output, task);
   task.progress(0.2);
   const int levels = level_count(exemplar, output);
-  const Pyramids pyramids{gaussian_pyramid(std::move(exemplar), levels), gaussian_pyramid(std::move(output), levels)};
+  const Pyramids pyramids{gaussian_pyramid(std::move(exemplar), levels, task),
+                          gaussian_pyramid(std::move(output), levels, task)};
   const std::vector<Planes>&e = pyramids.exemplar, &o = pyramids.output;
   const int half = std::min(1, levels - 1), compared = std::min(patch_levels, levels);
   if (parts.verbatim) q.verbatim = verbatim_copies(e[half], o[half], task);

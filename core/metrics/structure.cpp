@@ -51,9 +51,9 @@ const Tunable<Tuning> tuning(
     });
 
 /// The structure tensor's three entries.
-Planes structure_tensor(const Planes& image, int step) {
+Planes structure_tensor(const Planes& image, int step, const Task& task) {
   const Beyond beyond = image.wraps ? Beyond::as_it_wraps : Beyond::mirrored;
-  const Planes smooth = blurred(image, tuning->edge_scale * std::max(2, step), beyond);
+  const Planes smooth = blurred(image, tuning->edge_scale * std::max(2, step), beyond, task);
   Planes out = Planes::zeros(image.size, 3, image.wraps);
   tbb::parallel_for(0, image.size.height, [&](int y) {
     for (int x = 0; x < image.size.width; x++) {
@@ -68,7 +68,7 @@ Planes structure_tensor(const Planes& image, int step) {
       }
     }
   });
-  return blurred(out, tuning->smoothing * step, beyond);
+  return blurred(out, tuning->smoothing * step, beyond, task);
 }
 
 /// Without the pixels at the border, whose tensor depends on what lies beyond; as long as two windows fit.
@@ -193,7 +193,7 @@ StructureWindow structure_window(double element, Size exemplar) {
 
 double foreign_structure(Planes exemplar, const Planes& output, int step, bool wraps, const Task& task) {
   exemplar.wraps = wraps;
-  Planes tensor = structure_tensor(exemplar, step);
+  Planes tensor = structure_tensor(exemplar, step, task);
   const float half = usual_strength(tensor);
   const ExemplarWindows windows(edge_channels(std::move(tensor), half), step, task);
   const std::vector<double> own = windows.own_distances();
@@ -201,7 +201,7 @@ double foreign_structure(Planes exemplar, const Planes& output, int step, bool w
   const double limit = own[size_t(usual * double(own.size() - 1))];
   task.check();
   const std::vector<double> far =
-      windows.distances_of(edge_channels(structure_tensor(output, step), half), exemplar.size);
+      windows.distances_of(edge_channels(structure_tensor(output, step, task), half), exemplar.size);
   return double(std::ranges::count_if(far, [&](double d) { return d > limit; })) / double(far.size());
 }
 

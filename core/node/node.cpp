@@ -115,6 +115,8 @@ void NodeContext::output(std::string_view port, Value value) {
   if (!declared || declared->type != type_of(value))
     throw std::logic_error(
         fmt::format("{} declares no output {} of type {}", type_.name, port, name_of(type_of(value))));
+  if (std::visit([](const auto& pointer) { return pointer == nullptr; }, value))
+    throw std::logic_error(fmt::format("{} gave a null pointer for its output {}", type_.name, port));
   outputs_.insert_or_assign(std::string(port), std::move(value));
 }
 
@@ -128,12 +130,11 @@ std::filesystem::path NodeContext::stage(const std::filesystem::path& target) {
   for (std::filesystem::path f = folder; !f.empty() && !std::filesystem::exists(f, failure); f = f.parent_path())
     missing.push_back(f);
   made_folders_.insert(made_folders_.end(), missing.rbegin(), missing.rend());
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw Error(fmt::format("cannot make the folder {}: {}", folder.string(), failure.message()));
+  const std::filesystem::path place = WriteGuard::made_folder(folder);
   const bool known = std::any_of(staged_.begin(), staged_.end(),
                                  [&](const StagedFile& f) { return f.target.parent_path() == folder; });
-  if (!known) remove_abandoned(folder);
-  staged_.push_back({temporary_beside(target), target});
+  if (!known) remove_abandoned(place);
+  staged_.push_back({temporary_beside(place / target.filename()), target});
   return staged_.back().temporary;
 }
 

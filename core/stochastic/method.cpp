@@ -48,8 +48,8 @@ double excess_kurtosis(const std::vector<double>& values) {
 }
 
 /// The largest of the excess kurtoses of a scale's band and of its derivatives in four directions.
-double structure_of_scale(const Planes& scale) {
-  const Planes smooth = blurred(scale, 1, Beyond::mirrored);
+double structure_of_scale(const Planes& scale, const Task& task) {
+  const Planes smooth = blurred(scale, 1, Beyond::mirrored, task);
   constexpr std::array<std::array<int, 2>, 4> directions = {{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
   double most = 0;
   const auto look = [&](const auto& response) {
@@ -66,6 +66,13 @@ double structure_of_scale(const Planes& scale) {
   return most;
 }
 
+/// A texture that is Gaussian noise on a part p of its area and flat elsewhere has the excess kurtosis 3 / p - 3: the
+/// share of such a texture that is flat, 0..1.
+double share_of(double excess_kurtosis) {
+  const double excess = std::max(0.0, excess_kurtosis);
+  return excess / (excess + 3);
+}
+
 }  // namespace
 
 std::string MethodChoice::sentence() const {
@@ -74,10 +81,10 @@ std::string MethodChoice::sentence() const {
 
 double structure(const Features& features, const Task& task) {
   double most = 0;
-  for (const Planes& scale : gaussian_pyramid(gaussian_component(features, task), scales)) {
+  for (const Planes& scale : gaussian_pyramid(gaussian_component(features, task), scales, task)) {
     task.check();
     if (std::min(scale.size.width, scale.size.height) >= smallest_side)
-      most = std::max(most, structure_of_scale(scale));
+      most = std::max(most, structure_of_scale(scale, task));
   }
   return most;
 }
@@ -91,10 +98,11 @@ MethodChoice suitable_method(const Features& features, const Task& task) {
     return {Method::layout, "it is too small to tell whether it has structure"};
   const double found = structure(features, task);
   if (found > tuning->most_structure)
-    return {Method::layout,
-            fmt::format("its features stand out (structure {:.2f}, above {:g})", found, tuning->most_structure)};
-  return {Method::noise, fmt::format("it has no lattice, no elements and hardly any structure ({:.2f}, up to {:g})",
-                                     found, tuning->most_structure)};
+    return {Method::layout, fmt::format("its features stand out (structure {:.2f} of 1, above {:.2f})", share_of(found),
+                                        share_of(tuning->most_structure))};
+  return {Method::noise,
+          fmt::format("it has no lattice, no elements and hardly any structure ({:.2f} of 1, up to {:.2f})",
+                      share_of(found), share_of(tuning->most_structure))};
 }
 
 }  // namespace terrazzo

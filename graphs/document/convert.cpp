@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
+#include "core/file/path_spelling.h"
 #include "graphs/document/format.h"
 #include "graphs/library/library.h"
 
@@ -36,6 +37,13 @@ std::string count_of(const Param& p) {
 
 std::string names_of(const Param& p) {
   return p.choices.empty() ? "" : fmt::format(" (names: {})", listed(p.choices));
+}
+
+std::string absolute(const std::string& text, const fs::path& base) {
+  if (text.empty()) return text;
+  std::string out = (base / text).lexically_normal().string();
+  if (out.size() > 1 && out.back() == '/') out.pop_back();
+  return out;
 }
 
 class Reader {
@@ -235,7 +243,10 @@ class Reader {
   std::optional<std::string> path(const JsonValue& v) {
     const bool may_be_empty = param_.fallback && *param_.fallback == ParamValue(std::string());
     if (!v.is_text() || (v.text.empty() && !may_be_empty)) return wrong(v);
-    return is_library_reference(v.text) ? in_library(v) : absolute(v.text);
+    if (is_library_reference(v.text)) return in_library(v);
+    if (const std::string advice = path_advice(base_, v.text); !advice.empty())
+      return complain(v, "a path", "; " + advice);
+    return absolute(v.text, base_);
   }
 
   std::optional<std::string> in_library(const JsonValue& v) {
@@ -248,13 +259,6 @@ class Reader {
       complaints_.add(v.place, e.what());
       return std::nullopt;
     }
-  }
-
-  std::string absolute(const std::string& text) const {
-    if (text.empty()) return text;
-    std::string out = (base_ / text).lexically_normal().string();
-    if (out.size() > 1 && out.back() == '/') out.pop_back();
-    return out;
   }
 
   const Param& param_;
@@ -314,6 +318,8 @@ std::optional<ParamValue> read_param(const JsonValue& json, const Param& param, 
 
 ParamValue default_of(const Param& param, const fs::path& base) {
   if (param.type != ParamType::path) return *param.fallback;
+  if (const auto& text = std::get<std::string>(*param.fallback); !is_library_reference(text))
+    return absolute(text, base);
   std::vector<Problem> none;
   Diagnostics diagnostics(none, "");
   return *read_param(json_of(*param.fallback), param, base, diagnostics);

@@ -149,7 +149,8 @@ class Declaration {
     if (out_.param.type == ParamType::path && v->is_text()) {
       out_.param.fallback = v->text;
       out_.as_written = v->text;
-      out_.value = default_of(out_.param, folder_);
+      out_.value = read_param(*v, out_.param, folder_, complaints_);
+      out_.is_wrong = !out_.value;
       return;
     }
     out_.value = read_param(*v, out_.param, folder_, complaints_);

@@ -2,11 +2,36 @@
 
 #include <algorithm>
 
+#include "core/base/error.h"
+#include "core/file/read_guard.h"
+
 namespace terrazzo {
+
+namespace {
+
+/// Of what may not be read nothing may become known either.
+void check_reads(const GraphNode& node) {
+  if (!ReadGuard::is_set() || node.type->is_sink()) return;
+  for (const Param& p : node.type->params) {
+    const auto value = node.params.find(p.name);
+    if (p.type != ParamType::path || value == node.params.end()) continue;
+    const std::string& path = std::get<std::string>(value->second);
+    try {
+      if (!path.empty()) ReadGuard::check(path);
+    } catch (const Error& e) {
+      throw Error(p.name, e.what());
+    }
+  }
+  if (!node.type->files_read) return;
+  for (const std::filesystem::path& file : node.type->files_read(node.params)) ReadGuard::check(file);
+}
+
+}  // namespace
 
 const Forecast* Forecasts::add(const GraphNode& node) {
   const NodeType& type = *node.type;
   if (!type.infer && !type.preflight) return nullptr;
+  check_reads(node);
   const InputForecasts inputs = inputs_of(node);
   OutputForecasts outputs;
   if (type.infer) outputs = type.infer(node.params, inputs);

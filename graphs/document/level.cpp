@@ -6,6 +6,8 @@
 
 #include "core/base/suggest.h"
 #include "graphs/document/convert.h"
+#include "graphs/document/file_origins.h"
+#include "graphs/expression/operations.h"
 
 namespace terrazzo {
 
@@ -13,20 +15,22 @@ namespace {
 
 constexpr size_t most_nodes = 100000;  // small files can hold graphs within graphs that are more than any memory
 constexpr int deepest = 30;            // graphs within graphs
+// What names and expressions put into them included; a document itself is at most this long.
+constexpr size_t most_text = size_t{64} << 20;
+constexpr size_t most_parameters = 200000;  // of subgraphs: each use has its own
 
-/// What an override of a graph is for: "walls" of "walls[brick]/layout", and what follows.
-struct Step {
-  std::string name;   ///< "walls[brick]"
-  std::string plain;  ///< "walls"
-  std::string rest;   ///< "layout"
-};
-
-Step first_step(const std::string& path) {
+RoutedOverride routed(const Override* override, const std::string& path) {
   const size_t bracket = path.find('['), closed = bracket == path.npos ? 0 : path.find(']', bracket);
   const size_t slash = path.find('/', closed == path.npos ? 0 : closed);
-  Step out{path.substr(0, slash), "", slash == path.npos ? "" : path.substr(slash + 1)};
+  RoutedOverride out{override, path.substr(0, slash), "", slash == path.npos ? "" : path.substr(slash + 1)};
   out.plain = out.name.substr(0, out.name.find('['));
   return out;
+}
+
+size_t bytes_of_values(const Params& params) {
+  size_t sum = 0;
+  for (const auto& [name, value] : params) sum += expression::bytes_of(value);
+  return sum;
 }
 
 /// Whether this draft has been told its value for the parameter and could not read it yet.
@@ -60,20 +64,15 @@ void bind(GraphParameter& p, const NodeDraft& use) {
 
 void bind_parameters(Level& level) {
   if (!level.use) return;
-  const auto bind_all = [&](std::vector<GraphParameter>& parameters) {
-    // A loop's variables follow the level's own parameters.
-    for (size_t i = 0; i < level.names.parameters.size(); i++) bind(parameters[i], *level.use);
-  };
-  bind_all(level.names.parameters);
-  for (const std::unique_ptr<Names>& round : level.rounds) bind_all(round->parameters);
+  for (GraphParameter& p : level.names.parameters) bind(p, *level.use);
 }
 
 Level& Levels::read(std::unique_ptr<Level> root, const std::vector<Override>& overrides) {
   Level& out = *levels_.emplace_back(std::move(root));
-  std::vector<RoutedOverride> routed;
+  std::vector<RoutedOverride> of_nodes;
   for (const Override& o : overrides)
-    if (!o.node.empty()) routed.push_back({&o, o.node});
-  read_level(out, routed);
+    if (!o.node.empty()) of_nodes.push_back(routed(&o, o.node));
+  read_level(out, of_nodes);
   return out;
 }
 
@@ -89,11 +88,14 @@ void Levels::read_level(Level& level, const std::vector<RoutedOverride>& overrid
     level.reading.seed = level.outer->reading.seed;
     level.reading.seed_path = level.outer->reading.seed_path + level.use->local + "/";
   }
+  std::map<std::string, std::vector<RoutedOverride>> by_node;
+  for (const RoutedOverride& o : overrides) by_node[o.plain].push_back(o);
   if (const JsonValue* nodes = level.graph->json->find("nodes"))
     for (const JsonMember& m : nodes->members) {
       level.positions.emplace(m.name, level.items.size());
       level.items.emplace_back(m.name, std::vector<Item>());
-      read_item(level, m, overrides);
+      const auto its = by_node.find(m.name);
+      read_item(level, m, its == by_node.end() ? std::vector<RoutedOverride>() : its->second);
     }
   refuse_unknown(level, overrides);
   read_outputs(level);
@@ -101,32 +103,42 @@ void Levels::read_level(Level& level, const std::vector<RoutedOverride>& overrid
 }
 
 void Levels::refuse_unknown(const Level& level, const std::vector<RoutedOverride>& overrides) {
+  if (overrides.empty()) return;
   std::vector<std::string> names;
   for (const auto& [name, items] : level.items) names.push_back(name);
+  std::map<std::string, std::vector<std::string>> rounds_of;  // sorted, by loop
+  const auto rounds_in = [&](const std::string& loop, const std::vector<Item>& items) -> const auto& {
+    const auto [at, is_new] = rounds_of.try_emplace(loop);
+    if (is_new)
+      for (const Item& item : items) at->second.push_back(item.draft->local);
+    if (is_new) std::ranges::sort(at->second);
+    return at->second;
+  };
+  const std::string in = level.path.empty() ? "the graph" : in_quotes(level.path.substr(0, level.path.size() - 1));
+  size_t hints = 0;
   for (const RoutedOverride& o : overrides) {
-    const Step step = first_step(o.path);
-    const std::vector<Item>* items = level.find(step.plain);
-    const std::string in = level.path.empty() ? "the graph" : in_quotes(level.path.substr(0, level.path.size() - 1));
+    const std::vector<Item>* items = level.find(o.plain);
     const auto refuse = [&](const std::string& message) {
       o.override->diagnostics(problems_).add(o.override->place, message);
     };
-    if (!items) {
-      refuse(fmt::format("{} has no node {}{}", in, in_quotes(step.name), suggestion(step.plain, names)));
-    } else if (step.name != step.plain) {
-      std::vector<std::string> rounds;
-      for (const Item& item : *items) rounds.push_back(item.draft->local);
-      if (std::ranges::find(rounds, step.name) == rounds.end())
-        refuse(fmt::format("{} has no node {}{}", in, in_quotes(step.name), suggestion(step.name, rounds)));
-    } else if (!step.rest.empty() && !items->empty() && !items->front().inner && !items->front().draft->muted) {
-      refuse(fmt::format("{} is no graph that has nodes", in_quotes(step.name)));
+    const auto refuse_name = [&](const std::string& wrong, const std::vector<std::string>& known) {
+      const std::string hint = hints++ < most_problems_shown ? suggestion(wrong, known) : "";
+      refuse(fmt::format("{} has no node {}{}", in, in_quotes(o.name), hint));
+    };
+    if (!items && std::ranges::find(level.graph->inputs, o.plain, &Port::name) != level.graph->inputs.end()) {
+      refuse(fmt::format("{} is an input, which takes a wire; it has no parameters", in_quotes(o.plain)));
+    } else if (!items) {
+      refuse_name(o.plain, names);
+    } else if (o.name != o.plain) {
+      const std::vector<std::string>& rounds = rounds_in(o.plain, *items);
+      if (!std::ranges::binary_search(rounds, o.name)) refuse_name(o.name, rounds);
+    } else if (!o.rest.empty() && !items->empty() && !items->front().inner && !items->front().draft->muted) {
+      refuse(fmt::format("{} is no graph that has nodes", in_quotes(o.name)));
     }
   }
 }
 
-void Levels::read_item(Level& level, const JsonMember& member, const std::vector<RoutedOverride>& overrides) {
-  std::vector<RoutedOverride> its;
-  for (const RoutedOverride& o : overrides)
-    if (first_step(o.path).plain == member.name) its.push_back(o);
+void Levels::read_item(Level& level, const JsonMember& member, const std::vector<RoutedOverride>& its) {
   std::vector<Item>& items = level.items.back().second;
   const std::string where = "node " + in_quotes(level.path + member.name);
   if (!is_node_name(member.name))
@@ -135,7 +147,7 @@ void Levels::read_item(Level& level, const JsonMember& member, const std::vector
   std::filesystem::path folder = level.graph->folder;
   if (const JsonValue* given = member.value.find("foreach")) loop = *given;
   for (const RoutedOverride& o : its)
-    if (o.path == member.name && o.override->name == "foreach" && o.override->json) {
+    if (o.name == member.name && o.rest.empty() && o.override->name == "foreach" && o.override->json) {
       loop = o.override->json;
       folder = o.override->base;
     }
@@ -144,30 +156,41 @@ void Levels::read_item(Level& level, const JsonMember& member, const std::vector
   Lacking lacking;
   const size_t before = made_from_.size();
   const auto rounds = read_loop(*loop, folder, *level.names.substitution, diagnostics, lacking, made_from_);
-  for (size_t i = before; i < made_from_.size(); i++) made_from_[i].node = level.path + member.name;
+  const std::set<std::string> names = level.names.substitution->names_in(*loop);
+  for (size_t i = before; i < made_from_.size(); i++) {
+    made_from_[i].node = level.path + member.name;
+    made_from_[i].set_by = settables_behind(level, names);
+  }
   unset_for_loops_.insert(lacking.unset.begin(), lacking.unset.end());
   if (!rounds) return;
-  for (const LoopRound& round : *rounds)
+  std::map<std::string, std::vector<size_t>> by_name;  // positions in `its`
+  for (size_t i = 0; i < its.size(); i++) by_name[its[i].name].push_back(i);
+  for (const LoopRound& round : *rounds) {
+    const std::string local = fmt::format("{}[{}]", member.name, round.label);
+    std::vector<size_t> positions = by_name[member.name];
+    if (const auto own = by_name.find(local); own != by_name.end()) {
+      positions.insert(positions.end(), own->second.begin(), own->second.end());
+      std::ranges::sort(positions);
+    }
+    std::vector<RoutedOverride> of_round;
+    for (const size_t i : positions) of_round.push_back(its[i]);
     if (Names* names = names_of_round(level, round, diagnostics))
-      read_round(level, member, fmt::format("{}[{}]", member.name, round.label), *names, its, items);
-  std::set<std::string> files;
-  for (const JsonMember& m : loop->members) files.merge(level.names.substitution->paths_in(m.value));
-  for (const Item& item : items) item.draft->loop_files = files;
+      read_round(level, member, local, *names, of_round, items);
+  }
+  for (const Item& item : items) item.draft->loop_names = names;
 }
 
 /// Null after a problem.
 Names* Levels::names_of_round(Level& level, const LoopRound& round, Diagnostics& diagnostics) {
   for (const GraphParameter& v : round.variables)
-    if (std::ranges::find(level.graph->parameters, v.param.name,
-                          [](const GraphParameter& p) { return p.param.name; }) != level.graph->parameters.end()) {
+    if (level.names.scope->look_up(v.param.name)) {
       diagnostics.add(v.place, fmt::format("the graph has a parameter {} already; choose another name with \"as\"",
                                            in_quotes(v.param.name)));
       return nullptr;
     }
   Names& out = *level.rounds.emplace_back(std::make_unique<Names>());
-  out.parameters = level.names.parameters;
-  out.parameters.insert(out.parameters.end(), round.variables.begin(), round.variables.end());
-  out.scope = std::make_unique<GraphScope>(out.parameters, level.graph->sources, level.path, problems_);
+  out.parameters = round.variables;
+  out.scope = std::make_unique<GraphScope>(out.parameters, *level.names.scope);
   out.substitution = std::make_unique<Substitution>(*out.scope);
   return &out;
 }
@@ -175,23 +198,20 @@ Names* Levels::names_of_round(Level& level, const LoopRound& round, Diagnostics&
 void Levels::read_round(Level& level, const JsonMember& member, const std::string& local, Names& names,
                         const std::vector<RoutedOverride>& overrides, std::vector<Item>& items) {
   if (is_full_) return;
-  if (nodes_.size() + others_.size() >= most_nodes) {
-    problems_.push_back({member.place, "",
-                         fmt::format("a graph may have at most {} nodes, those of its subgraphs "
-                                     "included",
-                                     most_nodes)});
+  const auto refuse = [&](const std::string& message) {
+    problems_.push_back({member.place, "", message});
     is_full_ = true;
-    return;
-  }
+  };
+  if (nodes_.size() + others_.size() >= most_nodes)
+    return refuse(fmt::format("a graph may have at most {} nodes, those of its subgraphs included", most_nodes));
   std::vector<const Override*> own;
   std::vector<RoutedOverride> deeper;
   for (const RoutedOverride& o : overrides) {
-    const Step step = first_step(o.path);
-    if (step.name != step.plain && step.name != local) continue;
-    if (step.rest.empty())
+    if (o.name != o.plain && o.name != local) continue;
+    if (o.rest.empty())
       own.push_back(o.override);
     else
-      deeper.push_back({o.override, step.rest});
+      deeper.push_back(routed(o.override, o.rest));
   }
   const JsonValue* type = member.value.find("type");
   const bool is_plain_type = !type || !type->is_text() || types_.find(type->text);
@@ -213,6 +233,11 @@ void Levels::read_round(Level& level, const JsonMember& member, const std::strin
     draft.node.type = &use_types_.emplace_back(type_of_use(*graph, given));
   }
   if (graph || !is_graph) read_node(draft, member.value, own, problems_);
+  text_ += bytes_of_values(draft.node.params);
+  if (text_ > most_text) return refuse("the values of all nodes together, with what they name, are longer than 64 MiB");
+  if (graph) parameters_ += graph->parameters.size();
+  if (parameters_ > most_parameters)
+    return refuse(fmt::format("the subgraphs of a graph may have at most {} parameters together", most_parameters));
   for (size_t i = before; i < problems_.size(); i++) {
     if (problems_[i].where.empty()) problems_[i].where = "node " + in_quotes(draft.node.name);
   }
@@ -290,7 +315,8 @@ void Levels::read_what_waits(Level& level, const std::set<std::string>& known) {
   if (!level.use) return;
   read_what_waits(*level.outer, known);
   NodeDraft& use = *level.use;
-  if (use.waiting.empty() || !std::ranges::includes(known, use.asked)) return;
+  if (use.waiting.empty() || !std::ranges::all_of(use.asked, [&](const std::string& n) { return known.contains(n); }))
+    return;
   const size_t before = problems_.size();
   read_waiting(use, problems_);
   set_file(problems_, before, use.node.file);

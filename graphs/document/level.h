@@ -14,9 +14,9 @@
 /// The nodes of a graph with those of its subgraphs: a tree of levels. Each level has parameters and names of its own.
 namespace terrazzo {
 
-/// Parameters as expressions see them: those of a level, or, in a round of a loop, these and the loop's variables.
+/// Parameters as expressions see them: those of a level, or, in a round of a loop, the loop's variables before these.
 struct Names {
-  std::vector<GraphParameter> parameters;
+  std::vector<GraphParameter> parameters;  ///< of a round only the variables
   std::unique_ptr<GraphScope> scope;
   std::unique_ptr<Substitution> substitution;
 };
@@ -50,10 +50,12 @@ struct Level {
   }
 };
 
-/// An override on its way to its node: `path` is what is left of the names of the levels, "walls/layout".
+/// An override on its way to its node, in the level that has "walls" for "walls[brick]/layout".
 struct RoutedOverride {
   const Override* override = nullptr;
-  std::string path;
+  std::string name;   ///< "walls[brick]"
+  std::string plain;  ///< "walls"
+  std::string rest;   ///< "layout"
 };
 
 /// Reads levels. Keeps all that has been read.
@@ -109,6 +111,8 @@ class Levels {
   std::deque<Port> output_ports_;
   std::vector<LoopSource> made_from_;
   std::set<std::string> unset_for_loops_;
+  size_t text_ = 0;        ///< bytes in the values of nodes
+  size_t parameters_ = 0;  ///< of subgraphs
   bool is_full_ = false;
 };
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/paths.h"
 #include "core/base/suggest.h"
 #include "graphs/document/convert.h"
 #include "graphs/document/file_origins.h"
@@ -13,6 +14,8 @@
 #include "graphs/document/given_inputs.h"
 #include "graphs/document/left_out.h"
 #include "graphs/document/level.h"
+#include "graphs/document/member_overrides.h"
+#include "graphs/document/pack_settings.h"
 #include "graphs/document/read_document.h"
 #include "graphs/document/unused.h"
 #include "graphs/document/wires.h"
@@ -88,7 +91,7 @@ class Loader {
     root.graph = main_;
     root.names.parameters = std::move(head.parameters);
     std::vector<GraphParameter>& parameters = root.names.parameters;
-    merge_members(overrides, parameters, main_->sources);
+    merge_members(overrides, parameters, main_->sources, problems_);
     set_parameters(parameters, overrides, main_->sources, problems_);
     coded("override");
     root.names.scope = std::make_unique<GraphScope>(parameters, main_->sources, "", problems_);
@@ -113,6 +116,11 @@ class Loader {
     if (!options.allow_unset) require_set(parameters, out.inputs, wanted);
     coded("unset");
     trace_files(drafts, order);
+    if (options.traces || !options.pack.empty()) trace_settables(drafts);
+    if (!options.pack.empty() && !options.allow_unset)
+      for (Problem& p : writes_elsewhere(drafts, without_trailing_slash(folder_), given_to_pack_))
+        problems_.push_back(std::move(p));
+    coded("parameter");
     if (!problems_.empty() && options.look_ahead)
       for (Problem& p : options.look_ahead(faultless(order))) problems_.push_back(std::move(p));
     coded("input");
@@ -121,11 +129,15 @@ class Loader {
     set_code(conversions, 0, "conversion");
     out.conversions = std::move(conversions);
     out.warnings = warnings_about(levels_, subgraphs_, root, order);
+    // What a pack says of its inputs stands in for parameters that nodes use.
+    if (!options.pack.empty())
+      std::erase_if(out.warnings, [](const Problem& p) { return p.code == "unused-parameter"; });
     const std::set<std::string> left = options.keep_going ? without_faulty(order, wanted) : wanted;
     const bool complete = std::ranges::all_of(drafts, [](const NodeDraft& d) { return d.unset.empty(); });
     for (const size_t i : order)
       if ((!is_part && (complete || options.allow_unset)) || left.contains(drafts[i].node.name)) {
         drafts[i].node.is_open = !drafts[i].unset.empty();
+        if (options.traces) out.set_by.emplace(drafts[i].node.name, std::move(drafts[i].set_by));
         out.graph.nodes.push_back(std::move(drafts[i].node));
       }
     out.graph.made_from = subgraphs_.files();
@@ -144,40 +156,23 @@ class Loader {
   std::vector<Override> overrides_from(const std::vector<Preset>& presets, const std::vector<std::string>& texts,
                                        const LoadOptions& options) {
     std::vector<Override> out = chosen_presets(presets, options.presets, problems_);
+    const auto of_presets = ptrdiff_t(out.size());
     const auto add = [&](std::vector<Override> more) {
       out.insert(out.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     };
     for (const fs::path& file : options.settings) add(read_settings(file, problems_));
     add(read_overrides(texts, working_folder(), problems_));
-    for (const Preset& p : presets)
-      if (std::ranges::find(options.presets, p.name) == options.presets.end())
-        check_targets(p, main_->parameters, main_->sources, problems_);
-    return out;
-  }
-
-  /// Makes "weights.height=2" the whole map, where `weights` is no node but a parameter of the graph.
-  void merge_members(std::vector<Override>& overrides, const std::vector<GraphParameter>& parameters,
-                     const NodeTypes& nodes) {
-    std::map<std::string, JsonValue> maps;
-    for (Override& o : overrides) {
-      const std::string& name = o.node.empty() ? o.name : o.node;
-      const auto p = std::ranges::find_if(parameters, [&](const GraphParameter& g) { return g.param.name == name; });
-      const bool is_node = std::ranges::find(nodes, name, &NodeTypes::value_type::first) != nodes.end();
-      if (p == parameters.end() || is_node ||
-          (p->param.type != ParamType::number_map && p->param.type != ParamType::text_map))
-        continue;
-      if (o.node.empty()) {
-        maps[name] = o.json_for(p->param);
-        continue;
-      }
-      const auto [at, is_new] = maps.try_emplace(name, p->value ? json_of(*p->value) : JsonValue::empty_object());
-      const std::optional<JsonValue> merged = with_member(at->second, o.name, o, problems_);
-      o.name = name;
-      o.node.clear();
-      if (!merged) continue;
-      at->second = *merged;
-      o.json = *merged;
+    if (!options.pack.empty()) {
+      given_to_pack_.assign(out.begin() + of_presets, out.end());
+      std::vector<Override> packed = pack_settings(options.pack, out, problems_);
+      std::swap(out, packed);
+      add(std::move(packed));
     }
+    std::vector<const Preset*> others;
+    for (const Preset& p : presets)
+      if (std::ranges::find(options.presets, p.name) == options.presets.end()) others.push_back(&p);
+    check_targets(others, main_->parameters, main_->sources, problems_);
+    return out;
   }
 
   /// Where the results come from that an expression asks for: through inputs and subgraphs.
@@ -349,6 +344,7 @@ class Loader {
   std::vector<Problem> of_sources_;  ///< what looking ahead has found: of some nodes nobody may want to hear it
   size_t coded_ = 0;                 ///< how many of them have their code
   std::vector<std::string> given_;
+  std::vector<Override> given_to_pack_;  ///< what a pack is told by others than itself
   KnownTypes types_;
   Subgraphs subgraphs_;
   Levels levels_;
@@ -367,7 +363,11 @@ LoadedGraph load_graph(const fs::path& path, const std::vector<std::string>& ove
 }
 
 GraphInterface read_interface(const fs::path& path) {
-  Loader loader(read_document(path), path, {});
+  return read_interface_text(read_document(path), path);
+}
+
+GraphInterface read_interface_text(std::string_view text, const fs::path& path) {
+  Loader loader(text, path, {});
   GraphInterface out = loader.interface();
   loader.finish();
   return out;

@@ -41,6 +41,10 @@ struct LoadOptions {
   /// If a document has problems: finds more in its valid nodes, so that all are reported at once. Gets the nodes in
   /// topological order, as far as there is one.
   std::function<std::vector<Problem>(const std::vector<GraphNode>&)> look_ahead{};
+  /// Of a graph that comes from a pack: where that is unpacked. What it says about its inputs counts less than anything
+  /// else. Sinks may write into the folder of `path`; elsewhere only where overrides and settings files say so.
+  std::filesystem::path pack{};
+  bool traces = false;  ///< tells LoadedGraph::set_by
 };
 
 struct LoadedGraph {
@@ -50,7 +54,8 @@ struct LoadedGraph {
   std::vector<Preset> presets;
   std::vector<Port> inputs;  ///< of a graph that is made to be a node of others
   std::vector<LoopSource> loops;
-  std::vector<std::string> given;  ///< of LoadOptions::inputs, those that the graph declares
+  std::map<std::string, SetBy> set_by{};  ///< by node, if LoadOptions::traces
+  std::vector<std::string> given;         ///< of LoadOptions::inputs, those that the graph declares
   /// Images that become materials of one map; nodes and parameters that nothing uses.
   std::vector<Problem> conversions, warnings;
 };
@@ -76,5 +81,6 @@ struct GraphInterface {
 
 /// Reads summary and parameters; nodes are not looked at. Throws GraphError.
 GraphInterface read_interface(const std::filesystem::path& path);
+GraphInterface read_interface_text(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace terrazzo

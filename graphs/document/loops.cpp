@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <set>
 
+#include <dirent.h>
 #include <fmt/format.h>
 #include <glob.h>
+#include <sys/stat.h>
 
 #include "core/base/suggest.h"
 #include "core/base/text.h"
+#include "core/file/path_spelling.h"
+#include "core/file/read_guard.h"
 #include "graphs/document/convert.h"
 #include "graphs/document/format.h"
 #include "graphs/document/variations.h"
@@ -49,6 +53,16 @@ std::string label_of(const std::string& text) {
   return out;
 }
 
+/// The part of a pattern in front of the first name with a wildcard.
+fs::path fixed_part(const fs::path& pattern) {
+  fs::path out;
+  for (const fs::path& part : pattern) {
+    if (part.string().find_first_of("*?[") != std::string::npos) break;
+    out /= part;
+  }
+  return out;
+}
+
 /// What a misspelt folder, or files taken for folders, leave a loop with.
 std::string nothing_like(const fs::path& pattern, bool folders, size_t others) {
   std::string message = fmt::format("no {} is named like {}", folders ? "folder" : "file", pattern.string());
@@ -56,13 +70,41 @@ std::string nothing_like(const fs::path& pattern, bool folders, size_t others) {
     return fmt::format("{}; {} {}: use \"{}\"", message, counted(int64_t(others), folders ? "file" : "folder"),
                        others == 1 ? "is" : "are", folders ? "files" : "folders");
   fs::path folder;
-  for (const fs::path& part : pattern.parent_path()) {
-    if (part.string().find_first_of("*?[") != std::string::npos) break;
+  for (const fs::path& part : fixed_part(pattern.parent_path())) {
     folder /= part;
     std::error_code failure;
     if (!fs::is_directory(folder, failure)) return fmt::format("{}; there is no folder {}", message, folder.string());
   }
   return message;
+}
+
+/// Lists what is named like a pattern, where ReadGuard allows it; throws what that throws.
+std::vector<fs::path> paths_like(const fs::path& pattern) {
+  ReadGuard::check(fixed_part(pattern));
+  static thread_local std::exception_ptr refused;  // glob, which is C, is told only that it failed
+  refused = nullptr;
+  glob_t found{};
+  found.gl_opendir = [](const char* folder) -> void* {
+    try {
+      if (!refused) ReadGuard::check(folder);
+    } catch (...) {
+      refused = std::current_exception();
+    }
+    if (!refused) return ::opendir(folder);
+    errno = EACCES;
+    return nullptr;
+  };
+  found.gl_readdir = [](void* folder) { return ::readdir(static_cast<DIR*>(folder)); };
+  found.gl_closedir = [](void* folder) { ::closedir(static_cast<DIR*>(folder)); };
+  found.gl_lstat = [](const char* path, struct stat* out) { return ::lstat(path, out); };
+  found.gl_stat = [](const char* path, struct stat* out) { return ::stat(path, out); };
+  const int code = ::glob(pattern.c_str(), GLOB_ALTDIRFUNC, nullptr, &found);
+  std::vector<fs::path> paths;
+  for (size_t i = 0; code == 0 && i < found.gl_pathc; i++) paths.emplace_back(found.gl_pathv[i]);
+  ::globfree(&found);
+  if (refused) std::rethrow_exception(std::exchange(refused, nullptr));
+  for (const fs::path& path : paths) ReadGuard::check(path);
+  return paths;
 }
 
 class LoopReader {
@@ -91,10 +133,17 @@ class LoopReader {
       complain(fmt::format("expected a text for \"{}\", found {}", kind->name, found(*given)));
       return std::nullopt;
     }
+    if (is_path)
+      if (const std::string advice = path_advice(folder_, given->text); !advice.empty()) complain(advice);
+    if (failed_) return std::nullopt;
     if (kind->name == "table") {
       read_table_of(folder_ / given->text);
     } else if (is_path) {
-      find_paths((folder_ / given->text).lexically_normal(), kind->name == "folders");
+      try {
+        find_paths((folder_ / given->text).lexically_normal(), kind->name == "folders");
+      } catch (const Error& e) {
+        complain(e.what());
+      }
     } else {
       read_values(*given);
     }
@@ -190,23 +239,20 @@ class LoopReader {
 
   void find_paths(const fs::path& pattern, bool folders) {
     made_from_.push_back({.kind = folders ? "folders" : "files", .path = pattern, .as = as_});
-    glob_t found{};
-    const int code = ::glob(pattern.c_str(), 0, nullptr, &found);
     std::vector<fs::path> paths;
     size_t others = 0;
-    for (size_t i = 0; code == 0 && i < found.gl_pathc; i++) {
-      const fs::path path = found.gl_pathv[i];
+    for (const fs::path& path : paths_like(pattern)) {
       std::error_code failure;
       if (folders ? fs::is_directory(path, failure) : fs::is_regular_file(path, failure))
         paths.push_back(path);
       else
         others += folders ? fs::is_regular_file(path, failure) : fs::is_directory(path, failure);
     }
-    ::globfree(&found);
     if (paths.empty()) return complain(nothing_like(pattern, folders, others));
     if (paths.size() > most_variations)
       return complain(fmt::format("expected at most {} of them, found {}", most_variations, paths.size()));
     std::ranges::sort(paths);
+    for (const fs::path& p : paths) made_from_.back().names.push_back(p.filename().string());
     for (const fs::path& p : paths)
       add_round(JsonValue::of(p.string()), ParamType::path, (folders ? p.filename() : p.stem()).string());
   }
@@ -215,6 +261,7 @@ class LoopReader {
     made_from_.push_back({.kind = "table", .path = file, .as = as_});
     std::vector<Variation> rows;
     try {
+      ReadGuard::check(file);
       rows = read_table(file);
     } catch (const Error& e) {
       return complain(e.what());

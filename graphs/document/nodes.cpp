@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/suggest.h"
+#include "core/file/read_guard.h"
 #include "graphs/document/convert.h"
 
 namespace terrazzo {
@@ -63,8 +65,11 @@ class NodeReader {
     }
     draft_.node.type = reading_.known->find(given->text);
     if (!draft_.node.type) {
-      std::vector<std::string> names = *reading_.graph_names;
-      names.insert(names.end(), reading_.known->names.begin(), reading_.known->names.end());
+      std::vector<std::string> names;
+      if (problems_.size() < most_problems_shown) {
+        names = *reading_.graph_names;
+        names.insert(names.end(), reading_.known->names.begin(), reading_.known->names.end());
+      }
       complain(given->place, fmt::format("unknown node type {}{}; `terrazzo nodes` lists all", in_quotes(given->text),
                                          did_you_mean(given->text, names)));
     }
@@ -97,13 +102,15 @@ class NodeReader {
     if (!param || (param->type != ParamType::number_map && param->type != ParamType::text_map)) return false;
     const auto at = std::ranges::find(entries, param->name, &NodeEntry::name);
     JsonValue map = JsonValue::empty_object();
-    if (at != entries.end())
+    if (at != entries.end() && at->merged)
+      map = std::move(*at->merged);
+    else if (at != entries.end())
       map = given_by(*at, *param);
     else if (param->fallback)
       map = json_of(*param->fallback);
-    const std::optional<JsonValue> merged = with_member(std::move(map), o.name.substr(dot + 1), o, problems_);
+    std::optional<JsonValue> merged = with_member(std::move(map), o.name.substr(dot + 1), o, problems_);
     if (!merged) return true;
-    const NodeEntry entry{param->name, o.place, nullptr, &o, std::make_shared<const JsonValue>(*merged)};
+    const NodeEntry entry{param->name, o.place, nullptr, &o, std::make_shared<JsonValue>(std::move(*merged))};
     if (at == entries.end()) {
       entries.push_back(entry);
     } else {
@@ -180,10 +187,15 @@ class NodeReader {
     draft_.asked.insert(lacking.nodes.begin(), lacking.nodes.end());
     if (!lacking.nodes.empty()) draft_.waiting.push_back(e);
     if (!value) return;
-    if (param.type == ParamType::path) draft_.node.files_by[param.name] = substitution_.paths_in(given);
+    if (std::set<std::string> names = substitution_.names_in(given); !names.empty() || param.type == ParamType::path)
+      draft_.names_by[param.name] = std::move(names);
     const std::filesystem::path& base = e.by ? e.by->base : reading_.graph_folder;
-    if (std::optional<ParamValue> read = read_param(*value, param, base, diagnostics))
+    if (std::optional<ParamValue> read = read_param(*value, param, base, diagnostics)) {
+      const bool is_literal = value->is_text() && given.is_text() && value->text == given.text;
+      if (e.by && !e.by->json && param.type == ParamType::path && is_literal)
+        ReadGuard::name(e.by->where, std::get<std::string>(*read));
       draft_.node.params.emplace(param.name, std::move(*read));
+    }
   }
 
   void read_port(const NodeEntry& e, const Port& port) {
@@ -239,8 +251,16 @@ class NodeReader {
   }
 
   void run_check() {
-    if (!type().check || draft_.node.params.size() < type().params.size()) return;
-    for (const std::string& message : type().check(draft_.node.params)) complain(place_of(message), message);
+    if (draft_.node.params.size() < type().params.size()) return;
+    const bool is_foreign = !type().origin.name.empty();
+    try {
+      if (type().check)
+        for (const std::string& message : type().check(draft_.node.params)) complain(place_of(message), message);
+      // Many ask for these files, and none of them expects that it fails.
+      if (is_foreign && type().files_read) type().files_read(draft_.node.params);
+    } catch (const Error& e) {
+      complain(draft_.node.place_of(e.about()), e.what());
+    }
   }
 
   /// Where the parameter stands that a message begins with, in quotes; else the node.

@@ -12,6 +12,7 @@
 
 #include "graphs/document/graph.h"
 #include "graphs/document/json.h"
+#include "graphs/document/loops.h"
 #include "graphs/document/override.h"
 #include "graphs/document/substitution.h"
 
@@ -40,7 +41,7 @@ struct NodeEntry {
   Place place;
   const JsonValue* value = nullptr;
   const Override* by = nullptr;
-  std::shared_ptr<const JsonValue> merged{};  ///< a map in which an override has set one member; instead of both
+  std::shared_ptr<JsonValue> merged{};  ///< a map in which an override has set one member; instead of both
 };
 
 struct Level;
@@ -59,7 +60,9 @@ struct NodeDraft {
   Level* level = nullptr;            ///< the graph, or use of a subgraph, that it stands in
   const NodeReading* reading = nullptr;
   Substitution* substitution = nullptr;
-  std::set<std::string> loop_files{};  ///< of a round: its graph's path parameters that say over what its loop goes
+  std::map<std::string, std::set<std::string>> names_by{};  ///< of its parameters: the graph's that they name
+  SetBy set_by{};                                           ///< if it is asked for, see trace_settables
+  std::set<std::string> loop_names{};                       ///< of a round: those that say over what its loop goes
 };
 /// Their addresses stay.
 using Drafts = std::deque<NodeDraft>;

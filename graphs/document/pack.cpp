@@ -1,13 +1,11 @@
 #include "graphs/document/pack.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
 #include "core/file/path_relation.h"
 #include "core/file/tar.h"
@@ -28,6 +26,12 @@ JsonValue& member(JsonValue& object, const std::string& name) {
   return *object.find(name);
 }
 
+JsonValue object_of(std::map<std::string, JsonValue>& members) {
+  JsonValue out = JsonValue::empty_object();
+  for (auto& [name, value] : members) out.members.push_back({name, {}, std::move(value)});
+  return out;
+}
+
 /// Takes the graphs that a document's nodes name by file into its section `graphs`.
 class Embedding {
  public:
@@ -36,12 +40,14 @@ class Embedding {
       for (const JsonMember& m : graphs->members) taken_.insert(m.name);
   }
 
-  void run(const fs::path& folder) {
+  /// Returns what is called otherwise now, as sentences.
+  std::vector<std::string> run(const fs::path& folder) {
     embed_in(*document_.find("nodes"), folder);
     if (JsonValue* graphs = document_.find("graphs"))
       for (JsonMember& m : graphs->members)
         if (JsonValue* nodes = m.value.find("nodes")) embed_in(*nodes, folder);
     for (JsonMember& m : embedded_) member(document_, "graphs").members.push_back(std::move(m));
+    return std::move(renamed_);
   }
 
  private:
@@ -53,15 +59,14 @@ class Embedding {
 
   /// The name that the graph in a file has here.
   std::string name_of(const fs::path& file) {
-    const auto [at, is_new] = names_.emplace(file, free_name(file.stem().string()));
-    std::string name = at->second;
-    if (!is_new) return name;
+    if (const auto known = names_.find(file); known != names_.end()) return known->second;
+    std::string name = names_[file] = free_name(file.stem().string(), file.string());
     JsonValue graph = current_document(read_document(file), file.string());
     std::map<std::string, std::string> own;  // the names of its own section `graphs`, here
     std::vector<JsonMember> inner;
     if (const JsonValue* graphs = graph.find("graphs"))
       for (const JsonMember& m : graphs->members) {
-        own[m.name] = free_name(m.name);
+        own[m.name] = free_name(m.name, fmt::format("\"{}\" of {}", m.name, file.string()));
         inner.push_back({own[m.name], {}, m.value});
       }
     inner.push_back({name, {}, graph});
@@ -79,35 +84,44 @@ class Embedding {
     return name;
   }
 
-  std::string free_name(const std::string& wanted) {
+  /// `what` it is the name of, for people.
+  std::string free_name(const std::string& wanted, const std::string& what) {
     std::string plain;
     for (const char c : wanted) plain += is_node_name(std::string(1, c)) ? c : '_';
     std::string out = plain;
     for (int i = 2; find_node_type(out) || !taken_.insert(out).second; i++) out = fmt::format("{}_{}", plain, i);
+    if (out != wanted) renamed_.push_back(fmt::format("the subgraph {} is called {} in the pack", what, out));
     return out;
   }
 
   JsonValue& document_;
   std::set<std::string> taken_;
+  std::vector<std::string> renamed_;
   std::map<fs::path, std::string> names_;
   std::vector<JsonMember> embedded_;
 };
 
-/// Whether a file is this one, or lies in this folder.
 class Packing {
  public:
   Packing(const fs::path& graph, const LoadedGraph& loaded, const fs::path& target)
-      : file_(graph), loaded_(loaded), archive_(target), settings_(JsonValue::empty_object()) {}
+      : file_(graph), loaded_(loaded), archive_(target) {
+    for (const GraphNode& node : loaded.graph.nodes)
+      if (node.type->is_sink())
+        for (const auto& [param, sources] : loaded.set_by.at(node.name))
+          for (const Settable& s : sources)
+            if (s.node.empty()) written_.insert(s.name);
+  }
 
   PackedFiles run() {
     JsonValue document = current_document(read_document(file_), file_.string());
-    Embedding(document).run(fs::absolute(file_).parent_path());
+    out_.renamed = Embedding(document).run(fs::absolute(file_).parent_path());
     add_presets(document);
     for (const GraphNode& node : loaded_.graph.nodes) pack_inputs(node);
     for (const LoopSource& loop : loaded_.loops) pack_loop(loop);
     for (const GraphParameter& p : loaded_.parameters) set_parameter(document, p);
     archive_.add("graph.json", formatted(document));
-    archive_.add("settings.json", formatted(settings_));
+    archive_.add("settings.json", formatted(object_of(settings_)));
+    archive_.add("sources.json", formatted(object_of(sources_)));
     archive_.finish();
     return std::move(out_);
   }
@@ -154,9 +168,38 @@ class Packing {
       const auto is_inside = [&](const fs::path& file) { return lies_in(path, file); };
       if (path.empty() || std::ranges::none_of(files, is_inside)) continue;
       std::erase_if(rest, is_inside);
-      settings_.set(node.name + "." + param.name, JsonValue::of(place_of(path, files)));
+      const SetBy& set_by = loaded_.set_by.at(node.name);
+      const auto by = set_by.find(param.name);
+      add_setting(node.name, param.name, JsonValue::of(place_of(path, files)),
+                  by == set_by.end() ? std::vector<Settable>() : by->second);
     }
     for (const fs::path& file : rest) out_.left_out.push_back(file.string());
+  }
+
+  /// Without the labels of loops that none of `sources` goes over: "sub/n" of "sub[a]/n".
+  static std::string in_all_rounds(const std::string& node, const std::vector<Settable>& sources) {
+    std::string out;
+    for (size_t at = 0; at < node.size();) {
+      const size_t label = std::min(node.find('[', at), node.size());
+      const size_t end = label == node.size() ? label : node.find(']', label) + 1;
+      out += node.substr(at, label - at);
+      const auto goes_over = [&](const Settable& s) { return s.name == "foreach" && s.node == node.substr(0, label); };
+      if (std::ranges::any_of(sources, goes_over)) out += node.substr(label, end - label);
+      at = end;
+    }
+    return out;
+  }
+
+  /// Sets something of a node, unless one of `sources` is set.
+  void add_setting(const std::string& node, const std::string& name, JsonValue value,
+                   const std::vector<Settable>& sources) {
+    const std::string target = in_all_rounds(node, sources) + "." + name;
+    JsonValue names;
+    names.kind = JsonValue::Kind::list;
+    for (const Settable& s : sources)
+      names.items.push_back(JsonValue::of(s.node.empty() ? s.name : in_all_rounds(s.node, sources) + "." + s.name));
+    settings_.insert_or_assign(target, std::move(value));
+    if (!names.items.empty()) sources_.insert_or_assign(target, std::move(names));
   }
 
   /// What a loop finds, and only its names: its nodes have their inputs by settings of their own.
@@ -167,18 +210,13 @@ class Packing {
     if (loop.kind == "table") {
       add_file(what, loop.path);
     } else {
-      what = place + "/*";
-      const std::string prefix = loop.node + "[";
-      std::set<std::string> names;
-      for (const GraphNode& n : loaded_.graph.nodes)
-        if (n.name.starts_with(prefix))
-          names.insert(n.name.substr(prefix.size(), n.name.find(']', prefix.size()) - prefix.size()));
-      const std::string extension = loop.kind == "files" ? loop.path.extension().string() : "/kept";
-      for (const std::string& name : names) archive_.add(place + "/" + name + extension, "");
+      what = place + "/*/*";
+      for (size_t i = 0; i < loop.names.size(); i++)
+        archive_.add(fmt::format("{}/{:05}/{}{}", place, i, loop.names[i], loop.kind == "folders" ? "/kept" : ""), "");
     }
     given.set(loop.kind, JsonValue::of(what));
     given.set("as", JsonValue::of(loop.as));
-    settings_.set(loop.node + ".foreach", std::move(given));
+    add_setting(loop.node, "foreach", std::move(given), loop.set_by);
   }
 
   /// A value that the graph was given becomes the default of its parameter, or, of an input, a setting.
@@ -187,8 +225,9 @@ class Packing {
     const bool is_path = p.param.type == ParamType::path;
     if (is_path) {
       const auto place = places_.find(fs::path(std::get<std::string>(*p.value)));
-      if (place != places_.end()) {
-        settings_.set(p.param.name, JsonValue::of(place->second));
+      // What results are written to is relative to the pack; what is made from others goes with these.
+      if (place != places_.end() && !written_.contains(p.param.name) && !p.formula) {
+        settings_.insert_or_assign(p.param.name, JsonValue::of(place->second));
         return;
       }
     }
@@ -200,67 +239,22 @@ class Packing {
   const fs::path& file_;
   const LoadedGraph& loaded_;
   TarWriter archive_;
-  JsonValue settings_;
+  std::map<std::string, JsonValue> settings_, sources_;  ///< sources of settings: what can be set instead
+  std::set<std::string> written_;                        ///< parameters of the graph that results are written to
   PackedFiles out_;
   std::map<fs::path, std::string> places_;
   std::set<std::string> packed_;
   int loops_ = 0;
 };
 
-/// Whether unpacking a file of this name stays in the folder.
-bool is_safe(const std::string& name) {
-  const fs::path path(name);
-  bool goes_up = false;
-  for (const fs::path& part : path) goes_up |= part == "..";
-  return !name.empty() && !path.is_absolute() && !goes_up && !name.ends_with('/') &&
-         (name == "graph.json" || name == "settings.json" || name.starts_with("inputs/") || name.starts_with("loops/"));
-}
-
-void remove_unused(const fs::path& folder) {
-  std::error_code failure;
-  const auto month = std::chrono::hours(24 * 30);
-  for (const auto& entry : fs::directory_iterator(folder, failure))
-    if (fs::file_time_type::clock::now() - entry.last_write_time(failure) > month) fs::remove_all(entry, failure);
-}
-
 }  // namespace
 
 PackedFiles write_pack(const fs::path& graph, const std::vector<std::string>& overrides, const LoadOptions& options,
                        const fs::path& target) {
-  const LoadedGraph loaded = load_graph(graph, overrides, options);
+  LoadOptions tracing = options;
+  tracing.traces = true;
+  const LoadedGraph loaded = load_graph(graph, overrides, tracing);
   return Packing(graph, loaded, target).run();
-}
-
-bool is_pack(const fs::path& file) {
-  return is_tar(file);
-}
-
-fs::path unpacked(const fs::path& pack, const fs::path& folder) {
-  const std::vector<TarEntry> entries = tar_entries(pack);
-  const auto has = [&](const char* name) { return std::ranges::find(entries, name, &TarEntry::name) != entries.end(); };
-  if (!has("graph.json") || !has("settings.json"))
-    throw Error(fmt::format(
-        "{}: expected a pack (terrazzo pack), found an archive without graph.json and settings.json", pack.string()));
-  for (const TarEntry& e : entries)
-    if (!is_safe(e.name))
-      throw Error(
-          fmt::format("{}: the pack holds a file of a name that packs do not have: \"{}\"", pack.string(), e.name));
-  fs::path place = folder / content_digest(pack).value_or(Digest()).hex();
-  std::error_code failure;
-  if (fs::exists(place / "settings.json", failure)) {
-    fs::last_write_time(place, fs::file_time_type::clock::now(), failure);
-    return place;
-  }
-  fs::create_directories(folder, failure);
-  remove_unused(folder);
-  const fs::path temporary = temporary_beside(place);
-  for (const TarEntry& e : entries) {
-    fs::create_directories((temporary / e.name).parent_path(), failure);
-    extract(pack, e, temporary / e.name);
-  }
-  fs::rename(temporary, place, failure);  // another process may have been faster
-  if (failure) fs::remove_all(temporary, failure);
-  return place;
 }
 
 }  // namespace terrazzo

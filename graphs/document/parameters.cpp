@@ -1,11 +1,13 @@
 #include "graphs/document/parameters.h"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
 #include "core/base/text.h"
+#include "core/file/read_guard.h"
 #include "graphs/document/convert.h"
 
 namespace terrazzo {
@@ -16,6 +18,11 @@ namespace {
 std::string hint_for(const std::string& wrong, const std::vector<std::string>& names, const NodeTypes& nodes) {
   std::vector<std::string> of_nodes;
   for (const auto& [node, type] : nodes) {
+    if (node == wrong && type && type->name == "input")
+      return fmt::format(
+          "; \"{0}\" is an input, which takes a wire: make the graph a node of another one, such as {{\"type\": "
+          "\"FILE.json\", \"{0}\": \"@node\"}}",
+          wrong);
     if (node == wrong) return fmt::format("; \"{0}\" is a node: write {0}.parameter=value", wrong);
     if (type && type->find_param(wrong)) of_nodes.push_back(node + "." + wrong);
   }
@@ -73,17 +80,22 @@ bool is_node_name(const std::string& name) {
 void set_parameters(std::vector<GraphParameter>& parameters, const std::vector<Override>& overrides,
                     const NodeTypes& nodes, std::vector<Problem>& problems) {
   std::vector<std::string> names;
-  for (const GraphParameter& p : parameters) names.push_back(p.param.name);
+  std::map<std::string, size_t> positions;
+  for (const GraphParameter& p : parameters) {
+    positions.emplace(p.param.name, names.size());
+    names.push_back(p.param.name);
+  }
+  size_t hints = 0;
   for (const Override& o : overrides) {
     if (!o.node.empty()) continue;
     Diagnostics diagnostics = o.diagnostics(problems);
-    const auto at = std::find(names.begin(), names.end(), o.name);
-    if (at == names.end()) {
-      diagnostics.add(
-          o.place, fmt::format("the graph has no parameter {}{}", in_quotes(o.name), hint_for(o.name, names, nodes)));
+    const auto at = positions.find(o.name);
+    if (at == positions.end()) {
+      const std::string hint = hints++ < most_problems_shown ? hint_for(o.name, names, nodes) : "";
+      diagnostics.add(o.place, fmt::format("the graph has no parameter {}{}", in_quotes(o.name), hint));
       continue;
     }
-    GraphParameter& p = parameters[at - names.begin()];
+    GraphParameter& p = parameters[at->second];
     p.overridden = true;
     if (p.is_wrong) continue;
     const JsonValue json = o.json_for(p.param);
@@ -96,6 +108,8 @@ void set_parameters(std::vector<GraphParameter>& parameters, const std::vector<O
     } else {
       p.value = read_param(json, p.param, o.base, diagnostics);
       p.is_wrong = !p.value;
+      if (!o.json && p.value && p.param.type == ParamType::path)
+        ReadGuard::name(o.where, std::get<std::string>(*p.value));
     }
   }
 }

@@ -1,6 +1,8 @@
 #include "graphs/document/presets.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -54,6 +56,14 @@ class PresetReader {
   std::vector<Problem>& problems_;
 };
 
+const std::string& name_in(const std::string& name) {
+  return name;
+}
+template <typename T>
+const std::string& name_in(const std::pair<const std::string, T>& named) {
+  return named.first;
+}
+
 }  // namespace
 
 std::vector<Preset> read_presets(const JsonValue& section, const fs::path& base, const std::string& where,
@@ -94,30 +104,35 @@ std::vector<Override> chosen_presets(const std::vector<Preset>& presets, const s
   return out;
 }
 
-void check_targets(const Preset& preset, const std::vector<GraphParameter>& parameters, const NodeTypes& nodes,
-                   std::vector<Problem>& problems) {
-  std::vector<std::string> parameter_names, node_names;
-  for (const GraphParameter& p : parameters) parameter_names.push_back(p.param.name);
-  for (const auto& [name, type] : nodes) node_names.push_back(name);
-  const auto require = [&](const Override& o, const std::string& what, const std::string& name,
-                           const std::vector<std::string>& known) {
-    if (std::ranges::find(known, name) == known.end())
-      o.diagnostics(problems).add(o.place, fmt::format("{} {}{}", what, in_quotes(name), suggestion(name, known)));
+void check_targets(const std::vector<const Preset*>& presets, const std::vector<GraphParameter>& parameters,
+                   const NodeTypes& nodes, std::vector<Problem>& problems) {
+  std::set<std::string> parameter_names;
+  std::map<std::string, const NodeType*> types;
+  for (const GraphParameter& p : parameters) parameter_names.insert(p.param.name);
+  for (const auto& [name, type] : nodes) types.emplace(name, type);
+  size_t hints = 0;
+  const auto refuse = [&](const Override& o, const std::string& what, const std::string& name, const auto& known) {
+    std::vector<std::string> names;
+    if (hints++ < most_problems_shown)
+      for (const auto& k : known) names.push_back(name_in(k));
+    o.diagnostics(problems).add(o.place, fmt::format("{} {}{}", what, in_quotes(name), suggestion(name, names)));
   };
-  for (const Override& o : preset.set) {
+  const auto check = [&](const Override& o) {
     if (o.node.empty()) {
-      require(o, "the graph has no parameter", o.name, parameter_names);
-      continue;
+      if (!parameter_names.contains(o.name)) refuse(o, "the graph has no parameter", o.name, parameter_names);
+      return;
     }
-    if (o.node.find_first_of("/[") != o.node.npos) continue;  // known once subgraphs and loops have been read
-    require(o, "the graph has no node", o.node, node_names);
-    const auto node = std::ranges::find(nodes, o.node, &NodeTypes::value_type::first);
-    if (node == nodes.end() || !node->second) continue;
+    if (o.node.find_first_of("/[") != o.node.npos) return;  // known once subgraphs and loops have been read
+    const auto node = types.find(o.node);
+    if (node == types.end()) return refuse(o, "the graph has no node", o.node, types);
+    const NodeType* type = node->second;
+    if (!type || type->find_input(o.name) || type->find_param(o.name)) return;
     std::vector<std::string> known;
-    for (const Port& p : node->second->inputs) known.push_back(p.name);
-    for (const Param& p : node->second->params) known.push_back(p.name);
-    require(o, node->second->name + " has no port or parameter", o.name, known);
-  }
+    for (const Port& port : type->inputs) known.push_back(port.name);
+    for (const Param& param : type->params) known.push_back(param.name);
+    refuse(o, type->name + " has no port or parameter", o.name, known);
+  };
+  for (const Preset* preset : presets) std::ranges::for_each(preset->set, check);
 }
 
 }  // namespace terrazzo

@@ -27,8 +27,8 @@ std::vector<Preset> presets_beside(const std::filesystem::path& graph, std::vect
 std::vector<Override> chosen_presets(const std::vector<Preset>& presets, const std::vector<std::string>& names,
                                      std::vector<Problem>& problems);
 
-/// Whether there is all that a preset sets: for those that nobody has chosen.
-void check_targets(const Preset& preset, const std::vector<GraphParameter>& parameters, const NodeTypes& nodes,
-                   std::vector<Problem>& problems);
+/// Whether there is all that presets set: for those that nobody has chosen.
+void check_targets(const std::vector<const Preset*>& presets, const std::vector<GraphParameter>& parameters,
+                   const NodeTypes& nodes, std::vector<Problem>& problems);
 
 }  // namespace terrazzo

@@ -8,6 +8,8 @@
 
 #include "core/base/suggest.h"
 #include "core/file/file_io.h"
+#include "core/file/path_spelling.h"
+#include "core/file/tar.h"
 #include "core/image/image_file.h"
 
 namespace terrazzo {
@@ -37,8 +39,16 @@ std::string read_document(const fs::path& path, const std::string& what) {
   };
   std::error_code failure;
   const fs::file_status status = fs::status(path, failure);
-  if (!fs::exists(status)) throw refuse(fmt::format("there is no such {}{}", what, file_suggestion(path)));
+  if (!fs::exists(status)) {
+    const std::string advice = path_advice("", path.string());
+    throw refuse(fmt::format("there is no such {}{}", what, advice.empty() ? file_suggestion(path) : "; " + advice));
+  }
   if (fs::is_directory(status)) throw refuse(fmt::format("expected a {}, found a folder", what));
+  if (is_tar(path))
+    throw refuse(
+        fmt::format("expected a {}, found a pack or another tar archive; `terrazzo run`, `check`, `draw` and `submit` "
+                    "take packs, `tar -xf` unpacks them",
+                    what));
   if (looks_like_image(path))
     throw refuse(fmt::format("expected a {}, found an image; graphs load images by their nodes", what));
   if (const std::string kind = irregular_kind(status.type()); !kind.empty())

@@ -33,6 +33,20 @@ GraphScope::GraphScope(std::vector<GraphParameter>& parameters, const NodeTypes&
   report_cycles();
 }
 
+GraphScope::GraphScope(std::vector<GraphParameter>& variables, GraphScope& around)
+    : parameters_(variables), problems_(around.problems_), around_(&around), path_(around.path_) {
+  for (size_t i = 0; i < variables.size(); i++) {
+    names_.push_back(variables[i].param.name);
+    positions_.emplace(names_.back(), i);
+  }
+}
+
+std::vector<std::string> GraphScope::names() const {
+  std::vector<std::string> out = around_ ? around_->names() : std::vector<std::string>();
+  out.insert(out.end(), names_.begin(), names_.end());
+  return out;
+}
+
 std::string GraphScope::where(const GraphParameter& p) const {
   const std::string node = path_.empty() ? "" : fmt::format("node {}, ", in_quotes(path_.substr(0, path_.size() - 1)));
   return node + "parameter " + in_quotes(p.param.name);
@@ -40,10 +54,12 @@ std::string GraphScope::where(const GraphParameter& p) const {
 
 GraphParameter* GraphScope::position(const std::string& name) const {
   const auto at = positions_.find(name);
-  return at == positions_.end() ? nullptr : &parameters_[at->second];
+  if (at != positions_.end()) return &parameters_[at->second];
+  return around_ ? around_->position(name) : nullptr;
 }
 
 const GraphParameter* GraphScope::find(const std::string& name) {
+  if (around_ && !positions_.contains(name)) return around_->find(name);
   GraphParameter* p = position(name);
   if (p) evaluate(*p);
   return p;
@@ -88,15 +104,17 @@ bool GraphScope::check_names(const Expression& expression, const JsonValue& text
   for (const auto& [name, offset] : expression.parameters()) {
     if (position(name)) continue;
     known = false;
-    const std::string hint = names_.empty() ? "; it has none" : suggestion(name, names_);
+    const std::vector<std::string> all = hints_++ < most_problems_shown ? names() : names_;
+    const std::string hint = all.empty() ? "; it has none" : suggestion(name, all);
     diagnostics.add(place_in(text, offset),
                     fmt::format("the graph has no parameter {}{}, in {}", in_quotes(name), hint, in_quotes(text.text)));
   }
   for (const auto& [name, offset] : expression.nodes()) {
-    if (node_names_.contains(name)) continue;
+    const std::set<std::string>& known_nodes = around_ ? around_->node_names_ : node_names_;
+    if (known_nodes.contains(name)) continue;
     known = false;
     std::vector<std::string> all;  // to look for the nearest one in; not for problems that will not be shown
-    if (hints_++ < most_problems_shown) all.assign(node_names_.begin(), node_names_.end());
+    if (hints_++ < most_problems_shown) all.assign(known_nodes.begin(), known_nodes.end());
     diagnostics.add(place_in(text, offset),
                     fmt::format("@{} leads to no node{}, in {}", name, suggestion(name, all), in_quotes(text.text)));
   }

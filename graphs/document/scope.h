@@ -24,11 +24,20 @@ class GraphScope : public ExpressionScope {
   GraphScope(std::vector<GraphParameter>& parameters, const NodeTypes& nodes, const std::string& path,
              std::vector<Problem>& problems);
 
+  /// The names of a round of a loop: its variables, which have values, before what is around it, which must outlive it.
+  GraphScope(std::vector<GraphParameter>& variables, GraphScope& around);
+
   /// From now on nodes can be asked, until this is set to nothing.
   void set_forecasts(Forecasts forecasts) { forecasts_ = std::move(forecasts); }
 
   /// Null if there is none of that name. With its value, if all that it is made from is known by now.
   const GraphParameter* find(const std::string& name);
+  /// The same, as far as it is known.
+  const GraphParameter* look_up(const std::string& name) const { return position(name); }
+  bool is_path(const std::string& name) const {
+    const GraphParameter* p = look_up(name);
+    return p && p->param.type == ParamType::path;
+  }
   /// What this parameter, or the expression, lacks before it can be evaluated.
   Lacking lacking(const std::string& parameter) const;
   Lacking lacking(const Expression& expression) const;
@@ -43,7 +52,8 @@ class GraphScope : public ExpressionScope {
   /// Evaluates every parameter that asks for no node.
   void evaluate_parameters();
 
-  const std::vector<std::string>& names() const { return names_; }
+  /// Of the parameters, in the document's order.
+  std::vector<std::string> names() const;
   /// Adds to some parameters those that their expressions name.
   void add_what_they_use(std::set<std::string>& parameters) const;
 
@@ -64,7 +74,8 @@ class GraphScope : public ExpressionScope {
   std::vector<Problem>& problems_;
   std::vector<std::string> names_;           ///< of the parameters, in the document's order
   std::map<std::string, size_t> positions_;  ///< in parameters_
-  std::set<std::string> node_names_;
+  GraphScope* around_ = nullptr;
+  std::set<std::string> node_names_;  ///< of a round: those around it
   std::string path_;
   Forecasts forecasts_;
   mutable size_t hints_ = 0;  ///< given on nodes that are not there

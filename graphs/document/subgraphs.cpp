@@ -1,6 +1,7 @@
 #include "graphs/document/subgraphs.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -106,6 +107,7 @@ const Subgraph* Subgraphs::find(const JsonValue& type, const Subgraph& from) {
   if (!type.is_text()) return nullptr;
   const std::string& name = type.text;
   if (!is_file(name)) {
+    if (const auto known = by_key_.find(from.document->file + "#" + name); known != by_key_.end()) return known->second;
     const JsonValue* section = from.document->json->find("graphs");
     const JsonValue* json = section ? section->find(name) : nullptr;
     if (!json || !json->is_object()) return nullptr;
@@ -235,10 +237,12 @@ void Subgraphs::read_sections(Subgraph& graph) {
 }
 
 void Subgraphs::read_inputs(Subgraph& graph, const JsonValue& section) {
-  const JsonValue* nodes = graph.json->find("nodes");
+  std::set<std::string_view> node_names;
+  if (const JsonValue* nodes = graph.json->find("nodes"))
+    for (const JsonMember& n : nodes->members) node_names.insert(n.name);
   for (const JsonMember& m : section.members) {
     PortReader reader(m, "input " + in_quotes(m.name), problems_);
-    if (nodes && nodes->find(m.name))
+    if (node_names.contains(m.name))
       reader.diagnostics().add(m.place, "a node has this name too; wires could not tell them apart");
     if (!m.value.is_object()) {
       reader.diagnostics().add(

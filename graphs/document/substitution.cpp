@@ -7,6 +7,7 @@
 #include "core/base/suggest.h"
 #include "core/base/text.h"
 #include "graphs/document/convert.h"
+#include "graphs/expression/operations.h"
 
 namespace terrazzo {
 
@@ -54,6 +55,7 @@ std::optional<ParameterReference> reference_at(const std::string& text, size_t a
 }
 
 std::optional<JsonValue> Substitution::expand(const JsonValue& value, const Param& param, Diagnostics& diagnostics) {
+  put_in_ = 0;
   std::optional<JsonValue> out = expand_part(value, param, diagnostics);
   const bool has_changed = out && value.is_text() && (!out->is_text() || out->text != value.text);
   if (has_changed) {
@@ -79,6 +81,15 @@ std::optional<JsonValue> Substitution::expand_part(const JsonValue& value, const
   return complete ? std::optional(std::move(out)) : std::nullopt;
 }
 
+/// Counts what names put into a value: short texts that name one another, or are named often, stand for more than any
+/// memory holds.
+bool Substitution::has_room(const ParamValue& value, Place place, Diagnostics& diagnostics) {
+  put_in_ += expression::bytes_of(value);
+  if (put_in_ <= expression::most_text_bytes) return true;
+  diagnostics.add(place, "what it names makes it longer than 1 MiB");
+  return false;
+}
+
 /// Notes what there is not yet.
 bool Substitution::has_all(const Lacking& lacking) {
   lacking_.add(lacking);
@@ -93,7 +104,7 @@ std::optional<JsonValue> Substitution::expand_expression(const JsonValue& value,
   if (!scope_.check_names(*expression, value, diagnostics) || !has_all(scope_.lacking(*expression)))
     return std::nullopt;
   const std::optional<ParamValue> result = scope_.evaluate(*expression, value, param.unit, diagnostics);
-  if (!result) return std::nullopt;
+  if (!result || !has_room(*result, value.place, diagnostics)) return std::nullopt;
   JsonValue out = placed(json_of(*result), value.place);
   const bool is_plain = out.is_number() || out.kind == JsonValue::Kind::boolean;
   return is_plain && takes_texts(param.type) ? as_text(value, *result) : out;
@@ -127,11 +138,15 @@ std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, const
     }
     const GraphParameter* parameter = scope_.find(reference->name);
     if (!parameter) {
-      const std::string hint = scope_.names().empty() ? "; it has none" : suggestion(reference->name, scope_.names());
+      const std::vector<std::string> all = hints_++ < most_problems_shown ? scope_.names() : std::vector<std::string>();
+      const std::string hint = hints_ > most_problems_shown ? ""
+                               : all.empty()                ? "; it has none"
+                                                            : suggestion(reference->name, all);
       diagnostics.add(value.place,
                       fmt::format("${}: the graph has no parameter of that name{}", reference->name, hint));
     }
     used_.insert(reference->name);
+    if (parameter && parameter->value && !has_room(*parameter->value, value.place, diagnostics)) return std::nullopt;
     if (parameter && parameter->value) {
       const bool is_whole = at == 0 && reference->end == text.size();
       const bool is_list =
@@ -148,16 +163,15 @@ std::optional<JsonValue> Substitution::expand_text(const JsonValue& value, const
   return complete ? std::optional(std::move(out)) : std::nullopt;
 }
 
-std::set<std::string> Substitution::paths_in(const JsonValue& value) {
+std::set<std::string> Substitution::names_in(const JsonValue& value) const {
   std::set<std::string> out;
-  const auto add_path = [&](const std::string& name) {
-    if (const GraphParameter* p = scope_.find(name); p && p->param.type == ParamType::path) out.insert(name);
-  };
+  for (const JsonValue& item : value.items) out.merge(names_in(item));
+  for (const JsonMember& m : value.members) out.merge(names_in(m.value));
   if (is_expression(value.text)) {
     std::vector<Problem> ignored;
     Diagnostics diagnostics(ignored, "");
     if (const std::optional<Expression> expression = parse_expression(value, diagnostics))
-      for (const auto& [name, offset] : expression->parameters()) add_path(name);
+      for (const auto& [name, offset] : expression->parameters()) out.insert(name);
     return out;
   }
   for (size_t at = value.text.find('$'); at != std::string::npos; at = value.text.find('$', at + 1)) {
@@ -165,17 +179,8 @@ std::set<std::string> Substitution::paths_in(const JsonValue& value) {
       at++;
       continue;
     }
-    if (const std::optional<ParameterReference> reference = reference_at(value.text, at)) add_path(reference->name);
+    if (const std::optional<ParameterReference> reference = reference_at(value.text, at)) out.insert(reference->name);
   }
-  return out;
-}
-
-std::vector<std::string> Substitution::unused() const {
-  std::set<std::string> used = used_;
-  scope_.add_what_they_use(used);
-  std::vector<std::string> out;
-  for (const std::string& name : scope_.names())
-    if (!used.contains(name)) out.push_back(name);
   return out;
 }
 

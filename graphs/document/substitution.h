@@ -31,25 +31,29 @@ class Substitution {
   /// written. Empty after a problem, or if something is lacking.
   std::optional<JsonValue> expand(const JsonValue& value, const Param& param, Diagnostics& diagnostics);
 
-  /// The parameters of type path among those that a text refers to.
-  std::set<std::string> paths_in(const JsonValue& value);
+  /// The parameters that a value's texts refer to.
+  std::set<std::string> names_in(const JsonValue& value) const;
+  bool is_path(const std::string& parameter) const { return scope_.is_path(parameter); }
 
   /// The parameters without a value, and the nodes whose forecasts are asked for, that expand has met since this was
   /// last asked.
   Lacking take_lacking() { return std::exchange(lacking_, {}); }
 
-  /// Parameters that neither a call of expand nor another parameter has met.
-  std::vector<std::string> unused() const;
+  /// Parameters that calls of expand have met.
+  const std::set<std::string>& used() const { return used_; }
 
  private:
   std::optional<JsonValue> expand_part(const JsonValue& value, const Param& param, Diagnostics& diagnostics);
   std::optional<JsonValue> expand_text(const JsonValue& value, const Param& param, Diagnostics& diagnostics);
   std::optional<JsonValue> expand_expression(const JsonValue& value, const Param& param, Diagnostics& diagnostics);
   bool has_all(const Lacking& lacking);
+  bool has_room(const ParamValue& value, Place place, Diagnostics& diagnostics);
 
   GraphScope& scope_;
   std::set<std::string> used_;
   Lacking lacking_;
+  size_t put_in_ = 0;  ///< bytes, in the value that is being expanded
+  size_t hints_ = 0;   ///< given on parameters that are not there
 };
 
 }  // namespace terrazzo

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/error.h"
@@ -18,9 +20,16 @@ struct Row {
   std::vector<Place> places;
 };
 
+constexpr size_t most_cells = 1000000;  // each is many times as large in memory as in the file
+
+[[noreturn]] void refuse_cells(const fs::path& file) {
+  throw Error(fmt::format("{}: expected at most {} values in a table, found more", file.string(), most_cells));
+}
+
 /// RFC 4180: cells in double quotes may hold commas, line breaks and, doubled, double quotes. Empty lines are skipped.
 std::vector<Row> rows_of(const fs::path& file, const std::string& text) {
   std::vector<Row> out;
+  size_t cells = 0;
   int line = 1;
   size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0, line_begins = at;
   while (at < text.size()) {
@@ -50,6 +59,7 @@ std::vector<Row> rows_of(const fs::path& file, const std::string& text) {
         while (at < text.size() && text[at] != ',' && text[at] != '\n' && text[at] != '\r') cell += text[at++];
       }
       row.cells.push_back(std::move(cell));
+      if (++cells > most_cells) refuse_cells(file);
       more = at < text.size() && text[at] == ',';
       if (more) at++;
     }
@@ -74,6 +84,10 @@ std::vector<Variation> read_csv(const fs::path& file, const std::string& text) {
   for (size_t c = 0; c < names.size(); c++)
     if (names[c].empty())
       throw Error(fmt::format("{}:{}: column {} has no name", file.string(), rows.front().line, c + 1));
+  for (size_t c = 0; c < names.size(); c++)
+    if (const auto first = size_t(std::ranges::find(names, names[c]) - names.begin()); first != c)
+      throw Error(fmt::format("{}:{}: columns {} and {} are both named {}; a value is given once", file.string(),
+                              rows.front().line, first + 1, c + 1, in_quotes(names[c])));
   for (size_t r = 1; r < rows.size(); r++) {
     if (rows[r].cells.size() != names.size())
       throw Error(fmt::format("{}:{}: expected {} cells as in the first line, found {}", file.string(), rows[r].line,
@@ -100,9 +114,11 @@ std::vector<Variation> read_json(const fs::path& file, const std::string& text) 
   };
   if (!parsed.value->is_list() || parsed.value->items.empty()) throw refuse(*parsed.value);
   std::vector<Variation> out;
+  size_t cells = 0;
   for (const JsonValue& row : parsed.value->items) {
     if (!row.is_object()) throw refuse(row);
     Variation v;
+    if ((cells += row.members.size()) > most_cells) refuse_cells(file);
     for (const JsonMember& m : row.members) {
       v.values.emplace_back(m.name, m.value.is_text() ? m.value.text : compact(m.value));
       v.origins[m.name] = {"member " + in_quotes(m.name), file.string(), m.place};

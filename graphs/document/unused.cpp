@@ -9,15 +9,17 @@ namespace terrazzo {
 
 namespace {
 
-bool is_unused(const Level& level, const std::string& parameter) {
-  const auto is_in = [&](const Names& names) {
-    const std::vector<std::string> unused = names.substitution->unused();
-    return std::ranges::find(unused, parameter) != unused.end();
-  };
+/// The parameters that a level's nodes, or its other parameters, use.
+std::set<std::string> used_parameters(const Level& level) {
+  std::set<std::string> out = level.names.substitution->used();
+  for (const auto& round : level.rounds)
+    out.insert(round->substitution->used().begin(), round->substitution->used().end());
+  level.names.scope->add_what_they_use(out);
   // One that counts only in a default is used, though an override may have taken the default's place.
   for (const GraphParameter& p : level.graph->parameters)
-    if (p.formula && p.formula->expression->parameters().contains(parameter)) return false;
-  return is_in(level.names) && std::ranges::all_of(level.rounds, [&](const auto& round) { return is_in(*round); });
+    if (p.formula)
+      for (const auto& [name, offset] : p.formula->expression->parameters()) out.insert(name);
+  return out;
 }
 
 /// Nodes that outputs lead to, or that an expression may choose, with all that they read by name.
@@ -51,8 +53,9 @@ std::set<std::string> names_given(const Levels& levels, const Level& root) {
 std::vector<Problem> warnings_about(const Levels& levels, const Subgraphs& subgraphs, const Level& root,
                                     const std::vector<size_t>& order) {
   std::vector<Problem> out;
+  const std::set<std::string> used_by_any = used_parameters(root);
   for (const GraphParameter& p : root.names.parameters)
-    if (is_unused(root, p.param.name))
+    if (!used_by_any.contains(p.param.name))
       out.push_back({p.place, "parameter " + in_quotes(p.param.name), "no node uses it", "", "", "unused-parameter"});
   for (const auto& [name, place] : subgraphs.unused())
     out.push_back({place, "graph " + in_quotes(name), "no node is of this type", "", "", "unused-graph"});

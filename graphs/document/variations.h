@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,13 +43,34 @@ std::vector<Variation> swept(const std::vector<std::string>& sweeps);
 /// is empty, or a name that is missing, sets nothing. Throws Error with file and line.
 std::vector<Variation> read_table(const std::filesystem::path& file);
 
-/// Each of `rows` with each of `columns`; if one of them is empty, the other.
+/// Each of `rows` with each of `columns`; if one of them is empty, the other. Throws Error if both give a value.
 std::vector<Variation> combined(const std::vector<Variation>& rows, const std::vector<Variation>& columns);
 
 /// All variations as one graph, so that they are planned, checked and run together.
 struct MergedGraph {
   Graph graph;
   std::vector<std::map<std::string, std::string>> names;  ///< by variation: what each of its nodes is called now
+};
+
+/// Makes it of one graph after the other, and keeps only what they do not share.
+class GraphMerger {
+ public:
+  void add(Graph graph, const std::string& label);
+  /// Adds the graph at this position once more.
+  void add_again(size_t same);
+  MergedGraph merged();
+
+ private:
+  struct Node {
+    GraphNode node;
+    size_t first = 0;  ///< the variation it comes from
+  };
+  Graph merged_;
+  std::vector<std::string> labels_;
+  std::vector<std::map<std::string, std::string>> signatures_;  ///< by variation and node
+  std::set<std::pair<std::string, std::string>> made_;          ///< names and signatures
+  std::map<std::string, size_t> kinds_;                         ///< by name: how many there are
+  std::vector<Node> nodes_;                                     ///< in the order of wires
 };
 
 /// Nodes that are the same in several variations (same type, parameters and inputs) are there once. Where variations

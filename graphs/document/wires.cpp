@@ -10,6 +10,8 @@ namespace terrazzo {
 
 namespace {
 
+constexpr size_t most_wires = 1000000;  // loops that read loops may have more than any memory
+
 using Positions = std::map<std::string, size_t, std::less<>>;
 
 Positions positions_of(const Drafts& drafts) {
@@ -162,7 +164,7 @@ class WireFollower {
     } else if (draft.muted) {
       pass_through(level, draft, output->type, end);
     } else if (type->category != graph_category) {
-      out_.wires.push_back({draft.node.name, output->name});
+      if (out_.wires.size() < most_wires) out_.wires.push_back({draft.node.name, output->name});
     } else {
       const PortWires* from = item.inner ? item.inner->find_output(output->name) : nullptr;
       out_.is_faulty |= !from || from->has_faults || from->wires.empty();
@@ -331,9 +333,17 @@ WireSources sources_of(const Level& level, const WireEnd& end, Diagnostics& aski
 }
 
 void connect(Levels& levels, std::vector<Problem>& problems) {
+  size_t wires = 0;
   for (NodeDraft& d : levels.nodes()) {
     const size_t before = problems.size();
     for (PortWires& p : d.ports) connect_port(d, p);
+    for (const auto& [port, all] : d.node.inputs) wires += all.size();
+    if (wires >= most_wires) {
+      problems.push_back({d.node.place, "node " + in_quotes(d.node.name),
+                          fmt::format("a graph may have fewer than {} wires, all rounds of loops counted", most_wires),
+                          d.node.name, d.node.file});
+      return;
+    }
     set_node(problems, before, d.node.name);
     set_file(problems, before, d.node.file);
   }
@@ -343,17 +353,28 @@ std::vector<size_t> execution_order(const Drafts& drafts, std::vector<Problem>& 
   return Walk(drafts, problems).order();
 }
 
-std::set<std::string> needed_nodes(const Drafts& drafts, std::vector<std::string> names) {
+namespace {
+
+/// These nodes and all that they read; if `asks`, all that their parameters ask for as well.
+std::set<std::string> closure(const Drafts& drafts, std::vector<std::string> names, bool asks) {
   const Positions positions = positions_of(drafts);
   std::set<std::string> out;
   while (!names.empty()) {
     const auto at = positions.find(names.back());
     names.pop_back();
     if (at == positions.end() || !out.insert(std::string(at->first)).second) continue;
-    for (const auto& [port, wires] : drafts[at->second].node.inputs)
-      for (const Wire& w : wires) names.push_back(w.node);
+    const NodeDraft& draft = drafts[at->second];
+    for (const auto& [port, wires] : draft.node.inputs)
+      for (const Wire& wire : wires) names.push_back(wire.node);
+    if (asks) names.insert(names.end(), draft.asked.begin(), draft.asked.end());
   }
   return out;
+}
+
+}  // namespace
+
+std::set<std::string> needed_nodes(const Drafts& drafts, std::vector<std::string> names) {
+  return closure(drafts, std::move(names), false);
 }
 
 std::set<std::string> wanted_nodes(const Drafts& drafts, const std::vector<std::string>& only) {
@@ -370,15 +391,7 @@ std::set<std::string> wanted_nodes(const Drafts& drafts, const std::vector<std::
 }
 
 std::set<std::string> asked_too(const Drafts& drafts, const std::set<std::string>& nodes) {
-  std::set<std::string> out = nodes;
-  for (size_t before = 0; before != out.size();) {
-    before = out.size();
-    std::vector<std::string> names(out.begin(), out.end());
-    for (const NodeDraft& d : drafts)
-      if (out.contains(d.node.name)) names.insert(names.end(), d.asked.begin(), d.asked.end());
-    out = needed_nodes(drafts, names);
-  }
-  return out;
+  return closure(drafts, {nodes.begin(), nodes.end()}, true);
 }
 
 }  // namespace terrazzo

@@ -238,6 +238,31 @@ ExpressionValue length(const ExpressionValue& v) {
   throw Error(fmt::format("length takes a list or a text, found {}", described(v)));
 }
 
+size_t bytes(const auto& v) {
+  return sizeof(v);
+}
+size_t bytes(const std::string& text) {
+  return text.size();
+}
+size_t bytes(const Numbers& numbers) {
+  return numbers.size() * sizeof(double);
+}
+size_t bytes(const Texts& texts) {
+  size_t sum = 0;
+  for (const std::string& t : texts) sum += sizeof(std::string) + t.size();
+  return sum;
+}
+template <typename T>
+size_t bytes(const std::map<std::string, T>& values) {
+  size_t sum = 0;
+  for (const auto& [name, v] : values) sum += sizeof(name) + name.size() + bytes(v);
+  return sum;
+}
+
+void require_room(const ParamValue& value) {
+  if (bytes_of(value) > most_text_bytes) throw Error("the result is longer than 1 MiB");
+}
+
 }  // namespace
 
 ExpressionValue negated(const ExpressionValue& v) {
@@ -247,7 +272,11 @@ ExpressionValue negated(const ExpressionValue& v) {
 
 ExpressionValue operated(const std::string& op, const ExpressionValue& a, const ExpressionValue& b) {
   const auto is_text = [](const ExpressionValue& v) { return std::holds_alternative<std::string>(v.value); };
-  if (op == "+" && (is_text(a) || is_text(b))) return {plain_text(a) + plain_text(b)};
+  if (op == "+" && (is_text(a) || is_text(b))) {
+    std::string joined = plain_text(a) + plain_text(b);
+    require_room(joined);
+    return {std::move(joined)};
+  }
   const bool is_arithmetic = op.size() == 1 && std::string("+-*/%").find(op) != std::string::npos;
   return is_arithmetic ? arithmetic(op, a, b) : comparison(op, a, b);
 }
@@ -268,7 +297,9 @@ ExpressionValue listed_values(const std::vector<ExpressionValue>& parts) {
       unit = common_unit("a list", unit, p.unit);
     }
   }
-  return is_texts ? ExpressionValue{std::move(texts)} : ExpressionValue{std::move(numbers), unit};
+  if (!is_texts) return {std::move(numbers), unit};
+  require_room(texts);
+  return {std::move(texts)};
 }
 
 ExpressionValue member_of(const ExpressionValue& v, const std::string& name) {
@@ -329,6 +360,10 @@ ExpressionValue called(const std::string& function, const std::vector<Expression
     return out;
   }
   return round_to(function, arguments);
+}
+
+size_t bytes_of(const ParamValue& value) {
+  return std::visit([](const auto& v) { return bytes(v); }, static_cast<const ParamAlternatives&>(value));
 }
 
 std::string described(const ExpressionValue& v) {

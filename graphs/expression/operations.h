@@ -23,6 +23,11 @@ ExpressionValue called(const std::string& function, const std::vector<Expression
 /// What is wrong with the name, with a suggestion; empty if there is such a function.
 std::string unknown_function(const std::string& name);
 
+/// Texts and lists may become this long: a few that are made from one another can stand for more than any memory.
+inline constexpr size_t most_text_bytes = size_t{1} << 20;
+/// What a value takes in memory, roughly.
+size_t bytes_of(const ParamValue& value);
+
 /// What a value is, for messages: "the number 3", "a size".
 std::string described(const ExpressionValue& v);
 

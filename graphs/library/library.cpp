@@ -2,17 +2,19 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <set>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/file.h>
 
 #include "core/base/suggest.h"
 #include "core/base/text.h"
 #include "core/file/atomic_file.h"
 #include "core/file/bytes.h"
-#include "core/file/file_io.h"
+#include "core/file/file_lock.h"
 #include "core/file/user_folders.h"
 #include "core/node/serialize.h"
 #include "graphs/library/library_entry.h"
@@ -73,6 +75,41 @@ bool belongs_to(const fs::path& file, const fs::path& entry) {
   return (file.extension() == ".analysis" || file.extension() == ".png") && stem.stem() == entry.stem() &&
          stem.extension().string().size() == 13;
 }
+
+/// Removes the files of an entry but for those that it has now: of entries that it replaced, or of processes that were
+/// killed.
+void remove_files_of(const fs::path& entry, const std::vector<fs::path>& kept) {
+  std::vector<fs::path> old;
+  std::error_code failure;
+  for (fs::directory_iterator at(entry.parent_path(), failure), end; !failure && at != end; at.increment(failure))
+    if (belongs_to(at->path(), entry) && std::ranges::find(kept, at->path()) == kept.end()) old.push_back(at->path());
+  for (const fs::path& file : old) fs::remove(file, failure);
+}
+
+/// Keeps other processes from changing a library while it lives: one that replaced an entry would remove the files that
+/// another is just adding.
+class LibraryLock {
+ public:
+  explicit LibraryLock(const fs::path& library) {
+    constexpr std::chrono::minutes patience{1};
+    std::error_code failure;
+    fs::create_directories(library, failure);
+    file_ = File::open(library / ".lock", O_RDWR | O_CREAT);
+    if (!file_.ok()) throw_system_error("write", library / ".lock", errno);
+    is_held_ = lock_file_soon(file_, LOCK_EX, patience);
+    if (!is_held_ && errno == EWOULDBLOCK)
+      throw Error(
+          fmt::format("the library {} has been locked by another process for a minute; try again when that has "
+                      "ended",
+                      library.string()));
+  }
+  /// False where the file system has no locks.
+  bool is_held() const { return is_held_; }
+
+ private:
+  File file_;
+  bool is_held_ = false;
+};
 
 /// Moves a file, which may lie on another file system, to its place.
 void bring(const fs::path& from, const fs::path& to) {
@@ -175,20 +212,17 @@ Error Library::unknown(const std::string& name) const {
                   names.empty() ? ", which is empty; terrazzo library add makes one" : suggestion(name, names)));
 }
 
-void Library::add(LibraryEntry entry) const {
+void Library::add(LibraryEntry entry, bool replace) const {
   require_library_name(entry.name);
   entry.library = folder();
   const fs::path file = entry_file(folder(), entry.name);
   std::error_code failure;
+  const LibraryLock lock(folder());
   fs::create_directories(file.parent_path(), failure);
   if (failure) throw_system_error("create", file.parent_path(), failure.value());
-  std::vector<fs::path> former;
-  try {
-    const LibraryEntry before = entry_from_json(text_of_file(file), entry.name, folder());
-    former = {before.analysis, before.picture};
-  } catch (const Error&) {
-    // There was none, or none that can be read.
-  }
+  if (!replace && fs::exists(file, failure))
+    throw Error(fmt::format("{} has been added to the library {} meanwhile; --force replaces it", entry.name,
+                            folder().string()));
   for (auto [path, ending] : {std::pair(&entry.analysis, ".analysis"), std::pair(&entry.picture, ".png")}) {
     if (path->empty()) continue;
     const fs::path place = stored_name(entry, *path, ending);
@@ -197,18 +231,17 @@ void Library::add(LibraryEntry entry) const {
   }
   entry.content = content_digest(entry.analysis).value_or(Digest());
   write_whole_file(file, entry_as_json(entry), temporary_beside(file), true);
-  for (const fs::path& old : former)
-    if (old != entry.analysis && old != entry.picture) fs::remove(old, failure);
+  if (lock.is_held()) remove_files_of(file, {entry.analysis, entry.picture});
 }
 
 void Library::remove(const std::string& name) const {
   const std::optional<fs::path> library = holder_of(name);
   if (!library) throw unknown(name);
   std::error_code failure;
+  const LibraryLock lock(*library);
   const fs::path file = entry_file(*library, name);
   if (!fs::remove(file, failure) && failure) throw_system_error("remove", file, failure.value());
-  for (const fs::directory_entry& beside : fs::directory_iterator(file.parent_path(), failure))
-    if (belongs_to(beside.path(), file)) fs::remove(beside, failure);
+  remove_files_of(file, {});
   // Its folders, as far as they are empty now.
   for (fs::path folder = file.parent_path(); folder != *library && fs::remove(folder, failure);)
     folder = folder.parent_path();

@@ -58,9 +58,9 @@ class Library {
   LibraryEntry find(const std::string& name) const;
   bool contains(const std::string& name) const { return holder_of(name).has_value(); }
 
-  /// Moves the files that `entry` names into the library and writes the entry, in place of one of its name. Throws
-  /// Error.
-  void add(LibraryEntry entry) const;
+  /// Moves the files that `entry` names into the library and writes the entry, in place of one of its name only if
+  /// `replace`. Of several at once, one comes after the other. Throws Error.
+  void add(LibraryEntry entry, bool replace) const;
   /// Removes an entry, whether it can be read or not, with its files. Throws Error.
   void remove(const std::string& name) const;
 

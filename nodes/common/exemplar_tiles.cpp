@@ -8,13 +8,13 @@
 namespace terrazzo {
 
 Param tiles_param() {
-  return {
-      .name = "tiles",
-      .type = ParamType::choice,
-      .fallback = "auto",
-      .help =
-          "Whether the exemplar tiles: opposite borders then count as neighbours. \"auto\" compares opposite borders.",
-      .choices = {"auto", "yes", "no"}};
+  return {.name = "tiles",
+          .type = ParamType::choice,
+          .fallback = "auto",
+          .help =
+              "Whether the exemplar tiles: opposite borders then count as neighbours. \"auto\" compares opposite "
+              "borders, where the mask leaves them.",
+          .choices = {"auto", "yes", "no"}};
 }
 
 Port mask_port() {
@@ -29,16 +29,17 @@ Port mask_port() {
 namespace {
 
 /// Several nodes ask it of the same exemplar, often at once; the first finds out.
-bool found_to_tile(const Material& material, const Task& task) {
+bool found_to_tile(const Material& material, const ImagePtr& mask, const Task& task) {
   constexpr size_t most_known = 64;
   static std::mutex mutex;
   static std::map<Digest, bool> known;
+  const Digest asked = mask ? Hasher().add(material.digest()).add(mask->digest()).digest() : material.digest();
   const std::lock_guard lock(mutex);
-  const auto at = known.find(material.digest());
+  const auto at = known.find(asked);
   if (at != known.end()) return at->second;
-  const bool tiles = seems_to_tile(material, task);
+  const bool tiles = seems_to_tile(material, task, mask);
   if (known.size() == most_known) known.clear();
-  return known[material.digest()] = tiles;
+  return known[asked] = tiles;
 }
 
 }  // namespace
@@ -46,7 +47,8 @@ bool found_to_tile(const Material& material, const Task& task) {
 bool exemplar_tiles(NodeContext& node, const Material& material) {
   const std::string& tiles = node.text("tiles");
   if (tiles != "auto") return tiles == "yes";
-  const bool fits = found_to_tile(material, node.task());
+  const ImagePtr mask = node.type().find_input("mask") ? node.optional_input<Image>("mask") : nullptr;
+  const bool fits = found_to_tile(material, mask, node.task());
   if (fits) node.note("the exemplar tiles: its opposite borders are treated as neighbours");
   return fits;
 }

@@ -14,9 +14,10 @@ Param horizon_radius_param() {
       .unit = "pixels"};
 }
 
-HorizonOptions horizon_options_of(const NodeContext& node) {
-  return {
-      .height_scale = node.number("height_scale"), .radius = int(node.integer("radius")), .outside = edges_of(node)};
+HorizonOptions horizon_options_of(NodeContext& node, const ImagePtr& height) {
+  return {.height_scale = node.number("height_scale"),
+          .radius = int(node.integer("radius")),
+          .outside = derived_edges_of(node, height)};
 }
 
 Operation horizon_operation(const ImagePtr& height, const HorizonOptions& options) {

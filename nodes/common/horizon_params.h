@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/image/occlusion.h"
+#include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 
 /// What nodes share that search a height map for the horizon.
@@ -9,8 +10,8 @@ namespace terrazzo {
 /// Parameter "radius".
 Param horizon_radius_param();
 
-/// From the parameters "height_scale", "radius" and "edges".
-HorizonOptions horizon_options_of(const NodeContext& node);
+/// From the parameters "height_scale", "radius" and "edges"; see `derived_edges_of`.
+HorizonOptions horizon_options_of(NodeContext& node, const ImagePtr& height);
 
 /// An operation on a height map that reads as far as the horizon is looked for; it lacks `compute`.
 Operation horizon_operation(const ImagePtr& height, const HorizonOptions& options);

@@ -4,13 +4,11 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "nodes/common/node_faults.h"
 
 namespace terrazzo {
 
@@ -62,29 +60,6 @@ Registry& registry() {
   return all;
 }
 
-bool is_plain_name(const std::string& name) {
-  return !name.empty() && !is_digit(name.front()) && std::ranges::all_of(name, is_word);
-}
-
-/// What is wrong with a descriptor; empty if nothing is.
-std::string fault_of(const NodeType& t) {
-  static const std::vector<std::string> categories = {"source", "image", "analysis", "synthesis", "sink"};
-  if (!is_plain_name(t.name)) return "its name must begin with a letter and have only letters, digits and _";
-  if (t.origin.name.empty()) return "it does not say where it comes from";
-  if (!t.compute) return "it has no compute function";
-  if (std::ranges::find(categories, t.category) == categories.end())
-    return fmt::format("its category is \"{}\"; expected {}", t.category, fmt::join(categories, ", "));
-  if (t.outputs.empty() && !t.is_sink()) return "it has no output and is no sink";
-  std::set<std::string> names = {"type", "comment", "foreach", "mute"};
-  for (const Port& p : t.inputs)
-    if (!is_plain_name(p.name) || !names.insert(p.name).second)
-      return fmt::format("the name of its input \"{}\" is not valid, or taken", p.name);
-  for (const Param& p : t.params)
-    if (!is_plain_name(p.name) || !names.insert(p.name).second)
-      return fmt::format("the name of its parameter \"{}\" is not valid, or taken", p.name);
-  return "";
-}
-
 }  // namespace
 
 const std::vector<NodeType>& node_types() {
@@ -98,7 +73,7 @@ const NodeType* find_node_type(std::string_view name) {
 }
 
 void register_node_type(NodeType type) {
-  if (const std::string fault = fault_of(type); !fault.empty())
+  if (const std::string fault = fault_of_node_type(type); !fault.empty())
     throw Error(fmt::format("the node type \"{}\" cannot be registered: {}", type.name, fault));
   registry().add(std::move(type));
 }

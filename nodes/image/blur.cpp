@@ -1,4 +1,5 @@
 #include "core/image/resample.h"
+#include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
 
@@ -9,7 +10,10 @@ namespace {
 void compute(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
   const AxisFilter filter = gaussian_filter(node.number("radius"));
-  node.output("image", filtered(image, image->info(), node.key(), filter, filter, edges_of(node)));
+  const Outside outside = filter.copies ? Outside::clamp : derived_edges_of(node, image);
+  const ImagePtr blurred = filtered(image, image->info(), node.key(), filter, filter, outside);
+  if (!filter.copies) know_edges(blurred, outside);
+  node.output("image", blurred);
 }
 
 }  // namespace
@@ -17,7 +21,7 @@ void compute(NodeContext& node) {
 NodeType blur_node() {
   NodeType t;
   t.name = "blur";
-  t.version = 2;
+  t.version = 3;
   t.category = "image";
   t.summary = "Gaussian blur";
   t.help =
@@ -33,7 +37,7 @@ NodeType blur_node() {
        .min = 0,
        .max = 1000,
        .unit = "pixels"},
-      edges_param()};
+      derived_edges_param()};
   t.persist = Persist::digest;
   t.infer = same_image_rule();
   t.compute = compute;

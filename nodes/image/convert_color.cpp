@@ -39,8 +39,9 @@ NodeType convert_color_node() {
   t.summary = "Converts an image to another colour space";
   t.help =
       "Uses OpenColorIO. The built-in configuration has srgb_texture, lin_rec709, acescg and raw; $OCIO, or a "
-      "configuration given here, replaces it. Raw images are data and are never converted. Alpha stays as it is. "
-      "Pixels are computed on demand.";
+      "configuration given here, replaces it. Results are made again when the configuration, a look-up file that it "
+      "names or a variable of the environment that it uses changes. Raw images are data and are never converted. Alpha "
+      "stays as it is. Pixels are computed on demand.";
   t.inputs = {image_port("image", "the image")};
   t.outputs = {image_port("image", "the image in the new colour space")};
   t.params = {

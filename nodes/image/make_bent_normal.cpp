@@ -13,7 +13,7 @@ void compute(NodeContext& node) {
   info.semantic = Semantic::normal;
   info.color_space = "raw";
   info.normal_y = normal_y_of(node);
-  const HorizonOptions options = horizon_options_of(node);
+  const HorizonOptions options = horizon_options_of(node, height);
   const SkyWeight weight = node.text("sky") == "uniform" ? SkyWeight::uniform : SkyWeight::cosine;
   Operation operation = horizon_operation(height, options);
   operation.compute = [=, normal_y = info.normal_y](auto in, const Rect& region, float* out) {
@@ -34,6 +34,7 @@ OutputForecasts infer(const Params&, const InputForecasts& inputs) {
 NodeType make_bent_normal_node() {
   NodeType t;
   t.name = "make_bent_normal";
+  t.version = 2;
   t.category = "image";
   t.summary = "Makes a bent normal map from a height map";
   t.help =
@@ -52,7 +53,7 @@ NodeType make_bent_normal_node() {
        .help = "How directions count: cosine as light that falls on flat ground, uniform all alike, which bends "
                "more.",
        .choices = {"cosine", "uniform"}},
-      edges_param(),
+      derived_edges_param(),
       normal_y_param()};
   t.persist = Persist::payload;
   t.memory_hint = [](const NodeContext& node) {

@@ -7,6 +7,7 @@
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
 #include "core/image/resample.h"
+#include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
 
@@ -26,33 +27,33 @@ ImageInfo on_the_way(Size size, int channels) {
 /// An image whose pixels depend on others up to curvature_reach away.
 template <typename Function>
 ImagePtr from_neighbours(const NodeContext& node, const char* step, const ImagePtr& source, int channels,
-                         const Function& function) {
+                         Outside outside, const Function& function) {
   Operation operation{.sources = {source}, .compute = {}, .work = 10};
-  operation.reads = [size = source->size(), outside = edges_of(node)](size_t, const Rect& region) {
+  operation.reads = [size = source->size(), outside](size_t, const Rect& region) {
     return padded_parts(size, grown(region, curvature_reach), outside);
   };
   operation.compute = [function](auto in, const Rect& region, float* out) { function(in[0], region, out); };
   return Image::computed(on_the_way(source->size(), channels), recipe_of(node, step), std::move(operation));
 }
 
-ImagePtr leanings_of(const NodeContext& node, const ImagePtr& image) {
+ImagePtr leanings_of(const NodeContext& node, const ImagePtr& image, Outside outside) {
   const ImageInfo& from = image->info();
   if (from.semantic == Semantic::normal && from.channels >= 3)
     return pixel_by_pixel(on_the_way(from.size, 2), recipe_of(node, "leanings"), {image},
                           [=, channels = from.channels, normal_y = from.normal_y](auto in, float* out, int64_t count) {
                             leanings_from_normals(in[0], channels, normal_y, count, out);
                           });
-  return from_neighbours(node, "leanings", image, 2,
-                         [scale = node.number("height_scale"), outside = edges_of(node)](
-                             const PixelView& in, const Rect& region, float* out) {
-                           leanings_from_height(in, region, scale, outside, out);
-                         });
+  return from_neighbours(
+      node, "leanings", image, 2, outside,
+      [scale = node.number("height_scale"), outside](const PixelView& in, const Rect& region, float* out) {
+        leanings_from_height(in, region, scale, outside, out);
+      });
 }
 
 void compute(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
-  const Outside outside = edges_of(node);
-  const ImagePtr curvature = from_neighbours(node, "curvature", leanings_of(node, image), 1,
+  const Outside outside = derived_edges_of(node, image);
+  const ImagePtr curvature = from_neighbours(node, "curvature", leanings_of(node, image, outside), 1, outside,
                                              [outside](const PixelView& in, const Rect& region, float* out) {
                                                curvature_from_leanings(in, region, outside, out);
                                              });
@@ -91,6 +92,7 @@ OutputForecasts infer(const Params&, const InputForecasts& inputs) {
 NodeType make_curvature_node() {
   NodeType t;
   t.name = "make_curvature";
+  t.version = 2;
   t.category = "image";
   t.summary = "Makes a curvature map from a height map or a normal map";
   t.help =
@@ -124,7 +126,7 @@ NodeType make_curvature_node() {
                .help = "both: around 0.5. convex: ridges and edges only, and concave: grooves only; 0 elsewhere, with "
                        "twice the contrast.",
                .choices = {"both", "convex", "concave"}},
-              edges_param()};
+              derived_edges_param()};
   t.persist = Persist::derived;
   t.infer = infer;
   t.compute = compute;

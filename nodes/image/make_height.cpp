@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/image/height_from_normals.h"
 #include "core/image/image_ops.h"
+#include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
 
@@ -43,10 +44,26 @@ void clip(NodeContext& node, std::vector<float>& heights) {
                     100 * double(clipped) / double(heights.size())));
 }
 
+/// Whether the surface leans as a whole: then opposite borders lie at different heights, though the normals there are
+/// alike. Less than a tenth comes of rounding, or of how a scan was levelled.
+bool leans(const Image& normal) {
+  double x = 0, y = 0;
+  for_each_strip(normal, [&](const Rect& strip, const float* v) {
+    for (int64_t i = 0; i < strip.area(); i++, v += normal.channels()) {
+      x += double(v[0]) * 2 - 1;
+      y += double(v[1]) * 2 - 1;
+    }
+  });
+  const double limit = 0.1 * double(normal.size().area());
+  return std::abs(x) > limit || std::abs(y) > limit;
+}
+
 void compute(NodeContext& node) {
   const ImagePtr normal = node.input<Image>("normal");
   const IntegrationOptions options{
-      .filter = slope_filter_from(node.text("filter")), .outside = edges_of(node), .flatten = node.number("flatten")};
+      .filter = slope_filter_from(node.text("filter")),
+      .outside = node.text("edges") == "auto" && leans(*normal) ? Outside::clamp : derived_edges_of(node, normal),
+      .flatten = node.number("flatten")};
   std::vector<float> heights = heights_from_normals(*normal, options, node.task());
   to_range(node, heights);
   ImageInfo info = normal->info();
@@ -74,6 +91,7 @@ std::vector<std::string> check(const Params& params) {
 NodeType make_height_node() {
   NodeType t;
   t.name = "make_height";
+  t.version = 2;
   t.category = "image";
   t.summary = "Makes a height map from a normal map";
   t.help =
@@ -84,8 +102,10 @@ NodeType make_height_node() {
       "rounded normals. Results have at least 16 bits.";
   t.inputs = {image_port("normal", "the normal map, 3 channels")};
   t.outputs = {image_port("height", "the height map, 1 channel")};
-  Param edges = edges_param();
-  edges.help = "Whether the map tiles: wrap makes opposite borders meet, clamp lets each end where it will.";
+  Param edges = derived_edges_param();
+  edges.help =
+      "Whether the map tiles: wrap makes opposite borders meet, clamp lets each end where it will. auto wraps if "
+      "opposite borders of the normals fit together, and says so.";
   t.params = {height_scale_param(),
               {.name = "range",
                .type = ParamType::choice,

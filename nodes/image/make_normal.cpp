@@ -1,5 +1,6 @@
 #include "core/image/image_ops.h"
 #include "core/image/normal.h"
+#include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
 
@@ -16,7 +17,7 @@ void compute(NodeContext& node) {
   info.normal_y = normal_y_of(node);
   const double scale = node.number("height_scale");
   const SlopeFilter filter = *slope_filter_from(node.text("filter"));
-  const Outside outside = edges_of(node);
+  const Outside outside = derived_edges_of(node, height);
   Operation operation{.sources = {height}, .compute = {}, .work = 10};
   operation.reads = [=, size = info.size](size_t, const Rect& region) {
     return padded_parts(size, grown(region, slope_reach), outside);
@@ -24,7 +25,9 @@ void compute(NodeContext& node) {
   operation.compute = [=](std::span<const PixelView> in, const Rect& region, float* out) {
     normals_from_height(in[0], region, scale, filter, outside, info.normal_y, out);
   };
-  node.output("normal", Image::computed(info, node.key(), std::move(operation)));
+  const ImagePtr normal = Image::computed(info, node.key(), std::move(operation));
+  know_edges(normal, outside);
+  node.output("normal", normal);
 }
 
 OutputForecasts infer(const Params&, const InputForecasts& inputs) {
@@ -38,6 +41,7 @@ OutputForecasts infer(const Params&, const InputForecasts& inputs) {
 NodeType make_normal_node() {
   NodeType t;
   t.name = "make_normal";
+  t.version = 2;
   t.category = "image";
   t.summary = "Makes a normal map from a height map";
   t.help =
@@ -52,7 +56,7 @@ NodeType make_normal_node() {
                .help = "How slopes are measured: over 3x3 pixels (sobel, or scharr, which treats directions most "
                        "alike), or between the two neighbours (central, the sharpest).",
                .choices = {"scharr", "sobel", "central"}},
-              edges_param(),
+              derived_edges_param(),
               normal_y_param()};
   t.persist = Persist::derived;
   t.infer = infer;

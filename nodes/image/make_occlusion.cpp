@@ -13,7 +13,7 @@ void compute(NodeContext& node) {
   ImageInfo info = height->info();
   info.semantic = Semantic::ambient_occlusion;
   info.color_space = "raw";
-  const HorizonOptions options = horizon_options_of(node);
+  const HorizonOptions options = horizon_options_of(node, height);
   Operation operation = horizon_operation(height, options);
   operation.compute = [=, strength = node.number("strength")](auto in, const Rect& region, float* out) {
     occlusion_from_height(in[0], region, options, strength, out);
@@ -33,6 +33,7 @@ OutputForecasts infer(const Params&, const InputForecasts& inputs) {
 NodeType make_occlusion_node() {
   NodeType t;
   t.name = "make_occlusion";
+  t.version = 2;
   t.category = "image";
   t.summary = "Makes an ambient occlusion map from a height map";
   t.help =
@@ -49,7 +50,7 @@ NodeType make_occlusion_node() {
                .help = "Factor on the darkening; 1 is as computed, more is darker.",
                .min = 0,
                .max = 4},
-              edges_param()};
+              derived_edges_param()};
   t.persist = Persist::payload;
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Image>("height")->size().area()) * sizeof(float);

@@ -128,14 +128,16 @@ std::vector<Param> params() {
 NodeType preview_node() {
   NodeType t;
   t.name = "preview";
-  t.version = 3;
+  t.version = 4;
   t.category = "image";
   t.summary = "Renders a material under a movable light";
   t.help =
       "GGX reflection (Walter et al. 2007, Heitz 2014) with normal mapping in either convention, ambient occlusion, "
       "metals, emission, and parallax and shadows ray-marched through the height map. The depth of the relief is "
       "estimated from the normals; without a normal map it is a twentieth of the material's width, and normals come "
-      "from the height. Render several lights to check that maps agree: bumps must be bright on the side of the light.";
+      "from the height. Seen from above, heights that do not tile throw no shadows from one repeat onto the next. "
+      "Render several lights "
+      "to check that maps agree: bumps must be bright on the side of the light.";
   t.inputs = {{.name = "material", .type = ValueType::material, .help = "any maps; missing ones get defaults"}};
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "8-bit colour picture"}};
   t.params = params();

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/image/opacity_weights.h"
 #include "core/image/resample.h"
+#include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
 
@@ -25,9 +27,15 @@ std::optional<Size> target_size(const Params& params, std::optional<Size> map, s
   return Size{scaled(map->width, scale), scaled(map->height, scale)};
 }
 
-ImagePtr resized(const NodeContext& node, const ImagePtr& map, Size material) {
-  return resampled(map, *target_size(node.params(), map->size(), material), node.text("filter"), edges_of(node),
-                   map_recipe(node, *map));
+ImagePtr resized(NodeContext& node, const Map& map, const Material& material, Outside outside) {
+  const Size size = *target_size(node.params(), map.image->size(), material.size());
+  const std::string& filter = node.text("filter");
+  const Digest recipe = map_recipe(node, *map.image);
+  const bool averages = filter != "nearest" && size != map.image->size();
+  const ImagePtr weights = averages ? opacity_weights(map.image, material.find(Semantic::opacity)) : nullptr;
+  if (!weights) return resampled(map.image, size, filter, outside, recipe);
+  node.note(map.name + ": colours count by their opacity");
+  return resampled_by_weight(map.image, weights, size, filter, outside, recipe);
 }
 
 OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
@@ -43,9 +51,9 @@ OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
 
 void compute(NodeContext& node) {
   const MaterialPtr material = node.input<Material>("material");
-  const Size size = material->size();
+  const Outside outside = node.text("filter") == "nearest" ? Outside::clamp : derived_edges_of(node, *material);
   node.output("material", with_maps_changed(material, node.texts("maps"),
-                                            [&](const Map& m) { return resized(node, m.image, size); }));
+                                            [&](const Map& m) { return resized(node, m, *material, outside); }));
 }
 
 std::vector<std::string> check(const Params& params) {
@@ -60,12 +68,15 @@ std::vector<std::string> check(const Params& params) {
 NodeType resize_node() {
   NodeType t;
   t.name = "resize";
-  t.version = 2;
+  t.version = 3;
   t.category = "image";
   t.summary = "Scales the maps of a material";
   t.help =
-      "Scales to a given size, or by a factor. Colours stored as srgb_texture are filtered in linear light, normals as "
-      "vectors that are renormalised, everything else as stored. Pixels are computed on demand.";
+      "Scales to a given size, or by a factor. Colours stored as srgb_texture are filtered in linear light, and by "
+      "their "
+      "opacity if the material has one; normals as vectors that are renormalised, everything else as stored. Pixels "
+      "are "
+      "computed on demand.";
   t.inputs = {material_port("material", "the maps to scale; an image is taken as a material of one map")};
   t.outputs = {material_port("material", "the same maps, scaled")};
   t.params = {
@@ -88,7 +99,7 @@ NodeType resize_node() {
        .help = "auto: lanczos3 to shrink, mitchell to enlarge, nearest for masks. All but nearest average over every "
                "source pixel when shrinking.",
        .choices = scaling_filter_names()},
-      edges_param(),
+      derived_edges_param(),
       {.name = "maps", .type = ParamType::texts, .fallback = Texts{}, .help = "The maps to scale; empty for all."},
   };
   t.persist = Persist::derived;

@@ -48,14 +48,15 @@ ImagePtr with_colors(const ImagePtr& image, const std::string& wish, Depth writt
 }
 
 /// The image as it goes to the file, with the depth it gets there.
-MapFileJob job_for(NodeContext& node, const std::string& name, const ImagePtr& image, const fs::path& target) {
-  MapFileJob job{.name = name, .image = with_normals(image, node.text("normal_y")), .target = target};
+MapFileJob job_for(NodeContext& node, const Map& map, const Material& material, const fs::path& target) {
+  MapFileJob job{.name = map.name, .image = with_normals(map.image, node.text("normal_y")), .target = target};
   job.has_levels = node.flag("mips");
   job.options.format = required_format("path", target);
   require_depth(job.options.format, node.text("depth"));
   job.options.jpeg_quality = int(node.integer("jpeg_quality"));
-  job.options.depth = written_depth(job.options.format, node.text("depth"), image->info().depth);
+  job.options.depth = written_depth(job.options.format, node.text("depth"), map.image->info().depth);
   job.image = with_colors(job.image, node.text("color_space"), job.options.depth);
+  weigh_levels(node, job, material.find(Semantic::opacity));
   tell_of_losses(node, job, node.text("depth") != "keep");
   return job;
 }
@@ -71,7 +72,7 @@ void add_material(NodeContext& node, const Material& material, std::vector<MapFi
   for (const Map& m : maps) names.push_back(m.name);
   require_pattern_for(pattern, names);
   for (const Map& m : maps) {
-    MapFileJob& job = jobs.emplace_back(job_for(node, m.name, m.image, target_of(m)));
+    MapFileJob& job = jobs.emplace_back(job_for(node, m, material, target_of(m)));
     job.options.description = description_line(description_of(m.name, job.image->info(), material.metres()));
   }
 }
@@ -79,11 +80,7 @@ void add_material(NodeContext& node, const Material& material, std::vector<MapFi
 fs::path uv_target(const NodeContext& node, const UvMap& uv, const std::string& material) {
   const char* param = param_of_uv(node.params());
   fs::path target = filled(param, node.text(param), {"uv", material, uv.size()});
-  const FileFormat format = required_format("uv_path", target);
-  if (format == FileFormat::jpeg || format == FileFormat::tx)
-    throw Error("uv_path", fmt::format("the uv map {}; expected .exr, .png or .tif, found \"{}\"",
-                                       format == FileFormat::jpeg ? "is exact and JPEG is not" : "has no mip levels",
-                                       target.filename().string()));
+  require_exact_format(target);
   return target;
 }
 
@@ -198,7 +195,7 @@ std::vector<Param> params() {
 NodeType export_node() {
   NodeType t;
   t.name = "export";
-  t.version = 4;
+  t.version = 5;
   t.category = "sink";
   t.summary = "Writes maps, a uv map and a report to files";
   t.help =

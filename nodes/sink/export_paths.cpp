@@ -31,6 +31,16 @@ std::string with_tile(const char* param, std::string pattern, std::string& mater
   return pattern;
 }
 
+/// Names come from files, documents and programs; one that leads elsewhere must not be a part of a path.
+void require_part_of_path(const char* param, const char* what, const std::string& name) {
+  if (name.find_first_of(std::string_view("/\0", 2)) == std::string::npos &&
+      (name.empty() || name.find_first_not_of('.') != std::string::npos))
+    return;
+  throw Error(param, fmt::format("the {0} is called {1:?}, which cannot be a part of a file's name; give it another "
+                                 "name, or write a path without {{{0}}}",
+                                 what, name));
+}
+
 }  // namespace
 
 std::string filled(const char* param, const std::string& given, const PathValues& values) {
@@ -54,6 +64,7 @@ std::string filled(const char* param, const std::string& given, const PathValues
       throw Error(param, fmt::format("unknown placeholder {{{0}}} in \"{1}\"; known are {{map}}, {{material}}, "
                                      "{{width}}, {{height}} and <UDIM>; a parameter of the graph is written ${0}",
                                      name, pattern));
+    require_part_of_path(param, name.c_str(), at->second);
     out += at->second;
     i = end;
   }
@@ -77,6 +88,16 @@ void require_pattern_for(const std::string& pattern, const std::vector<std::stri
     throw Error("path", fmt::format("\"{}\" names one file, but there are {} maps ({}); write {{map}} where the map's "
                                     "name goes, or choose one with the parameter `maps`",
                                     pattern, maps.size(), fmt::join(maps, ", ")));
+}
+
+void require_exact_format(const fs::path& path) {
+  const FileFormat format = required_format("uv_path", path);
+  if (format == FileFormat::exr || format == FileFormat::png || format == FileFormat::tiff) return;
+  const char* why = format == FileFormat::jpeg ? "is exact and JPEG is not"
+                    : format == FileFormat::tx ? "has no mip levels"
+                                               : "needs 16 bits and TGA has 8";
+  throw Error("uv_path",
+              fmt::format("the uv map {}; expected .exr, .png or .tif, found \"{}\"", why, path.filename().string()));
 }
 
 const char* param_of_uv(const Params& params) {
@@ -108,6 +129,7 @@ namespace {
 /// The file of a pattern whose placeholders are partly known; only its folder if its name is not.
 FutureFile future_file(const char* param, const std::string& pattern, const std::string& map, const std::string& what) {
   std::string path = pattern;
+  if (path.find("{map}") != std::string::npos) require_part_of_path(param, "map", map);
   for (size_t at; !map.empty() && (at = path.find("{map}")) != std::string::npos;) path.replace(at, 5, map);
   const fs::path known = path.substr(0, std::min(path.find('{'), path.find(udim)));
   return {param, known.parent_path(), known == path ? known.filename().string() : "", what};
@@ -138,6 +160,7 @@ Forecast foresee_export(const Params& params, const InputForecasts& inputs) {
   if (inputs.count("uv")) {
     const char* param = param_of_uv(params);
     require_writer(param);
+    require_exact_format(text(param));
     out.files.push_back(future_file(param, text(param), "uv", "the uv map"));
   }
   if (inputs.count("report")) {

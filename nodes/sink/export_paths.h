@@ -32,6 +32,9 @@ void require_pattern_for(const std::string& path, const std::vector<std::string>
 /// The parameter that says where the uv map goes: `uv_path`, else `path` with "uv" for the map's name.
 const char* param_of_uv(const Params& params);
 
+/// Throws Error about "uv_path" unless the file's format holds a uv map exactly.
+void require_exact_format(const std::filesystem::path& path);
+
 /// Whether a report goes to a .csv file rather than a .json file.
 bool is_csv(const std::filesystem::path& report_path);
 void require_report_path(const std::filesystem::path& report_path);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,8 +12,10 @@
 #include "core/file/file_io.h"
 #include "core/image/color.h"
 #include "core/material/file_stems.h"
+#include "core/material/map_names.h"
 #include "core/node/node.h"
 #include "nodes/common/node_helpers.h"
+#include "nodes/common/shape_rules.h"
 #include "nodes/exchange/scene.h"
 #include "nodes/sink/export_paths.h"
 #include "nodes/sink/map_files.h"
@@ -53,12 +56,25 @@ Texts formats_of(PresetDocument document) {
   }
 }
 
-/// What files are named after, without the UDIM tile.
+/// What files are to be named after, without the UDIM tile.
+std::string wanted_name(const std::string& given, const Material& material) {
+  return without_udim_tile(given.empty() ? material.name() : given);
+}
+
+/// What they are named after: what every file system, and every reader, takes.
 std::string name_of_files(const std::string& given, const Material& material) {
   std::string out;
-  for (const char c : without_udim_tile(given.empty() ? material.name() : given))
-    out += is_word(c) || c == '-' ? c : '_';
+  for (const char c : wanted_name(given, material)) out += is_word(c) || c == '-' ? c : '_';
   return out.empty() ? "material" : out;
+}
+
+/// Tells of a material's name that the document cannot have as it is.
+void tell_of_identifier(NodeContext& node, PresetDocument document, const std::string& name) {
+  const bool has_identifiers = document == PresetDocument::materialx_standard_surface ||
+                               document == PresetDocument::materialx_open_pbr || document == PresetDocument::usd;
+  if (!has_identifiers || identifier(name) == name) return;
+  node.note(fmt::format("the material is called {} in the document, which takes letters, digits and _ only",
+                        identifier(name)));
 }
 
 /// The surface's size: as the parameter says, else as the material knows it; not known if neither does.
@@ -71,23 +87,76 @@ fs::path folder_for(const NodeContext& node, const Material& material) {
   return filled("path", node.text("path"), {"", material.name(), material.size()});
 }
 
-MapFileJob job_for(NodeContext& node, FileContent& content, const fs::path& folder) {
+MapFileJob job_for(NodeContext& node, FileContent& content, const Material& material, const fs::path& folder) {
   const std::string& extension = node.text("format");
   MapFileJob job{.name = content.name, .image = content.image, .target = folder / (content.name + "." + extension)};
   job.has_levels = node.flag("mips");
   job.options.format = *format_from(job.target);
   job.options.jpeg_quality = int(node.integer("jpeg_quality"));
-  const bool needs_alpha = job.image->channels() == 4;
-  if (needs_alpha && job.options.format == FileFormat::jpeg)
-    throw Error("format", fmt::format("{} needs an alpha channel ({}), which JPEG does not have; take png",
-                                      content.name, described(content)));
   job.options.depth = written_depth(job.options.format, node.text("depth"), job.image->info().depth);
   // Float files hold linear colours, whoever reads them.
   if (is_color(job.image->info().semantic))
     job.image = convert_color(job.image, assumed_color_space(job.image->info().semantic, job.options.depth));
+  weigh_levels(node, job, material.find(Semantic::opacity));
   content.image = job.image;
   tell_of_losses(node, job, node.text("depth") != "keep");
   return job;
+}
+
+/// Throws Error about "format" if the files do not fit into it, or about "path" if two have one name.
+void require_written(const Params& params, const std::vector<FileContent>& contents) {
+  std::vector<MapFileJob> jobs;
+  for (const FileContent& c : contents) {
+    jobs.push_back(
+        {.name = c.name, .image = c.image, .target = c.name + "." + std::get<std::string>(params.at("format"))});
+    if (c.image->channels() == 4 && format_from(jobs.back().target) == FileFormat::jpeg)
+      throw Error("format", fmt::format("{} needs an alpha channel ({}), which JPEG does not have; take png", c.name,
+                                        described(c)));
+  }
+  require_distinct(jobs);
+}
+
+/// A material of which nothing but descriptions can be asked, with maps that there will, or may, be.
+MaterialPtr stand_in(const Forecast& material, const Texts& of) {
+  std::vector<Map> maps;
+  for (const std::string& map : of) {
+    const ImageFacts facts = map_of(material, map);
+    ImageInfo info{.size = facts.size.value_or(Size{1, 1})};
+    info.semantic = facts.semantic.value_or(semantic_of_map(map).value_or(Semantic::data));
+    info.channels = facts.channels.value_or(is_color(info.semantic) || info.semantic == Semantic::normal ? 3 : 1);
+    info.color_space = assumed_color_space(info.semantic, info.depth);
+    maps.push_back(
+        {map, Image::computed(info, Hasher().add("stand-in").add(map).digest(), [](const Rect&, float*) {})});
+  }
+  return maps.empty() ? nullptr : Material::make("", std::move(maps));
+}
+
+void require_written(const Params& params, const Forecast& described, const Texts& maps) {
+  std::vector<std::string> unsaid;
+  if (const MaterialPtr material = stand_in(described, maps))
+    require_written(params, preset_files(preset_of(params), *material,
+                                         name_of_files(std::get<std::string>(params.at("name")), *material), unsaid));
+}
+
+OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+  const Forecast& material = inputs.at("material").front();
+  require_written(params, material, material.maps);
+  return {};
+}
+
+/// What would be refused if the material turns out to have all maps that it may have, such as opacity in alpha.
+Texts doubts(const Params& params, const InputForecasts& inputs) {
+  const auto material = inputs.find("material");
+  if (material == inputs.end() || !material->second.front().possible_maps) return {};
+  Texts all = material->second.front().maps;
+  for (const std::string& map : *material->second.front().possible_maps)
+    if (std::ranges::find(all, map) == all.end()) all.push_back(map);
+  try {
+    require_written(params, material->second.front(), all);
+  } catch (const Error& e) {
+    return {fmt::format("\"{}\": this may be refused once the maps are read: {}", e.about(), e.what())};
+  }
+  return {};
 }
 
 /// A file that is written as it is.
@@ -147,10 +216,41 @@ void leave_rest(const MaterialScene& scene, std::vector<MapFileJob>& jobs,
   std::erase_if(listed, [&](const auto& entry) { return is_inside(entry.first); });
 }
 
+/// Of files that an earlier export wrote and this one does not, mip levels of both included.
+void warn_of_left_over(NodeContext& node, const fs::path& folder, const Texts& before) {
+  std::set<std::string> written, names(before.begin(), before.end()), left_over;
+  for (const StagedFile& f : node.staged()) written.insert(f.target.filename().string());
+  names.insert(written.begin(), written.end());
+  std::error_code failure;
+  const auto is_left_over = [&](const std::string& name) {
+    return !written.contains(name) && fs::exists(folder / name, failure);
+  };
+  for (const std::string& name : names) {
+    if (is_left_over(name)) left_over.insert(name);
+    for (int level = 1;; level++) {
+      const std::string file = mip_file(name, level).string();
+      if (is_left_over(file))
+        left_over.insert(file);
+      else if (!written.contains(file))
+        break;
+    }
+  }
+  if (!left_over.empty())
+    node.warn(
+        fmt::format("{} still holds {} of an earlier export, which this one does not write; remove {}, or other "
+                    "programs may take {} for maps of this material",
+                    folder.string(), fmt::join(left_over, ", "), left_over.size() == 1 ? "it" : "them",
+                    left_over.size() == 1 ? "it" : "them"));
+}
+
 void compute(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const ExportPreset& preset = preset_of(node.params());
+  const std::string wanted = wanted_name(node.text("name"), *material);
   const std::string name = name_of_files(node.text("name"), *material);
+  if (name != wanted)
+    node.note(
+        fmt::format("files are named after {}, as \"{}\" has characters that not every program takes", name, wanted));
   const std::string tile = udim_tile_of(material->name()), tiled_name = tile.empty() ? name : name + "." + tile;
   const PhysicalSize metres = metres_of(node, *material);
   const fs::path folder = folder_for(node, *material);
@@ -159,8 +259,7 @@ void compute(NodeContext& node) {
   for (FileContent& c : contents) c.name += tiled_name.substr(name.size());
   MaterialScene scene = has_document(preset) ? scene_of(node, tiled_name, metres, *material) : MaterialScene();
   std::vector<MapFileJob> jobs;
-  for (FileContent& c : contents) jobs.push_back(job_for(node, c, folder));
-  require_distinct(jobs);
+  for (FileContent& c : contents) jobs.push_back(job_for(node, c, *material, folder));
   std::vector<std::pair<std::string, const FileContent*>> listed;
   for (size_t i = 0; i < jobs.size(); i++) {
     jobs[i].options.description = metadata_line(contents[i], metres);
@@ -171,13 +270,16 @@ void compute(NodeContext& node) {
   }
   for (std::string& n : notes) node.note(std::move(n));
   if (has_document(preset)) {
+    tell_of_identifier(node, preset.document, tiled_name);
     const TextFile document = document_for(preset, scene, jobs);
     write_file(node.stage(folder / document.name), document.bytes);
   }
   if (preset.document == PresetDocument::glb) leave_rest(scene, jobs, listed);
-  if (jobs.empty()) return;
+  const Texts before = files_exported_before(folder, tiled_name);
+  if (jobs.empty() && before.empty()) return;
   write_file(node.stage(folder / sidecar_name(tiled_name)), sidecar_text(preset, tiled_name, metres, listed));
   for (MapFileJob& job : jobs) stage_job(node, job);
+  warn_of_left_over(node, folder, before);
   write_all(node, jobs);
 }
 
@@ -272,7 +374,7 @@ NodeType export_preset_node() {
       "at least 16 bits, since 8 show as steps.";
   t.inputs = {{.name = "material", .type = ValueType::material, .help = "the maps to write"}};
   t.params = params();
-  t.version = 3;
+  t.version = 4;
   t.persist = Persist::digest;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.memory_hint = [](const NodeContext& node) {
@@ -282,8 +384,10 @@ NodeType export_preset_node() {
     return per_file * (1 + material->maps().size()) + (in_memory ? size_t(material->size().area()) * 16 : 0);
   };
   t.check = check;
+  t.infer = infer;
   t.compute = compute;
   t.preflight = preflight;
+  t.doubts = doubts;
   return t;
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/base/paths.h"
 #include "core/image/mip_levels.h"
+#include "core/image/opacity_weights.h"
 
 namespace terrazzo {
 
@@ -30,8 +31,10 @@ std::string depths_of(FileFormat format) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The format's depth nearest to the map's, lossless if there is one.
+/// The format's depth nearest to the map's, lossless if there is one. Halfs in TIFF come only if asked for: many
+/// programs read them as noise or not at all, Blender among them.
 Depth nearest_depth(FileFormat format, Depth have) {
+  if (format == FileFormat::tiff && have == Depth::f16) return Depth::f32;
   if (holds(format, have)) return have;
   switch (format) {
     case FileFormat::png:
@@ -75,7 +78,9 @@ Param depth_param() {
   return {.name = "depth",
           .type = ParamType::choice,
           .fallback = "keep",
-          .help = "Bit depth. \"keep\": each map's own, or the nearest that the format holds.",
+          .help =
+              "Bit depth. \"keep\": each map's own, or the nearest that the format holds; half maps become "
+              "float in TIFF files, as few programs read halfs there.",
           .choices = {"keep", "uint8", "uint16", "half", "float"}};
 }
 
@@ -96,18 +101,26 @@ Param mips_param() {
           .fallback = false,
           .help =
               "Also writes the levels of a mip chain, as files that end in .mip1, .mip2 and so on before the "
-              "extension. Colours are averaged in linear light, normals are made unit length again, masks and labels "
-              "are sampled. TX files hold them in any case."};
+              "extension. Colours are averaged in linear light and by the material's opacity, normals are made unit "
+              "length again, masks and labels are sampled. TX files hold them in any case."};
+}
+
+fs::path mip_file(fs::path file, int level) {
+  const std::string extension = file.extension().string();
+  return file.replace_extension(fmt::format(".mip{}{}", level, extension));
 }
 
 void stage_job(NodeContext& node, MapFileJob& job) {
   job.temporary = node.stage(job.target);
   if (!job.has_levels || job.options.format == FileFormat::tx) return;
-  for (int level = 1; level < mip_level_count(job.image->size()); level++) {
-    fs::path file = job.target;
-    file.replace_extension(fmt::format(".mip{}{}", level, job.target.extension().string()));
-    job.level_temporaries.push_back(node.stage(file));
-  }
+  for (int level = 1; level < mip_level_count(job.image->size()); level++)
+    job.level_temporaries.push_back(node.stage(mip_file(job.target, level)));
+}
+
+void weigh_levels(NodeContext& node, MapFileJob& job, const ImagePtr& opacity) {
+  if (!job.has_levels && job.options.format != FileFormat::tx) return;
+  job.weights = opacity_weights(job.image, opacity);
+  if (job.weights) node.note(fmt::format("{}: colours count by their opacity in mip levels", job.name));
 }
 
 void tell_of_losses(NodeContext& node, const MapFileJob& job, bool depth_was_asked_for) {
@@ -135,7 +148,7 @@ namespace {
 /// Writes the file, and its mip levels into it or into files of their own.
 void write_job(MapFileJob& job, const std::function<void(double)>& progress) {
   const bool has_levels = job.options.format == FileFormat::tx || !job.level_temporaries.empty();
-  std::vector<ImagePtr> levels = has_levels ? mip_levels(job.image) : std::vector{job.image};
+  std::vector<ImagePtr> levels = has_levels ? mip_levels(job.image, job.weights) : std::vector{job.image};
   const ImagePtr image = levels.front();
   levels.erase(levels.begin());
   if (job.options.format == FileFormat::tx) job.options.levels = levels;

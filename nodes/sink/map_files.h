@@ -17,6 +17,7 @@ struct MapFileJob {
   std::filesystem::path target;
   std::filesystem::path temporary{};
   bool has_levels = false;  ///< mip levels get files of their own
+  ImagePtr weights{};       ///< of colours in mip levels, see core/image/opacity_weights.h
   std::vector<std::filesystem::path> level_temporaries{};
   WriteOptions options{};
   Clipping clipped{};
@@ -32,8 +33,14 @@ Depth written_depth(FileFormat format, const std::string& wanted, Depth have);
 /// Parameter "mips" of nodes that write maps.
 Param mips_param();
 
-/// Asks for the temporary files of a job and of its mip levels, wall_normal.mip1.png beside wall_normal.png.
+/// The file of a mip level: wall_normal.mip1.png of wall_normal.png.
+std::filesystem::path mip_file(std::filesystem::path file, int level);
+
+/// Asks for the temporary files of a job and of its mip levels.
 void stage_job(NodeContext& node, MapFileJob& job);
+
+/// Lets colours count by their opacity in mip levels, if the job has any, and says so. `opacity` may be null.
+void weigh_levels(NodeContext& node, MapFileJob& job, const ImagePtr& opacity);
 
 /// Tells what is lost by the format and depth that have been chosen.
 void tell_of_losses(NodeContext& node, const MapFileJob& job, bool depth_was_asked_for);

@@ -6,18 +6,22 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tbb/parallel_for.h>
 
 #include "core/image/color.h"
 #include "core/image/image_file.h"
+#include "core/material/map_description.h"
 #include "core/material/material_maps.h"
 #include "core/node/node.h"
 #include "nodes/common/color_space.h"
 #include "nodes/common/exemplar_doubts.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
+#include "nodes/source/depth_checks.h"
 #include "nodes/source/material_folder.h"
+#include "nodes/source/material_sources.h"
 #include "nodes/source/normal_checks.h"
+#include "nodes/source/normal_maps.h"
+#include "nodes/source/packing_checks.h"
 #include "nodes/source/unnamed_packings.h"
 
 namespace terrazzo {
@@ -25,89 +29,6 @@ namespace terrazzo {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A file that has been read, with the warnings of the reader.
-struct Source {
-  ImagePtr image;
-  std::vector<std::string> warnings;
-};
-
-/// A file and, of an EXR file, a layer.
-using Place = std::pair<std::string, std::string>;
-using Sources = std::map<Place, Source>;
-
-Place place_of(const RecognisedMap& m) {
-  return {m.file, m.layer};
-}
-
-/// Reads each file once, several at a time.
-Sources read_sources(NodeContext& node, const fs::path& folder, const std::vector<RecognisedMap>& maps) {
-  Sources sources;
-  std::map<Place, Semantic> semantics;
-  for (const RecognisedMap& m : maps) {
-    sources[place_of(m)];
-    semantics.emplace(place_of(m), m.semantic);
-  }
-  std::vector<std::pair<const Place, Source>*> entries;
-  for (auto& entry : sources) entries.push_back(&entry);
-  tbb::parallel_for(size_t{0}, entries.size(), [&](size_t i) {
-    node.task().check();
-    const auto& [file, layer] = entries[i]->first;
-    Source& source = entries[i]->second;
-    ImageInfo info;
-    info.semantic = semantics.at(entries[i]->first);
-    source.image = read_image(
-        folder / file, info, [&](const std::string& w) { source.warnings.push_back(w); }, layer);
-  });
-  std::set<std::string> said;  // once, what holds for all layers of a file
-  for (const auto& [place, source] : sources)
-    for (const std::string& warning : source.warnings)
-      if (said.insert(warning).second) node.note(warning);
-  return sources;
-}
-
-/// What usually hides in a map's alpha channel: opacity in a base colour's; gloss in that of specular and of metallic
-/// maps, as Unity takes them.
-std::optional<Semantic> hidden_in_alpha(const RecognisedMap& m) {
-  if (!m.channels.empty()) return std::nullopt;
-  if (m.semantic == Semantic::base_color) return Semantic::opacity;
-  const bool may_have_gloss = m.semantic == Semantic::specular || m.semantic == Semantic::metallic;
-  return may_have_gloss ? std::optional(Semantic::roughness) : std::nullopt;
-}
-
-void add_alpha(const RecognisedMap& m, const ImagePtr& file, std::vector<Map>& maps, std::vector<std::string>& notes) {
-  const std::optional<Semantic> hidden = hidden_in_alpha(m);
-  if (!hidden) return;
-  const bool is_gloss = *hidden == Semantic::roughness;
-  const ImagePtr alpha = alpha_of(file, *hidden, is_gloss);
-  if (!alpha) return;
-  const std::string name(name_of(*hidden));
-  if (std::any_of(maps.begin(), maps.end(), [&](const Map& k) { return k.name == name; })) {
-    notes.push_back(fmt::format("the alpha channel of {} is left out: there is {} map", m.place(),
-                                is_gloss ? "a roughness" : "an opacity"));
-    return;
-  }
-  maps.push_back({name, alpha});
-  notes.push_back(fmt::format("{}: {} (alpha channel){}", name, m.place(),
-                              is_gloss ? ", inverted: gloss, as in the specular workflow and in Unity" : ""));
-}
-
-/// A packed file whose channels are all the same is some other map, or was packed from one map by mistake.
-void warn_of_grey_packings(const std::vector<RecognisedMap>& maps, const Sources& sources,
-                           std::vector<std::string>& notes) {
-  std::map<Place, Texts> packed;
-  for (const RecognisedMap& m : maps)
-    if (m.channels.size() == 1 && m.channels != "a") packed[place_of(m)].push_back(m.map);
-  for (const auto& [place, names] : packed) {
-    const std::string& file = place.first;
-    if (names.size() > 1 && is_grey(*sources.at(place).image))
-      notes.push_back(fmt::format(
-          "{}{}: {} are read from its channels, but these are the same: it is a grey picture, not a packed one. If it "
-          "is one map, say which, and leave the others out: `maps` {{\"{}\": \"{}:r\", \"{}\": \"\"}}",
-          warning_mark, file, fmt::join(names, ", "), names[0], file,
-          fmt::join(names.begin() + 1, names.end(), "\": \"\", \"")));
-  }
-}
 
 /// The space that the file, or the sidecar, says; empty if it says none.
 std::string described_color_space(const RecognisedMap& m) {
@@ -121,9 +42,37 @@ std::string described_color_space(const RecognisedMap& m) {
   }
 }
 
+/// `with_alpha` receives the map's name if x or y is in the file's alpha channel.
+ImagePtr normals_of(const RecognisedMap& m, const Source& source, const std::string& space,
+                    const std::vector<Map>& maps, Texts& with_alpha, std::vector<std::string>& notes) {
+  // Of channels that were chosen there may be x and y alone, in this order.
+  const ImagePtr chosen = m.channels.empty() ? source.image : map_of_file(m, source.image, space, notes);
+  NormalFile file{.place = m.place(), .map = m.map, .names = source.channel_names, .channels = m.interpretation.normal};
+  if (!m.channels.empty()) file.names = chosen->channels() == 2 ? Texts{"x", "y"} : Texts();
+  const auto height = std::ranges::find(maps, "height", &Map::name);
+  const RebuiltNormals rebuilt =
+      rebuilt_normals(chosen, file, height == maps.end() ? nullptr : height->image.get(), notes);
+  if (rebuilt.uses_alpha) with_alpha.push_back(m.map);
+  if (!rebuilt.image) return map_of_file(m, source.image, space, notes);
+  ImageInfo info = rebuilt.image->info();
+  info.semantic = m.semantic;
+  info.color_space = space;
+  return Image::redescribed(rebuilt.image, info);
+}
+
+/// Which way green points, if the user says it.
+std::optional<NormalY> given_normal_y(const NodeContext& node) {
+  const std::string& given = node.text("normal_y");
+  return given == "auto" ? std::nullopt : std::optional(given == "up" ? NormalY::up : NormalY::down);
+}
+
+bool is_given(const Params& params, const RecognisedMap& m) {
+  return std::get<TextMap>(params.at("maps")).count(m.map) > 0;
+}
+
 /// Most MaskMaps have no detail mask; their third channel is a constant.
 bool may_be_empty(const Params& params, const RecognisedMap& m) {
-  return m.map == "mask_detail" && !m.channels.empty() && !std::get<TextMap>(params.at("maps")).count(m.map);
+  return m.map == "mask_detail" && !m.channels.empty() && !is_given(params, m);
 }
 
 void compute(NodeContext& node) {
@@ -136,23 +85,40 @@ void compute(NodeContext& node) {
   notes.clear();
   const Sources sources = read_sources(node, folder, found);
   std::vector<Map> maps;
-  for (const RecognisedMap& m : found) {
-    const ImagePtr& file = sources.at(place_of(m)).image;
+  Texts with_alpha;
+  const auto add_map = [&](const RecognisedMap& m) {
+    const Source& source = sources.at(place_of(m));
     const bool space_given = m.semantic == Semantic::base_color && !given_space.empty();
     std::string space = space_given ? given_space : described_color_space(m);
-    if (space.empty()) space = assumed_color_space(m.semantic, file->info().depth);
-    const ImagePtr map = map_of_file(m, file, space, notes);
+    if (space.empty())
+      if (space = stated_color_space(read_image_info(folder / m.file, m.layer), m.semantic); !space.empty())
+        notes.push_back(fmt::format("{}: {} is read as {}, as it says", m.map, m.place(), space));
+    if (space.empty()) space = assumed_color_space(m.semantic, source.image->info().depth);
+    const ImagePtr map = m.semantic == Semantic::normal ? normals_of(m, source, space, maps, with_alpha, notes)
+                                                        : map_of_file(m, source.image, space, notes);
     if (may_be_empty(node.params(), m) && is_constant(*map))
       notes.push_back(fmt::format("{}: {} is the same everywhere; left out", m.map, m.place()));
     else
       maps.push_back({m.map, map});
-  }
-  warn_of_grey_packings(found, sources, notes);
-  for (const RecognisedMap& m : found) add_alpha(m, sources.at(place_of(m)).image, maps, notes);
+  };
+  const auto is_normal = [](const RecognisedMap& m) { return m.semantic == Semantic::normal; };
+  for (const RecognisedMap& m : found)
+    if (!is_normal(m)) add_map(m);
+  for (const RecognisedMap& m : found)
+    if (is_normal(m)) add_map(m);  // a height map may tell their channels apart
+  std::vector<RecognisedMap> by_name = found;
+  std::erase_if(by_name, [&](const RecognisedMap& m) { return is_given(node.params(), m); });
+  settle_packings(
+      by_name, [&](const RecognisedMap& m) { return sources.at(place_of(m)).image; }, maps, notes);
+  leave_out_unrelated(by_name, maps, notes);
+  for (const RecognisedMap& m : found)
+    if (std::ranges::find(with_alpha, m.map) == with_alpha.end())
+      add_alpha(m, sources.at(place_of(m)).image, maps, notes);
   Texts ignored = material_found.ignored;
   add_unnamed_packing(folder, material_found.unnamed, maps, ignored, notes);
   if (!ignored.empty()) notes.push_back(note_on_ignored(ignored));
   std::ranges::stable_sort(maps, {}, [](const Map& m) { return m.image->info().semantic; });
+  settle_depths(given_normal_y(node), found, maps, notes);
   settle_normals(node.text("normal_y"), found, maps, notes);
   for (std::string& n : notes) node.note(std::move(n));
   MaterialPtr material = Material::make(material_found.name, std::move(maps), material_found.metres);
@@ -171,6 +137,7 @@ std::vector<fs::path> files_read(const Params& params) {
 std::vector<std::string> check(const Params& params) {
   std::vector<std::string> problems = color_space_problems(params, "color_space", "auto");
   for (std::string& p : problems_with_map_names(params)) problems.push_back(std::move(p));
+  for (std::string& p : problems_with_interpretations(params)) problems.push_back(std::move(p));
   return problems;
 }
 
@@ -181,16 +148,19 @@ Forecast preflight(const Params& params, const InputForecasts&) {
   const FoundMaterial found = find_maps(params, ignored_notes);
   if (!found.unnamed.empty())
     for (const Semantic s : packed_semantics) out.possible_maps->emplace_back(name_of(s));
+  const std::map<Place, Size> sizes = sizes_of_sources(folder_of(params), found.maps);
   for (const RecognisedMap& m : found.maps) {
-    (may_be_empty(params, m) ? *out.possible_maps : out.maps).push_back(m.map);
+    const bool may_lack = may_be_empty(params, m) || (may_be_left_out(m) && !is_given(params, m));
+    (may_lack ? *out.possible_maps : out.maps).push_back(m.map);
     try {
       require_readable_image(folder_of(params) / m.file);
       const FileInfo file = read_image_info(folder_of(params) / m.file, m.layer);
-      out.images[m.map] = {.size = file.size, .channels = channels_of_map(m, file.channels), .semantic = m.semantic};
+      const Size size = sizes.at(place_of(m));
+      out.images[m.map] = {.size = size, .channels = channels_of_map(m, file.channels), .semantic = m.semantic};
       const std::optional<Semantic> hidden = hidden_in_alpha(m);
-      if (!hidden || file.channels % 2 != 0) continue;
+      if (!hidden || file.channels % 2 != 0 || (m.semantic == Semantic::normal && file.channels != 4)) continue;
       const std::string& name = out.possible_maps->emplace_back(name_of(*hidden));
-      out.images.emplace(name, values_facts(file.size, *hidden));
+      out.images.emplace(name, values_facts(size, *hidden));
     } catch (const Error& e) {
       troubles.insert(e.what());
     }
@@ -212,25 +182,33 @@ Texts doubts(const Params& params, const InputForecasts&) {
 NodeType load_material_node() {
   NodeType t;
   t.name = "load_material";
-  t.version = 7;
+  t.version = 8;
   t.category = "source";
   t.summary = "Reads a folder of maps as one material";
   t.help =
       "Finds the maps in a folder by the naming conventions of ambientCG, Poly Haven, Substance, Quixel Megascans, "
-      "Unreal, Unity and glTF, and by plain names; the last such word in a name counts. Packed files (ORM, ARM, "
-      "metallicRoughness, MaskMap, MetallicSmoothness, AlbedoTransparency) are split into their channels, as are files "
+      "Unreal, Unity and glTF, and by plain names; the last such word in a name counts. Packed files (ORM, ARM, AORM, "
+      "metallicRoughness, OcclusionRoughMetal, MaskMap, MetallicSmoothness, AlbedoTransparency, alb_ht and nrm_rgh "
+      "with "
+      "the second map in alpha) are split into their channels, as are files "
       "of three or four channels whose names say nothing but whose pixels do, gloss and "
       "smoothness maps are inverted into roughness, grey maps stored in colour are reduced to one channel, and a base "
       "colour's alpha becomes the opacity map, that of a specular or metallic map, inverted, the roughness if there is "
-      "no other. Layers of EXR files are recognised by their names. If several files hold one map, OpenGL normals, "
-      "larger and lossless "
+      "no other, that of a normal map the height if the normals follow it. Layers and channels of EXR files are "
+      "recognised by their names, whatever their order. A picture named just like the other maps' material is its base "
+      "colour. If several files hold one map, OpenGL normals, finer levels of detail, larger and lossless "
       "files are preferred. A file terrazzo-material.json, as export writes it, counts more than names, and so does "
       "what "
-      "terrazzo wrote into a PNG, TIFF or EXR file's description. A folder of several materials is refused unless "
+      "terrazzo wrote into a PNG, TIFF or EXR file's description. Normals without z, as BC5 and DXT5nm store them, get "
+      "it "
+      "from x and y. A file whose orientation tag turns it away from the other maps is read as it is stored. A folder "
+      "of several materials is refused unless "
       "`name` picks one; UDIM tiles count as "
       "materials. ID maps (*_ID) are kept as labels. Maps may differ in size as long as they show the same area; a "
       "warning names those smaller "
-      "than the largest, which will be scaled up. Notes say what was recognised and what was left out.";
+      "than the largest, which will be scaled up. Notes say what was recognised and what was left out. Words that say "
+      "a map: " +
+      words_for_maps() + ".";
   t.outputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps found, named after their semantics"}};
   t.params = {
@@ -261,6 +239,12 @@ NodeType load_material_node() {
                "\"packed.png:g\"}. Relative to the folder; channels after a colon, of EXR files a layer "
                "(\"wall.exr:normal\", \"wall.exr:arm.g\"). <UDIM> stands for the tile that `name` picks. An empty text "
                "leaves the map out."},
+      {.name = "interpret",
+       .type = ParamType::text_map,
+       .fallback = TextMap{},
+       .help = "What the files hold, by map name, where neither names nor pixels say it: {\"normal\": \"dxt5nm\", "
+               "\"height\": \"inverted\"}. " +
+               std::string(interpretation_help) + "."},
       {.name = "ignore",
        .type = ParamType::texts,
        .fallback = Texts{},
@@ -274,8 +258,9 @@ NodeType load_material_node() {
       {.name = "color_space",
        .type = ParamType::text,
        .fallback = "auto",
-       .help =
-           "The colour space of the base colour. \"auto\": srgb_texture in 8 and 16 bit, lin_rec709 in float files."},
+       .help = "The colour space of the base colour. \"auto\": as a terrazzo-material.json, the file's description or "
+               "a PNG "
+               "file's gAMA chunk that says linear; else srgb_texture in 8 and 16 bit, lin_rec709 in float files."},
   };
   t.persist = Persist::digest;
   t.compute = compute;

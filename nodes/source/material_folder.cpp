@@ -52,16 +52,6 @@ void require_folder(const fs::path& folder) {
                                   did_you_mean(folder.filename().string(), siblings)));
 }
 
-std::string all_words() {
-  std::string words;
-  for (const std::string_view name : semantic_names) {
-    const Semantic s = *semantic_from(name);
-    if (const std::string w = known_words(s); !w.empty())
-      words += fmt::format("{}{}: {}", words.empty() ? "" : "; ", name, w);
-  }
-  return words;
-}
-
 [[noreturn]] void fail_nothing_recognised(const fs::path& folder, const Recognition& recognition) {
   std::vector<std::string> present;
   std::error_code failure;
@@ -78,7 +68,7 @@ std::string all_words() {
     found += ", all of them folders: name one that holds the maps";
   throw Error("path",
               fmt::format("no maps recognised in {}: {}. File names say what a map is by a word at their end ({}); {}",
-                          folder.string(), found, all_words(), advice_on_map_names));
+                          folder.string(), found, words_for_maps(), advice_on_map_names));
 }
 
 /// Names the folder's files, the ignored ones taken out.
@@ -251,12 +241,42 @@ std::vector<fs::path> documents_of_material(const fs::path& folder) {
   return files;
 }
 
+/// What the parameter `interpret` says of maps.
+void interpret(const Params& params, std::vector<RecognisedMap>& maps) {
+  const auto given = params.find("interpret");
+  if (given == params.end()) return;
+  for (const auto& [name, words] : std::get<TextMap>(given->second)) {
+    const auto map = std::ranges::find(maps, name, &RecognisedMap::map);
+    if (map == maps.end()) {
+      Texts names;
+      for (const RecognisedMap& m : maps) names.push_back(m.map);
+      throw Error("interpret." + name, fmt::format("there is no map \"{}\"{}; the files hold {}", name,
+                                                   did_you_mean(name, names), fmt::join(names, ", ")));
+    }
+    map->interpretation = interpretation_from(words, map->semantic);
+    map->inverted = map->interpretation.inverted.value_or(map->inverted);
+  }
+}
+
 }  // namespace
 
+std::string words_for_maps() {
+  std::string words;
+  for (const std::string_view name : semantic_names) {
+    const Semantic s = *semantic_from(name);
+    if (const std::string w = known_words(s); !w.empty())
+      words += fmt::format("{}{}: {}", words.empty() ? "" : "; ", name, w);
+  }
+  return words;
+}
+
 std::string note_on_ignored(const Texts& ignored) {
+  constexpr size_t most = 10;
+  const Texts named(ignored.begin(), ignored.begin() + ptrdiff_t(std::min(most, ignored.size())));
   return fmt::format(
-      "ignored, the name says no map: {}. `data` keeps them as they are, `maps` says what they are. Known words are {}",
-      fmt::join(ignored, ", "), all_words());
+      "ignored, the name says no map: {}{}. `data` keeps them as they are, `maps` says what they are; the words that "
+      "say it are in `terrazzo nodes load_material`",
+      fmt::join(named, ", "), ignored.size() > most ? fmt::format(" and {} more", ignored.size() - most) : "");
 }
 
 fs::path folder_of(const Params& params) {
@@ -285,6 +305,18 @@ std::vector<std::string> problems_with_map_names(const Params& params) {
   return problems;
 }
 
+std::vector<std::string> problems_with_interpretations(const Params& params) {
+  std::vector<std::string> problems;
+  const auto given = params.find("interpret");
+  if (given == params.end()) return problems;
+  for (const auto& [map, words] : std::get<TextMap>(given->second)) try {
+      if (const std::optional<Semantic> semantic = semantic_of_map(map)) interpretation_from(words, *semantic);
+    } catch (const Error& e) {
+      problems.push_back(fmt::format("\"interpret.{}\": {}", map, e.what()));
+    }
+  return problems;
+}
+
 FoundMaterial find_maps(const Params& params, Texts& notes) {
   const fs::path folder = folder_of(params);
   require_folder(folder);
@@ -305,6 +337,7 @@ FoundMaterial find_maps(const Params& params, Texts& notes) {
     add_recognised(params, files, given, out, more_notes);
   std::stable_sort(out.maps.begin(), out.maps.end(),
                    [](const RecognisedMap& a, const RecognisedMap& b) { return a.semantic < b.semantic; });
+  interpret(params, out.maps);
   for (const RecognisedMap& m : out.maps) notes.push_back(fmt::format("{}: {}", m.map, m.place()));
   notes.insert(notes.end(), more_notes.begin(), more_notes.end());
   return out;

@@ -9,7 +9,8 @@
 #include "core/material/material_files.h"
 #include "core/node/node.h"
 
-/// Which files the node `load_material` reads, by its parameters `path`, `name`, `maps` and `ignore`.
+/// Which files the node `load_material` reads, by its parameters `path`, `name`, `maps`,
+/// `ignore` and `interpret`.
 namespace terrazzo {
 
 /// What messages of find_maps advise those who write a graph.
@@ -26,6 +27,9 @@ std::vector<std::string> image_names(const std::filesystem::path& folder);
 /// A message for each name in `maps` that is not a map name.
 std::vector<std::string> problems_with_map_names(const Params& params);
 
+/// A message for each text in `interpret` that says nothing about its map.
+std::vector<std::string> problems_with_interpretations(const Params& params);
+
 /// What a folder holds of a material.
 struct FoundMaterial {
   std::vector<RecognisedMap> maps{};
@@ -39,6 +43,9 @@ struct FoundMaterial {
 /// names. Throws Error about the parameter if the folder or files named in `maps` are missing, nothing is recognised,
 /// or it is not clear which of several materials is meant. Adds what the user should know to `notes`.
 FoundMaterial find_maps(const Params& params, Texts& notes);
+
+/// The words in names that say a map: "base_color: basecolor, albedo, ...; normal: ...".
+std::string words_for_maps();
 
 /// Tells which images were ignored, and what to do about it.
 std::string note_on_ignored(const Texts& ignored);

@@ -134,8 +134,12 @@ Sidecar parsed(const Json& json, const fs::path& folder) {
   if (const auto name = all.find("name")) out.name = name->text();
   if (const auto metres = all.find("metres"); metres && !metres->value.is_null()) out.metres = metres_in(*metres);
   const std::optional<Entry> files = all.find("files");
-  if (!files || !files->value.is_object() || files->value.empty())
-    all.fail("expected \"files\" with an object for each file");
+  if (!files || !files->value.is_object()) all.fail("expected \"files\" with an object for each file");
+  if (files->value.empty())
+    files->fail(
+        "none is named: the last export wrote no maps but into one binary file. To read the images in the folder "
+        "by their names, remove " +
+        sidecar_name(out.name));
   for (const auto& [file, entry] : files->value.items()) read_file_entry(files->inside(file, entry), file, folder, out);
   if (out.maps.empty()) files->fail("none of the files has a map");
   return out;
@@ -154,6 +158,24 @@ std::string reason_of(const nlohmann::json::exception& e) {
 }
 
 }  // namespace
+
+std::vector<std::string> files_exported_before(const fs::path& folder, const std::string& material) {
+  const fs::path path = folder / sidecar_name(material);
+  std::error_code failure;
+  if (!fs::is_regular_file(path, failure)) return {};
+  std::vector<std::string> out;
+  try {
+    const Json json = Json::parse(text_of(path));
+    if (!json.contains("preset") || json.at("name") != material) return {};
+    for (const auto& [name, entry] : json.at("files").items())
+      if (fs::path(name).filename() == name) out.push_back(name);
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  } catch (const Error&) {
+    return {};
+  }
+  return out;
+}
 
 std::string sidecar_name(std::string_view material) {
   const std::string tile = udim_tile_of(material);

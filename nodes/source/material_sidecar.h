@@ -29,4 +29,8 @@ struct Sidecar {
 /// skipped. Throws Error about the parameter `path` that says what is wrong and where.
 std::optional<Sidecar> read_sidecar(const std::filesystem::path& folder, std::string_view material = "");
 
+/// The files that the sidecar names, if an export of that material wrote it; none if there is no such sidecar, or it
+/// cannot be read.
+std::vector<std::string> files_exported_before(const std::filesystem::path& folder, const std::string& material);
+
 }  // namespace terrazzo

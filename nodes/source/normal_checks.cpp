@@ -71,9 +71,10 @@ void warn_of_misfits(const std::string& map, const Image& normal, const ImagePtr
   if (e.normal_y && e.height_inverted)
     notes.push_back(fmt::format(
         "{}{}: red runs against the slopes of the height map (correlation x {:.2f}, y {:.2f}): the height map is dark "
-        "where the surface is high, or {}. Invert the one that is wrong",
+        "where the surface is high, or {}. Invert the one that is wrong; {} inverts the height map",
         warning_mark, map, e.along_x, e.along_y,
-        e.along_y > 0 ? "green points up and red is flipped" : "the normals are turned by 180 degrees"));
+        e.along_y > 0 ? "green points up and red is flipped" : "the normals are turned by 180 degrees",
+        advice_to_interpret("height", "inverted")));
   using enum NormalMisfit::Kind;
   const NormalMisfit misfit = misfit_with_height(normal, *height);
   const auto turned = [&](std::string_view how) {

@@ -75,6 +75,14 @@ KeptPixels outside_holes(const UvMap* uv, const ImagePtr& holes, Size size, bool
   return kept;
 }
 
+Param wrapping_param() {
+  Param p = tileable_param();
+  p.choices.insert(p.choices.begin(), "auto");
+  p.fallback = "auto";
+  p.help += " auto: as the exemplar does, by \"tiles\" of its analysis, or as \"uv\" does.";
+  return p;
+}
+
 void compute(NodeContext& node) {
   const auto index = node.input<Index>("index");
   const auto uv = node.optional_input<UvMap>("uv");
@@ -85,6 +93,9 @@ void compute(NodeContext& node) {
     options.size = uv->size();
     options.tile_x |= uv->wraps().x;
     options.tile_y |= uv->wraps().y;
+  } else if (node.text("tileable") == "auto" && index->appearance()->wraps()) {
+    options.tile_x = options.tile_y = true;
+    node.note("the exemplar tiles, and so does the result; \"tileable\" set to none leaves opposite borders apart");
   }
   const double margin = node.number("margin");
   options.kept = outside_holes(uv.get(), holes, options.size, options.tile_x && options.tile_y,
@@ -143,7 +154,7 @@ NodeType inpaint_node() {
         .min = 0,
         .max = 32768,
         .unit = "pixels or share of the side"},
-       tileable_param()});
+       wrapping_param()});
   t.check = check_synthesis_params;
   t.steps = described_synthesis_steps();
   t.infer = infer;

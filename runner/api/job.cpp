@@ -12,6 +12,7 @@
 #include "graphs/document/load.h"
 #include "graphs/document/read_document.h"
 #include "runner/engine/preflight.h"
+#include "runner/engine/source_findings.h"
 
 namespace terrazzo {
 
@@ -135,6 +136,7 @@ std::vector<Problem> Job::warnings() const {
   if (!check().empty()) return {};
   const CheckedJob job = checked();
   std::vector<Problem> out = job.warnings();
+  for (Problem& p : look_at_sources(job.graph(), WorksFor::task()).warnings) out.push_back(std::move(p));
   for (Problem& p : doubts_about(job.graph())) out.push_back(std::move(p));
   return out;
 }

@@ -57,6 +57,7 @@ void guard(NodeType& type) {
   guard(type.compute, plugin);
   guard(type.files_read, plugin);
   guard(type.memory_hint, plugin);
+  guard(type.memory_ahead, plugin);
   guard(type.check, plugin);
   guard(type.infer, plugin);
   guard(type.preflight, plugin);
@@ -75,7 +76,7 @@ void require_file(const fs::path& file) {
 }
 
 const PluginInfo& info_of(const fs::path& file) {
-  void* library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* library = guarded(file.filename().string(), [&] { return ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); });
   if (!library) fail(file, ::dlerror());
   void* symbol = ::dlsym(library, "terrazzo_plugin");
   if (!symbol) fail(file, "it is no plug-in of terrazzo: it has no TERRAZZO_PLUGIN");

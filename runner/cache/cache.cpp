@@ -9,6 +9,7 @@
 #include "core/file/bytes.h"
 #include "core/file/file_io.h"
 #include "core/file/user_folders.h"
+#include "core/image/pixel_maker.h"
 #include "core/node/serialize.h"
 #include "runner/cache/cache_records.h"
 #include "runner/cache/cache_state.h"
@@ -143,6 +144,9 @@ void Cache::store_value(const Value& value, double seconds, const Task& task) {
     save_value(value, temporary, task, seconds, sync);
     publish_file(temporary, target, sync);
     state_->folder.note_written(stored_bytes(digest_of(value)));
+  } catch (const PixelError& e) {
+    // No fault of the cache: whoever reads the pixels fails.
+    state_->warn(fmt::format("a result is not kept, as its pixels cannot be made: {}", e.what()));
   } catch (const Error& e) {
     state_->warn_unwritten(e);
   }

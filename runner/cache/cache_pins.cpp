@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <thread>
 #include <vector>
 
 #include <fcntl.h>
@@ -18,6 +17,9 @@
 namespace terrazzo {
 
 namespace {
+
+/// What is evicted though it is in use, since a lock could not be had, costs time and nothing else.
+constexpr std::chrono::milliseconds patience{10000};
 
 constexpr int64_t trusted_without_lock_ns = 24 * 3600 * ns_per_second;
 
@@ -42,23 +44,6 @@ void add_pins(const File& file, const std::filesystem::path& path, std::set<Dige
 
 }  // namespace
 
-bool lock_file(const File& file, int operation) {
-  int result;
-  do result = ::flock(file.descriptor(), operation);
-  while (result != 0 && errno == EINTR);
-  return result == 0;
-}
-
-bool lock_file_soon(const File& file, int operation) {
-  constexpr std::chrono::milliseconds patience{10000}, pause{2};
-  const auto last = std::chrono::steady_clock::now() + patience;
-  while (!lock_file(file, operation | LOCK_NB)) {
-    if (errno != EWOULDBLOCK || std::chrono::steady_clock::now() > last) return false;
-    std::this_thread::sleep_for(pause);
-  }
-  return true;
-}
-
 LivePins read_live_pins(const std::filesystem::path& folder) {
   LivePins live;
   std::error_code failure;
@@ -80,13 +65,13 @@ LivePins read_live_pins(const std::filesystem::path& folder) {
 }
 
 EvictionLock::EvictionLock(const std::filesystem::path& lock) : file_(File::open(lock, O_RDWR | O_CREAT)) {
-  if (file_.ok()) lock_file_soon(file_, LOCK_EX);
+  if (file_.ok()) lock_file_soon(file_, LOCK_EX, patience);
 }
 
 Pins::Pins(const std::filesystem::path& folder, const std::filesystem::path& lock)
     : lock_(File::open(lock, O_RDWR | O_CREAT)) {
   static std::atomic<unsigned> counter{0};
-  if (lock_.ok()) lock_file_soon(lock_, LOCK_SH);
+  if (lock_.ok()) lock_file_soon(lock_, LOCK_SH, patience);
   do {
     owner_ = fmt::format("{}-{}-{}", host_name(), ::getpid(), counter++);
     path_ = folder / owner_;
@@ -104,7 +89,7 @@ Pins::~Pins() {
 void Pins::pin(const Digest& value) {
   const std::lock_guard guard(mutex_);
   if (!file_.ok() || pinned_.count(value)) return;
-  if (lock_.ok()) lock_file_soon(lock_, LOCK_SH);
+  if (lock_.ok()) lock_file_soon(lock_, LOCK_SH, patience);
   try {
     file_.write_at(pinned_.size() * sizeof value, &value, sizeof value, path_);
     pinned_.insert(value);

@@ -6,19 +6,13 @@
 #include <string>
 
 #include "core/base/hash.h"
-#include "core/file/file_io.h"
+#include "core/file/file_lock.h"
 
 /// Pins tell other processes which values are in use. Each Cache object has a file in pins/, locked with flock while
 /// the object lives, to which it appends the digests it has asked for. Eviction reads all locked files; unlocked ones
 /// belong to dead processes. Pinning takes the folder's lock shared, eviction exclusively, so that nothing is pinned
 /// between reading pins and removing values.
 namespace terrazzo {
-
-/// flock(2), uninterrupted; false if it fails, and errno says why.
-bool lock_file(const File& file, int operation);
-/// The same, but waits for 10 s at most: who holds the lock may have been stopped. What is evicted meanwhile though it
-/// is in use costs time, and nothing else.
-bool lock_file_soon(const File& file, int operation);
 
 /// Values and owners in use by running processes.
 struct LivePins {

@@ -13,8 +13,10 @@
 
 #include "core/base/suggest.h"
 #include "core/base/text.h"
+#include "core/base/thread_limits.h"
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
+#include "core/file/path_spelling.h"
 #include "core/image/image_file.h"
 #include "graphs/document/problem.h"
 #include "nodes/source/material_folder.h"
@@ -231,9 +233,22 @@ int show_help(const CLI::App& app, const CLI::Success& asked, ProgressMode mode)
     const int code = app.exit(asked, help, help);
     answer("{}{}", about_graph.empty() ? "" : about_graph + "\n", help.str());
     return code;
-  } catch (const GraphError& e) {
+  } catch (const Error& e) {
     write_error(mode, std::cerr, e);
     return exit_usage;
+  }
+}
+
+/// Throws UsageError for a path that is written as on Windows: a file called "scans\\brick" is never meant.
+void check_paths(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string type = option->get_type_name();
+    if (!type.starts_with("FILE") && !type.starts_with("DIR") && !type.starts_with("PATH")) continue;
+    for (const std::string& path : option->results()) {
+      std::error_code failure;
+      const std::string advice = path_advice(std::filesystem::current_path(failure), path);
+      if (!advice.empty()) throw UsageError(fmt::format("{} {}: {}", option->get_name(), path, advice));
+    }
   }
 }
 
@@ -264,6 +279,7 @@ int obey(int argc, const char* const* argv, ProgressMode mode) {
   try {
     app.parse(argc, argv);
     if (!chosen) throw CLI::RequiredError("A command");
+    check_paths(*named_command(&app));
     return chosen();
   } catch (const CLI::Success& e) {
     return show_help(app, e, mode);
@@ -290,7 +306,15 @@ int run_command_line(int argc, const char* const* argv) {
   keep_standard_streams_apart();
   std::signal(SIGXFSZ, SIG_IGN);  // what goes beyond `ulimit -f` is then an error of writing, and is told
   if (may_be_checked(argc, argv)) start_watching(argv);
+  // OpenEXR's own threads would come on top of --threads. What the user has set counts.
+  ::setenv("OPENIMAGEIO_OPTIONS", "exr_threads=-1", 0);
   const ProgressMode mode = mode_of(argc, argv);
+  try {
+    require_stack();
+  } catch (const Error& e) {
+    write_error(mode, std::cerr, e);
+    return exit_failed;
+  }
   CommandLine line;
   try {
     line = without_plugins(argc, argv);

@@ -6,13 +6,16 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "graphs/document/pack.h"
 #include "graphs/document/read_document.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
 #include "runner/cli/limit_flags.h"
+#include "runner/cli/signals.h"
 #include "runner/engine/preflight.h"
 #include "runner/engine/schedule.h"
+#include "runner/engine/source_findings.h"
 
 namespace terrazzo {
 
@@ -43,7 +46,9 @@ void check_what_is_set(const Graph& graph) {
 /// Throws GraphError.
 Findings look_at(const CheckFlags& flags) {
   Findings out;
-  LoadedGraph loaded = flags.load({.allow_unset = true, .look_ahead = preflight_of_nodes});
+  GraphFlags opened = flags;
+  opened.open_pack();
+  LoadedGraph loaded = opened.load({.allow_unset = true, .look_ahead = preflight_of_nodes});
   out.nodes = loaded.graph.nodes.size();
   out.parameters = loaded.parameters.size();
   out.warnings = std::move(loaded.warnings);
@@ -59,6 +64,10 @@ Findings look_at(const CheckFlags& flags) {
   } else {
     make_plan(loaded.graph, nullptr);
   }
+  const CancelOnSignal signals;
+  SourceFindings sources = look_at_sources(loaded.graph, Task(&signals.flag(), {}));
+  if (!sources.errors.empty()) throw GraphError(loaded.graph.file.string(), std::move(sources.errors));
+  std::ranges::move(sources.warnings, std::back_inserter(out.warnings));
   for (Problem& p : doubts_about(loaded.graph)) out.warnings.push_back(std::move(p));
   return out;
 }
@@ -71,7 +80,7 @@ class Pointers {
     const auto [at, is_new] = documents_.try_emplace(file);
     if (is_new) {
       try {
-        at->second = parse_json(read_document(file)).value;
+        at->second = parse_json(is_pack(file) ? graph_in_pack(file) : read_document(file)).value;
       } catch (const Error&) {
         // a graph that comes with the program
       }
@@ -147,7 +156,8 @@ void add_check_command(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("check", "Checks a graph file without running it");
   command->footer(
       "Reports every mistake at once, with line and column: in the file, in the sources and maps it refers to,\n"
-      "and in the paths it would write to. Warns of what is allowed and hardly meant.\n"
+      "and in the paths it would write to. Warns of what is allowed and hardly meant, and of what a run would warn\n"
+      "of when it reads the sources.\n"
       "Examples:\n"
       "  terrazzo check bricks.json\n"
       "  terrazzo check bricks.json --set material=bricks/ --json");

@@ -130,6 +130,7 @@ int pack(const DocumentFlags& flags) {
   check_out(flags, WrittenKind::pack);
   check_kept({{"-o", flags.out, WrittenKind::pack}}, inputs_of(load_graph(flags.graph, flags.set, options).graph));
   const PackedFiles packed = write_pack(flags.graph, flags.set, options, flags.out);
+  for (const std::string& renamed : packed.renamed) say("note: {}\n", renamed);
   for (const std::string& file : packed.left_out)
     say("warning: {} is not in the pack: no parameter of a node names it\n", file);
   say("wrote {}: the graph and {}, {}\n", flags.out, counted(int64_t(packed.count), "file"), shown_bytes(packed.bytes));
@@ -141,7 +142,9 @@ int draw(const DocumentFlags& flags) {
   if (ending != ".svg" && ending != ".dot")
     throw UsageError(fmt::format("-o takes a file that ends in .svg or .dot; \"{}\" does not", flags.out));
   check_out(flags, WrittenKind::drawing);
-  const Graph graph = flags.load({.allow_unset = true}).graph;
+  GraphFlags opened = flags;
+  opened.open_pack();
+  const Graph graph = opened.load({.allow_unset = true}).graph;
   check_kept({{"-o", flags.out, WrittenKind::drawing}}, inputs_of(graph));
   write_whole_file(flags.out, ending == ".svg" ? draw_svg(graph) : draw_dot(graph));
   say("wrote {}\n", flags.out);
@@ -202,7 +205,7 @@ void add_document_commands(CLI::App& app, Chosen& chosen) {
       ->type_name("FILE.json");
   const auto [pack_command, pack_flags] =
       add("pack", "Writes a graph with all that it reads as one file, which runs elsewhere",
-          "Every command that takes a graph file takes a pack. It is a tar archive.\n"
+          "run, check, draw and submit take a pack like a graph file. It is a tar archive.\n"
           "Example:\n"
           "  terrazzo pack wall.json --set material=bricks/ -o wall.tzpack && terrazzo run wall.tzpack --set out=there",
           pack);

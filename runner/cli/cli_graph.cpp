@@ -1,10 +1,13 @@
 #include "runner/cli/cli_graph.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "core/file/file_io.h"
 #include "graphs/document/pack.h"
 #include "graphs/document/read_document.h"
 #include "graphs/document/reference.h"
@@ -12,28 +15,79 @@
 
 namespace terrazzo {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-/// Where packs are unpacked.
-std::filesystem::path pack_folder() {
-  return Cache::default_folder() / "packs";
+/// A folder that goes with the last one who knows it.
+std::shared_ptr<const fs::path> passing_folder() {
+  std::string name = (fs::temp_directory_path() / "terrazzo-pack-XXXXXX").string();
+  if (!::mkdtemp(name.data())) throw_system_error("create", name, errno);
+  return {new fs::path(name), [](const fs::path* folder) {
+            std::error_code failure;
+            fs::remove_all(*folder, failure);
+            delete folder;
+          }};
 }
 
 }  // namespace
 
+void GraphFlags::open_pack(const std::optional<fs::path>& cache) {
+  if (!is_pack(graph)) {
+    pack.clear();
+    return;
+  }
+  if (cache) {
+    pack = unpacked(graph, fs::absolute(*cache) / "packs");
+    return;
+  }
+  if (!passing) passing = passing_folder();
+  pack = unpacked(graph, *passing);
+}
+
+void GraphFlags::open_pack() {
+  std::optional<fs::path> cache;
+  try {
+    cache = Cache::default_folder();
+    return open_pack(cache);
+  } catch (const FileError&) {
+    if (!cache) throw;
+  } catch (const Error&) {
+    if (cache) throw;
+  }
+  open_pack(std::nullopt);
+}
+
+std::vector<fs::path> GraphFlags::unpack_for_run(bool keeps, const std::string& cache) {
+  if (!keeps)
+    open_pack(std::nullopt);
+  else if (cache.empty())
+    open_pack();
+  else
+    open_pack(fs::path(cache));
+  return pack.empty() ? std::vector<fs::path>() : std::vector{pack};
+}
+
 LoadedGraph GraphFlags::load(LoadOptions options) const {
   options.presets = presets;
   options.settings.assign(settings.begin(), settings.end());
-  if (!is_pack(graph)) return load_graph(graph, set, options);
-  const std::filesystem::path place = unpacked(graph, pack_folder());
-  options.settings.insert(options.settings.begin(), place / "settings.json");
-  return load_graph_text(read_document(place / "graph.json"), graph, set, options);
+  if (pack.empty()) return load_graph(graph, set, options);
+  options.pack = pack;
+  return load_graph_text(read_document(pack / "graph.json"), graph, set, options);
 }
 
 std::vector<KeptFile> GraphFlags::files() const {
   std::vector<KeptFile> out = {{graph, "it is the graph file"}};
   out.push_back({std::filesystem::path(graph).replace_extension(".presets.json"), "it holds the graph's presets"});
   for (const std::string& file : settings) out.push_back({file, "--params reads it"});
+  return out;
+}
+
+std::vector<std::string> shown_warnings(const std::string& graph, const std::vector<Problem>& warnings) {
+  std::vector<std::string> out;
+  for (size_t i = 0; i < std::min(warnings.size(), most_problems_shown); i++)
+    out.push_back(describe(graph, warnings[i]));
+  if (const std::string more = problems_not_shown(warnings.size(), "warning"); !more.empty()) out.push_back(more);
   return out;
 }
 
@@ -54,12 +108,12 @@ void add_value_flags(CLI::App& command, GraphFlags& flags) {
 
 namespace {
 
-/// The graph file that has been named; empty if the command takes none or none has been named.
-std::filesystem::path named_graph(const CLI::App& command) {
+/// What the graph says that has been named; none if the command takes none or none has been named.
+std::optional<GraphInterface> named_interface(const CLI::App& command) {
   const CLI::Option* graph = command.get_option_no_throw("GRAPH");
-  if (!graph || graph->results().empty()) return {};
+  if (!graph || graph->results().empty()) return std::nullopt;
   const std::string& file = graph->results().front();
-  return is_pack(file) ? unpacked(file, pack_folder()) / "graph.json" : std::filesystem::path(file);
+  return is_pack(file) ? read_interface_text(graph_in_pack(file), file) : read_interface(file);
 }
 
 }  // namespace
@@ -67,9 +121,10 @@ std::filesystem::path named_graph(const CLI::App& command) {
 std::string set_hint(const CLI::App& command, const std::string& option) {
   const std::string name = option.substr(std::min(option.size(), size_t{2}), option.find('=') - 2);
   try {
-    const std::filesystem::path graph = named_graph(command);
-    if (graph.empty() || !command.get_option_no_throw("--set")) return "";
-    for (const GraphParameter& p : read_interface(graph).parameters)
+    if (!command.get_option_no_throw("--set")) return "";
+    const std::optional<GraphInterface> graph = named_interface(command);
+    if (!graph) return "";
+    for (const GraphParameter& p : graph->parameters)
       if (p.param.name == name) return fmt::format("; --set {0}=VALUE sets the graph's parameter {0}", name);
   } catch (const Error&) {
     // A graph that cannot be read has been complained about, or will be.
@@ -78,8 +133,8 @@ std::string set_hint(const CLI::App& command, const std::string& option) {
 }
 
 std::string help_on_graph(const CLI::App& command) {
-  const std::filesystem::path graph = named_graph(command);
-  return graph.empty() ? "" : graph_reference(command.get_option("GRAPH")->results().front(), read_interface(graph));
+  const std::optional<GraphInterface> graph = named_interface(command);
+  return graph ? graph_reference(command.get_option("GRAPH")->results().front(), *graph) : "";
 }
 
 }  // namespace terrazzo

@@ -91,7 +91,7 @@ int add(const LibraryFlags& flags) {
   entry->name = name;
   entry->tags = flags.tags;
   entry->summary = flags.summary;
-  library.add(*entry);
+  library.add(*entry, flags.force);
   say("added \"library:{}\" to {}\n", name, library.folder().string());
   return exit_done;
 }

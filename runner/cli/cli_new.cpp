@@ -9,6 +9,7 @@
 #include "graphs/document/problem.h"
 #include "graphs/document/stock_graphs.h"
 #include "runner/cli/cli_commands.h"
+#include "runner/cli/cli_run.h"
 #include "runner/cli/console.h"
 #include "runner/cli/exemplar_look.h"
 #include "runner/cli/limit_flags.h"
@@ -24,9 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct NewFlags {
-  std::string folder;
+  ExemplarFlags exemplar;
   std::string out;
-  std::string name;
   std::string like = "material";
   bool force = false;
   LimitFlags limits{};
@@ -63,20 +63,22 @@ int make_new(const NewFlags& flags) {
   if (!flags.force && fs::exists(flags.out))
     throw UsageError(fmt::format("{} exists; --force overwrites it", flags.out));
   require_stock_graph(flags);
-  check_kept({{"-o", flags.out, WrittenKind::graph}}, files_at(flags.folder, "it belongs to the exemplar"));
+  check_kept({{"-o", flags.out, WrittenKind::graph}}, files_at(flags.exemplar.folder, "it belongs to the exemplar"));
   check_writable("-o", flags.out);
   const CancelOnSignal signals;
-  const Graph graph = looking_graph(flags.folder, flags.name);
+  const Graph graph = looking_graph(flags.exemplar);
   RunOptions options;
   options.targets.keep = {"exemplar", "elements"};
   options.cancelled = &signals.flag();
-  const RunResult result = run_on_folder(graph, options, flags.folder);
+  const RunResult result = run_on_folder(graph, options, flags.exemplar.folder);
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
+  print_warnings(result);
   if (!result.ok()) return result.cancelled ? exit_cancelled : exit_failed;
   const auto features = std::get<FeaturesPtr>(result.kept.at("elements").at("features"));
   ExemplarLook look{.exemplar = std::get<MaterialPtr>(result.kept.at("exemplar").at("material")),
-                    .folder = seen_from(fs::absolute(flags.out).parent_path(), flags.folder),
-                    .name = flags.name,
+                    .folder = seen_from(fs::absolute(flags.out).parent_path(), flags.exemplar.folder),
+                    .name = flags.exemplar.name,
+                    .interpret = flags.exemplar.interpretations(),
                     .notes = result.stages[0].notes,
                     .lattice_notes = result.stages[2].notes,
                     .repeats = features->repeats().lattice.rank > 0,
@@ -93,13 +95,8 @@ int make_new(const NewFlags& flags) {
 void add_new_command(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("new", "Writes a graph to start from, for the maps found in a folder");
   const auto flags = std::make_shared<NewFlags>();
-  command->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
+  add_exemplar_flags(*command, flags->exemplar);
   command->add_option("-o,--out", flags->out, "The graph file to write")->required()->type_name("FILE.json");
-  command
-      ->add_option("--name", flags->name,
-                   "Which material of a folder that holds several: what the names of its files begin with; '*' takes "
-                   "all files as one")
-      ->type_name("STEM");
   command->add_option("--like", flags->like, "The stock graph (graphs/NAME.json) to begin with; material if not given")
       ->type_name("NAME");
   add_limit_flags(*command, flags->limits);

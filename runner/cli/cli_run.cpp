@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/file/read_guard.h"
 #include "graphs/document/load.h"
+#include "graphs/document/override.h"
 #include "runner/cache/cache_limit.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
@@ -54,7 +56,7 @@ std::optional<uint64_t> limit_of_cache(const RunFlags& flags) {
 
 /// The cache to use. The usual folder may be out of reach, which costs time; one that was asked for may not.
 std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
-  if (flags.no_cache || flags.is_checked()) return nullptr;
+  if (!flags.keeps()) return nullptr;
   const std::optional<uint64_t> limit = limit_of_cache(flags);
   try {
     return std::make_unique<Cache>(cache_folder(flags), limit.value_or(0));
@@ -74,9 +76,7 @@ bool is_terminal() {
 void print_end(const RunResult& result, ProgressMode mode) {
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
   for (const std::string& line : result.skips()) say("{}\n", line);
-  for (const StageOutcome& s : result.stages)
-    for (const std::string& note : s.notes)
-      if (is_warning(note)) say("{}node \"{}\": {}\n", warning_mark, s.node, note.substr(warning_mark.size()));
+  print_warnings(result);
   if (mode == ProgressMode::none) return;
   for (const StageOutcome& s : result.stages)
     if (s.kind == StageOutcome::Kind::run)
@@ -127,15 +127,16 @@ std::vector<WrittenFile> files_of(const RunFlags& flags) {
   return out;
 }
 
-/// None if none was asked for. Throws UsageError.
-std::optional<Sandbox> sandbox_of(const RunFlags& flags, const Graph& graph) {
+/// None if none was asked for. What is `readable` may be read too. Throws UsageError.
+std::optional<Sandbox> sandbox_of(const RunFlags& flags, const std::vector<fs::path>& readable) {
   if (flags.sandbox.empty()) return std::nullopt;
   std::error_code missing;
   if (!fs::is_directory(flags.sandbox, missing))
     throw UsageError(fmt::format("--sandbox {}: there is no such folder; make it first", flags.sandbox));
-  std::vector<fs::path> named = named_paths(graph, flags.values);
-  named.insert(named.end(), flags.files.begin(), flags.files.end());
-  return Sandbox(flags.sandbox, std::move(named));
+  Sandbox out(flags.sandbox);
+  for (const std::string& file : flags.files) out.open(file);
+  for (const fs::path& path : readable) out.open_to_read(path);
+  return out;
 }
 
 /// Throws GraphError, before a plan reads any of the graph's files.
@@ -145,7 +146,35 @@ void check_sandbox(const Graph& graph, const std::optional<Sandbox>& sandbox) {
     throw GraphError(graph.file.string(), std::move(problems));
 }
 
-int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
+/// A graph, and what it is kept in.
+struct Guarded {
+  Graph graph;
+  std::optional<Sandbox> sandbox;
+};
+
+/// Loads a graph that reads nothing but what its sandbox allows.
+Guarded load_guarded(const LoadGraph& load, const RunFlags& flags) {
+  Guarded out{{}, sandbox_of(flags, flags.unpack ? flags.unpack() : std::vector<fs::path>())};
+  std::optional<ReadGuard> guard;
+  const auto is_given = [&](const std::string& by) {
+    return std::ranges::any_of(flags.values, [&](const std::string& v) { return where_of_override(v) == by; });
+  };
+  if (out.sandbox)
+    guard.emplace([&](const fs::path& path) { out.sandbox->check("read", path); },
+                  [&](const std::string& by, const fs::path& path) {
+                    if (is_given(by)) out.sandbox->open(path);
+                  });
+  const auto look_ahead = [&](const std::vector<GraphNode>& nodes) {
+    std::vector<Problem> problems;
+    if (out.sandbox) problems = sandbox_problems(nodes, *out.sandbox);
+    return problems.empty() ? preflight_of_nodes(nodes) : problems;
+  };
+  out.graph = load({.only = flags.only, .keep_going = flags.keep_going, .look_ahead = look_ahead});
+  return out;
+}
+
+int run_once(const Guarded& guarded, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
+  const auto& [graph, sandbox] = guarded;
   std::optional<History> history;
   if (cache && !graph.file.empty()) history.emplace(cache->folder(), graph.file);
   RunOptions options;
@@ -158,11 +187,9 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   options.targets.keep = flags.keep;
   options.targets.keep_going = flags.keep_going;
 
-  std::optional<Sandbox> sandbox;
-  const Plan plan = summarizing_failure(flags, [&] {
-    sandbox = sandbox_of(flags, graph);
+  options.sandbox = sandbox ? &*sandbox : nullptr;
+  const Plan plan = summarizing_failure(flags, [&, &graph = graph, &sandbox = sandbox] {
     check_sandbox(graph, sandbox);
-    options.sandbox = sandbox ? &*sandbox : nullptr;
     try {
       if (!flags.report.empty())
         for (std::string& name : nodes_for_report(graph, flags.only, cache))
@@ -211,20 +238,20 @@ int run_once(const Graph& graph, const RunFlags& flags, Cache* cache, const std:
   return summary.exit_code;
 }
 
-int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
+int watch(const LoadGraph& load, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
   Watch watched;
   const ProgressMode mode = *progress_mode_from(flags.progress);
-  Graph graph;
-  graph.file = flags.graph;
-  watched.look_at(graph);
+  Guarded guarded;
+  guarded.graph.file = flags.graph;
+  watched.look_at(guarded.graph);
   for (;;) {
     int code = exit_usage;
     watched.look_again();  // if the graph cannot be loaded, its files of before are what may mend it
     try {
-      graph = summarizing_failure(flags, load);
-      watched.look_at(graph);
+      guarded = summarizing_failure(flags, [&] { return load_guarded(load, flags); });
+      watched.look_at(guarded.graph);
       watched.until_change(cancelled,
-                           [&](const std::atomic<bool>& stop) { code = run_once(graph, flags, cache, stop); });
+                           [&](const std::atomic<bool>& stop) { code = run_once(guarded, flags, cache, stop); });
     } catch (const Error& e) {
       write_error(mode, std::cerr, e);
     }
@@ -237,14 +264,10 @@ int watch(const std::function<Graph()>& load, const RunFlags& flags, Cache* cach
 
 }  // namespace
 
-std::vector<Problem> look_ahead(const RunFlags& flags, const std::vector<GraphNode>& nodes) {
-  Graph graph;
-  graph.nodes = nodes;
-  if (const std::optional<Sandbox> sandbox = sandbox_of(flags, graph)) {
-    // What parameters of the graph name is not known here; what that concerns is looked at once the graph is loaded.
-    if (!sandbox_problems(nodes, *sandbox).empty()) return {};
-  }
-  return preflight_of_nodes(nodes);
+void print_warnings(const RunResult& result) {
+  for (const StageOutcome& s : result.stages)
+    for (const std::string& note : s.notes)
+      if (is_warning(note)) say("{}node \"{}\": {}\n", warning_mark, s.node, note.substr(warning_mark.size()));
 }
 
 void add_run_flags(CLI::App& command, RunFlags& flags) {
@@ -265,12 +288,13 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
       ->check(CLI::Range(1, 1024));
   add_limit_flags(command, flags.limits);
   add_checked_flag(command, flags.checked);
-  command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
-  command.add_flag(
+  CLI::Option* dry_run = command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
+  CLI::Option* watch = command.add_flag(
       "--watch", flags.watch,
       "Run again whenever the graph file or a file that it reads changes; a change while it runs starts it "
       "anew. Ctrl-C ends it, with the exit "
       "code of the last run, or 130 if it interrupts one");
+  watch->excludes(dry_run);
   command.add_option("--report", flags.report, "Write a report with pictures")->type_name("FILE.html");
   command
       .add_option("--summary", flags.summary,
@@ -293,7 +317,7 @@ void add_run_flags(CLI::App& command, RunFlags& flags) {
                             CLI::ignore_case));
 }
 
-int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
+int run_with_flags(const LoadGraph& load, const RunFlags& flags) {
   flags.limits.apply();
   const std::string ending = fs::path(flags.report).extension().string();
   std::error_code missing;
@@ -306,26 +330,24 @@ int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags) {
   const CancelOnSignal signals;
   const std::unique_ptr<Cache> cache = open_cache(flags);
   if (flags.watch) return watch(load, flags, cache.get(), signals.flag());
-  const Graph graph = summarizing_failure(flags, load);
-  return run_once(graph, flags, cache.get(), signals.flag());
+  const Guarded guarded = summarizing_failure(flags, [&] { return load_guarded(load, flags); });
+  return run_once(guarded, flags, cache.get(), signals.flag());
 }
 
 namespace {
 
-int run_sweep(const GraphFlags& values, const SweepFlags& asked, const RunFlags& given) {
+int run_sweep(GraphFlags values, const SweepFlags& asked, const RunFlags& given) {
   Sweep sweep(asked);
   RunFlags flags = given;
   flags.writes = {{"--sheet", asked.sheet, is_page(asked.sheet) ? WrittenKind::page : WrittenKind::picture},
                   {"--figures", asked.figures, WrittenKind::table}};
   if (!asked.table.empty()) flags.reads.push_back({asked.table, "it is the table of --table"});
   flags.after = [&](const RunResult& result) { sweep.report(result); };
+  flags.unpack = [&] { return values.unpack_for_run(flags.keeps(), flags.cache); };
   return run_with_flags(
-      [&] {
-        Graph graph = sweep.load(values,
-                                 {.only = given.only,
-                                  .keep_going = given.keep_going,
-                                  .look_ahead = [&](const auto& nodes) { return look_ahead(given, nodes); }},
-                                 [&](const std::string& text) { warn(flags, text); });
+      [&](LoadOptions options) {
+        options.only = given.only;
+        Graph graph = sweep.load(values, options, [&](const std::string& text) { warn(flags, text); });
         flags.keep = sweep.kept();
         flags.variations = sweep.of_one_variation();
         flags.only = sweep.names_of(given.only);
@@ -362,13 +384,11 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       if (flags->variations.asked()) return run_sweep(flags->graph_values, flags->variations, *flags);
       for (const std::string* left : {&flags->variations.sheet, &flags->variations.figures, &flags->variations.best})
         if (!left->empty()) throw UsageError("--sheet, --figures and --best go with --sweep or --table");
+      flags->unpack = [&] { return flags->graph_values.unpack_for_run(flags->keeps(), flags->cache); };
       return run_with_flags(
-          [&] {
-            LoadedGraph loaded = flags->graph_values.load(
-                {.only = flags->only, .keep_going = flags->keep_going, .look_ahead = [&](const auto& nodes) {
-                   return look_ahead(*flags, nodes);
-                 }});
-            for (const Problem& w : loaded.warnings) warn(*flags, describe(flags->graph, w));
+          [&](const LoadOptions& options) {
+            LoadedGraph loaded = flags->graph_values.load(options);
+            for (const std::string& w : shown_warnings(flags->graph, loaded.warnings)) warn(*flags, w);
             return std::move(loaded.graph);
           },
           *flags);

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "graphs/document/graph.h"
-#include "graphs/document/problem.h"
+#include "graphs/document/load.h"
 #include "runner/cli/checked_flag.h"
 #include "runner/cli/limit_flags.h"
 #include "runner/cli/written_files.h"
@@ -44,18 +43,24 @@ struct RunFlags {
   std::vector<KeptFile> reads{};                    ///< besides the graph and the files of its nodes
   std::map<std::string, std::string> variations{};  ///< see RunSummary
   std::vector<std::string> keep{};                  ///< more targets, whose values are kept for `after`
-  std::function<void(const RunResult&)> after{};    ///< called with the result of each run
+  /// Called before each load; a sandbox allows to read what it returns.
+  std::function<std::vector<std::filesystem::path>()> unpack{};
+  std::function<void(const RunResult&)> after{};  ///< called with the result of each run
 
+  /// Whether there is to be a cache.
+  bool keeps() const { return !no_cache && !is_checked(); }
   bool is_checked() const { return checked.holds(cache); }
 };
 
-/// What looks ahead while a graph is loaded: nothing that the sandbox forbids.
-std::vector<Problem> look_ahead(const RunFlags& flags, const std::vector<GraphNode>& nodes);
+/// Says what nodes warned of.
+void print_warnings(const RunResult& result);
 
 void add_run_flags(CLI::App& command, RunFlags& flags);
 
+using LoadGraph = std::function<Graph(const LoadOptions&)>;
+
 /// Runs the graph from `load`; returns the exit code. With `watch`, loads and runs it again whenever one of its files
 /// changes. Throws UsageError and GraphError.
-int run_with_flags(const std::function<Graph()>& load, const RunFlags& flags);
+int run_with_flags(const LoadGraph& load, const RunFlags& flags);
 
 }  // namespace terrazzo

@@ -16,6 +16,7 @@
 #include "runner/cli/cli_sweep.h"
 #include "runner/cli/console.h"
 #include "runner/cli/signals.h"
+#include "runner/cli/submit_flags.h"
 #include "runner/engine/history.h"
 #include "runner/engine/preflight.h"
 #include "runner/farm/left_out.h"
@@ -28,16 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct SubmitFlags : GraphFlags {
-  SweepFlags variations;
-  std::vector<std::string> only;
-  std::string cache, openjd, memory, program;
-  bool print = false, status = false, cancel = false, wait = false, json = false, keep_going = false;
-  int retries = 2;
-  ArrayOptions arrays;
-  SlurmOptions slurm;
-};
-
 void tell(const std::string& text) {
   say("{}\n", text);
 }
@@ -47,7 +38,7 @@ Graph graph_of(const SubmitFlags& flags, std::vector<std::string>& only) {
   only = flags.only;
   if (!flags.variations.asked()) {
     LoadedGraph loaded = flags.load(options);
-    for (const Problem& w : loaded.warnings) tell("warning: " + describe(flags.graph, w));
+    for (const std::string& w : shown_warnings(flags.graph, loaded.warnings)) tell("warning: " + w);
     return std::move(loaded.graph);
   }
   Sweep sweep(flags.variations);
@@ -123,6 +114,23 @@ void tell_all_is_made(const PreparedJob& prepared) {
   answer("nothing to do: all {} has been made\n", prepared.job.left_out.empty() ? "of it" : "else");
 }
 
+/// Writes the job, and says what was found damaged.
+void write_and_tell(const PreparedJob& prepared, Cache& cache) {
+  std::vector<std::string> names;
+  for (const fs::path& file : write_job(prepared, cache))
+    names.push_back(file.lexically_relative(FarmFolder::of_job(prepared.folder).root()).string());
+  if (!names.empty())
+    tell(fmt::format("mended in {}: {}", FarmFolder::of_job(prepared.folder).root().string(), fmt::join(names, ", ")));
+}
+
+/// There is nothing to do but to mend the job, if there is one.
+int leave_as_made(const PreparedJob& prepared, Cache& cache) {
+  std::error_code missing;
+  if (fs::exists(prepared.folder, missing)) write_and_tell(prepared, cache);
+  tell_all_is_made(prepared);
+  return exit_done;
+}
+
 int print_scripts(const PreparedJob& prepared, const SubmitFlags& flags, const Slurm& slurm) {
   const std::vector<TaskArray> arrays = arrays_of_job(prepared, options_for(flags, slurm));
   for (size_t i = 0; i < arrays.size(); i++) {
@@ -136,11 +144,8 @@ int print_scripts(const PreparedJob& prepared, const SubmitFlags& flags, const S
 
 int write_openjd(const PreparedJob& prepared, const SubmitFlags& flags, Cache& cache) {
   const std::vector<TaskArray> arrays = arrays_of_job(prepared, flags.arrays);
-  if (arrays.empty()) {
-    tell_all_is_made(prepared);
-    return exit_done;
-  }
-  write_job(prepared, cache);
+  if (arrays.empty()) return leave_as_made(prepared, cache);
+  write_and_tell(prepared, cache);
   for (const TaskArray& a : arrays) write_array(prepared.folder, a);
   write_whole_file(flags.openjd, openjd_template(prepared.job, arrays, prepared.folder, flags.slurm.program));
   write_assignment(prepared.folder, {Assignment::To::others, fs::absolute(flags.openjd).string()});
@@ -187,7 +192,10 @@ int wait_until_done(const fs::path& folder, const FarmJob& job, const SubmitFlag
     if (const std::string now = state_line(state); now != line) tell(line = now);
   };
   try {
-    const auto again = [&] { hand_over(folder, job, cache, slurm, options_for(flags, slurm), flags.slurm); };
+    const auto again = [&] {
+      read_farm_job(folder);  // tasks that cannot read it would only get lost again
+      hand_over(folder, job, cache, slurm, options_for(flags, slurm), flags.slurm);
+    };
     const JobState state =
         wait_for(folder, job, cache, slurm, again,
                  {.retries = flags.retries, .cancelled = &cancelled, .looked = looked, .told = tell});
@@ -205,12 +213,14 @@ int wait_until_done(const fs::path& folder, const FarmJob& job, const SubmitFlag
 
 int submit_graph(const PreparedJob& prepared, const SubmitFlags& flags, Cache& cache, const Slurm& slurm,
                  const std::atomic<bool>& cancelled) {
-  if (std::ranges::none_of(prepared.due, [](bool is_due) { return is_due; })) {
-    tell_all_is_made(prepared);
-    return exit_done;
-  }
+  if (std::ranges::none_of(prepared.due, [](bool is_due) { return is_due; })) return leave_as_made(prepared, cache);
   const ArrayOptions arrays = options_for(flags, slurm);
-  write_job(prepared, cache);
+  if (const std::vector<std::string> ignored = ignored_slurm_settings(); !ignored.empty())
+    tell(
+        fmt::format("{}{} in the environment {} ignored; ask with --partition, --account, --time or --sbatch=OPTION, "
+                    "and choose the cluster by SLURM_CONF",
+                    warning_mark, fmt::join(ignored, ", "), ignored.size() == 1 ? "is" : "are"));
+  write_and_tell(prepared, cache);
   const FarmJob job = read_farm_job(prepared.folder);
   write_assignment(prepared.folder, {.to = Assignment::To::slurm});
   const std::vector<HandedOver> handed = hand_over(prepared.folder, job, cache, slurm, arrays, flags.slurm);
@@ -231,29 +241,41 @@ int submit_graph(const PreparedJob& prepared, const SubmitFlags& flags, Cache& c
 
 int list_jobs(const FarmFolder& farm, Cache& cache, const Slurm& slurm) {
   Table table = {{"job", "units"}};
+  int code = exit_done;
   for (const std::string& name : farm.job_names()) {
-    const FarmJob job = read_farm_job(farm.jobs() / name);
-    table.push_back({name, state_line(look_at_job(farm.jobs() / name, job, cache, slurm))});
+    try {
+      const FarmJob job = read_farm_job(farm.jobs() / name);
+      table.push_back({name, state_line(look_at_job(farm.jobs() / name, job, cache, slurm))});
+    } catch (const DamagedJob& e) {
+      table.push_back({name, e.what()});
+      code = exit_failed;
+    }
   }
   if (table.size() == 1)
     answer("no jobs in {}\n", farm.root().string());
   else
     answer("{}", aligned(table));
+  return code;
+}
+
+int cancel(const fs::path& folder, Cache& cache, const Slurm& slurm) {
+  const std::string job = folder.filename().string();
+  try {
+    if (const Assignment to = assignment_of(folder); to.to == Assignment::To::others)
+      throw UsageError(fmt::format(
+          "{} is not Slurm's to cancel: it was written to {} for another scheduler; cancel it there", job, to.file));
+  } catch (const DamagedJob&) {
+    // Slurm's queue tells.
+  }
+  cancel_job(folder, cache, slurm);
+  answer("cancelled {}; what has been made stays in the cache\n", job);
   return exit_done;
 }
 
 int work_on_job(const fs::path& folder, const SubmitFlags& flags, Cache& cache, const Slurm& slurm,
                 const std::atomic<bool>& cancelled) {
+  if (flags.cancel) return cancel(folder, cache, slurm);
   const FarmJob job = read_farm_job(folder);
-  if (flags.cancel) {
-    if (const Assignment to = assignment_of(folder); to.to == Assignment::To::others)
-      throw UsageError(
-          fmt::format("{} is not Slurm's to cancel: it was written to {} for another scheduler; cancel it there",
-                      job.name, to.file));
-    cancel_job(folder, job, cache, slurm);
-    answer("cancelled {}; what has been made stays in the cache\n", job.name);
-    return exit_done;
-  }
   if (flags.wait) return wait_until_done(folder, job, flags, cache, slurm, cancelled);
   const JobState state = look_at_job(folder, job, cache, slurm);
   show(folder, job, state, flags.json);
@@ -270,6 +292,8 @@ int submit(SubmitFlags& flags) {
   std::error_code missing;
   const bool names_a_graph = fs::is_regular_file(flags.graph, missing);
   const bool is_about_a_job = flags.status || flags.cancel || (flags.wait && !names_a_graph);
+  if (flags.openjd.empty() && !flags.status && !flags.cancel)
+    as_usage([&] { check_slurm_options(flags.slurm, farm.jobs()); });
   if (flags.graph.empty()) {
     if (!flags.status) throw UsageError("which graph? `terrazzo submit GRAPH`; --status alone lists the jobs");
     return list_jobs(farm, cache, slurm);
@@ -280,12 +304,15 @@ int submit(SubmitFlags& flags) {
           fmt::format("\"{}\" is a job: add --status, --wait or --cancel; or submit its graph again", flags.graph));
   if (is_about_a_job && !names_a_graph)
     return work_on_job(as_usage([&] { return farm.find_job(flags.graph); }), flags, cache, slurm, signals.flag());
+  flags.open_pack(cache.folder());
   const PreparedJob job = prepared_job(flags, cache);
   if (is_about_a_job) {
     if (!fs::exists(job.folder / "job.json", missing))
       throw UsageError(fmt::format("{} has not been submitted with these values", flags.graph));
     return work_on_job(job.folder, flags, cache, slurm, signals.flag());
   }
+  if (const std::string stem = fs::path(flags.graph).stem().string(); !job.job.name.starts_with(stem + "-"))
+    tell(fmt::format("note: the job of \"{}\" is called {}", stem, job.job.name));
   const std::map<std::string, std::string>& left_out = job.job.left_out;
   if (!left_out.empty()) tell(lines_of(left_out));
   const int code = flags.print             ? print_scripts(job, flags, slurm)
@@ -294,73 +321,12 @@ int submit(SubmitFlags& flags) {
   return code == exit_done && !left_out.empty() ? exit_failed : code;
 }
 
-void add_choices(CLI::App& command, SubmitFlags& flags) {
-  CLI::Option* print =
-      command.add_flag("--print", flags.print, "Print the scripts that would be handed over; write and submit nothing");
-  CLI::Option* openjd = command.add_option(
-      "--openjd", flags.openjd, "Write an Open Job Description template instead, for Deadline Cloud and others");
-  openjd->type_name("FILE.json")->excludes(print);
-  CLI::Option* status =
-      command.add_flag("--status", flags.status, "Say how far a job is; without a name, list all jobs");
-  CLI::Option* cancel = command.add_flag("--cancel", flags.cancel, "End a job's tasks");
-  CLI::Option* wait = command.add_flag(
-      "--wait", flags.wait,
-      "Wait until the job is done; tasks that get lost are handed over again. Ctrl-C ends the waiting, not the job");
-  for (CLI::Option* o : {status, cancel, wait}) o->excludes(print)->excludes(openjd);
-  cancel->excludes(status)->excludes(wait);
-  command.add_flag("--json", flags.json, "With --status: for programs")->needs(status);
-  command.add_option("--retries", flags.retries, "With --wait: how often what got lost is handed over again")
-      ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
-}
-
-void add_demands(CLI::App& command, SubmitFlags& flags) {
-  command.add_option("--partition", flags.slurm.partition, "Slurm's partition")->type_name("NAME");
-  command.add_option("--account", flags.slurm.account, "Whom Slurm charges")->type_name("NAME");
-  command.add_option("--time", flags.slurm.time, "Slurm's time limit of a task, such as 2:00:00")->type_name("TIME");
-  command.add_option("--sbatch", flags.slurm.more, "A further option of sbatch, such as --sbatch=--nice=100")
-      ->type_name("OPTION")
-      ->take_all()
-      ->expected(1);
-  command
-      .add_option("--cores", flags.arrays.cores,
-                  "Cores of each task; if not given, as many as earlier ones of its kind have used")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
-  command.add_option("--memory", flags.memory, "Memory of each task, such as 4G; if not given, likewise")
-      ->type_name("SIZE");
-  command
-      .add_option("--pack", flags.arrays.pack_seconds,
-                  "Short work is put into one task until it takes about this many seconds")
-      ->type_name("SECONDS")
-      ->check(CLI::NonNegativeNumber);
-  command.add_option("--program", flags.program, "Where terrazzo is on the farm's machines, if not where it is here")
-      ->type_name("FILE");
-}
-
 }  // namespace
 
 void add_submit_command(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("submit", "Hands a graph to a farm: Slurm, or an Open Job Description");
   const auto flags = std::make_shared<SubmitFlags>();
-  command->add_option("GRAPH", flags->graph, "The graph file; or a job, with --status, --wait or --cancel")
-      ->type_name("FILE.json");
-  add_value_flags(*command, *flags);
-  add_variation_flags(*command, flags->variations);
-  command->add_option("--only", flags->only, "Make only this node and what it needs; may be given several times")
-      ->type_name("NODE")
-      ->take_all()
-      ->expected(1);
-  command->add_flag(
-      "--keep-going", flags->keep_going,
-      "Leave out what needs a source that cannot be read, and submit all else; the exit code is 1 all the "
-      "same");
-  command
-      ->add_option("--cache", flags->cache,
-                   "Folder of the cache, which all machines must share; jobs are kept in its folder farm")
-      ->type_name("DIR");
-  add_choices(*command, *flags);
-  add_demands(*command, *flags);
+  add_submit_flags(*command, *flags);
   command->footer(
       "Examples:\n"
       "  terrazzo submit bricks.json --sweep seed=1..64 --set \"out=='/projects/bricks/' + seed\" --wait\n"

@@ -105,22 +105,31 @@ std::vector<std::string> Sweep::labels() const {
 }
 
 Graph Sweep::load(const std::function<Graph(const std::vector<std::string>&)>& load) {
-  std::vector<Graph> graphs;
-  for (const Variation& v : variations_) try {
-      graphs.push_back(load(v.overrides()));
+  GraphMerger merger;
+  Graph first;
+  std::map<std::vector<std::string>, size_t> loaded;  // by overrides
+  for (size_t i = 0; i < variations_.size(); i++) try {
+      const auto [same, is_new] = loaded.emplace(variations_[i].overrides(), i);
+      if (!is_new) {
+        merger.add_again(same->second);
+        continue;
+      }
+      Graph graph = load(variations_[i].overrides());
+      if (i == 0) first = graph;
+      merger.add(std::move(graph), variations_[i].label());
     } catch (const GraphError& e) {
-      throw GraphError(e.file(), with_origins(e.problems(), v));
+      throw GraphError(e.file(), with_origins(e.problems(), variations_[i]));
     }
-  MergedGraph all = merged(graphs, labels());
+  MergedGraph all = merger.merged();
   names_ = std::move(all.names);
-  check_paths(graphs);
-  targets_.clear();
-  kept_.clear();
   Nodes nodes;
   for (const GraphNode& n : all.graph.nodes) nodes.emplace(n.name, &n);
+  check_paths(first, nodes);
+  targets_.clear();
+  kept_.clear();
   std::vector<GraphNode> added;
-  if (!flags_.sheet.empty()) add_sheet(graphs.front(), nodes, added);
-  if (!flags_.figures.empty() || !flags_.best.empty()) add_comparisons(graphs.front(), nodes, added);
+  if (!flags_.sheet.empty()) add_sheet(first, nodes, added);
+  if (!flags_.figures.empty() || !flags_.best.empty()) add_comparisons(first, nodes, added);
   std::ranges::move(added, std::back_inserter(all.graph.nodes));
   return std::move(all.graph);
 }
@@ -140,19 +149,20 @@ Graph Sweep::load(const GraphFlags& values, const LoadOptions& options,
 
 /// Variations must not write over one another's files. Sizes and materials in a path may tell them apart; the plan
 /// looks at those.
-void Sweep::check_paths(const std::vector<Graph>& graphs) const {
+void Sweep::check_paths(const Graph& first, const Nodes& nodes) const {
   std::map<std::pair<std::string, std::string>, size_t> writers;  // the first variation, by node and path
-  for (size_t v = 0; v < graphs.size(); v++)
-    for (const GraphNode& n : graphs[v].nodes) {
+  for (size_t v = 0; v < names_.size(); v++)
+    for (const auto& [name, merged_name] : names_[v]) {
+      const GraphNode& n = *nodes.at(merged_name);
       const auto path = n.params.find("path");
       if (!n.type->is_sink() || path == n.params.end()) continue;
       const std::string& pattern = std::get<std::string>(path->second);
       const auto holds = [&](const char* place) { return pattern.find(place) != pattern.npos; };
       if (holds("{width}") || holds("{height}") || holds("{material}")) continue;
-      const size_t first = writers.try_emplace({n.name, pattern}, v).first->second;
-      if (names_[first].at(n.name) == names_[v].at(n.name)) continue;  // it is the same node, and runs once
-      throw UsageError(fmt::format("node \"{}\" would write {} for {} and for {}; {}", n.name, pattern,
-                                   variations_[first].label(), variations_[v].label(), way_apart(graphs[v])));
+      const size_t writer = writers.try_emplace({name, pattern}, v).first->second;
+      if (names_[writer].at(name) == merged_name) continue;  // it is the same node, and runs once
+      throw UsageError(fmt::format("node \"{}\" would write {} for {} and for {}; {}", name, pattern,
+                                   variations_[writer].label(), variations_[v].label(), way_apart(first)));
     }
 }
 

@@ -55,7 +55,7 @@ class Sweep {
  private:
   using Nodes = std::map<std::string, const GraphNode*>;
 
-  void check_paths(const std::vector<Graph>& graphs) const;
+  void check_paths(const Graph& first, const Nodes& nodes) const;
   std::string way_apart(const Graph& graph) const;
   std::vector<std::string> names_that_vary() const;
   template <typename T>

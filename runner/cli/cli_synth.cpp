@@ -48,7 +48,8 @@ bool same_folder(const std::string& a, const std::string& b) {
 }
 
 struct SynthFlags : RunFlags {
-  std::string folder, out, name, scale, size, seed, quality, blend, join, format, tileable, method = "layout";
+  ExemplarFlags exemplar;
+  std::string out, scale, size, seed, quality, blend, join, format, tileable, method = "layout";
   std::vector<std::string> set;
 
   /// The first of the given options that only a layout has; empty if there is none.
@@ -78,7 +79,8 @@ ChosenGraph suitable_graph(const SynthFlags& flags) {
   looking.after = [&](const RunResult& result) {
     if (result.ok()) features = std::get<FeaturesPtr>(result.kept.at("elements").at("features"));
   };
-  const int code = run_with_flags([&] { return looking_graph(flags.folder, flags.name); }, looking);
+  looking.files = {flags.exemplar.folder};
+  const int code = run_with_flags([&](const LoadOptions&) { return looking_graph(flags.exemplar); }, looking);
   if (!features) return {nullptr, code};
   const MethodChoice choice = suitable_method(*features, Task());
   say("{}\n", choice.sentence());
@@ -104,17 +106,12 @@ ChosenGraph chosen_graph(const SynthFlags& flags) {
 void add_synth_command(CLI::App& app, Chosen& chosen) {
   CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
   const auto flags = std::make_shared<SynthFlags>();
-  synth->add_option("FOLDER", flags->folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
+  add_exemplar_flags(*synth, flags->exemplar);
   synth
       ->add_option("-o,--out", flags->out,
                    "The folder to write to; {material}, {width}, {height} and {map} are replaced")
       ->required()
       ->type_name("DIR");
-  synth
-      ->add_option("--name", flags->name,
-                   "Which material of a folder that holds several: what the names of its files begin with; '*' takes "
-                   "all files as one")
-      ->type_name("STEM");
   synth
       ->add_option("--scale", flags->scale,
                    "The size of the result: how many times the exemplar in each direction; 2 if not given")
@@ -157,11 +154,13 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
   synth->footer("Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7");
   synth->callback([&chosen, flags] {
     chosen = [flags] {
-      std::vector<Argument> arguments = {{"FOLDER", "material", flags->folder}, {"-o", "out", flags->out}};
+      std::vector<Argument> arguments = {{"FOLDER", "material", flags->exemplar.folder}, {"-o", "out", flags->out}};
       const auto set_if_given = [&](const char* name, const char* parameter, const std::string& value) {
         if (!value.empty()) arguments.push_back({name, parameter, value});
       };
-      set_if_given("--name", "name", flags->name);
+      set_if_given("--name", "name", flags->exemplar.name);
+      for (const auto& [map, how] : flags->exemplar.interpretations())
+        set_if_given("--interpret", ("exemplar.interpret." + map).c_str(), how);
       set_if_given("--scale", "scale", flags->scale);
       set_if_given("--size", "size", flags->size);
       set_if_given("--seed", "seed", flags->seed);
@@ -174,14 +173,18 @@ void add_synth_command(CLI::App& app, Chosen& chosen) {
       for (const Argument& a : arguments) set.push_back(a.override_text());
       set.insert(set.end(), flags->set.begin(), flags->set.end());
       flags->values = set;
-      if (same_folder(flags->folder, flags->out))
+      if (same_folder(flags->exemplar.folder, flags->out))
         throw UsageError(
             fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
       try {
         const ChosenGraph graph = chosen_graph(*flags);
         if (!graph.name) return graph.code;
         const std::string file = fmt::format("stock graph {}.json", graph.name);
-        return run_with_flags([&] { return load_graph_text(stock_graph(graph.name), file, set).graph; }, *flags);
+        return run_with_flags(
+            [&](const LoadOptions& options) {
+              return load_graph_text(stock_graph(graph.name), file, set, options).graph;
+            },
+            *flags);
       } catch (const GraphError& e) {
         throw about_arguments(e, arguments);
       }

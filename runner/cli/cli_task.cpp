@@ -9,7 +9,6 @@
 
 #include "core/base/suggest.h"
 #include "core/file/atomic_file.h"
-#include "graphs/document/load.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_farm.h"
 #include "runner/cli/console.h"
@@ -32,9 +31,6 @@ struct TaskFlags {
   bool list = false, in_process = false;
 
   fs::path folder() const {
-    std::error_code missing;
-    const fs::path path(job);
-    if (fs::exists(path / "job.json", missing)) return fs::absolute(path);
     return as_usage([&] { return FarmFolder(Cache::default_folder()).find_job(job); });
   }
   /// The job lies in the cache that it works with.
@@ -101,7 +97,7 @@ uint64_t memory_given() {
 
 int list_units(const fs::path& folder, const FarmJob& job, const fs::path& cache_folder) {
   Cache cache(cache_folder);
-  const LoadedGraph loaded = load_graph(folder / "graph.json");
+  const LoadedGraph loaded = load_frozen(folder, job.document);
   const Plan plan = make_plan(loaded.graph, &cache, {.only = job.targets, .look_ahead = false});
   answer("{}\n", state_json(folder, job, state_of(folder, job, plan, {})));
   return exit_done;
@@ -111,7 +107,10 @@ std::vector<std::string> units_meant(const TaskFlags& flags, const fs::path& fol
   std::vector<std::string> units = flags.units;
   if (!flags.array.empty()) {
     const auto tasks = read_array(folder, flags.array);
-    if (tasks.empty()) throw UsageError(fmt::format("{} has no array {}", folder.string(), flags.array));
+    if (tasks.empty())
+      throw UsageError(
+          fmt::format("{} has no array {}, or its file is damaged; submit the same again, which writes it anew",
+                      folder.string(), flags.array));
     if (size_t(flags.index) >= tasks.size())
       throw UsageError(fmt::format("--index {}: the array has tasks 0 to {}", flags.index, tasks.size() - 1));
     units = tasks[size_t(flags.index)];

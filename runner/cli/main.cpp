@@ -1,8 +1,52 @@
-#include <malloc.h>
+#include <cstdlib>
+#include <string>
 
+#include <malloc.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include "core/image/pixel_maker.h"
 #include "runner/cli/cli_commands.h"
 
+namespace {
+
+pid_t main_process = 0;
+
+/// Code of a node or of a library that ends the program would end it as if all was done. Other threads are at work, so
+/// nothing is cleaned up.
+[[noreturn]] void end(int code) {
+  if (::getpid() == main_process) {
+    const std::string node = terrazzo::PixelMaker::name();
+    const std::string message =
+        "error: " + (node.empty() ? std::string("code of a node or a library") : "code of the node \"" + node + "\"") +
+        " called exit() before the command was done\n";
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
+    code = terrazzo::exit_failed;
+  }
+  ::syscall(SYS_exit_group, code);
+  __builtin_trap();
+}
+
+}  // namespace
+
+// They stand in for those of the C library, which main's return does not go through.
+extern "C" {
+[[noreturn, gnu::visibility("default")]] void exit(int code) noexcept {
+  end(code);
+}
+[[noreturn, gnu::visibility("default")]] void quick_exit(int code) noexcept {
+  end(code);
+}
+[[noreturn, gnu::visibility("default")]] void _exit(int code) {
+  end(code);
+}
+[[noreturn, gnu::visibility("default")]] void _Exit(int code) noexcept {
+  end(code);
+}
+}
+
 int main(int argc, char** argv) {
+  main_process = ::getpid();
   // Stages take buffers of some megabytes again and again. Kept rather than given back to the system each time, they
   // save a fiftieth of a run of one map.
   constexpr int kept = 64 << 20, mapped_from = 16 << 20;

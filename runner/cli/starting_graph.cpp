@@ -85,18 +85,32 @@ void tell_of_layout(JsonValue& layout, const ExemplarLook& look) {
   comment(layout, "Where results repeat: raise evenness. Where they look torn: lower coherence, or less jitter.");
 }
 
-/// Which material of the folder is meant: a parameter of the graph, or one of the node that reads the folder.
-void pick_material(JsonValue& graph, const std::string& name) {
-  if (name.empty()) return;
-  if (JsonValue* parameter = member(graph, "parameters").find("name"))
-    return parameter->set("default", JsonValue::of(name));
+/// The node that reads the folder; null if the graph has none.
+JsonValue* folder_reader(JsonValue& graph) {
   for (JsonMember& node : member(graph, "nodes").members) {
     const JsonValue* path = node.value.find("path");
     const bool reads_it = path && std::ranges::any_of(folder_parameters, [&](std::string_view parameter) {
                             return path->text == fmt::format("${}", parameter);
                           });
-    if (reads_it) return node.value.set("name", JsonValue::of(name));
+    if (reads_it) return &node.value;
   }
+  return nullptr;
+}
+
+/// Which material of the folder is meant: a parameter of the graph, or one of the node that reads the folder.
+void pick_material(JsonValue& graph, const std::string& name) {
+  if (name.empty()) return;
+  if (JsonValue* parameter = member(graph, "parameters").find("name"))
+    return parameter->set("default", JsonValue::of(name));
+  if (JsonValue* node = folder_reader(graph)) node->set("name", JsonValue::of(name));
+}
+
+void interpret(JsonValue& graph, const std::map<std::string, std::string>& maps) {
+  JsonValue* node = maps.empty() ? nullptr : folder_reader(graph);
+  if (!node) return;
+  JsonValue said = JsonValue::empty_object();
+  for (const auto& [map, how] : maps) said.set(map, JsonValue::of(how));
+  node->set("interpret", std::move(said));
 }
 
 }  // namespace
@@ -122,6 +136,7 @@ std::string starting_graph(const ExemplarLook& look, std::string_view stock) {
   // A default is taken as it is: "$" and "@" mean nothing in it.
   folder_parameter(graph)->set("default", JsonValue::of(look.folder.generic_string()));
   pick_material(graph, look.name);
+  interpret(graph, look.interpret);
 
   JsonValue& nodes = member(graph, "nodes");
   if (nodes.members.empty()) return formatted(graph);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,14 +14,15 @@ namespace terrazzo {
 /// What has been found out about an exemplar.
 struct ExemplarLook {
   MaterialPtr exemplar;
-  std::filesystem::path folder;            ///< of its maps, as a graph should name it
-  std::string name{};                      ///< of the material in the folder, where one was asked for
-  std::vector<std::string> notes;          ///< of load_material
-  std::vector<std::string> lattice_notes;  ///< of regularity
-  bool repeats = false;                    ///< a lattice was found
-  bool streaks = false;                    ///< it goes on along an axis
-  bool tiles = false;                      ///< opposite borders fit
-  MethodChoice method{};                   ///< which way suits it
+  std::filesystem::path folder;                    ///< of its maps, as a graph should name it
+  std::string name{};                              ///< of the material in the folder, where one was asked for
+  std::map<std::string, std::string> interpret{};  ///< what the user says of maps, see load_material
+  std::vector<std::string> notes;                  ///< of load_material
+  std::vector<std::string> lattice_notes;          ///< of regularity
+  bool repeats = false;                            ///< a lattice was found
+  bool streaks = false;                            ///< it goes on along an axis
+  bool tiles = false;                              ///< opposite borders fit
+  MethodChoice method{};                           ///< which way suits it
 
   /// A sentence on what kind of exemplar it is.
   std::string nature() const;

@@ -26,8 +26,8 @@ using Watch = void (*)(Tell);
 
 constexpr const char* library_name = "terrazzo_watch.so";
 constexpr const char* preload = "LD_PRELOAD";
-/// Names a file whose content is in the keys of all that read it.
-constexpr std::string_view color_variable = "OCIO";
+/// They are in the keys of all that convert colours: the first by the content of the file that it names.
+constexpr std::array<std::string_view, 2> color_variables = {"OCIO", "OCIO_OPTIMIZATION_FLAGS"};
 constexpr const char* started = "TERRAZZO_WATCHED";
 
 Watch watch() {
@@ -85,7 +85,8 @@ void require_declared(const Stage& stage, const NodeContext& context, const Watc
   std::error_code unresolved;
   if (type.files_read)
     for (const fs::path& f : type.files_read(stage.node->params)) declared.insert(fs::weakly_canonical(f, unresolved));
-  for (const StagedFile& f : context.staged()) declared.insert(fs::weakly_canonical(f.temporary, unresolved));
+  for (const StagedFile& f : context.staged())
+    for (const fs::path& file : {f.temporary, f.target}) declared.insert(fs::weakly_canonical(file, unresolved));
   for (const fs::path& file : reads.files()) {
     const fs::path path = fs::weakly_canonical(file, unresolved);
     if (is_random(path))
@@ -100,7 +101,7 @@ void require_declared(const Stage& stage, const NodeContext& context, const Watc
                     type.name, path.string(), declares));
   }
   for (const std::string& variable : reads.variables())
-    if (variable != color_variable)
+    if (std::ranges::find(color_variables, variable) == color_variables.end())
       throw Error(
           fmt::format("checked: {} reads the variable {} of the environment, which is not in its key: make it a "
                       "parameter",

@@ -10,7 +10,9 @@
 
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
+#include "core/file/read_guard.h"
 #include "core/file/write_guard.h"
+#include "core/image/pixel_maker.h"
 #include "graphs/document/problem.h"
 #include "runner/engine/checked.h"
 #include "runner/engine/sandbox.h"
@@ -26,6 +28,11 @@ void remove_staged(const NodeContext& context) {
   for (const StagedFile& f : context.staged()) fs::remove(f.temporary, ignored);
 }
 
+/// Where a file is to be, in the very folder that its temporary one lies in.
+fs::path place_of(const StagedFile& f) {
+  return f.temporary.parent_path() / f.target.filename();
+}
+
 bool describes_others(const fs::path& file) {
   const std::string ending = file.extension().string();
   return ending == ".json" || ending == ".gltf" || ending == ".mtlx" || ending == ".usda" || ending == ".py";
@@ -37,7 +44,7 @@ void remove_descriptions(const std::vector<StagedFile>& staged) {
   if (std::ranges::all_of(staged, is_description)) return;
   std::error_code not_there;
   for (const StagedFile& f : staged)
-    if (is_description(f)) fs::remove(f.target, not_there);
+    if (is_description(f)) fs::remove(place_of(f), not_there);
 }
 
 /// Removes a node's temporary files unless they have been put in their places.
@@ -64,7 +71,7 @@ class StagedFiles {
     std::stable_partition(staged.begin(), staged.end(),
                           [](const StagedFile& f) { return !describes_others(f.target); });
     remove_descriptions(staged);
-    for (const StagedFile& f : staged) publish_file(f.temporary, f.target);
+    for (const StagedFile& f : staged) publish_file(f.temporary, place_of(f));
     std::vector<OutputFile> files;
     for (const StagedFile& f : context_.staged())
       files.push_back({f.target, fs::file_size(f.target), digest_of_file(cache, f.target)});
@@ -81,6 +88,10 @@ void check_outputs(NodeContext& context) {
       throw std::logic_error(fmt::format("{} did not set its output {}", context.type().name, p.name));
 }
 
+bool is_read(const Ingredient& i) {
+  return i.what.starts_with("file ") || i.what.starts_with("variable ");
+}
+
 /// What was read must be what the key says; otherwise a result would be filed under the wrong key.
 void check_files_unchanged(const Stage& stage, Cache* cache) {
   if (!cache) return;
@@ -91,7 +102,7 @@ void check_files_unchanged(const Stage& stage, Cache* cache) {
   const std::vector<Ingredient>& before = stage.known->ingredients;
   bool same = now.size() == before.size();
   for (size_t i = 0; same && i < now.size(); i++)
-    same = now[i].what == before[i].what && (!now[i].what.starts_with("file ") || now[i].digest == before[i].digest);
+    same = now[i].what == before[i].what && (!is_read(now[i]) || now[i].digest == before[i].digest);
   if (!same) throw Error("the files it reads were changed while it was reading them; run the graph again");
 }
 
@@ -114,14 +125,17 @@ void compute(Job& job, const Stage& stage, const RunOptions& options) {
   NodeContext& context = *job.context;
   std::optional<NodeContext> again;
   if (options.checked) again.emplace(context);
+  WriteGuard::Check may_write;
+  if (options.sandbox) may_write = [&](const fs::path& target) { options.sandbox->check("write", target); };
+  const WriteGuard guard(std::move(may_write));
+  std::optional<ReadGuard> reading;
+  if (options.sandbox) reading.emplace([&](const fs::path& path) { options.sandbox->check("read", path); });
+  const PixelMaker maker(stage.node->name);
   StagedFiles staged(context);
   const auto start = std::chrono::steady_clock::now();
   context.task().check();
   if (options.observer) options.observer->started(stage);
   check_files_in_sandbox(stage, options.sandbox);
-  WriteGuard::Check may_write;
-  if (options.sandbox) may_write = [&](const fs::path& target) { options.sandbox->check("write", target); };
-  const WriteGuard guard(std::move(may_write));
   // Isolated: a thread that waits for this node's inner loops must not pick up another node meanwhile.
   {
     std::optional<WatchedReads> reads;
@@ -214,9 +228,14 @@ void store(Job& job, const Stage& stage, const RunOptions& options) {
 
 /// The message with the files that the user asked for in place of those under which they were written so far.
 std::string of_targets(const NodeContext& context, std::string message) {
-  for (const StagedFile& f : context.staged())
-    for (size_t at; (at = message.find(f.temporary.native())) != std::string::npos;)
-      message.replace(at, f.temporary.native().size(), f.target.native());
+  const auto replace = [&](const std::string& name, const std::string& target) {
+    for (size_t at; name != target && (at = message.find(name)) != std::string::npos;)
+      message.replace(at, name.size(), target);
+  };
+  for (const StagedFile& f : context.staged()) {
+    replace(f.temporary.native(), f.target.native());
+    if (f.temporary.parent_path() != f.target.parent_path()) replace(place_of(f).native(), f.target.native());
+  }
   return message;
 }
 
@@ -256,10 +275,20 @@ void perform(Job& job, const Plan& plan, const RunOptions& options) {
     if (node.type->find_input(about)) job.blames_input = message;
     job.failure = describe(plan.graph->file.string(), problem_of(node, about, message));
   };
+  // All who read the pixels fail alike: it is said once, of the node that makes them.
+  const auto blame = [&](const PixelError& e) {
+    const GraphNode* maker = e.maker() == node.name ? nullptr : plan.graph->find(e.maker());
+    if (!maker) return fail(e.about(), e.what());
+    job.blames_node = maker->name;
+    job.blames_input = e.what();
+    job.failure = describe(plan.graph->file.string(), problem_of(*maker, "", e.what()));
+  };
   try {
     perform_kind(job, plan, options);
   } catch (const Cancelled&) {
     job.cancelled = true;
+  } catch (const PixelError& e) {
+    blame(e);
   } catch (const Error& e) {
     fail(e.about(), e.what());
   } catch (const fs::filesystem_error& e) {
@@ -268,6 +297,8 @@ void perform(Job& job, const Plan& plan, const RunOptions& options) {
     fail("", "this machine does not have enough memory for it");
   } catch (const std::exception& e) {
     fail("", fmt::format("internal error: {}", e.what()));
+  } catch (...) {
+    fail("", "internal error: it threw something that is no std::exception");
   }
   if (job.busy) return;
   if (job.context) job.made_folders = job.context->made_folders();

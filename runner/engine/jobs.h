@@ -30,6 +30,7 @@ struct Job {
   bool waited = false;   ///< has been busy before
   bool cancelled = false;
   std::optional<std::string> failure;  ///< the complete message
+  std::string blames_node;             ///< the node to blame, if it is not the one that ran
   std::string blames_input;            ///< the message if an input is to blame: other readers may report the same
   std::vector<std::filesystem::path> made_folders;  ///< by compute, outer ones first
   Span span;

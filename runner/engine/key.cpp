@@ -4,8 +4,10 @@
 
 #include "core/base/paths.h"
 #include "core/base/tuning.h"
+#include "core/base/variables_read.h"
 #include "graphs/document/convert.h"
 #include "graphs/document/format.h"
+#include "graphs/document/problem.h"
 
 namespace terrazzo {
 
@@ -20,6 +22,14 @@ Digest digest_of_param(const std::string& name, const ParamValue& value) {
   Hasher h;
   add_to(h, {{name, value}});
   return h.digest();
+}
+
+std::vector<fs::path> files_read_by(const GraphNode& node) {
+  try {
+    return node.type->files_read ? node.type->files_read(node.params) : std::vector<fs::path>();
+  } catch (const Error& e) {
+    throw GraphError("", {problem_of(node, e.about(), e.what())});
+  }
 }
 
 }  // namespace
@@ -47,7 +57,10 @@ std::vector<Ingredient> ingredients_of(const GraphNode& node, const InputNames& 
   if (const std::string tuning = overridden_tuning(); !tuning.empty())
     out.push_back({"tuning", Hasher().add(tuning).digest(), tuning});
 
-  const std::vector<fs::path> files = type.files_read ? type.files_read(node.params) : std::vector<fs::path>();
+  const VariablesRead variables;
+  const std::vector<fs::path> files = files_read_by(node);
+  for (const auto& [name, value] : variables.all())
+    out.push_back({"variable " + name, Hasher().add(value).digest(), value});
   std::vector<std::string> places;
   for (const fs::path& f : files) places.push_back(f.string());
   for (const auto& [name, value] : node.params) {

@@ -66,7 +66,7 @@ void Outcomes::computed(const Job& job) {
 
 void Outcomes::failed(const Job& job) {
   if (job.blames_input.empty() || blamed_inputs_.insert(job.blames_input).second)
-    failures_.push_back({plan_.stages[job.stage].node->name, *job.failure});
+    failures_.push_back({job.blames_node.empty() ? plan_.stages[job.stage].node->name : job.blames_node, *job.failure});
   stages_[job.stage].kind = StageOutcome::Kind::failed;
   if (options_.observer) options_.observer->failed(plan_.stages[job.stage], *job.failure);
 }

@@ -282,7 +282,13 @@ std::vector<Problem> doubts_about(const Graph& graph) {
       continue;  // has been reported as a problem
     }
     if (!node.type->doubts) continue;
-    for (const std::string& message : node.type->doubts(node.params, forecasts.inputs_of(node))) {
+    std::vector<std::string> messages;
+    try {
+      messages = node.type->doubts(node.params, forecasts.inputs_of(node));
+    } catch (const Error& e) {
+      messages = {e.what()};
+    }
+    for (const std::string& message : messages) {
       // Where the parameter or port stands that a message begins with, in quotes.
       const size_t end = message.find('"', 1);
       const bool is_about = message.starts_with('"') && end != message.npos;

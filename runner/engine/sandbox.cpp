@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -29,19 +30,19 @@ bool is_within(const fs::path& path, const fs::path& root) {
   return std::mismatch(root.begin(), root.end(), path.begin(), path.end()).first == root.end();
 }
 
-/// The folder above the first part of a name that is made up only later: "out" of "out/{map}.png".
-fs::path fixed_part(const fs::path& path) {
+/// The folder above the first part of a name that has one of these characters.
+fs::path in_front_of(const fs::path& path, const char* characters) {
   fs::path out;
   for (const fs::path& part : path) {
-    if (part.native().find('{') != std::string::npos) break;
+    if (part.native().find_first_of(characters) != std::string::npos) break;
     out /= part;
   }
   return out;
 }
 
-std::vector<fs::path> paths_in(const ParamValue& value) {
-  if (const auto* text = std::get_if<std::string>(&value)) return {*text};
-  return {};
+/// In front of what is made up only later: "out" of "out/{map}.png".
+fs::path fixed_part(const fs::path& path) {
+  return in_front_of(path, "{");
 }
 
 class SandboxCheck {
@@ -54,8 +55,8 @@ class SandboxCheck {
     for (const Param& p : node.type->params) {
       const auto value = node.params.find(p.name);
       if (p.type != ParamType::path || value == node.params.end()) continue;
-      for (const fs::path& path : paths_in(value->second))
-        if (!path.empty()) complain(node, p.name, sandbox_.trouble_with(verb, fixed_part(path)));
+      const fs::path path = std::get<std::string>(value->second);
+      if (!path.empty()) complain(node, p.name, sandbox_.trouble_with(verb, fixed_part(path)));
     }
     if (!said_.empty() || !node.type->files_read) return;
     for (const fs::path& file : node.type->files_read(node.params))
@@ -76,13 +77,21 @@ class SandboxCheck {
 
 }  // namespace
 
-Sandbox::Sandbox(fs::path folder, std::vector<fs::path> named) : given_(std::move(folder)) {
-  named.push_back(given_);
-  for (const fs::path& path : named)
-    if (std::optional<fs::path> root = resolved(fixed_part(path))) {
-      if (!root->has_filename()) *root = root->parent_path();
-      roots_.push_back(std::move(*root));
-    }
+Sandbox::Sandbox(fs::path folder) : given_(std::move(folder)) {
+  open(given_);
+}
+
+void Sandbox::open(const fs::path& path) {
+  std::error_code missing;
+  const bool is_pattern = !fs::exists(path, missing) && path.native().find_first_of("*?[") != std::string::npos;
+  std::optional<fs::path> root = resolved(is_pattern ? in_front_of(path, "*?[") : fixed_part(path));
+  if (!root) return;
+  if (!root->has_filename()) *root = root->parent_path();
+  roots_.push_back(std::move(*root));
+}
+
+void Sandbox::open_to_read(const fs::path& path) {
+  if (std::optional<fs::path> root = resolved(path)) readable_.push_back(std::move(*root));
 }
 
 bool Sandbox::allows(const fs::path& path) const {
@@ -93,6 +102,8 @@ bool Sandbox::allows(const fs::path& path) const {
 std::string Sandbox::trouble_with(const char* verb, const fs::path& path) const {
   if (allows(path)) return "";
   const std::optional<fs::path> place = resolved(path);
+  const auto holds_it = [&](const fs::path& root) { return is_within(*place, root); };
+  if (place && std::string_view(verb) == "read" && std::ranges::any_of(readable_, holds_it)) return "";
   const std::string leads = !place           ? " (a link that leads nowhere)"
                             : *place != path ? fmt::format(" (a link to {})", place->string())
                                              : "";
@@ -110,30 +121,6 @@ std::vector<Problem> sandbox_problems(const std::vector<GraphNode>& nodes, const
   SandboxCheck check(sandbox);
   for (const GraphNode& n : nodes) check.look_at(n);
   return check.take();
-}
-
-std::vector<fs::path> named_paths(const Graph& graph, const std::vector<std::string>& values) {
-  std::vector<fs::path> out;
-  for (const std::string& text : values) {
-    const size_t sign = text.find('=');
-    if (sign == std::string::npos) continue;
-    const std::string name = text.substr(0, sign);
-    std::error_code failure;
-    const fs::path path = fs::absolute(text.substr(sign + 1), failure).lexically_normal();
-    // Values of path parameters have been made absolute; other texts are as they were given.
-    const auto is_it = [&](const ParamValue& value) {
-      const auto* given = std::get_if<std::string>(&value);
-      return given && fs::path(*given).is_absolute() && fs::path(*given).lexically_normal() == path;
-    };
-    bool found = std::any_of(graph.settings.begin(), graph.settings.end(),
-                             [&](const GraphSetting& s) { return s.name == name && is_it(s.value); });
-    const size_t dot = name.rfind('.');
-    for (const GraphNode& n : graph.nodes)
-      if (dot != std::string::npos && stands_for(name.substr(0, dot), n.name))
-        if (const auto p = n.params.find(name.substr(dot + 1)); p != n.params.end()) found |= is_it(p->second);
-    if (found) out.push_back(path);
-  }
-  return out;
 }
 
 }  // namespace terrazzo

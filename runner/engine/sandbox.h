@@ -13,8 +13,12 @@ namespace terrazzo {
 /// was named on the command line. Paths count as where they lead: links are followed.
 class Sandbox {
  public:
-  /// Files, and folders with all that is in them.
-  Sandbox(std::filesystem::path folder, std::vector<std::filesystem::path> named);
+  explicit Sandbox(std::filesystem::path folder);
+  /// Opens another file, or folder with all that is in it: one that the command line names. Of a pattern such as
+  /// "scans/*.png" it opens the folder in front.
+  void open(const std::filesystem::path& path);
+  /// The same, but nothing may be written there.
+  void open_to_read(const std::filesystem::path& path);
 
   const std::filesystem::path& folder() const { return given_; }
   bool allows(const std::filesystem::path& path) const;
@@ -25,13 +29,10 @@ class Sandbox {
 
  private:
   std::filesystem::path given_;
-  std::vector<std::filesystem::path> roots_;  ///< where they lead
+  std::vector<std::filesystem::path> roots_, readable_;  ///< where they lead
 };
 
 /// What the graph's nodes would read and write elsewhere. Opens nothing.
 std::vector<Problem> sandbox_problems(const std::vector<GraphNode>& nodes, const Sandbox& sandbox);
-
-/// The files and folders that the command line names in its values of path parameters, "NAME=VALUE".
-std::vector<std::filesystem::path> named_paths(const Graph& graph, const std::vector<std::string>& values);
 
 }  // namespace terrazzo

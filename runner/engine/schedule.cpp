@@ -12,6 +12,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/base/text.h"
+#include "core/base/thread_limits.h"
 #include "core/image/image_limits.h"
 #include "runner/engine/coordinator.h"
 #include "runner/engine/history.h"
@@ -170,6 +171,8 @@ RunResult run_plan(Plan plan, const RunOptions& options) {
   const int threads = useful_threads(options.checked ? 1 : options.threads);
   const uint64_t memory = options.memory > 0 ? options.memory : memory_budget();
   if (options.observer) options.observer->planned(plan);
+  // Of the threads that compute this is one; two more keep and await leases.
+  require_threads(threads - 1 + 2);
 
   Coordinator coordinator(plan, options, threads, memory);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));

@@ -4,10 +4,12 @@
 #include <array>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
+#include "runner/farm/farm_folder.h"
 
 namespace terrazzo {
 
@@ -23,13 +25,15 @@ std::filesystem::path file_of(const std::filesystem::path& folder) {
 
 Assignment assignment_of(const std::filesystem::path& folder) {
   constexpr uint64_t most_bytes = uint64_t{1} << 16;
+  std::error_code missing;
+  if (!std::filesystem::exists(file_of(folder), missing)) return {};
   try {
     const auto json = nlohmann::json::parse(read_file(file_of(folder), most_bytes));
     const auto name = std::ranges::find(names, json.at("to").get<std::string>());
-    if (name == names.end()) return {};
+    if (name == names.end()) throw Error("\"to\" is something else");
     return {Assignment::To(name - names.begin()), json.at("file").get<std::string>()};
-  } catch (const std::exception&) {
-    return {};  // missing or damaged
+  } catch (const std::exception& e) {
+    throw DamagedJob(fmt::format("{} does not say who is to make the job: {}", file_of(folder).string(), e.what()));
   }
 }
 

@@ -18,7 +18,7 @@ struct Assignment {
   bool operator==(const Assignment&) const = default;
 };
 
-/// Slurm's, unless something else is noted in the job's folder.
+/// Slurm's, unless something else is noted in the job's folder. Throws DamagedJob if the note is damaged.
 Assignment assignment_of(const std::filesystem::path& folder);
 /// Throws FileError.
 void write_assignment(const std::filesystem::path& folder, const Assignment& assignment);

@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "core/base/error.h"
 #include "core/base/paths.h"
 #include "core/base/suggest.h"
+#include "core/file/atomic_file.h"
+#include "core/file/file_io.h"
 
 namespace terrazzo {
 
@@ -28,21 +29,33 @@ std::vector<std::string> FarmFolder::job_names() const {
 }
 
 fs::path FarmFolder::find_job(const std::string& which) const {
-  std::error_code missing;
-  if (fs::exists(fs::path(which) / "job.json", missing)) return without_trailing_slash(fs::absolute(which));
+  const auto is_job = [](const fs::path& folder) {
+    std::error_code missing;
+    const bool is_begun = fs::exists(folder / "graph.json", missing) && fs::is_directory(folder / "logs", missing);
+    return !folder.empty() && (is_begun || fs::exists(folder / "job.json", missing));
+  };
+  if (is_job(which)) return without_trailing_slash(fs::absolute(which));
+  if (!which.empty() && fs::path(which).filename() == which && is_job(jobs() / which)) return jobs() / which;
   const std::vector<std::string> names = job_names();
   std::vector<std::string> fitting;
   for (const std::string& n : names)
-    if (n == which)
-      return jobs() / n;
-    else if (n.starts_with(which) && !which.empty())
-      fitting.push_back(n);
+    if (n.starts_with(which) && !which.empty()) fitting.push_back(n);
   if (fitting.size() == 1) return jobs() / fitting.front();
   if (fitting.size() > 1)
     throw Error(fmt::format("\"{}\" is the beginning of several jobs: {}", which, fmt::join(fitting, ", ")));
   if (names.empty()) throw Error(fmt::format("\"{}\" is no graph file, and {} has no jobs", which, root_.string()));
   throw Error(
       fmt::format("\"{}\" is neither a graph file nor a job in {}{}", which, root_.string(), suggestion(which, names)));
+}
+
+bool write_if_other(const fs::path& file, const std::string& text) {
+  try {
+    if (read_file(file, text.size()) == text) return false;
+  } catch (const FileError&) {
+    // Missing, longer, or not readable.
+  }
+  write_whole_file(file, text);
+  return true;
 }
 
 }  // namespace terrazzo

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/error.h"
+
 /// What a farm's machines share besides the cache, in a folder of it:
 ///   farm/inputs/<digest>/...       frozen input files, never changed, shared by all jobs
 ///   farm/costs/<digest>.json       runner/farm/costs.h
@@ -34,12 +36,22 @@ class FarmFolder {
   std::filesystem::path jobs() const { return root_ / "jobs"; }
   /// The jobs' names, sorted.
   std::vector<std::string> job_names() const;
-  /// The folder of the job that this stands for: its name, a beginning of it that no other has, or its folder. Throws
-  /// Error that says what there is.
+  /// The folder of the job that this stands for: its name, a beginning of it that no other has, or its folder; also if
+  /// its document is lost. Throws Error that says what there is.
   std::filesystem::path find_job(const std::string& which) const;
 
  private:
   std::filesystem::path root_;  ///< absolute
 };
+
+/// Something in a job's folder is not what was written there.
+class DamagedJob : public Error {
+ public:
+  /// `what`: a sentence that names the file.
+  explicit DamagedJob(const std::string& what) : Error(what + "; submit the same again, which mends it") {}
+};
+
+/// Writes a file unless it holds this text already; returns whether it wrote. Throws FileError.
+bool write_if_other(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace terrazzo

@@ -17,7 +17,24 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// Raised when a member goes, or comes to mean something else.
-constexpr int format_version = 1;
+constexpr int format_version = 2;
+
+constexpr std::string_view digest_member = "digest";
+
+std::string text_of(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// Of all other members.
+std::string seal_of(const Json& json) {
+  return Hasher().add("farm job").add(text_of(json)).digest().hex();
+}
+
+Json json_of_digests(const std::map<std::string, Digest>& digests) {
+  Json json = Json::object();
+  for (const auto& [name, digest] : digests) json[name] = digest.hex();
+  return json;
+}
 
 Json json_of_unit(const Unit& u) {
   return {{"name", u.name},        {"nodes", u.nodes},     {"targets", u.targets}, {"needs", u.needs},
@@ -30,6 +47,12 @@ Digest digest_in(const Json& json) {
   return d;
 }
 
+std::map<std::string, Digest> digests_in(const Json& json) {
+  std::map<std::string, Digest> out;
+  for (const auto& [name, digest] : json.items()) out.emplace(name, digest_in(digest));
+  return out;
+}
+
 Unit unit_in(const Json& json) {
   Unit u;
   json.at("name").get_to(u.name);
@@ -40,6 +63,13 @@ Unit unit_in(const Json& json) {
   json.at("seconds").get_to(u.seconds);
   u.kind = digest_in(json.at("kind"));
   return u;
+}
+
+/// What an input file is the copy of; `file` is below FarmFolder::inputs.
+std::string original_of(const FarmJob& job, const fs::path& file) {
+  const fs::path copies = *file.begin();
+  const auto origin = job.origins.find(copies.string());
+  return origin == job.origins.end() ? "a file" : (fs::path(origin->second) / file.lexically_relative(copies)).string();
 }
 
 fs::path failure_file(const fs::path& folder, const std::string& unit) {
@@ -59,24 +89,36 @@ std::string job_name(const fs::path& graph, const Digest& id) {
   return fmt::format("{}-{}", stem.empty() ? "graph" : stem.substr(0, 40), id.hex().substr(0, 12));
 }
 
-void write_farm_job(const FarmJob& job, const fs::path& folder) {
-  Json units = Json::array(), keys = Json::object();
+bool write_farm_job(const FarmJob& job, const fs::path& folder) {
+  Json units = Json::array();
   for (const Unit& u : job.units) units.push_back(json_of_unit(u));
-  for (const auto& [node, key] : job.keys) keys[node] = key.hex();
-  const Json json = {{"format", format_version}, {"name", job.name},        {"graph", job.graph},
-                     {"program", job.program},   {"targets", job.targets},  {"variables", job.variables},
-                     {"plugins", job.plugins},   {"units", units},          {"keys", keys},
-                     {"origins", job.origins},   {"left_out", job.left_out}};
-  write_whole_file(folder / "job.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  Json json = {{"format", format_version},
+               {"name", job.name},
+               {"graph", job.graph},
+               {"program", job.program},
+               {"targets", job.targets},
+               {"variables", job.variables},
+               {"plugins", job.plugins},
+               {"units", units},
+               {"document", job.document.hex()},
+               {"inputs", json_of_digests(job.inputs)},
+               {"keys", json_of_digests(job.keys)},
+               {"origins", job.origins},
+               {"left_out", job.left_out}};
+  json[digest_member] = seal_of(json);
+  return write_if_other(folder / "job.json", text_of(json));
 }
 
 FarmJob read_farm_job(const fs::path& folder) {
   const fs::path file = folder / "job.json";
-  const std::string text = read_file(file);
   try {
-    const Json json = Json::parse(text);
+    const std::string text = read_file(file);
+    Json json = Json::parse(text);
     if (const int format = json.at("format").get<int>(); format != format_version)
       throw Error(fmt::format("format {}; this version of terrazzo reads {}", format, format_version));
+    const std::string digest = json.at(digest_member).get<std::string>();
+    json.erase(digest_member);
+    if (digest != seal_of(json)) throw Error("it does not have the digest that it had when it was written");
     FarmJob job;
     json.at("name").get_to(job.name);
     json.at("graph").get_to(job.graph);
@@ -85,14 +127,41 @@ FarmJob read_farm_job(const fs::path& folder) {
     json.at("variables").get_to(job.variables);
     json.at("plugins").get_to(job.plugins);
     for (const Json& u : json.at("units")) job.units.push_back(unit_in(u));
-    for (const auto& [node, key] : json.at("keys").items()) job.keys.emplace(node, digest_in(key));
-    // The first version did not write these.
-    job.origins = json.value("origins", job.origins);
-    job.left_out = json.value("left_out", job.left_out);
+    job.document = digest_in(json.at("document"));
+    job.inputs = digests_in(json.at("inputs"));
+    job.keys = digests_in(json.at("keys"));
+    json.at("origins").get_to(job.origins);
+    json.at("left_out").get_to(job.left_out);
     return job;
   } catch (const std::exception& e) {
-    throw Error(fmt::format("{} is no job of terrazzo, or damaged: {}; remove its folder and submit again",
-                            file.string(), e.what()));
+    throw DamagedJob(
+        fmt::format("{} is no job of terrazzo, or has been altered or damaged: {}", file.string(), e.what()));
+  }
+}
+
+void check_inputs(const FarmJob& job, const GraphNode& node, const fs::path& folder) {
+  const fs::path inputs = FarmFolder::of_job(folder).inputs();
+  for (const auto& [name, value] : node.params) {
+    const Param* param = node.type->find_param(name);
+    if (!param || param->type != ParamType::path) continue;
+    const fs::path place = place_under(inputs, std::get<std::string>(value));
+    if (place.empty()) continue;
+    const std::string copies = place.begin()->string();
+    const auto refuse = [&](const std::string& file, std::string_view what) {
+      throw DamagedJob(fmt::format("farm/inputs/{}, the job's copy of {}, {}", file, original_of(job, file), what));
+    };
+    for (auto at = job.inputs.lower_bound(copies + "/"); at != job.inputs.end(); ++at) {
+      if (!at->first.starts_with(copies + "/")) break;
+      const std::optional<Digest> content = content_digest(inputs / at->first);
+      if (!content) refuse(at->first, "has been lost or cannot be read");
+      if (*content != at->second) refuse(at->first, "has been altered or damaged");
+    }
+    const auto is_known = [&](const fs::path& f) {
+      return job.inputs.contains(place_under(inputs, f).generic_string());
+    };
+    for (const fs::path& stranger : strangers_in(inputs / copies, is_known))
+      throw DamagedJob(fmt::format("farm/inputs/{} lies among the job's inputs and is none of them",
+                                   place_under(inputs, stranger).string()));
   }
 }
 

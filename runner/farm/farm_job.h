@@ -22,7 +22,9 @@ struct FarmJob {
   std::map<std::string, std::string> variables;  ///< of the environment, as tasks are to have them
   std::vector<std::string> plugins;              ///< files
   std::vector<Unit> units;                       ///< in an order in which they can be made
-  std::map<std::string, Digest> keys;            ///< of nodes whose keys were known when it was frozen
+  Digest document;                               ///< see FrozenGraph
+  std::map<std::string, Digest> inputs;          ///< the content of input files, by path below FarmFolder::inputs
+  std::map<std::string, Digest> keys;            ///< of nodes, without what their wires bring
   std::map<std::string, std::string> origins;    ///< see FrozenGraph
   std::map<std::string, std::string> left_out;   ///< by node, as the user's graph has it: why it is not in the job
 
@@ -32,10 +34,14 @@ struct FarmJob {
 /// The name of a job.
 std::string job_name(const std::filesystem::path& graph, const Digest& id);
 
-/// Throws FileError.
-void write_farm_job(const FarmJob& job, const std::filesystem::path& folder);
-/// Throws Error if the folder holds none, or it is damaged.
+/// Does nothing if the folder holds this job already; returns whether it wrote. Throws FileError.
+bool write_farm_job(const FarmJob& job, const std::filesystem::path& folder);
+/// Throws DamagedJob if the folder holds none, or it has been altered or damaged: its digest is in it.
 FarmJob read_farm_job(const std::filesystem::path& folder);
+
+/// Throws DamagedJob that names the file if an input that the node's parameters name has been lost or altered, or
+/// another file lies beside it. Reads all of them.
+void check_inputs(const FarmJob& job, const GraphNode& node, const std::filesystem::path& folder);
 
 /// A message in which frozen inputs are called by the names of the files that they are copies of.
 std::string with_original_names(std::string message, const FarmJob& job, const std::filesystem::path& folder);

@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* document_name = "graph.json";
+
 /// Names of nodes that a document may have in wires: "layout [seed=3]" becomes "layout_seed_3".
 class PlainNames {
  public:
@@ -154,13 +156,27 @@ FrozenGraph frozen(const Plan& plan, Cache* cache) {
   return Freezer(plan, cache).made();
 }
 
-void write_frozen(const FrozenGraph& graph, const fs::path& job) {
+std::vector<fs::path> strangers_in(const fs::path& folder, const std::function<bool(const fs::path&)>& is_known) {
+  std::vector<fs::path> out;
+  std::error_code missing;
+  for (fs::recursive_directory_iterator at(folder, missing), end; !missing && at != end; at.increment(missing))
+    // Hidden files are copies on their way; nodes do not see them.
+    if (!at->path().filename().string().starts_with('.') && !at->is_directory(missing) && !is_known(at->path()))
+      out.push_back(at->path());
+  return out;
+}
+
+std::vector<fs::path> write_frozen(const FrozenGraph& graph, const fs::path& job) {
+  const fs::path inputs = FarmFolder::of_job(job).inputs();
+  std::vector<fs::path> changed;
+  std::set<fs::path> copies;
+  std::error_code failure;
   for (const FrozenInput& f : graph.inputs) {
-    const fs::path to = FarmFolder::of_job(job).inputs() / f.to;
+    const fs::path to = inputs / f.to;
+    copies.insert(to);
     if (content_digest(to) == f.content) continue;
     fs::create_directories(to.parent_path());
     const fs::path temporary = temporary_beside(to);
-    std::error_code failure;
     fs::copy_file(f.from, temporary, fs::copy_options::overwrite_existing, failure);
     if (failure) throw_system_error("copy", f.from, failure.value());
     if (content_digest(temporary) != f.content) {
@@ -168,8 +184,28 @@ void write_frozen(const FrozenGraph& graph, const fs::path& job) {
       throw FileError(fmt::format("{} has changed while it was copied; submit again", f.from.string()), 0);
     }
     publish_file(temporary, to, true);
+    changed.push_back(to);
   }
-  write_whole_file(job / "graph.json", graph.text);
+  for (const auto& [folder, origin] : graph.origins)
+    for (const fs::path& stranger :
+         strangers_in(inputs / folder, [&](const fs::path& f) { return copies.contains(f); }))
+      if (fs::remove(stranger, failure)) changed.push_back(stranger);
+  if (write_if_other(job / document_name, graph.text)) changed.push_back(job / document_name);
+  return changed;
+}
+
+LoadedGraph load_frozen(const fs::path& job, const Digest& document) {
+  const fs::path file = job / document_name;
+  FrozenGraph found;
+  try {
+    found.text = read_file(file);
+  } catch (const FileError& e) {
+    throw DamagedJob(e.what());
+  }
+  if (found.document() != document)
+    throw DamagedJob(
+        fmt::format("{} is not the graph that was submitted: it has been altered or damaged", file.string()));
+  return load_graph_text(found.text, file);
 }
 
 }  // namespace terrazzo

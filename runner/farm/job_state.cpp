@@ -35,7 +35,10 @@ void write_array(const fs::path& folder, const TaskArray& array) {
 
 std::vector<std::vector<std::string>> read_array(const fs::path& folder, const std::string& id) {
   try {
-    return nlohmann::json::parse(read_file(array_file(folder, id))).get<std::vector<std::vector<std::string>>>();
+    TaskArray array;
+    nlohmann::json::parse(read_file(array_file(folder, id))).get_to(array.tasks);
+    if (array.id().hex() == id) return array.tasks;
+    return {};
   } catch (const std::exception&) {
     return {};
   }

@@ -47,7 +47,7 @@ struct JobState {
 JobState state_of(const std::filesystem::path& folder, const FarmJob& job, const Plan& plan,
                   const std::vector<QueuedTask>& tasks);
 
-/// The units of an array's tasks, by index; empty if it is not known. Throws FileError.
+/// The units of an array's tasks, by index; empty if it is not known, or its file is damaged. Throws FileError.
 void write_array(const std::filesystem::path& folder, const TaskArray& array);
 std::vector<std::vector<std::string>> read_array(const std::filesystem::path& folder, const std::string& id);
 

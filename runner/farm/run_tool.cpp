@@ -66,7 +66,7 @@ void read_both(const File& out, const File& err, ToolResult& result) {
 
 }  // namespace
 
-ToolResult run_tool(const std::vector<std::string>& words) {
+ToolResult run_tool(const std::vector<std::string>& words, const std::function<bool(std::string_view)>& passes) {
   Pipe out, err;
   Spawning how;
   posix_spawn_file_actions_addopen(&how.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -78,9 +78,14 @@ ToolResult run_tool(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (const std::string& w : words) arguments.push_back(const_cast<char*>(w.c_str()));
   arguments.push_back(nullptr);
+  std::vector<char*> variables;
+  for (char** v = environ; *v; v++)
+    if (const std::string_view text = *v; !passes || passes(text.substr(0, text.find('=')))) variables.push_back(*v);
+  variables.push_back(nullptr);
   ToolResult result;
   pid_t process = 0;
-  const int failure = ::posix_spawnp(&process, arguments[0], &how.actions, &how.attributes, arguments.data(), environ);
+  const int failure =
+      ::posix_spawnp(&process, arguments[0], &how.actions, &how.attributes, arguments.data(), variables.data());
   if (failure != 0) {
     result.exit_code = 127;
     result.err = fmt::format("cannot start {}: {}", words.front(), system_message(failure));

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <chrono>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace terrazzo {
@@ -13,8 +14,9 @@ struct ToolResult {
   bool ok() const { return exit_code == 0; }
 };
 
-/// Runs another program to its end, found by $PATH, and collects what it prints. Throws Error only if processes cannot
-/// be started at all. Thread-safe.
-ToolResult run_tool(const std::vector<std::string>& words);
+/// Runs another program to its end, found by $PATH, and collects what it prints. It gets the variables of this
+/// process's environment whose names `passes`; all of them if that is empty. Throws Error only if processes cannot be
+/// started at all. Thread-safe.
+ToolResult run_tool(const std::vector<std::string>& words, const std::function<bool(std::string_view)>& passes = {});
 
 }  // namespace terrazzo

@@ -8,10 +8,12 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 
 #include "core/base/error.h"
-#include "core/base/shell_words.h"
 #include "core/base/task.h"
+#include "core/base/text.h"
 #include "runner/farm/run_tool.h"
 
 namespace terrazzo {
@@ -62,33 +64,30 @@ constexpr std::string_view mark_of_up = " is UP", mark_of_down = " is DOWN";
 /// Slurm's default. The highest index is one less.
 constexpr int usual_array_size = 1001;
 
-constexpr std::string_view comment_mark = "terrazzo:";
+/// What users set for their own calls of Slurm's tools: filters of what these show and end, options that beat those in
+/// a batch script, and what the job says in which this process may run.
+bool is_setting_of_tools(std::string_view variable) {
+  constexpr std::string_view beginnings[] = {"SLURM",  "_SLURM", "SBATCH_", "SQUEUE_", "SCANCEL_", "SCONTROL_",
+                                             "SINFO_", "SACCT_", "SALLOC_", "SRUN_",   "SPANK_"};
+  return std::ranges::any_of(beginnings, [&](std::string_view b) { return variable.starts_with(b); });
+}
+
+/// Which cluster is meant, and who asks.
+bool leads_to_cluster(std::string_view variable) {
+  constexpr std::string_view names[] = {"SLURM_CONF", "SLURM_CONF_SERVER", "SLURM_JWT"};
+  return std::ranges::find(names, variable) != std::end(names);
+}
+
+/// All calls of Slurm's tools.
+ToolResult run_slurm(const std::vector<std::string>& words) {
+  return run_tool(words, [](std::string_view v) { return leads_to_cluster(v) || !is_setting_of_tools(v); });
+}
+
+bool is_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
 
 }  // namespace
-
-std::string slurm_script(const FarmJob& job, const TaskArray& array, const std::filesystem::path& folder,
-                         const std::vector<std::string>& after, const SlurmOptions& options) {
-  const std::string id = array.id().hex();
-  std::string out = fmt::format("#!/bin/bash\n# {}: {}\n", job.graph, array.label);
-  const auto option = [&](const std::string& text) { out += "#SBATCH " + text + "\n"; };
-  option("--job-name=" + job.name);
-  option(fmt::format("--comment={}{}", comment_mark, id));
-  option(fmt::format("--array=0-{}", array.tasks.size() - 1));
-  option(fmt::format("--ntasks=1 --cpus-per-task={}", array.cores));
-  option(fmt::format("--mem={}M", (array.memory + (uint64_t{1} << 20) - 1) >> 20));
-  // A node that is lost gives its tasks back; they find what has been made in the cache.
-  option("--requeue --open-mode=append");
-  option("--output=" + shell_word((folder / "logs" / (id.substr(0, 12) + ".%A_%a.log")).string()));
-  if (!options.partition.empty()) option("--partition=" + options.partition);
-  if (!options.account.empty()) option("--account=" + options.account);
-  if (!options.time.empty()) option("--time=" + options.time);
-  for (const std::string& m : options.more) option(m);
-  // Tasks whose units need one that failed say so and end; the others go on.
-  if (!after.empty()) option(fmt::format("--dependency=afterany:{}", fmt::join(after, ":")));
-  out += fmt::format("exec {} task {} --array {} --index \"$SLURM_ARRAY_TASK_ID\" --threads \"$SLURM_CPUS_PER_TASK\"\n",
-                     shell_word(options.program.string()), shell_word(folder.string()), id);
-  return out;
-}
 
 Slurm::Slurm(std::function<void(const std::string&)> told, const std::atomic<bool>* cancelled)
     : told_(std::move(told)), cancelled_(cancelled) {}
@@ -100,7 +99,7 @@ std::string Slurm::why_unreachable() const {
   std::error_code missing;
   if (configuration && !std::filesystem::is_regular_file(configuration, missing))
     return fmt::format("SLURM_CONF names {}, which is not there. Set it to the cluster's slurm.conf", configuration);
-  const ToolResult ping = run_tool({"scontrol", "ping"});
+  const ToolResult ping = run_slurm({"scontrol", "ping"});
   if (ping.exit_code == 127) return first_line(ping.err) + ". Slurm's tools must be on $PATH";
   has_answered_ = ping.out.find(mark_of_up) != ping.out.npos;
   if (has_answered_) return "";
@@ -137,7 +136,7 @@ std::string Slurm::ask(const std::vector<std::string>& words,
   constexpr std::chrono::seconds first_pause{1}, longest_pause{30};
   const auto last = Clock::now() + patience;
   for (auto time = first_pause;; time = std::min(time * 2, longest_pause)) {
-    const ToolResult result = run_tool(words);
+    const ToolResult result = run_slurm(words);
     if (result.ok()) return result.out;
     const std::string message = fmt::format("{}: {}", words.front(), first_line(result.err));
     if (!is_transient(result.err) || Clock::now() + time > last) throw Error(message);
@@ -152,9 +151,9 @@ FarmLimits Slurm::limits(const SlurmOptions& options) const {
   FarmLimits limits{.tasks = usual_array_size};
   if (!why_unreachable().empty()) return limits;
   limits.tasks = max_array_size();
-  std::vector<std::string> words = {"sinfo", "--noheader", "--Node", "--format=%c|%m|%P"};
+  std::vector<std::string> words = {"sinfo", "--all", "--noheader", "--Node", "--format=%c|%m|%P"};
   if (!options.partition.empty()) words.push_back("--partition=" + options.partition);
-  const bool is_the_default = options.partition.empty() && options.more.empty() && !std::getenv("SBATCH_PARTITION");
+  const bool is_the_default = options.partition.empty() && options.more.empty();
   std::istringstream lines(ask(words));
   for (std::string line; std::getline(lines, line);) {
     const std::vector<std::string> parts = split(line, '|');
@@ -177,13 +176,20 @@ int Slurm::max_array_size() const {
 
 std::vector<QueuedTask> Slurm::queued(const std::string& job) const {
   std::vector<QueuedTask> tasks;
-  std::istringstream lines(ask({"squeue", "--array", "--noheader", "--name=" + job, "--format=%i|%K|%t|%k|%N|%r"}));
+  // Those in hidden partitions too.
+  std::istringstream lines(
+      ask({"squeue", "--all", "--array", "--noheader", "--name=" + job, "--format=%i|%K|%t|%k|%N|%r|%u"}));
   for (std::string line; std::getline(lines, line);) {
     const std::vector<std::string> parts = split(line, '|');
-    if (parts.size() < 6 || !parts[3].starts_with(comment_mark)) continue;
+    if (parts.size() < 7 || !parts[3].starts_with(slurm_comment_mark)) continue;
     const bool is_running = parts[2] == "R" || parts[2] == "CG" || parts[2] == "CF";
-    tasks.push_back({parts[0], parts[3].substr(comment_mark.size()), number_in(parts[1], 0), is_running,
-                     is_running ? parts[4] : parts[5]});
+    tasks.push_back({.id = parts[0],
+                     .array = parts[3].substr(slurm_comment_mark.size()),
+                     .index = number_in(parts[1], 0),
+                     .is_running = is_running,
+                     .is_ending = parts[2] == "CG",
+                     .reason = is_running ? parts[4] : parts[5],
+                     .user = parts[6]});
   }
   return tasks;
 }
@@ -195,11 +201,50 @@ std::string Slurm::submit(const std::filesystem::path& script, const std::string
     return "";
   };
   const std::string answer = ask({"sbatch", "--parsable", script.string()}, taken);
-  return answer.substr(0, answer.find_first_of(";\n"));
+  const std::string id = answer.substr(0, answer.find_first_of(";\n"));
+  if (!is_number(id))
+    throw Error(
+        fmt::format("sbatch: expected the number of the batch job, found \"{}\"; whether it was taken is shown "
+                    "by `terrazzo submit {} --status`",
+                    first_line(answer), job));
+  return id;
 }
 
 void Slurm::cancel(const std::string& job) const {
-  ask({"scancel", "--name=" + job});
+  constexpr std::chrono::seconds patience{10};
+  constexpr size_t most_shown = 5;
+  const auto last = Clock::now() + patience;
+  for (;;) {
+    std::string said;
+    try {
+      ask({"scancel", "--name=" + job});
+    } catch (const Error& e) {
+      said = fmt::format("; {}", e.what());
+    }
+    // What scancel returns does not tell: it is content with ending nothing.
+    std::vector<std::string> left;
+    for (const QueuedTask& t : queued(job))
+      if (!t.is_ending) left.push_back(fmt::format("{} of {}", t.id, t.user));
+    if (left.empty()) return;
+    if (Clock::now() > last) {
+      const size_t count = left.size();
+      if (count > most_shown) left.resize(most_shown);
+      throw Error(fmt::format("{} of {} still in the queue after {} seconds: {}{}{}", counted(int64_t(count), "task"),
+                              job + (count == 1 ? " is" : " are"), patience.count(), fmt::join(left, ", "),
+                              count > most_shown ? ", ..." : "", said));
+    }
+    pause(std::chrono::seconds(1));
+  }
+}
+
+std::vector<std::string> ignored_slurm_settings() {
+  std::vector<std::string> out;
+  for (char** v = environ; *v; v++) {
+    const std::string_view text = *v, name = text.substr(0, text.find('='));
+    if (name.starts_with("SBATCH_") || name == "SLURM_CLUSTERS") out.emplace_back(name);
+  }
+  std::ranges::sort(out);
+  return out;
 }
 
 }  // namespace terrazzo

@@ -7,17 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "runner/farm/arrays.h"
-#include "runner/farm/farm_job.h"
+#include "runner/farm/slurm_script.h"
 
-/// Slurm, by its command-line tools.
+/// Slurm, by its command-line tools. These get none of the variables with which users set up their own calls of them
+/// (SBATCH_*, SQUEUE_*, SCANCEL_*, SLURM_*, ...), but for SLURM_CONF, SLURM_CONF_SERVER and SLURM_JWT: others would
+/// hide tasks, beat what a batch script asks for, or keep tasks from being ended.
 namespace terrazzo {
 
-struct SlurmOptions {
-  std::string partition{}, account{}, time{};  ///< as sbatch takes them; empty: as the cluster has it
-  std::vector<std::string> more{};             ///< further options of sbatch, such as --constraint=avx2
-  std::filesystem::path program{};             ///< of tasks; absolute
-};
+/// Before the array's id in a batch job's comment.
+inline constexpr std::string_view slurm_comment_mark = "terrazzo:";
 
 /// A task that Slurm knows and that has not ended.
 struct QueuedTask {
@@ -25,12 +23,13 @@ struct QueuedTask {
   std::string array;  ///< TaskArray::id(), as hexadecimal digits
   int index = 0;
   bool is_running = false;
-  std::string reason;  ///< why it waits, in Slurm's words; or the node that it runs on
+  bool is_ending = false;  ///< its node is cleaning up; counts as running
+  std::string reason;      ///< why it waits, in Slurm's words; or the node that it runs on
+  std::string user;
 };
 
-/// What a batch job of this array runs. `after`: ids of jobs that must have ended before.
-std::string slurm_script(const FarmJob& job, const TaskArray& array, const std::filesystem::path& folder,
-                         const std::vector<std::string>& after, const SlurmOptions& options);
+/// The variables with which a user asks sbatch for something, and which it does not get; sorted.
+std::vector<std::string> ignored_slurm_settings();
 
 /// What is asked of Slurm. A controller that has answered before, and is now busy or being restarted, is asked again
 /// for some minutes; `told` gets a line for people when that begins. One that cannot be reached at all is given up
@@ -48,7 +47,7 @@ class Slurm {
   /// Hands a script over; returns the id of the batch job. If the controller's answer is lost, the queue tells whether
   /// it has been taken, so that it is never handed over twice.
   std::string submit(const std::filesystem::path& script, const std::string& job, const std::string& array) const;
-  /// Ends all tasks of a job.
+  /// Ends all tasks of a job. Throws Error that names those which are still in the queue after some seconds.
   void cancel(const std::string& job) const;
 
  private:

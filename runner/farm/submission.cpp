@@ -8,8 +8,9 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/variables_read.h"
 #include "core/file/atomic_file.h"
-#include "graphs/document/load.h"
+#include "runner/farm/unit_run.h"
 
 namespace terrazzo {
 
@@ -26,16 +27,16 @@ Plan plan_of(const Graph& graph, const FarmJob& job, Cache& cache) {
 }
 
 /// Keeps others from handing over the same job while it lives.
-std::shared_ptr<Lease> lease_of(const FarmJob& job, Cache& cache) {
+std::shared_ptr<Lease> lease_of(const std::string& job, Cache& cache) {
   constexpr std::chrono::milliseconds pause{100};
   constexpr int looks = 3000;  // five minutes: as long as a busy controller is asked
-  const Digest key = Hasher().add("farm job").add(job.name).digest();
+  const Digest key = Hasher().add("farm job").add(job).digest();
   for (int look = 0; look < looks; look++) {
     LeaseAttempt attempt = cache.try_lease(key);
     if (!attempt.taken) return attempt.lease;
     std::this_thread::sleep_for(pause);
   }
-  throw Error(fmt::format("job {} is being handed over by another process, which does not come to an end", job.name));
+  throw Error(fmt::format("job {} is being handed over by another process, which does not come to an end", job));
 }
 
 std::string batch_job_of(const QueuedTask& task) {
@@ -76,6 +77,8 @@ PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::stri
   job.name = job_name(plan.graph->file, id_of(out.graph, left_out));
   job.graph = fs::absolute(plan.graph->file).string();
   job.program = std::string("terrazzo ") + TERRAZZO_VERSION;
+  job.document = out.graph.document();
+  for (const FrozenInput& f : out.graph.inputs) job.inputs.emplace(f.to.generic_string(), f.content);
   job.targets = out.graph.targets;
   job.origins = out.graph.origins;
   job.plugins = plugins;
@@ -85,6 +88,10 @@ PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::stri
     std::error_code missing;
     job.variables.emplace("OCIO", fs::exists(config, missing) ? fs::absolute(config).string() : config);
   }
+  const VariablesRead variables;
+  for (const Stage& s : plan.stages)
+    if (s.type().files_read) s.type().files_read(s.node->params);
+  job.variables.insert(variables.all().begin(), variables.all().end());
   job.units = units_of(plan);
   out.due = due(job.units, plan);
   for (Unit& u : job.units) {
@@ -97,29 +104,35 @@ PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::stri
   return out;
 }
 
-void write_job(const PreparedJob& prepared, Cache& cache) {
+std::vector<fs::path> write_job(const PreparedJob& prepared, Cache& cache) {
   std::error_code missing;
-  if (fs::exists(prepared.folder / "job.json", missing)) return;
-  fs::create_directories(prepared.folder / "logs");
-  write_frozen(prepared.graph, prepared.folder);
+  const fs::path& folder = prepared.folder;
+  const std::shared_ptr<Lease> lease = lease_of(prepared.job.name, cache);  // what another is writing is not damaged
+  const bool is_new = !fs::exists(folder, missing);
+  fs::create_directories(folder / "logs");
+  std::vector<fs::path> mended = write_frozen(prepared.graph, folder);
   FarmJob job = prepared.job;
-  const LoadedGraph loaded = load_graph(prepared.folder / "graph.json");
-  const Plan plan = plan_of(loaded.graph, job, cache);
-  for (const Stage& s : plan.stages)
-    if (s.needed && s.known) job.keys.emplace(s.node->name, s.known->key);
-  write_farm_job(job, prepared.folder);
+  const LoadedGraph loaded = load_frozen(folder, job.document);
+  for (const GraphNode& n : loaded.graph.nodes) job.keys.emplace(n.name, key_on_farm(n, cache));
+  try {
+    job.units = read_farm_job(folder).units;  // tasks in the queue go by their names
+  } catch (const Error&) {
+    // There is none, or none that can be used.
+  }
+  if (write_farm_job(job, folder)) mended.push_back(folder / "job.json");
+  return is_new ? std::vector<fs::path>() : mended;
 }
 
 JobState look_at_job(const fs::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm) {
   const bool may_be_queued = assignment_of(folder).to != Assignment::To::others;
   const std::vector<QueuedTask> tasks = may_be_queued ? slurm.queued(job.name) : std::vector<QueuedTask>();
-  const LoadedGraph loaded = load_graph(folder / "graph.json");
+  const LoadedGraph loaded = load_frozen(folder, job.document);
   return state_of(folder, job, plan_of(loaded.graph, job, cache), tasks);
 }
 
 std::vector<HandedOver> hand_over(const fs::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm,
                                   const ArrayOptions& arrays, const SlurmOptions& options) {
-  const std::shared_ptr<Lease> lease = lease_of(job, cache);
+  const std::shared_ptr<Lease> lease = lease_of(job.name, cache);
   const JobState state = look_at_job(folder, job, cache, slurm);
   if (state.assignment.to != Assignment::To::slurm) return {};
   std::vector<bool> wanted;
@@ -136,6 +149,7 @@ std::vector<HandedOver> hand_over(const fs::path& folder, const FarmJob& job, Ca
     forget_failure(folder, name);
   }
   std::vector<HandedOver> out;
+  fs::create_directories(folder / "logs");  // without it, tasks end at once
   for (TaskArray& array : arrays_of(job.units, wanted, FarmFolder::of_job(folder).costs(), too_little, arrays)) {
     write_array(folder, array);
     const std::string id = array.id().hex();
@@ -147,10 +161,11 @@ std::vector<HandedOver> hand_over(const fs::path& folder, const FarmJob& job, Ca
   return out;
 }
 
-void cancel_job(const fs::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm) {
+void cancel_job(const fs::path& folder, Cache& cache, const Slurm& slurm) {
+  const std::string job = folder.filename().string();
   const std::shared_ptr<Lease> lease = lease_of(job, cache);
   write_assignment(folder, {.to = Assignment::To::nobody});
-  slurm.cancel(job.name);
+  slurm.cancel(job);
 }
 
 JobState wait_for(const fs::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm,

@@ -22,8 +22,9 @@ struct PreparedJob {
 PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::string>& plugins,
                      const std::map<std::string, std::string>& left_out = {});
 
-/// Writes the job, unless it is there: a job of this name is this job. Throws FileError.
-void write_job(const PreparedJob& prepared, Cache& cache);
+/// Writes the job, as far as it is not there already, unaltered: a job of this name is this job. Of one that was there,
+/// returns the files that had to be mended. Throws FileError.
+std::vector<std::filesystem::path> write_job(const PreparedJob& prepared, Cache& cache);
 
 /// What is known of a job now. Slurm is asked only if the job may be in its queue. Throws Error if the job is damaged,
 /// and with Slurm's message.
@@ -39,9 +40,9 @@ struct HandedOver {
 std::vector<HandedOver> hand_over(const std::filesystem::path& folder, const FarmJob& job, Cache& cache,
                                   const Slurm& slurm, const ArrayOptions& arrays, const SlurmOptions& options);
 
-/// Ends a job's tasks; they are not handed over again until the job is submitted again. Throws Error with Slurm's
-/// message.
-void cancel_job(const std::filesystem::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm);
+/// Ends a job's tasks, even of one that is damaged; they are not handed over again until the job is submitted again.
+/// Throws Error with Slurm's message, and if tasks stay in the queue.
+void cancel_job(const std::filesystem::path& folder, Cache& cache, const Slurm& slurm);
 
 struct WaitOptions {
   int retries = 2;  ///< how often tasks that got lost are handed over again

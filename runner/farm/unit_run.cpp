@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/file/file_io.h"
-#include "graphs/document/load.h"
 
 namespace terrazzo {
 
@@ -19,15 +18,32 @@ const Stage* stage_of(const Plan& plan, const std::string& node) {
   return at == plan.stages.end() ? nullptr : &*at;
 }
 
+/// All nodes that a unit's results depend on: what other units have not made by then, it makes itself.
+std::set<std::string> nodes_behind(const Graph& graph, const Unit& unit) {
+  std::set<std::string> out;
+  std::vector<std::string> open = unit.targets;
+  while (!open.empty()) {
+    const GraphNode* node = graph.find(open.back());
+    open.pop_back();
+    if (!node || !out.insert(node->name).second) continue;
+    for (const auto& [port, wires] : node->inputs)
+      for (const Wire& w : wires) open.push_back(w.node);
+  }
+  return out;
+}
+
 /// The same inputs must give the same results everywhere, or a retry would not be one.
-void check_keys(const FarmJob& job, const Plan& plan) {
-  for (const Stage& s : plan.stages) {
-    const auto frozen = job.keys.find(s.node->name);
-    if (!s.needed || !s.known || frozen == job.keys.end() || s.known->key == frozen->second) continue;
+void check_nodes(const fs::path& folder, const FarmJob& job, const Unit& unit, const Graph& graph, Cache& cache) {
+  const std::set<std::string> behind = nodes_behind(graph, unit);
+  for (const GraphNode& n : graph.nodes) {
+    if (!behind.contains(n.name)) continue;
+    check_inputs(job, n, folder);
+    const auto frozen = job.keys.find(n.name);
+    if (frozen != job.keys.end() && key_on_farm(n, cache) == frozen->second) continue;
     throw Error(fmt::format(
-        "node \"{}\" ({}) has another key here than when {} froze it: this is terrazzo {}; version, plug-ins "
-        "and $OCIO must be the same on all machines. Or submit again from here",
-        s.node->name, s.type().name, job.program, TERRAZZO_VERSION));
+        "node \"{}\" ({}) has another key here than when {} froze it: this is terrazzo {}; version, plug-ins and what "
+        "$OCIO names must be the same on all machines. Or submit again from here",
+        n.name, n.type->name, job.program, TERRAZZO_VERSION));
   }
 }
 
@@ -82,9 +98,14 @@ bool look_for(std::chrono::milliseconds patience, const std::atomic<bool>* cance
 
 }  // namespace
 
+Digest key_on_farm(const GraphNode& node, Cache& cache) {
+  return key_of(ingredients_of(node, {}, [&](const fs::path& file) { return digest_of_file(&cache, file); }));
+}
+
 UnitResult run_unit(const fs::path& folder, const FarmJob& job, const Unit& unit, const UnitRunOptions& options) {
-  const LoadedGraph loaded = load_graph(folder / "graph.json");
+  const LoadedGraph loaded = load_frozen(folder, job.document);
   Cache cache(options.cache);
+  check_nodes(folder, job, unit, loaded.graph, cache);
   RunOptions run;
   run.targets.only = unit.targets;
   run.cache = &cache;
@@ -98,7 +119,6 @@ UnitResult run_unit(const fs::path& folder, const FarmJob& job, const Unit& unit
   with_needs.only.insert(with_needs.only.end(), unit.needs.begin(), unit.needs.end());
   look_for(options.patience, options.cancelled, [&] {
     const Plan plan = make_plan(loaded.graph, &cache, with_needs);
-    check_keys(job, plan);
     const std::set<std::string> made = made_nodes(plan);
     if (is_done(unit, made)) return true;
     check_failures(folder, job, unit, made);

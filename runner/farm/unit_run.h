@@ -27,9 +27,12 @@ struct UnitResult {
   std::map<std::string, StageRecord> made{};  ///< by target: opened and verified after the run
 };
 
-/// Makes one unit of a job in this process. Throws Error if one that it needs has failed, if a node's key is not the
-/// one that it had when the job was frozen (another version, plug-in or colour configuration), and if what was made
-/// cannot be read back; what nodes say is in the result.
+/// The key of a node without what its wires bring, with which a job is frozen: known of every node, whatever has run.
+Digest key_on_farm(const GraphNode& node, Cache& cache);
+
+/// Makes one unit of a job in this process. Throws Error if the job's document or an input behind the unit is not what
+/// was frozen, if a node's key is not the one that it had then (another version, plug-in or colour configuration), if a
+/// unit that it needs has failed, and if what was made cannot be read back; what nodes say is in the result.
 UnitResult run_unit(const std::filesystem::path& folder, const FarmJob& job, const Unit& unit,
                     const UnitRunOptions& options);
 

@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 
 #include "runner/api/job.h"
+#include "runner/python/waiting.h"
 
 /// From C++ exceptions to those of the package, which are in terrazzo/_errors.py.
 namespace terrazzo::python {
@@ -17,7 +18,7 @@ pybind11::list problems_of(const std::vector<Problem>& problems, const Job& job,
 template <typename Work>
 auto for_job(const Job& job, const Work& work) {
   try {
-    const pybind11::gil_scoped_release free;
+    const Unlocked free;
     return work();
   } catch (const GraphError& e) {
     raise(e, job);

@@ -9,6 +9,7 @@
 
 #include "core/base/suggest.h"
 #include "core/image/color.h"
+#include "core/image/image_limits.h"
 #include "runner/python/values.h"
 #include "runner/python/waiting.h"
 
@@ -25,7 +26,7 @@ ImagePtr in_memory(ImageHandle& handle) {
   const ImagePtr lazy = handle.image;
   ImagePtr out;
   if (const NodeContext* node = current_node()) {
-    const py::gil_scoped_release free;
+    const Unlocked free;
     // Isolated: a thread that waits for the strips must not begin another node, which may want Python's lock.
     tbb::this_task_arena::isolate([&] { out = materialized(lazy, node->task()); });
   } else {
@@ -87,6 +88,12 @@ ImageHandlePtr from_array(const py::array& array, const std::string& semantic,
     throw py::value_error("an image has at most 65536 pixels a side");
   info.size = {int(array.shape(1)), int(array.shape(0))};
   info.channels = has_channels ? int(array.shape(2)) : 1;
+  const uint64_t bytes = uint64_t(array.size()) * sizeof(float);
+  if (bytes > memory_budget())  // an array may be a view that takes no memory itself
+    throw py::value_error(
+        fmt::format("an image of {} pixels and {} channels takes {} MiB, more than the memory budget of {} MiB; see "
+                    "set_memory_budget",
+                    describe(info.size), info.channels, bytes >> 20, memory_budget() >> 20));
   info.semantic = semantic_of(semantic);
   info.normal_y = normal_y_of(normal_y);
   const auto floats = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(array);
@@ -95,7 +102,7 @@ ImageHandlePtr from_array(const py::array& array, const std::string& semantic,
   if (scale != 1) std::ranges::for_each(pixels, [scale](float& v) { v /= scale; });
   if (!std::ranges::all_of(pixels, [](float v) { return std::isfinite(v); }))
     throw py::value_error("the array has values that are infinite or no numbers");
-  const py::gil_scoped_release free;
+  const Unlocked free;
   info.color_space = color_space ? canonical_color_space(*color_space) : assumed_color_space(info.semantic, info.depth);
   return std::make_shared<ImageHandle>(ImageHandle{Image::from_floats(info, std::move(pixels))});
 }

@@ -9,6 +9,7 @@
 #include "runner/python/errors.h"
 #include "runner/python/graphs.h"
 #include "runner/python/values.h"
+#include "runner/python/waiting.h"
 
 /// The compiled part of the Python package; what people use is in terrazzo/.
 PYBIND11_MODULE(_terrazzo, module) {
@@ -23,5 +24,6 @@ PYBIND11_MODULE(_terrazzo, module) {
   module.def("set_memory_budget", &terrazzo::set_memory_budget);
   module.def("bytes_from", &terrazzo::size_from);
   module.attr("size_help") = terrazzo::size_help;
+  pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&terrazzo::python::end_work));
   terrazzo::load_plugins_of_environment();
 }

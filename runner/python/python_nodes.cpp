@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "core/base/suggest.h"
+#include "nodes/common/node_faults.h"
 #include "nodes/common/registry.h"
 #include "runner/python/bindings.h"
 #include "runner/python/values.h"
@@ -86,8 +87,9 @@ void add_files(const std::filesystem::path& path, std::vector<std::filesystem::p
   std::error_code failure;
   if (!std::filesystem::is_directory(path, failure)) return out.push_back(path);
   std::vector<std::filesystem::path> inside;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(path, failure))
-    if (entry.is_regular_file(failure)) inside.push_back(entry.path());
+  std::filesystem::recursive_directory_iterator at(path, failure);
+  for (std::error_code ended; !ended && at != end(at); at.increment(ended))
+    if (at->is_regular_file(failure)) inside.push_back(at->path());
   std::ranges::sort(inside);
   out.insert(out.end(), inside.begin(), inside.end());
 }
@@ -117,7 +119,8 @@ void compute(NodeContext& node, PyObject* function) {
   }
 }
 
-void register_type(const py::dict& d, const py::function& function) {
+/// All but its function and the code behind it.
+NodeType described(const py::dict& d) {
   NodeType t;
   t.name = py::cast<std::string>(d["name"]);
   t.version = py::cast<int>(d["version"]);
@@ -146,9 +149,20 @@ void register_type(const py::dict& d, const py::function& function) {
         if (const auto& file = std::get<std::string>(params.at(p)); !file.empty()) add_files(file, out);
       return out;
     };
-  Hasher hasher;
-  hasher.add(py::cast<std::string>(d["source"]));
-  t.origin = {"Python", "", hasher.digest()};
+  t.origin.name = "Python";
+  return t;
+}
+
+/// Throws Error, or what Python raises, for what no node can be.
+void check_type(const py::dict& d) {
+  NodeType t = described(d);
+  t.compute = [](NodeContext&) {};
+  if (const std::string fault = fault_of_node_type(t); !fault.empty()) throw Error(fault);
+}
+
+void register_type(const py::dict& d, const py::function& function) {
+  NodeType t = described(d);
+  t.origin.content = Hasher().add(py::cast<std::string>(d["source"])).digest();
   // Descriptors live until the program ends, longer than Python does; so the function is never let go of.
   PyObject* kept = py::object(function).release().ptr();
   t.compute = [kept](NodeContext& node) { compute(node, kept); };
@@ -163,6 +177,7 @@ const NodeContext& node_here() {
 }  // namespace
 
 void bind_nodes(py::module_& module) {
+  module.def("check_node", &check_type);
   module.def("register_node", &register_type);
   module.def(
       "report_progress", [](double fraction) { node_here().task().progress(fraction); }, py::arg("fraction"),

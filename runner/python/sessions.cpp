@@ -103,7 +103,7 @@ class SessionHandle {
  public:
   SessionHandle(std::filesystem::path cache, bool use_cache, int threads, uint64_t memory, bool checked) {
     if (checked) tell_opened_files();
-    const py::gil_scoped_release free;
+    const Unlocked free;
     session_ = std::make_shared<Session>(SessionOptions{std::move(cache), use_cache, threads, memory, checked});
   }
 
@@ -153,7 +153,7 @@ class SessionHandle {
   std::vector<std::string> take_warnings() { return open()->take_warnings(); }
   void close() {
     std::shared_ptr<Session> last = std::move(session_);
-    const py::gil_scoped_release free;
+    const Unlocked free;
     last.reset();
   }
   bool is_closed() const { return !session_; }

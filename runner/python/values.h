@@ -8,6 +8,7 @@
 #include <pybind11/pybind11.h>
 
 #include "core/node/node.h"
+#include "runner/python/texts.h"
 
 /// Images, materials and other values as Python objects.
 namespace terrazzo::python {

@@ -2,9 +2,12 @@
 
 #include <chrono>
 #include <exception>
+#include <set>
 #include <thread>
 
 #include <pybind11/pybind11.h>
+
+#include "core/base/error.h"
 
 namespace terrazzo::python {
 
@@ -41,6 +44,7 @@ bool Events::wait(std::vector<Event>& out) {
 
 void do_and_wait(const std::function<void()>& work, std::atomic<bool>& cancelled, Events& events,
                  const std::function<void(const Event&)>& deliver) {
+  const WorkInProgress in_progress(&cancelled);
   std::exception_ptr failure, interruption;
   std::thread helper([&] {
     try {
@@ -76,6 +80,48 @@ void do_and_wait(const std::function<void()>& work, std::atomic<bool>& cancelled
 void do_and_wait(const std::function<void()>& work, std::atomic<bool>& cancelled) {
   Events none;
   do_and_wait(work, cancelled, none, {});
+}
+
+namespace {
+
+struct AllWork {
+  std::mutex mutex;
+  std::condition_variable over;
+  std::multiset<std::atomic<bool>*> in_progress;
+  bool is_ending = false;
+};
+
+/// Never destroyed: threads may outlive Python.
+AllWork& all_work() {
+  static auto& all = *new AllWork;
+  return all;
+}
+
+}  // namespace
+
+WorkInProgress::WorkInProgress(std::atomic<bool>* cancelled) : cancelled_(cancelled) {
+  AllWork& all = all_work();
+  const std::lock_guard lock(all.mutex);
+  if (all.is_ending) throw Error("Python is ending; nothing new is begun");
+  all.in_progress.insert(cancelled_);
+}
+
+WorkInProgress::~WorkInProgress() {
+  AllWork& all = all_work();
+  const std::lock_guard lock(all.mutex);
+  all.in_progress.erase(all.in_progress.find(cancelled_));
+  all.over.notify_all();
+}
+
+void end_work() {
+  constexpr auto patience = std::chrono::seconds(60);  // a node of Python's may not look whether it is cancelled
+  AllWork& all = all_work();
+  const py::gil_scoped_release free;
+  std::unique_lock lock(all.mutex);
+  all.is_ending = true;
+  for (std::atomic<bool>* cancelled : all.in_progress)
+    if (cancelled) *cancelled = true;
+  all.over.wait_for(lock, patience, [&] { return all.in_progress.empty(); });
 }
 
 }  // namespace terrazzo::python

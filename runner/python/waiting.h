@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+#include <pybind11/pybind11.h>
+
+#include "runner/python/texts.h"
+
 /// Long work for a Python program: on a thread of its own, so that the caller can deliver events and notice Ctrl-C.
 namespace terrazzo::python {
 
@@ -44,5 +48,27 @@ void do_and_wait(const std::function<void()>& work, std::atomic<bool>& cancelled
 
 /// The same without events.
 void do_and_wait(const std::function<void()>& work, std::atomic<bool>& cancelled);
+
+/// Work that Python's end waits for: a thread that wants the lock after that is ended in the midst of C++, which ends
+/// the process. `cancelled`, if not null, is set when Python ends. Throws Error if it is ending already.
+class WorkInProgress {
+ public:
+  explicit WorkInProgress(std::atomic<bool>* cancelled = nullptr);
+  ~WorkInProgress();
+  WorkInProgress(const WorkInProgress&) = delete;
+  WorkInProgress& operator=(const WorkInProgress&) = delete;
+
+ private:
+  std::atomic<bool>* cancelled_;
+};
+
+/// Does without Python's lock for as long as it lives.
+class Unlocked {
+  const WorkInProgress work_;  // over only when the lock is held again
+  const pybind11::gil_scoped_release free_;
+};
+
+/// Cancels all work and waits for its end, when Python ends. Needs Python's lock, which it gives up.
+void end_work();
 
 }  // namespace terrazzo::python

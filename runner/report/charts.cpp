@@ -98,7 +98,7 @@ std::string times_html(const RunResult& result) {
   std::string out =
       "<p class=\"quiet legend\"><b class=\"run\"></b> run <b class=\"load\"></b> look up or load <b "
       "class=\"store\"></b> "
-      "store <b class=\"wait\"></b> wait for another process</p>\n<div class=\"times\">\n" +
+      "store <b class=\"wait\"></b> wait for another process</p>\n<div class=\"long times\">\n" +
       axis(seconds);
   for (const Line& l : lines) out += line_html(l, seconds);
   out += "</div>\n";

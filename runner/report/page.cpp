@@ -50,6 +50,19 @@ std::string section(const std::string& id, const std::string& heading, const std
   return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, markup(heading), content);
 }
 
+std::string fold(const std::string& line, const std::string& content, bool open) {
+  return fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", open ? " open" : "", line, content);
+}
+
+std::string list_html(const std::vector<std::string>& items, const std::string& kind) {
+  constexpr size_t most_open = 30;
+  if (items.empty()) return "";
+  std::string out = "<ul class=\"searched\">\n";
+  for (const std::string& item : items) out += fmt::format("<li>{}</li>\n", item);
+  out += "</ul>\n";
+  return items.size() > most_open ? fold(counted(int64_t(items.size()), kind), out, false) : out;
+}
+
 std::string json_in_script(const std::string& json) {
   std::string out;
   out.reserve(json.size());

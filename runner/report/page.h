@@ -27,6 +27,12 @@ std::string page_foot(const std::string& data, bool has_viewer);
 /// A heading with something below it; nothing if that is empty. `id`: for links to it.
 std::string section(const std::string& id, const std::string& heading, const std::string& content);
 
+/// What is shown while the line above it is open.
+std::string fold(const std::string& line, const std::string& content, bool open);
+
+/// A list of HTML items, folded if they are many. `kind`: what one is, for the line above them.
+std::string list_html(const std::vector<std::string>& items, const std::string& kind);
+
 /// JSON as it stands in a script element: no "<", so nothing in it can end the element.
 std::string json_in_script(const std::string& json);
 

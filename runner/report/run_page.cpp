@@ -10,6 +10,7 @@
 #include "graphs/document/draw.h"
 #include "runner/report/charts.h"
 #include "runner/report/page.h"
+#include "runner/report/stage_table.h"
 
 namespace terrazzo {
 
@@ -74,9 +75,9 @@ std::string RunPage::html() {
   out += section("uv", "Where pixels are from", uv_maps());
   out += section("pictures", "Other pictures", other_pictures());
   out += section("times", "Times", times_html(result_));
-  out += section("stages", "Nodes", stages());
+  out += section("stages", "Nodes", stage_table(plan_, result_));
   out += section("files", "Files", files());
-  out += section("notes", "Notes", notes());
+  out += section("notes", "Notes", list_html(notes_html(result_, false), "note"));
   return out + page_foot(run_as_json(plan_, result_, by_node_, lit_), !lit_.empty());
 }
 
@@ -92,9 +93,7 @@ std::string RunPage::head() const {
 std::string RunPage::warnings() const {
   std::string out;
   for (const Failure& f : result_.failures) out += fmt::format("<p class=\"failed\">{}</p>\n", markup(f.message));
-  for (const StageOutcome& s : result_.stages)
-    for (const std::string& n : s.notes)
-      if (is_warning(n)) out += fmt::format("<p class=\"failed\">{}: {}</p>\n", markup(s.node), markup(n));
+  out += list_html(notes_html(result_, true), "warning");
   if (left_out_ > 0)
     out += fmt::format("<p class=\"quiet\">This page shows what the first nodes gave; that of {} is left out.</p>\n",
                        counted(left_out_, "more node"));
@@ -233,14 +232,16 @@ std::string RunPage::settings() const {
       seeds += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td></tr>\n", markup(n.name),
                            markup(text_of(seed->second)));
   if (!seeds.empty())
-    out += "<h3>Seeds</h3>\n<div class=\"scroll\"><table class=\"narrow\">\n" + seeds + "</table></div>\n";
+    out +=
+        fmt::format("<h3>Seeds</h3>\n<div class=\"long\"><table class=\"narrow searched\">\n{}</table></div>\n", seeds);
   return out;
 }
 
 std::string RunPage::figures() {
   std::string out;
   for (const auto& [node, report] : reports_)
-    out += fmt::format("<h3>{}</h3>\n{}", markup(report->title()), report_html(*report, pictures_, report_side));
+    out += fold(fmt::format("<b>{}</b> <span class=\"quiet\">{}</span>", markup(report->title()), markup(node)),
+                report_html(*report, pictures_, report_side), out.empty());
   return out;
 }
 
@@ -255,43 +256,24 @@ std::string RunPage::uv_maps() {
 }
 
 std::string RunPage::other_pictures() {
+  constexpr int64_t most_open = 24;
   std::string out;
-  for (const NamedPicture& p : others_)
-    if (!pictures_.is_shown(p.id)) out += pictures_.figure(p.id, p.caption);
-  return out.empty() ? "" : "<div class=\"gallery\">\n" + out + "</div>\n";
-}
-
-std::string RunPage::stages() const {
-  std::string out =
-      "<div class=\"scroll\"><table class=\"sortable stages\">\n<thead><tr><th>node</th><th>type</th><th>what it "
-      "did</th>"
-      "<th>seconds</th><th>why</th><th>parameters that were set</th></tr></thead>\n<tbody>\n";
-  for (size_t i = 0; i < plan_.stages.size(); i++) {
-    const Stage& stage = plan_.stages[i];
-    const StageOutcome& s = result_.stages[i];
-    out += fmt::format(
-        "<tr{}><td>{}</td><td>{}</td><td>{}</td><td class=\"number\">{}</td><td class=\"quiet\">{}</td><td "
-        "class=\"quiet\">{}</td></tr>\n",
-        s.kind == StageOutcome::Kind::failed ? " class=\"failed\"" : "", markup(s.node), markup(stage.type().name),
-        what_it_did(stage, s), s.kind == StageOutcome::Kind::run ? fmt::format("{:.2f}", s.seconds) : "",
-        markup(reason_of(stage, s)), markup(settings_text(*stage.node)));
+  int64_t count = 0;
+  for (const NamedPicture& p : others_) {
+    if (pictures_.is_shown(p.id)) continue;
+    out += pictures_.figure(p.id, p.caption);
+    count++;
   }
-  return out + "</tbody></table></div>\n";
+  if (out.empty()) return "";
+  out = "<div class=\"gallery searched\">\n" + out + "</div>\n";
+  return count > most_open ? fold(counted(count, "picture"), out, false) : out;
 }
 
 std::string RunPage::files() const {
-  std::string out;
+  std::vector<std::string> items;
   for (const StageOutcome& s : result_.stages)
-    for (const OutputFile& f : s.files) out += fmt::format("<li>{}</li>\n", markup(f.path.string()));
-  return out.empty() ? "" : "<ul>\n" + out + "</ul>\n";
-}
-
-std::string RunPage::notes() const {
-  std::string out;
-  for (const StageOutcome& s : result_.stages)
-    for (const std::string& n : s.notes)
-      out += fmt::format("<li{}>{}: {}</li>\n", is_warning(n) ? " class=\"failed\"" : "", markup(s.node), markup(n));
-  return out.empty() ? "" : "<ul>\n" + out + "</ul>\n";
+    for (const OutputFile& f : s.files) items.push_back(markup(f.path.string()));
+  return list_html(items, "file");
 }
 
 }  // namespace terrazzo

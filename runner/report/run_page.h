@@ -27,9 +27,7 @@ class RunPage {
   std::string figures();
   std::string uv_maps();
   std::string other_pictures();
-  std::string stages() const;
   std::string files() const;
-  std::string notes() const;
 
   void add_materials(const std::vector<ShownMaterial>& materials, const std::string& kind);
   void add_values();

@@ -129,7 +129,7 @@ void write_odd_files(const fs::path& folder) {
   write_odd(folder / "turned.tif", {.size = {9, 7}, .channels = 3, .attributes = {{"Orientation", 6}}},
             varied(189, 0, 1));
   write_odd(folder / "window.exr",
-            {.size = {20, 10}, .channels = 3, .type = "half", .display = {-3, 2, 18, 14}, .x = 1, .y = 1, .tile = 16},
+            {.size = {20, 10}, .channels = 3, .type = "half", .display = {3, 2, 17, 9}, .x = 1, .y = 1, .tile = 16},
             varied(600, 0, 4));
   std::vector<float> wild = varied(24 * 20 * 3, -2, 70000);
   wild[5] = std::numeric_limits<float>::quiet_NaN();

@@ -134,6 +134,44 @@ TEST_CASE("progression goes from one end of the exemplar to the other, either wa
   CHECK(light_part(other, 36, 60) < 0.1);
 }
 
+TEST_CASE("inpaint keeps what tiles tiling where holes lie on the border, unless it is told not to") {
+  const Workplace w;
+  // Gravel that repeats after 64 pixels, white where it is harmed.
+  const auto gravel = [](int x, int y) {
+    double sum = 0;
+    for (int dy = 0; dy < 4; dy++)
+      for (int dx = 0; dx < 4; dx++) sum += unit_double(random_bits(6, (x + dx) % 64, (y + dy) % 64)) / 16;
+    return sum;
+  };
+  const auto is_harmed = [](int x, int y) { return (x < 9 || x > 56) && y > 20 && y < 40; };
+  write_grey(w.path / "stones/base_color.png", {64, 64},
+             [&](int x, int y) { return is_harmed(x, y) ? 1.0 : gravel(x, y); });
+  write_grey(w.path / "holes.png", {64, 64}, [&](int x, int y) { return is_harmed(x, y) ? 1.0 : 0.0; });
+  // The mean step across the left and right border, where the hole is, as a multiple of that inside.
+  const auto step = [&](const std::vector<std::string>& settings) {
+    std::vector<std::string> args = {"run",   TERRAZZO_SOURCE_DIR "/graphs/inpaint.json",
+                                     "--set", "material=stones",
+                                     "--set", "mask=holes.png",
+                                     "--set", "margin=0",
+                                     "--set", "out=out"};
+    for (const std::string& s : settings) args.insert(args.end(), {"--set", s});
+    const ProgramRun run = w.run(args);
+    REQUIRE_MESSAGE(run.code == 0, run.err);
+    CHECK((run.err.find("the exemplar tiles, and so does the result") != std::string::npos) == settings.empty());
+    const ImagePtr image = read_image(w.path / "out/base_color.png", ImageInfo{}, [](const std::string&) {});
+    const std::vector<float> p = image->pixels();
+    double seam = 0, inside = 0;
+    for (int y = 22; y < 39; y++) {
+      seam += std::abs(p[size_t(y) * 192] - p[size_t(y) * 192 + 189]) / 17;
+      for (int x = 0; x < 63; x++)
+        inside += std::abs(p[size_t(y * 64 + x) * 3] - p[size_t(y * 64 + x + 1) * 3]) / (17 * 63);
+    }
+    return seam / inside;
+  };
+  CHECK(step({}) < 1.8);
+  CHECK(step({"tileable=none"}) > step({}));
+}
+
 TEST_CASE("masked never shows what must not be shown") {
   const Workplace w;
   write_two_tones(w.path / "stone/basecolor.png");

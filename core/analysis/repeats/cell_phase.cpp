@@ -107,9 +107,9 @@ double likeness(const MeanCell& a, const MeanCell& b, int columns, int rows) {
 
 }  // namespace
 
-Vector2d phase_between(const RepeatingView& first, const RepeatingView& other) {
+Vector2d phase_between(const RepeatingView& first, const RepeatingView& other, const Task& task) {
   const Bins bins = bins_of(first);
-  const Planes edges = outlines(first.view.planes), other_edges = outlines(other.view.planes);
+  const Planes edges = outlines(first.view.planes, task), other_edges = outlines(other.view.planes, task);
   const MeanCell values = mean_cell(first.view.planes, first, bins), lines = mean_cell(edges, first, bins);
   const MeanCell other_values = mean_cell(other.view.planes, other, bins),
                  other_lines = mean_cell(other_edges, other, bins);

@@ -37,10 +37,11 @@ const Tunable<Tuning> tuning(
     });
 
 /// Details only: what varies slowly would drown the repeats.
-Planes without_gradients(const Planes& in) {
-  Planes out = blurred(in, tuning->grain, Beyond::mirrored);
-  const Planes coarse = blurred(
-      out, std::max(tuning->least_coarse, std::min(in.size.width, in.size.height) / tuning->coarse), Beyond::mirrored);
+Planes without_gradients(const Planes& in, const Task& task) {
+  Planes out = blurred(in, tuning->grain, Beyond::mirrored, task);
+  const Planes coarse =
+      blurred(out, std::max(tuning->least_coarse, std::min(in.size.width, in.size.height) / tuning->coarse),
+              Beyond::mirrored, task);
   for (size_t i = 0; i < out.values.size(); i++) out.values[i] -= coarse.values[i];
   return out;
 }
@@ -78,7 +79,7 @@ Correlation::Correlation(std::vector<double> values, Size lags, Size exemplar, b
       least_overlap_(tuning->least_overlap * double(exemplar.area())) {}
 
 Correlation correlate(const Planes& planes, const std::vector<float>& counts, const Task& task) {
-  Planes details = without_gradients(planes);
+  Planes details = without_gradients(planes, task);
   if (!counts.empty())
     for (size_t i = 0; i < details.values.size(); i++) details.values[i] *= counts[i / planes.channels];
   const Size size = planes.size;
@@ -115,9 +116,10 @@ namespace {
 /// Calls visit(pixel, squares, cosine, sine) with the squared edge strength over all channels, lightly blurred, and
 /// with the same times the cosine and the sine of twice the edge's angle.
 template <typename Visit>
-void for_gradients(const Planes& in, Visit visit) {
-  const Planes values = blurred(in, tuning->grain, Beyond::mirrored);
-  for (int y = 0; y < in.size.height; y++)
+void for_gradients(const Planes& in, const Task& task, Visit visit) {
+  const Planes values = blurred(in, tuning->grain, Beyond::mirrored, task);
+  for (int y = 0; y < in.size.height; y++) {
+    task.check();
     for (int x = 0; x < in.size.width; x++) {
       const float *left = values.at(in.column(x - 1), y), *right = values.at(in.column(x + 1), y);
       const float *up = values.at(x, in.row(y - 1)), *down = values.at(x, in.row(y + 1));
@@ -130,19 +132,20 @@ void for_gradients(const Planes& in, Visit visit) {
       }
       visit(size_t(y) * size_t(in.size.width) + size_t(x), squares, cosine, sine);
     }
+  }
 }
 
 }  // namespace
 
-Planes outlines(const Planes& in) {
+Planes outlines(const Planes& in, const Task& task) {
   Planes out = Planes::zeros(in.size, 1, in.wraps);
-  for_gradients(in, [&](size_t i, float squares, float, float) { out.values[i] = std::sqrt(squares); });
+  for_gradients(in, task, [&](size_t i, float squares, float, float) { out.values[i] = std::sqrt(squares); });
   return out;
 }
 
-Planes orientations(const Planes& in) {
+Planes orientations(const Planes& in, const Task& task) {
   Planes out = Planes::zeros(in.size, 2, in.wraps);
-  for_gradients(in, [&](size_t i, float squares, float cosine, float sine) {
+  for_gradients(in, task, [&](size_t i, float squares, float cosine, float sine) {
     if (squares == 0) return;
     const float strength = std::sqrt(squares);
     out.values[2 * i] = cosine / strength;

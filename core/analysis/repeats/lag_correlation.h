@@ -82,11 +82,13 @@ Correlation correlate(const Planes& planes, const std::vector<float>& counts, co
 /// one; if several, none may tile.
 Correlation pooled(const std::vector<Correlation>& all);
 
-/// Edge strength over all channels, as one channel: shows joints even if bricks differ in colour.
-Planes outlines(const Planes& planes);
+/// Edge strength over all channels, as one channel: shows joints even if bricks differ in colour. Throws
+/// Cancelled.
+Planes outlines(const Planes& planes, const Task& task);
 
 /// The same by orientation, as two channels: edge strength times the cosine and the sine of twice the edge's angle
-/// (Granlund's double-angle representation). Parts that mirror each other, or are turned, differ in it.
-Planes orientations(const Planes& planes);
+/// (Granlund's double-angle representation). Parts that mirror each other, or are turned, differ in it. Throws
+/// Cancelled.
+Planes orientations(const Planes& planes, const Task& task);
 
 }  // namespace terrazzo

@@ -86,28 +86,28 @@ struct Joined {
   const ExemplarView& view;
 };
 
-Vector2d phase(const ExemplarPart& model, const Joined& joined, const Common& steps) {
-  return steps.of_part.at(phase_between({model.view, steps.of_model}, {joined.view, steps.of_part}));
+Vector2d phase(const ExemplarPart& model, const Joined& joined, const Common& steps, const Task& task) {
+  return steps.of_part.at(phase_between({model.view, steps.of_model}, {joined.view, steps.of_part}, task));
 }
 
 /// Shows a part as its model, if their cells are alike.
-bool join_cells(const ExemplarPart& model, const Joined& joined) {
+bool join_cells(const ExemplarPart& model, const Joined& joined, const Task& task) {
   LatticePart& part = joined.part;
   const auto steps = common(model.lattice, part.lattice);
   if (!steps) return false;
   part.lattice = steps->of_part;
   part.shown = steps->of_model;
-  part.start = phase(model, joined, *steps);
+  part.start = phase(model, joined, *steps, task);
   return true;
 }
 
 /// Gives a part its model's courses or columns, if they are alike.
-bool join_bands(const ExemplarPart& model, const Joined& joined) {
+bool join_bands(const ExemplarPart& model, const Joined& joined, const Task& task) {
   for (const bool courses : {true, false}) {
     LatticePart& part = joined.part;
     const auto steps = common(model.lattice.level_bands(courses), part.lattice.level_bands(courses));
     if (!steps) continue;
-    part.start = phase(model, joined, *steps);
+    part.start = phase(model, joined, *steps, task);
     const Vector2d &to = steps->of_model.first, &from = steps->of_part.first;
     for (Vector2d* v : {&part.shown.first, &part.shown.second})
       (courses ? v->y() : v->x()) *= courses ? to.y() / from.y() : to.x() / from.x();
@@ -128,7 +128,7 @@ BroughtTogether brought_together(const std::vector<ExemplarPart>& parts, const T
     if (l.rank == 0) continue;
     const Joined joined{out.parts.back(), parts[i].view};
     const auto joins = [&](const auto& join) {
-      return std::ranges::any_of(models, [&](size_t m) { return join(parts[m], joined); });
+      return std::ranges::any_of(models, [&](size_t m) { return join(parts[m], joined, task); });
     };
     if (!joins(join_cells) && !joins(join_bands)) models.push_back(i);
   }

@@ -25,6 +25,7 @@ struct Tuning {
   double quick_share = 0.7;
   int quick_lag = 4;
   int quick_side = 128;
+  int most_quick_side = 512;
 };
 const Tunable<Tuning> tuning("regularity",
                              {
@@ -63,6 +64,10 @@ const Tunable<Tuning> tuning("regularity",
                                  {&Tuning::quick_side, "quick_side", "pixels",
                                   "the least side that is looked at quickly",
                                   "not measured: smaller exemplars take no time", 16, 100000},
+                                 {&Tuning::most_quick_side, "most_quick_side", "pixels",
+                                  "the longest side that is looked at quickly. Higher: time and memory grow; lower: "
+                                  "fine weaves of large exemplars are grain",
+                                  "not measured: twice what the search itself looks at", 16, 100000},
                              });
 
 Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
@@ -126,7 +131,7 @@ double highest_from(const Correlation& r, int least_lag) {
 /// The lattice, or a multiple of it if its cells are turned or mirrored: the columns of a chevron floor.
 Lattice told_by_orientation(const Lattice& lattice, const std::vector<const ExemplarView*>& views, const Task& task) {
   std::vector<Correlation> all;
-  for (const ExemplarView* v : views) all.push_back(correlate(orientations(v->planes), v->counts.values, task));
+  for (const ExemplarView* v : views) all.push_back(correlate(orientations(v->planes, task), v->counts.values, task));
   const Correlation turned = pooled(all);
   return lattice.rank == 1 ? with_turned_bands(turned, lattice)
                            : without_false_repeats(turned, lattice, tuning->least_turned);
@@ -142,7 +147,7 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
   std::vector<Planes> edges;
   std::vector<Correlation> values, joints;
   for (const ExemplarView* v : views) {
-    edges.push_back(outlines(v->planes));
+    edges.push_back(outlines(v->planes, task));
     values.push_back(correlate(v->planes, v->counts.values, task));
     joints.push_back(correlate(edges.back(), v->counts.values, task));
   }
@@ -173,8 +178,9 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
 bool may_have_lattice(const Features& features, double least_certainty, const Task& task) {
   if (std::min(features.size().width, features.size().height) < tuning->quick_side || !allowed_pixels(features).empty())
     return true;
-  const Planes half = halved(weighted_planes(features, task));
-  for (const Planes& planes : {half, outlines(half)})
+  Planes seen = halved(weighted_planes(features, task));
+  while (std::max(seen.size.width, seen.size.height) > tuning->most_quick_side) seen = halved(seen);
+  for (const Planes& planes : {seen, outlines(seen, task)})
     if (highest_from(correlate(planes, {}, task), tuning->quick_lag) >= tuning->quick_share * least_certainty)
       return true;
   return false;

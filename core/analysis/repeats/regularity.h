@@ -21,8 +21,8 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& views, double least_c
 /// The same for the allowed area of an exemplar.
 FoundLattice find_lattice(const Features& features, double least_certainty, const Task& task);
 
-/// A quick look at half the size: false if nothing in the exemplar repeats nearly well enough for a lattice of that
-/// certainty. Throws Cancelled.
+/// A quick look at half the size, or less of large exemplars: false if nothing in the exemplar repeats nearly well
+/// enough for a lattice of that certainty. Throws Cancelled.
 bool may_have_lattice(const Features& features, double least_certainty, const Task& task);
 
 }  // namespace terrazzo

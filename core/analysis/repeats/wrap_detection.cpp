@@ -30,6 +30,8 @@ struct Tuning {
   int samples = 64;
   int lines = 96;
   int enough_lines = 3;
+  double least_seen = 0.25;
+  double most_alike = 0.9;
   int steps = 512;
 };
 const Tunable<Tuning> tuning(
@@ -67,22 +69,51 @@ const Tunable<Tuning> tuning(
         {&Tuning::enough_lines, "enough_lines", "lines",
          "of those, so many must be. Higher: parts cut out are seen; lower: what wraps along a joint is",
          "wrap_detection"},
+        {&Tuning::least_seen, "least_seen", "share of a border",
+         "that a mask must leave. Higher: less is told of masked exemplars; lower: chance decides",
+         "not measured: as many lines as are enough", 0, 1},
+        {&Tuning::most_alike, "most_alike", "of the difference of any two lines",
+         "which neighbours may have to tell anything. Higher: noise is taken to wrap; lower: fine grain that wraps is "
+         "not",
+         "not measured: white noise comes to 1 within a few hundredths", 0, 1},
         {&Tuning::steps, "steps", "steps inside", "whose mean is taken. Higher: surer; costs time",
          "not measured: bounds the time", 1},
     });
 
+/// A map in memory, and where it counts.
+struct SeenMap {
+  ImagePtr image;
+  std::vector<uint8_t> counts{};  ///< 1 where it does; empty: everywhere
+
+  /// Of a window that may lie across a border.
+  bool counts_all(int x, int y, int side) const {
+    if (counts.empty()) return true;
+    const auto width = size_t(image->width());
+    for (int dy = 0; dy < side; dy++)
+      for (int dx = 0; dx < side; dx++)
+        if (!counts[size_t(wrap(y + dy, image->height())) * width + size_t(wrap(x + dx, image->width()))]) return false;
+    return true;
+  }
+};
+
 /// How far a window is from the nearest of many windows elsewhere; a map at a border is judged by what it does inside.
 class WindowSearch {
  public:
-  explicit WindowSearch(const Image& map) : map_(map) {
+  explicit WindowSearch(const SeenMap& map) : map_(*map.image) {
     std::vector<float> windows;
     for (int i = 0; i < places; i++) {
       const uint64_t r = random_bits(11, i);
-      places_[i] = {int(below(uint32_t(r), map.width() - side)), int(below(uint32_t(r >> 32), map.height() - side))};
-      std::ranges::copy(window(places_[i][0], places_[i][1]), std::back_inserter(windows));
+      const std::array<int, 2> place = {int(below(uint32_t(r), map_.width() - side)),
+                                        int(below(uint32_t(r >> 32), map_.height() - side))};
+      if (!map.counts_all(place[0], place[1], side)) continue;
+      places_.push_back(place);
+      std::ranges::copy(window(place[0], place[1]), std::back_inserter(windows));
     }
-    search_ = std::make_unique<NearestPoints>(windows, side * side * map.channels());
+    if (!places_.empty()) search_ = std::make_unique<NearestPoints>(windows, side * side * map_.channels());
   }
+
+  /// Whether there are enough windows to find one like another.
+  bool can_tell() const { return places_.size() >= places / 10; }
 
   /// The distance to the nearest window that does not overlap the one at (x, y), which may lie across a border: at most
   /// 1 + slack times as much, never less.
@@ -98,82 +129,131 @@ class WindowSearch {
   const int side = tuning->window;
   std::vector<float> window(int x, int y) const { return read_padded(map_, {x, y, side, side}, Outside::wrap); }
   const Image& map_;
-  std::array<std::array<int, 2>, places> places_;
+  std::vector<std::array<int, 2>> places_;
   std::unique_ptr<NearestPoints> search_;
 };
 
-std::vector<float> border_line(const Image& map, bool rows, int i) {
-  const Size size = map.size();
-  const int at = wrap(i, rows ? size.height : size.width);
-  return map.read(rows ? Rect{0, at, size.width, 1} : Rect{at, 0, 1, size.height});
+/// A row or column, and where it counts.
+struct Line {
+  std::vector<float> values;
+  std::vector<uint8_t> counts;
+};
+
+Line line_of(const SeenMap& map, bool rows, int i) {
+  const Size size = map.image->size();
+  const int at = wrap(i, rows ? size.height : size.width), length = rows ? size.width : size.height;
+  Line out{map.image->read(rows ? Rect{0, at, size.width, 1} : Rect{at, 0, 1, size.height}), {}};
+  out.counts.reserve(size_t(length));
+  for (int k = 0; k < length; k++)
+    out.counts.push_back(map.counts.empty() ||
+                         map.counts[size_t(rows ? at : k) * size_t(size.width) + size_t(rows ? k : at)]);
+  return out;
 }
 
-double distance(const std::vector<float>& a, const std::vector<float>& b) {
+/// How far a line is from the next, summed over all pixels as if those where both count were all.
+struct Step {
+  double distance = 0;
+  double seen = 0;  ///< the share of pixels where both count
+};
+
+Step step_between(const Line& a, const Line& b) {
+  const size_t pixels = a.counts.size(), channels = a.values.size() / pixels;
   double sum = 0;
-  for (size_t k = 0; k < a.size(); k++) sum += std::abs(double(a[k]) - b[k]);
-  return sum;
+  size_t counted = 0;
+  for (size_t i = 0; i < pixels; i++) {
+    if (!a.counts[i] || !b.counts[i]) continue;
+    counted++;
+    for (size_t k = i * channels; k < (i + 1) * channels; k++) sum += std::abs(double(a.values[k]) - b.values[k]);
+  }
+  const double seen = double(counted) / double(pixels);
+  return {counted > 0 ? sum / seen : 0, seen};
+}
+
+/// Of the lines before and after the border that is so many lines away from the seam.
+Step step_at(const SeenMap& map, bool rows, int i) {
+  return step_between(line_of(map, rows, i - 1), line_of(map, rows, i));
 }
 
 /// Whether a line differs more from the map's means, by channel, than along itself.
-bool stands_out(const std::vector<float>& line, const std::vector<double>& means) {
+bool stands_out(const Line& line, const std::vector<double>& means) {
   const size_t channels = means.size();
-  const double pixels = double(line.size() / channels);
+  const double pixels = double(std::ranges::count(line.counts, 1));
   double between = 0, within = 0;
   for (size_t c = 0; c < channels; c++) {
     double mean = 0;
-    for (size_t k = c; k < line.size(); k += channels) mean += line[k] / pixels;
-    for (size_t k = c; k < line.size(); k += channels) within += (line[k] - mean) * (line[k] - mean) / pixels;
+    const auto each = [&](const auto& visit) {
+      for (size_t i = 0; i < line.counts.size(); i++)
+        if (line.counts[i]) visit(line.values[i * channels + c]);
+    };
+    each([&](float v) { mean += v / pixels; });
+    each([&](float v) { within += (v - mean) * (v - mean) / pixels; });
     between += (mean - means[c]) * (mean - means[c]);
   }
   return between > within;
 }
 
 /// Whether a joint seems to run along one of the borders.
-bool has_joint_along_border(const Image& map) {
-  const std::vector<float> pixels = map.pixels();
-  std::vector<double> means(size_t(map.channels()), 0.0);
-  for (size_t i = 0; i < pixels.size(); i++) means[i % means.size()] += pixels[i] / double(map.size().area());
+bool has_joint_along_border(const SeenMap& map) {
+  const auto pixels_that_count =
+      double(map.counts.empty() ? map.image->size().area() : std::ranges::count(map.counts, 1));
+  const auto channels = size_t(map.image->channels());
+  std::vector<double> means(channels, 0.0);
+  for_each_strip(*map.image, [&](const Rect& strip, const float* pixels) {
+    const size_t before = size_t(strip.y) * size_t(strip.width);
+    for (size_t i = 0; i < size_t(strip.area()); i++)
+      if (map.counts.empty() || map.counts[before + i])
+        for (size_t c = 0; c < channels; c++) means[c] += pixels[i * channels + c] / pixels_that_count;
+  });
   for (const bool rows : {true, false})
     for (const int i : {-1, 0})
-      if (stands_out(border_line(map, rows, i), means)) return true;
+      if (stands_out(line_of(map, rows, i), means)) return true;
   return false;
 }
 
 /// Whether values go on from one border to the other about as they do from pixel to pixel beside them.
-bool goes_on(const Image& map, bool rows) {
-  const auto line = [&](int i) { return border_line(map, rows, i); };
-  return distance(line(-1), line(0)) <=
-         tuning->beside_seam * std::max(distance(line(-2), line(-1)), distance(line(0), line(1)));
+bool goes_on(const SeenMap& map, bool rows) {
+  return step_at(map, rows, 0).distance <=
+         tuning->beside_seam * std::max(step_at(map, rows, -1).distance, step_at(map, rows, 1).distance);
 }
 
 /// Whether values change across the seam about as much as they do from line to line inside. Of gravel that was cut out
 /// anywhere, windows fit as well as any others, but no pixel fits its neighbour.
-bool steps_alike(const Image& map, bool rows) {
-  const int lines = rows ? map.height() : map.width(), apart = std::max(1, lines / tuning->steps);
+bool steps_alike(const SeenMap& map, bool rows, const Task& task) {
+  const int lines = rows ? map.image->height() : map.image->width(), apart = std::max(1, lines / tuning->steps);
   double sum = 0, most_inside = 0;
   int steps = 0;
-  for (int i = 0; i + 1 < lines; i += apart, steps++) {
-    const double step = distance(border_line(map, rows, i), border_line(map, rows, i + 1));
-    sum += step;
-    most_inside = std::max(most_inside, step);
+  for (int i = 0; i + 1 < lines; i += apart) {
+    task.check();
+    const Step step = step_at(map, rows, i + 1);
+    if (step.seen == 0) continue;
+    steps++;
+    sum += step.distance;
+    most_inside = std::max(most_inside, step.distance);
   }
-  return distance(border_line(map, rows, -1), border_line(map, rows, 0)) <=
-         std::max(most_inside, tuning->inside * sum / steps);
+  return step_at(map, rows, 0).distance <= std::max(most_inside, tuning->inside * sum / std::max(1, steps));
 }
 
 /// How much less than windows inside those across a line look like the rest of their map, as a mean of all maps: 1 is
 /// as much. Places are parts of 1, since maps may differ in size.
 class Fit {
  public:
-  explicit Fit(const std::vector<ImagePtr>& maps) : maps_(maps) {
-    for (const ImagePtr& map : maps) {
-      searches_.push_back(std::make_unique<WindowSearch>(*map));
-      double sum = 0;
-      for (int i = 0; i < samples; i++)
-        sum += searches_.back()->nearest(inside(map->width(), {12, 0, i}), inside(map->height(), {12, 1, i}), 0);
-      inside_.push_back(std::max(sum / samples, std::numeric_limits<double>::min()));
+  Fit(const std::vector<SeenMap>& maps, const Task& task) : maps_(maps) {
+    for (const SeenMap& map : maps) {
+      task.check();
+      const WindowSearch& search = *searches_.emplace_back(std::make_unique<WindowSearch>(map));
+      if (!search.can_tell()) return;
+      Mean mean;
+      for (int i = 0; i < samples; i++) {
+        const int x = inside(map.image->width(), {12, 0, i}), y = inside(map.image->height(), {12, 1, i});
+        if (map.counts_all(x, y, tuning->window)) mean.add(search.nearest(x, y, 0));
+      }
+      if (mean.count == 0) return;
+      inside_.push_back(std::max(mean.value(), std::numeric_limits<double>::min()));
     }
   }
+
+  /// Whether enough of all maps counts.
+  bool can_tell() const { return inside_.size() == maps_.size(); }
 
   double across_seam(bool rows) const { return across(rows, std::nullopt, 0); }
   /// Whether it is at least so much across a line. Few come near it, and a quick search tells which.
@@ -182,26 +262,34 @@ class Fit {
   }
 
  private:
+  struct Mean {
+    double sum = 0;
+    int count = 0;
+    void add(double v) { sum += v, count++; }
+    double value() const { return sum / count; }
+  };
   static int at(double place, int extent) { return int(place * (extent - tuning->window)); }
   static int inside(int extent, std::array<int, 3> sample) {
     return at(unit_double(random_bits(sample[0], sample[1], sample[2])), extent);
   }
-  /// Without a line, of windows across the seam.
+  /// Without a line, of windows across the seam. 0 if none counts.
   double across(bool rows, std::optional<double> line, double slack) const {
     double out = 0;
     for (size_t m = 0; m < maps_.size(); m++) {
-      const int width = maps_[m]->width(), height = maps_[m]->height(), breadth = rows ? height : width;
+      const int width = maps_[m].image->width(), height = maps_[m].image->height(), breadth = rows ? height : width;
       const int first = line ? at(*line, breadth) : breadth - tuning->window / 2;
+      Mean mean;
       for (int i = 0; i < samples; i++) {
         const int along = inside(rows ? width : height, {13, rows ? 1 : 0, i});
-        out += (rows ? searches_[m]->nearest(along, first, slack) : searches_[m]->nearest(first, along, slack)) /
-               inside_[m];
+        const int x = rows ? along : first, y = rows ? first : along;
+        if (maps_[m].counts_all(x, y, tuning->window)) mean.add(searches_[m]->nearest(x, y, slack) / inside_[m]);
       }
+      if (mean.count > 0) out += mean.value();
     }
-    return out / (samples * double(maps_.size()));
+    return out / double(maps_.size());
   }
 
-  const std::vector<ImagePtr>& maps_;
+  const std::vector<SeenMap>& maps_;
   std::vector<std::unique_ptr<WindowSearch>> searches_;
   std::vector<double> inside_;
   const int samples = tuning->samples;
@@ -209,49 +297,79 @@ class Fit {
 
 /// Whether there are lines inside across which windows look as little like the rest as across the seam: joints are such
 /// lines.
-bool lines_fit_as_little(const Fit& fit, bool rows, double seam) {
+bool lines_fit_as_little(const Fit& fit, bool rows, double seam, const Task& task) {
   const int lines = tuning->lines, enough = tuning->enough_lines;
   int found = 0;
-  for (int i = 0; i < lines && found < enough && found + lines - i >= enough; i++)
+  for (int i = 0; i < lines && found < enough && found + lines - i >= enough; i++) {
+    task.check();
     found += fit.reaches_across_line(rows, double(i) / lines, seam) ? 1 : 0;
+  }
   return found >= enough;
 }
 
 /// Whether windows across the borders resemble the rest of the maps about as much as windows inside do, and values go
 /// on there.
-bool borders_fit(const Material& material) {
-  std::vector<ImagePtr> maps;
-  for (const Map& map : material.maps()) {
-    if (std::min(map.image->width(), map.image->height()) < 2 * tuning->window) return false;
-    maps.push_back(materialized(map.image));
-  }
-  const auto all = [&](auto&& holds) {
-    return std::ranges::all_of(maps, [&](const ImagePtr& map) { return holds(*map); });
+bool borders_fit(const std::vector<SeenMap>& maps, const Task& task) {
+  const auto all = [&](auto&& holds) { return std::ranges::all_of(maps, holds); };
+  const auto see_enough = [&](bool rows) {
+    return all([&](const SeenMap& map) { return step_at(map, rows, 0).seen >= tuning->least_seen; });
   };
+  if (!see_enough(true) || !see_enough(false)) return false;
   // What a joint along the border shows across the seam may come nowhere else: it is then judged by itself. Rarely
   // asked for.
   std::optional<bool> joint;
   const auto has_joint = [&] {
-    if (!joint) joint = std::ranges::any_of(maps, [](const ImagePtr& map) { return has_joint_along_border(*map); });
+    if (!joint) joint = std::ranges::any_of(maps, has_joint_along_border);
     return *joint;
   };
   const auto steps_fit = [&](bool rows) {
-    return all([&](const Image& map) { return steps_alike(map, rows) || (goes_on(map, rows) && has_joint()); });
+    return all([&](const SeenMap& map) { return steps_alike(map, rows, task) || (goes_on(map, rows) && has_joint()); });
   };
   if (!steps_fit(true) || !steps_fit(false)) return false;
-  const Fit fit(maps);
+  const Fit fit(maps, task);
+  if (!fit.can_tell()) return false;
   const auto windows_fit = [&](bool rows) {
     const double seam = fit.across_seam(rows);
-    return seam <= tuning->slack || (all([&](const Image& map) { return goes_on(map, rows); }) &&
-                                     (has_joint() || lines_fit_as_little(fit, rows, seam)));
+    return seam <= tuning->slack || (all([&](const SeenMap& map) { return goes_on(map, rows); }) &&
+                                     (has_joint() || lines_fit_as_little(fit, rows, seam, task)));
   };
   return windows_fit(true) && windows_fit(false);
 }
 
+/// The maps in memory; none if one is too small to tell.
+std::vector<SeenMap> seen_maps(const Material& material, const ImagePtr& mask, const Task& task) {
+  std::vector<SeenMap> out;
+  for (const Map& map : material.maps()) {
+    const Size size = map.image->size();
+    if (std::min(size.width, size.height) < 2 * tuning->window) return {};
+    out.push_back({materialized(map.image, task)});
+    SeenMap& seen = out.back();
+    if (!mask) continue;
+    seen.counts.reserve(size_t(size.area()));
+    for_each_strip(*nearest_at_size(mask, size), [&](const Rect& r, const float* v) {
+      for (int64_t i = 0; i < r.area(); i++) seen.counts.push_back(v[i * mask->channels()] > 0.5f);
+    });
+  }
+  return out;
+}
+
+/// Whether neighbouring lines are more alike than any two: the borders of white noise fit together wherever it is cut.
+bool neighbours_are_alike(const SeenMap& map, bool rows) {
+  const auto lines = uint32_t(rows ? map.image->height() : map.image->width());
+  double neighbours = 0, any_two = 0;
+  for (int i = 0; i < tuning->samples; i++) {
+    const uint64_t r = random_bits(14, rows ? 1 : 0, i);
+    const int at = int(below(uint32_t(r), lines - 1)) + 1, other = int(below(uint32_t(r >> 32), lines));
+    neighbours += step_at(map, rows, at).distance;
+    any_two += step_between(line_of(map, rows, at), line_of(map, rows, other)).distance;
+  }
+  return neighbours <= tuning->most_alike * any_two;
+}
+
 /// Whether the exemplar's cells, found without regard to its borders, come out uneven around it: an odd number of
 /// chequered tiles has borders that go on smoothly, and yet like meets like there.
-bool cells_deny(const Material& material, const Task& task) {
-  const FeaturesPtr features = weighted_features(material, weights_of_chosen(material, {}), false);
+bool cells_deny(const Material& material, const ImagePtr& mask, const Task& task) {
+  const FeaturesPtr features = weighted_features(material, weights_of_chosen(material, {}), false, mask);
   if (!may_have_lattice(*features, tuning->least_certainty, task)) return false;
   const Lattice lattice = find_lattice(*features, tuning->least_certainty, task).lattice;
   const Size size = material.size();
@@ -261,8 +379,17 @@ bool cells_deny(const Material& material, const Task& task) {
 
 }  // namespace
 
-bool seems_to_tile(const Material& material, const Task& task) {
-  return borders_fit(material) && !cells_deny(material, task);
+bool borders_meet(const Material& material, const Task& task) {
+  const std::vector<SeenMap> maps = seen_maps(material, nullptr, task);
+  const auto tell = [&](bool rows) {
+    return std::ranges::any_of(maps, [&](const SeenMap& map) { return neighbours_are_alike(map, rows); });
+  };
+  return tell(true) && tell(false) && borders_fit(maps, task);
+}
+
+bool seems_to_tile(const Material& material, const Task& task, const ImagePtr& mask) {
+  const std::vector<SeenMap> maps = seen_maps(material, mask, task);
+  return !maps.empty() && borders_fit(maps, task) && !cells_deny(material, mask, task);
 }
 
 }  // namespace terrazzo

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string_view>
 
 namespace terrazzo {
@@ -15,26 +16,47 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-/// Where a channel of that name stands in a pixel; other channels come last, in the order of the file.
-size_t place_of(std::string_view channel) {
-  constexpr std::array<std::array<std::string_view, 4>, 4> places = {
-      {{"r", "red", "x", "u"}, {"g", "green", "y", "v"}, {"b", "blue", "z", ""}, {"a", "alpha", "w", ""}}};
+/// What channels of one picture or vector are called, in their order in a pixel.
+using Places = std::array<std::array<std::string_view, 2>, 4>;
+constexpr Places picture = {{{"r", "red"}, {"g", "green"}, {"b", "blue"}, {"a", "alpha"}}};
+constexpr Places vector = {{{"x", "u"}, {"y", "v"}, {"z", ""}, {"w", ""}}};
+
+size_t place_in(const Places& places, std::string_view channel) {
   const std::string name = lower(channel);
-  for (size_t i = 0; i < places.size(); i++)
-    if (std::find(places[i].begin(), places[i].end(), name) != places[i].end()) return i;
-  return places.size();
+  const auto at = std::ranges::find_if(
+      places, [&](const auto& names) { return std::ranges::find(names, std::string_view(name)) != names.end(); });
+  return size_t(at - places.begin());
 }
 
-bool is_of_a_picture(std::string_view channel) {
-  const std::string name = lower(channel);
-  return name == "r" || name == "g" || name == "b" || name == "a";
+/// Other channels come last, in the order of the file.
+size_t place_of(std::string_view channel) {
+  return std::min(place_in(picture, channel), place_in(vector, channel));
 }
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/// A channel's place: its layer, and what it is called there.
+struct Name {
+  std::string layer;
+  std::string channel;
+};
 
 /// "normal.X": "normal" and "X".
-std::pair<std::string, std::string> parted(const std::string& channel) {
+Name parted_at_dot(const std::string& channel) {
   const size_t dot = channel.rfind('.');
   if (dot == std::string::npos) return {"", channel};
   return {channel.substr(0, dot), channel.substr(dot + 1)};
+}
+
+/// "normalX", "normal_x": what stands before the last letter, if that may be a channel of a picture or a vector.
+Name parted_at_letter(const std::string& channel) {
+  if (channel.size() < 2 || place_of(channel.substr(channel.size() - 1)) == picture.size()) return {"", channel};
+  std::string layer = channel.substr(0, channel.size() - 1);
+  const std::string letter = channel.substr(layer.size());
+  while (!layer.empty() && !is_letter(layer.back()) && !(layer.back() >= '0' && layer.back() <= '9')) layer.pop_back();
+  return layer.empty() ? Name{"", channel} : Name{layer, letter};
 }
 
 /// Some programs name parts after the layers in them.
@@ -43,32 +65,112 @@ std::string joined(const std::string& part, const std::string& layer) {
   return layer.empty() ? part : part + "." + layer;
 }
 
+/// Numbers are no names: "1", "channel2" beside "channel3".
+bool is_numbered(const std::string& channel, const std::vector<std::string>& all) {
+  const auto without_number = [](const std::string& name) {
+    return name.substr(0, name.find_last_not_of("0123456789") + 1);
+  };
+  const std::string rest = without_number(channel);
+  if (rest.empty() || rest == channel) return rest.empty();
+  return std::ranges::count_if(all, [&](const std::string& other) { return without_number(other) == rest; }) > 1;
+}
+
+/// The channels of one prefix, as they are called after it.
+class Siblings {
+ public:
+  explicit Siblings(const std::vector<std::string>& names) : names_(names) {}
+
+  bool are_picture_or_vector() const { return are_picture() || are_vector(); }
+  /// Whether a channel is part of their picture, vector or grey value; else it is a layer of its own, as depth beside
+  /// red, green and blue is.
+  bool is_part(const std::string& name) const {
+    const bool of_picture = place_in(picture, name) < picture.size(), is_alpha = place_in(picture, name) == 3;
+    if (is_chroma(name)) return true;
+    if (are_picture()) return of_picture;
+    if (are_vector()) return is_alpha || place_in(vector, name) < vector.size();
+    if (std::ranges::all_of(names_, [](const auto& n) { return place_in(picture, n) < picture.size(); })) return true;
+    return lower(name) == "y" || (is_alpha && has(vector, 1)) || is_numbered(name, names_);
+  }
+
+ private:
+  bool has(const Places& places, size_t place) const {
+    return std::ranges::any_of(names_, [&](const std::string& n) { return place_in(places, n) == place; });
+  }
+  bool are_picture() const { return has(picture, 0) + has(picture, 1) + has(picture, 2) >= 2; }
+  bool are_vector() const { return has(vector, 0) && has(vector, 1); }
+  /// Of luminance and chroma, which OpenEXR keeps as Y, RY and BY.
+  bool is_chroma(const std::string& name) const {
+    return has(vector, 1) && (lower(name) == "ry" || lower(name) == "by");
+  }
+
+  std::vector<std::string> names_;
+};
+
+/// For each of the channels of one prefix the layer below that; empty: the prefix itself.
+std::vector<Name> layers_below(const std::vector<std::string>& channels) {
+  const Siblings siblings(channels);
+  std::map<std::string, std::vector<std::string>> by_stem;  // normalX and normalY are those of "normal"
+  for (const std::string& c : channels)
+    if (const Name parted = parted_at_letter(c); !siblings.is_part(c) && !parted.layer.empty())
+      by_stem[parted.layer].push_back(parted.channel);
+  std::vector<Name> out;
+  for (const std::string& c : channels) {
+    const Name parted = parted_at_letter(c);
+    const auto group = by_stem.find(parted.layer);
+    if (siblings.is_part(c))
+      out.push_back({"", c});
+    else if (group != by_stem.end() && Siblings(group->second).are_picture_or_vector())
+      out.push_back(parted);
+    else
+      out.push_back({c, c});
+  }
+  return out;
+}
+
+/// A channel that is alone says by its name what it is, unless that is a letter or a number.
+bool says_nothing(const std::string& channel) {
+  return place_of(channel) < picture.size() || is_numbered(channel, {});
+}
+
+/// The layer of each channel of a part.
+std::vector<Name> names_in(const std::vector<std::string>& channels) {
+  if (channels.size() == 1 && says_nothing(channels.front())) return {{"", channels.front()}};
+  std::map<std::string, std::vector<size_t>> by_prefix;
+  std::vector<Name> out;
+  for (const std::string& c : channels) {
+    out.push_back(parted_at_dot(c));
+    by_prefix[out.back().layer].push_back(out.size() - 1);
+  }
+  for (const auto& [prefix, members] : by_prefix) {
+    if (members.size() == 1 && !prefix.empty() && says_nothing(out[members.front()].channel)) continue;
+    std::vector<std::string> below;
+    for (const size_t m : members) below.push_back(out[m].channel);
+    const std::vector<Name> names = layers_below(below);
+    for (size_t i = 0; i < members.size(); i++) {
+      const bool is_below = !prefix.empty() && !names[i].layer.empty();
+      out[members[i]] = {prefix + (is_below ? "." : "") + names[i].layer, names[i].channel};
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<ExrLayer> exr_layers(const std::vector<ExrPart>& parts) {
-  constexpr long most_of_a_picture = 4;
   std::vector<ExrLayer> layers;
   for (size_t p = 0; p < parts.size(); p++) {
     const std::string part = parts.size() > 1 ? parts[p].name : "";
-    const std::vector<std::string>& names = parts[p].channels;
-    const bool too_many = std::count_if(names.begin(), names.end(), [](const std::string& n) {
-                            return parted(n).first.empty();
-                          }) > most_of_a_picture;
-    const bool has_picture = std::any_of(names.begin(), names.end(), is_of_a_picture);
+    const std::vector<Name> names = names_in(parts[p].channels);
     const size_t first = layers.size();
     for (size_t c = 0; c < names.size(); c++) {
-      const auto [prefix, channel] = parted(names[c]);
-      const bool alone = prefix.empty() && too_many && has_picture && !is_of_a_picture(channel);
-      const std::string name = joined(part, alone ? channel : prefix);
+      const std::string name = joined(part, names[c].layer);
       auto layer =
           std::find_if(layers.begin() + long(first), layers.end(), [&](const ExrLayer& l) { return l.name == name; });
       if (layer == layers.end()) layer = layers.insert(layer, {name, int(p), {}});
       layer->channels.push_back(int(c));
     }
     for (size_t i = first; i < layers.size(); i++)
-      std::stable_sort(layers[i].channels.begin(), layers[i].channels.end(), [&](int a, int b) {
-        return place_of(parted(names[size_t(a)]).second) < place_of(parted(names[size_t(b)]).second);
-      });
+      std::ranges::stable_sort(layers[i].channels, {}, [&](int c) { return place_of(names[size_t(c)].channel); });
   }
   return layers;
 }

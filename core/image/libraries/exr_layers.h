@@ -20,8 +20,9 @@ struct ExrPart {
 };
 
 /// Channels are parted by what stands before the last dot of their names, which is how programs write layers into one
-/// part (OpenEXR's Technical Introduction, "Layers"). Of several parts each name comes before that. Channels without a
-/// prefix are one layer, unless they are more than the four of a picture: then each but R, G, B and A is its own.
+/// part (OpenEXR's Technical Introduction, "Layers"), or before a last letter (normalX, normalY). Of several parts each
+/// name comes before that. Of the channels of one prefix those of a picture (R, G, B, A), a vector (X, Y, Z or U, V) or
+/// a grey value (Y, A) are its layer; each other one is a layer of its own: "roughness", "Z" beside R, G and B.
 std::vector<ExrLayer> exr_layers(const std::vector<ExrPart>& parts);
 
 }  // namespace terrazzo

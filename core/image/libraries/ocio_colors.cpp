@@ -1,8 +1,11 @@
+#include <filesystem>
 #include <mutex>
+#include <sstream>
 
 #include <OpenColorIO/OpenColorIO.h>
 
 #include "core/base/error.h"
+#include "core/image/libraries/ocio_sources.h"
 #include "core/image/libraries/parts.h"
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -72,6 +75,23 @@ void apply(const OCIO::ConstCPUProcessorRcPtr& processor, float* pixels, int cha
   processor->apply(image);
 }
 
+/// Making a processor asks for environment variables, which the library (2.1) reads into one static string; and nobody
+/// may make one while the library forgets its files.
+std::mutex& library_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+template <typename Act>
+auto with_library(const Act& act) {
+  const std::lock_guard lock(library_mutex());
+  try {
+    return act();
+  } catch (const OCIO::Exception& e) {
+    throw Error(e.what());
+  }
+}
+
 class OcioColors final : public ColorConfiguration {
  public:
   explicit OcioColors(OCIO::ConstConfigRcPtr config) : config_(std::move(config)) {}
@@ -85,36 +105,48 @@ class OcioColors final : public ColorConfiguration {
     return space ? space->getName() : "";
   }
   Conversion conversion(const std::string& from, const std::string& to) const override {
-    // Making a processor asks for environment variables, which the library (2.1) reads into one static string.
-    static std::mutex mutex;
-    const std::lock_guard lock(mutex);
-    try {
+    return with_library([&]() -> Conversion {
       // Lossless: without the approximations of pow that would shift 16-bit values.
       const OCIO::ConstCPUProcessorRcPtr processor =
           config_->getProcessor(from.c_str(), to.c_str())->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
       return [processor](float* pixels, int channels, int64_t count) { apply(processor, pixels, channels, count); };
-    } catch (const OCIO::Exception& e) {
-      throw Error(e.what());
-    }
+    });
   }
-  std::vector<std::string> search_paths() const override {
-    std::vector<std::string> paths;
-    for (int i = 0; i < config_->getNumSearchPaths(); i++) paths.emplace_back(config_->getSearchPath(i));
-    return paths;
+  std::vector<std::string> files_of(const std::string& from, const std::string& to) const override {
+    return with_library([&] {
+      const OCIO::ConstProcessorRcPtr processor = config_->getProcessor(from.c_str(), to.c_str());
+      const OCIO::ConstProcessorMetadataRcPtr facts = processor->getProcessorMetadata();
+      std::vector<std::string> files;
+      for (int i = 0; i < facts->getNumFiles(); i++) files.emplace_back(facts->getFile(i));
+      return files;
+    });
+  }
+  ColorSources sources() const override {
+    return with_library([&] { return sources_of(*config_); });
+  }
+  std::string expanded(const std::string& text, std::map<std::string, std::string>& variables) const override {
+    return with_library([&] { return expand(*config_->getCurrentContext(), text.c_str(), variables); });
   }
 
  private:
   OCIO::ConstConfigRcPtr config_;
 };
 
+/// The library looks for files beside the configuration only where it has read that itself.
+OCIO::ConstConfigRcPtr config_in(const std::string& path, const std::string& text) {
+  std::istringstream in(text);
+  const OCIO::ConfigRcPtr config = OCIO::Config::CreateFromStream(in)->createEditableCopy();
+  config->setWorkingDir(std::filesystem::absolute(path).lexically_normal().parent_path().c_str());
+  return config;
+}
+
 }  // namespace
 
-std::shared_ptr<const ColorConfiguration> load_with_ocio(const std::string& path) {
-  try {
-    return std::make_shared<OcioColors>(path.empty() ? built_in_config() : OCIO::Config::CreateFromFile(path.c_str()));
-  } catch (const OCIO::Exception& e) {
-    throw Error(e.what());
-  }
+std::shared_ptr<const ColorConfiguration> load_with_ocio(const std::string& path, const std::string& text) {
+  return with_library([&] {
+    OCIO::ClearAllCaches();
+    return std::make_shared<OcioColors>(path.empty() ? built_in_config() : config_in(path, text));
+  });
 }
 
 }  // namespace terrazzo

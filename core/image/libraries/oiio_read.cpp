@@ -49,6 +49,8 @@ StoredImage describe(const OIIO::ImageSpec& spec, const std::string& format, con
   header.size = {spec.width, spec.height};
   if (format == "openexr") {
     header.stored = data_window(spec);
+    header.left = spec.full_x;
+    header.top = spec.full_y;
     header.size = {spec.full_width, spec.full_height};
   }
   header.slices = spec.depth;
@@ -62,6 +64,8 @@ StoredImage describe(const OIIO::ImageSpec& spec, const std::string& format, con
   header.inks = says_inks(spec);
   header.by_rows = format == "openexr" || format == "tiff" || format == "jpeg";
   header.description = std::string(spec.get_string_attribute("ImageDescription"));
+  if (format == "png" && spec.get_string_attribute("oiio:ColorSpace") == "Linear") header.color_space = "lin_rec709";
+  if (format == "targa" && header.channels.size() == 2) header.channels = {"Y", "A"};  // the library says R and G
   return header;
 }
 
@@ -94,7 +98,14 @@ class OiioDecoder final : public ImageDecoder {
     header_ = describe(in_->spec(), in_->format_name(), layer_->channels);
     header_.stored_differs = windows_differ_;
   }
+  void drop_alpha() override {
+    if (layer_->channels.size() % 2 != 0) return;
+    layers_[size_t(layer_ - layers_.data())].channels.pop_back();
+    header_.channels.pop_back();
+  }
   void read(Depth as, void* out) override {
+    // The library (2.4) multiplies colours by alpha in any case.
+    if (header_.format == "webp" && header_.channels.size() == 4) return read_webp(path_, header_.size, out);
     read_layer(as, header_.stored.height, out, [&](int begin, int end, const OIIO::TypeDesc& type, void* to) {
       return in_->read_image(layer_->part, 0, begin, end, type, to);
     });

@@ -171,8 +171,10 @@ Size completed(Size size, PreviewShape shape, Size material) {
 }
 
 ImagePtr render_preview(const Material& material, const PreviewSpec& spec, const Task& task) {
-  const Textures textures =
+  Textures textures =
       load_textures(material, int(std::max(1.0, spec.size.width / std::max(spec.tile, 1e-3))), spec.relief, task);
+  // Aslant, the sides of such cliffs are in sight.
+  if (spec.shape != PreviewShape::plane || spec.tilt != 0) textures.heights_repeat_x = textures.heights_repeat_y = true;
   const Renderer renderer(spec, textures);
   std::vector<ImagePtr> pictures;
   for (size_t light = 0; light < spec.lights.size(); light++)

@@ -10,6 +10,11 @@ double surface_at(const Textures& t, double x, double y) {
   return t.height.value(x, y / t.aspect) * t.depth;
 }
 
+/// The same for light that reaches a point: in the repeat around that.
+double surface_around(const Textures& t, double x, double y, double point_x, double point_y) {
+  return t.height_at(x, y / t.aspect, point_x, point_y / t.aspect) * t.depth;
+}
+
 /// Enough steps that none is longer than about one texel, within reason.
 int step_count(const Textures& t, double length) {
   return std::clamp(int(length * t.height.size().width) + 2, 4, 64);
@@ -23,7 +28,7 @@ ReliefPoint visible_point(const Textures& t, double x, double y, const Vector3d&
   // Going down by 1 moves the point away from the viewer; v runs downwards.
   const double dx = -view.x() / up, dy = view.y() / up;
   const double travel = std::sqrt(dx * dx + dy * dy) * t.depth;
-  if (travel * t.height.size().width < 0.1) return {x, y, surface_at(t, x, y)};
+  if (travel * t.height.size().width < 0.1) return {x, y, surface_around(t, x, y, x, y)};
   const int steps = step_count(t, travel);
   double above = 0, below = t.depth;
   for (int k = 1; k <= steps; k++) {
@@ -54,7 +59,8 @@ double light_reaching(const Textures& t, const ReliefPoint& p, const Vector3d& l
   double covered = 0;
   for (int k = 1; k <= steps; k++) {
     const double s = reach * k / steps;
-    const double blocker = surface_at(t, p.x + light.x() / across * s, p.y - light.y() / across * s) - p.z;
+    const double blocker =
+        surface_around(t, p.x + light.x() / across * s, p.y - light.y() / across * s, p.x, p.y) - p.z;
     // How far the blocker stands above the ray, as an angle: a light of some width gives a penumbra.
     covered = std::max(covered, (blocker - bias) / s - rise);
   }

@@ -1,6 +1,7 @@
 #include "core/picture/render/textures.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <tbb/parallel_for.h>
 
@@ -83,14 +84,30 @@ double depth_from_normals(const Texture& height, const Texture& normal, double a
   return variance > 0 ? std::clamp(covariance / variance, 0.0, 0.2) : 0;
 }
 
-Texture normals_of(const Texture& height, double depth) {
+/// Whether heights change across opposite borders about as between two lines inside, such as those along a joint.
+bool goes_on(const Texture& height, bool columns) {
+  const int lines = columns ? height.size().width : height.size().height;
+  const int length = columns ? height.size().height : height.size().width;
+  const auto step = [&](int i) {
+    double sum = 0;
+    for (int k = 0; k < length; k++)
+      sum += std::abs(columns ? double(*height.texel(i, k)) - *height.texel(i - 1, k)
+                              : double(*height.texel(k, i)) - *height.texel(k, i - 1));
+    return sum;
+  };
+  double most_inside = 0;
+  for (int i = 1; i < lines; i++) most_inside = std::max(most_inside, step(i));
+  return step(0) <= 1.5 * most_inside;
+}
+
+Texture normals_of(const Texture& height, double depth, Outside outside) {
   const Size size = height.size();
   std::vector<float> values(size_t(size.area())), normals(values.size() * 3);
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) values[size_t(y) * size.width + x] = *height.texel(x, y);
   const ImageInfo info{.size = size, .channels = 1, .semantic = Semantic::height};
   normals_from_height(*Image::from_floats(info, std::move(values)), {0, 0, size.width, size.height}, depth * size.width,
-                      SlopeFilter::central, Outside::wrap, NormalY::up, normals.data());
+                      SlopeFilter::central, outside, NormalY::up, normals.data());
   const ImageInfo made{.size = size, .channels = 3, .semantic = Semantic::normal};
   for (size_t i = 0; i < normals.size(); i += 3) decode_vector(&normals[i], made);
   return Texture(size, 3, std::move(normals));
@@ -152,6 +169,16 @@ ShadedPoint Textures::at(double u, double v) const {
   return p;
 }
 
+double Textures::height_at(double u, double v, double u0, double v0) const {
+  const auto within = [](double place, double at, int texels) {
+    const auto first = double(portable::floor_int(at));
+    return std::clamp(place, first + 0.5 / texels, first + 1 - 0.5 / texels);
+  };
+  if (!heights_repeat_x) u = within(u, u0, height.size().width);
+  if (!heights_repeat_y) v = within(v, v0, height.size().height);
+  return height.value(u, v);
+}
+
 Textures load_textures(const Material& material, int max_width, double relief, const Task& task) {
   Textures t;
   const auto get = [&](Semantic semantic, Decode decode) { return load(material, semantic, max_width, decode, task); };
@@ -164,11 +191,14 @@ Textures load_textures(const Material& material, int max_width, double relief, c
   t.occlusion = get(Semantic::ambient_occlusion, decode_value);
   t.aspect = double(material.size().height) / material.size().width;
   if (t.height.empty()) return t;
+  t.heights_repeat_x = goes_on(t.height, true);
+  t.heights_repeat_y = goes_on(t.height, false);
   if (!t.normal.empty()) {
     t.depth = depth_from_normals(t.height, t.normal, t.aspect) * relief;
   } else {
     t.depth = 0.05 * relief;
-    t.normal = normals_of(t.height, t.depth);
+    const bool repeats = t.heights_repeat_x && t.heights_repeat_y;
+    t.normal = normals_of(t.height, t.depth, repeats ? Outside::wrap : Outside::clamp);
   }
   return t;
 }

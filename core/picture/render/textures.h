@@ -35,9 +35,14 @@ struct Textures {
   Texture base_color, normal, height, roughness, metallic, occlusion, emission;
   double aspect = 1;  ///< height / width of the material
   double depth = 0;   ///< from the lowest to the highest point of `height`, in widths of the material; 0 without height
+  /// Whether heights go on across opposite borders; else no cliff between two repeats shades
+  /// them.
+  bool heights_repeat_x = true, heights_repeat_y = true;
 
   /// Everything but the frame: `normal` is in the tangent frame (x along u, y against v, z out).
   ShadedPoint at(double u, double v) const;
+  /// The height as stored, at a place that light from within the repeat around (u0, v0) passes.
+  double height_at(double u, double v, double u0, double v0) const;
 };
 
 /// Maps are averaged down until they are at most `max_width` texels wide or a factor of two above it. The depth is

@@ -42,8 +42,13 @@ def registered() -> int:
     with _lock:
         while _waiting:
             description, function, uses = _waiting.pop(0)
-            description["source"] = "\n".join(_sources(function, uses))
-            _terrazzo.register_node(description, _with_paths(description, function))
+            call = _with_paths(description, function)
+            try:
+                description["source"] = "\n".join(_sources(function, uses))
+            except Error as e:
+                # Graphs that do not use it can do without.
+                description["source"], call = "", _raises(e)
+            _terrazzo.register_node(description, call)
             _version += 1
         return _version
 
@@ -59,7 +64,8 @@ def node(*, version: int = 1, name: str | None = None, uses: Iterable[Any] = ())
     a function gives must depend on nothing else. Raise `version` when it does."""
 
     def declare(function: Function) -> Function:
-        description = _description(function, name or function.__name__, version)
+        description = _description(function, function.__name__ if name is None else name, version)
+        _check(function, description)
         module = function.__module__
         owner = ("__main__" if module == "__mp_main__" else module, function.__qualname__)
         _sources(function, uses)  # raises if something is wrong with it
@@ -74,6 +80,26 @@ def node(*, version: int = 1, name: str | None = None, uses: Iterable[Any] = ())
         return function
 
     return declare
+
+
+def _check(function: Callable[..., Any], description: dict[str, Any]) -> None:
+    """Raises if it cannot be a node: here, not in the run that comes next."""
+    version, name = description["version"], description["name"]
+    if isinstance(version, bool) or not isinstance(version, int) or not 0 < version < 2**31:
+        raise _fail(function, f"expected a version of 1 or more, found {version!r}")
+    if not isinstance(name, str):
+        raise _fail(function, f"expected a text for its name, found {name!r}")
+    try:
+        _terrazzo.check_node(description)
+    except (Error, RuntimeError, TypeError, ValueError) as e:
+        raise _fail(function, str(e)) from e
+
+
+def _raises(error: Error) -> Callable[..., Any]:
+    def call(**_: Any) -> Any:
+        raise error
+
+    return call
 
 
 def _with_paths(description: dict[str, Any], function: Callable[..., Any]) -> Callable[..., Any]:

@@ -1,4 +1,4 @@
-// What a report does beyond showing itself: zooms the graph, tells about nodes, enlarges pictures, sorts tables, and
+// What a report does beyond showing itself: zooms the graph, tells about nodes, enlarges pictures, sorts and searches, and
 // starts the lit view. The page says how that went in data attributes of its body; tests read them.
 "use strict";
 {
@@ -129,6 +129,35 @@
     document.getElementById("node").replaceChildren(element("div", {}, ...lines), nodePictures(node.pictures));
   };
 
+  // The search: rows, list items and pictures without the text go, what is folded opens where it is.
+  const startSearch = (heading) => {
+    const entries = [...document.querySelectorAll(
+      ".sortable tbody tr, .searched li, .searched tr, .times > div:not(.axis), .searched figure, .variations figure")];
+    if (entries.length < 2) return;
+    const texts = entries.map((entry) => entry.textContent.toLowerCase());
+    const folds = [...document.querySelectorAll("details")].map((fold) => ({fold, open: fold.open, inside: []}));
+    const around = new Map(folds.map((f) => [f.fold, f]));
+    entries.forEach((entry, i) => around.get(entry.closest("details"))?.inside.push(i));
+    const nodes = [...document.querySelectorAll("g.node")];
+    const found = element("span", {className: "quiet"});
+    const search = () => {
+      const text = field.value.trim().toLowerCase();
+      const fits = texts.map((t) => t.includes(text));
+      entries.forEach((entry, i) => { entry.hidden = !fits[i]; });
+      for (const {fold, open, inside} of folds) {
+        const any = inside.some((i) => fits[i]);
+        fold.hidden = inside.length > 0 && !any;
+        fold.open = text && inside.length > 0 ? any : open;
+      }
+      for (const node of nodes)
+        node.classList.toggle("other", !data.nodes[node.dataset.node].name.toLowerCase().includes(text));
+      found.textContent = text ? `${fits.filter((f) => f).length} of ${entries.length}` : "";
+      state.found = found.textContent;
+    };
+    const field = element("input", {type: "search", placeholder: "search", ariaLabel: "search this page", oninput: search});
+    heading.after(element("div", {className: "search"}, field, found));
+  };
+
   document.addEventListener("click", (event) => {
     const picture = event.target.closest("img.picture");
     if (picture) return enlarge(picture);
@@ -154,6 +183,7 @@
   };
 
   fillCopies();
+  startSearch(document.querySelector("h1"));
   const drawing = document.getElementById("drawing");
   if (drawing) makeZoomable(drawing);
   const viewer = document.getElementById("viewer");

@@ -28,6 +28,24 @@ TEST_CASE("no name is suggested that is nothing like what was written") {
   CHECK(nearest("blur", {}) == "");
 }
 
+TEST_CASE("how many letters may differ depends on how many there are") {
+  CHECK(nearest("foto.png", {"photo.png", "fog.png"}) == "photo.png");
+  CHECK(nearest("noise", {"nodes"}) == "");
+  CHECK(nearest("size", {"seed", "side"}) == "side");
+  CHECK(nearest("gray", {"crop"}) == "");
+  CHECK(nearest("stone_hieght.png", {"stone_normal.png"}) == "");
+  CHECK(nearest("stone_hieght.png", {"stone_normal.png", "stone_height.png"}) == "stone_height.png");
+  CHECK(nearest("a.json", {"b.json"}) == "");
+  CHECK(nearest("out_of_memory", {"out"}) == "");
+  CHECK(nearest("mat", {"material"}) == "material");
+}
+
+TEST_CASE("other numbers are no misspelling") {
+  CHECK(nearest("scan_03.png", {"scan_02.png"}) == "");
+  CHECK(nearest("leather5", {"Leather05"}) == "Leather05");
+  CHECK(nearest("maps2", {"maps"}) == "maps");
+}
+
 TEST_CASE("a suggestion falls back to the valid names") {
   CHECK(suggestion("blurr", {"blur", "pca"}) == " (did you mean \"blur\"?)");
   CHECK(suggestion("quantum", {"blur", "pca"}) == " (valid: \"blur\" or \"pca\")");

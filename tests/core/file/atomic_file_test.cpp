@@ -142,6 +142,46 @@ TEST_CASE("staging a file clears its folder of what killed runs left") {
   CHECK_THROWS_WITH_AS(node.stage(temporary / "z.png"), doctest::Contains("expected a folder to write to"), Error);
 }
 
+TEST_CASE("a file that is written anew keeps its mode and owner, and links stay links") {
+  const TemporaryFolder folder;
+  const fs::path& at = folder.path();
+  const auto status = [](const fs::path& path) {
+    struct stat s {};
+    REQUIRE(::stat(path.c_str(), &s) == 0);
+    return s;
+  };
+  fs::create_directories(at / "elsewhere");
+  for (const mode_t mode : {0600, 0640, 0755, 0444}) {
+    write_text(at / "elsewhere/a.txt", "one");
+    REQUIRE(::chmod((at / "elsewhere/a.txt").c_str(), mode) == 0);
+    write_whole_file(at / "elsewhere/a.txt", "two");
+    CHECK(read_text(at / "elsewhere/a.txt") == "two");
+    CHECK((status(at / "elsewhere/a.txt").st_mode & 07777) == mode);
+    fs::remove(at / "elsewhere/a.txt");
+  }
+  if (::geteuid() == 0) {
+    write_text(at / "elsewhere/a.txt", "one");
+    REQUIRE(::chown((at / "elsewhere/a.txt").c_str(), 65534, 65534) == 0);
+    write_whole_file(at / "elsewhere/a.txt", "two");
+    CHECK(status(at / "elsewhere/a.txt").st_uid == 65534);
+  }
+  // Relative to the link's folder, and over a second link.
+  fs::create_symlink("elsewhere/second", at / "first");
+  fs::create_symlink("a.txt", at / "elsewhere/second");
+  write_whole_file(at / "first", "three");
+  CHECK(fs::is_symlink(at / "first"));
+  CHECK(fs::is_symlink(at / "elsewhere/second"));
+  CHECK(read_text(at / "elsewhere/a.txt") == "three");
+  // To what is not there yet.
+  fs::create_symlink("elsewhere/b.txt", at / "dangling");
+  write_whole_file(at / "dangling", "four");
+  CHECK(fs::is_symlink(at / "dangling"));
+  CHECK(read_text(at / "elsewhere/b.txt") == "four");
+  fs::create_symlink("loop", at / "loop");
+  CHECK_THROWS_AS(write_whole_file(at / "loop", "five"), FileError);
+  CHECK(listing(at / "elsewhere") == std::vector<std::string>{"a.txt", "b.txt", "second"});
+}
+
 TEST_CASE("a whole file replaces what was there, or nothing is touched") {
   const TemporaryFolder folder;
   const fs::path at = folder.path() / "a.txt";

@@ -51,24 +51,35 @@ TEST_CASE("an EXR file comes as its display window, and it is told what of the d
     return all.empty() ? "" : all.front();
   };
   CHECK(said({4, 3}, 5, -7, {5, -7, 4, 3}) == "");
-  CHECK(said({2, 2}, 1, 1, {0, 0, 4, 4}) ==
-        "warning: window.exr: its data window, 2x2 at (1, 1), is not its display window; the display window of 4x4 was "
-        "read: pixels without data are 0");
   CHECK(said({8, 6}, -2, -1, {0, 0, 4, 4}) ==
-        "warning: window.exr: its data window, 8x6 at (-2, -1), is not its display window; the display window of 4x4 "
-        "was read: data outside of it is left out");
-  CHECK(said({2, 2}, 11, 19, {10, 20, 3, 2}) ==
-        "warning: window.exr: its data window, 2x2 at (1, -1), is not its display window; the display window of 3x2 "
-        "was read: pixels without data are 0, data outside of it is left out");
+        "warning: window.exr: its data window, 8x6 at (-2, -1), is larger than its display window; the display window "
+        "of 4x4 was read: data outside of it is left out");
+}
+
+TEST_CASE("pixels without data are never content: the file is refused with what to do") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "window.exr";
+  write_odd(path, {.size = {2, 2}, .type = "half", .display = {0, 0, 4, 4}, .x = 1, .y = 1}, {1, 2, 3, 4});
+  CHECK(
+      contains(trouble_of(path),
+               "window.exr: its data window, 2x2 at (1, 1), covers only a part of its display window, 4x4 at (0, 0): "
+               "12 of 16 pixels have no data. Crop all maps of the material alike, with OpenImageIO by \"oiiotool FILE "
+               "--cut 2x2+1+1 -o FILE\"; or, if it should be 0 there, fill it by \"oiiotool FILE --croptofull -o "
+               "FILE\""));
+  CHECK_THROWS_AS(read(path), Error);
+  write_odd(path, {.size = {2, 2}, .type = "half", .display = {10, 20, 3, 2}, .x = 11, .y = 19}, {1, 2, 3, 4});
+  CHECK(contains(trouble_of(path), "4 of 6 pixels have no data"));
+  CHECK(contains(trouble_of(path), "--cut 2x1+11+20 -o FILE"));  // in the file's coordinates
 }
 
 TEST_CASE("data lies where its window says, from a negative origin too") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "window.exr";
-  write_odd(path, {.size = {2, 2}, .type = "float", .display = {10, 20, 3, 2}, .x = 11, .y = 19}, {1, 2, 3, 4});
-  CHECK(read(path).size == Size{3, 2});
-  CHECK(read(path).pixels == std::vector<float>{0, 3, 4, 0, 0, 0});
-  CHECK(read_image_info(path).size == Size{3, 2});
+  write_odd(path, {.size = {3, 3}, .type = "float", .display = {10, 20, 2, 1}, .x = 9, .y = 19},
+            {1, 2, 3, 4, 5, 6, 7, 8, 9});
+  CHECK(read(path).size == Size{2, 1});
+  CHECK(read(path).pixels == std::vector<float>{5, 6});
+  CHECK(read_image_info(path).size == Size{2, 1});
   write_odd(path, {.size = {3, 2}, .type = "float", .display = {-5, -4, 2, 2}, .x = -6, .y = -4}, {1, 2, 3, 4, 5, 6});
   CHECK(read(path).pixels == std::vector<float>{2, 3, 5, 6});
 }
@@ -82,30 +93,28 @@ TEST_CASE("a data window that shows nothing is refused before anything is decode
                    "lies wholly outside its display window, 4x4 at (0, 0), so that it shows nothing; "
                    "save it with a display window that holds the data"));
   }
-  write_odd(path, {.size = {2, 2}, .type = "half", .display = {0, 0, 4, 4}, .x = 3, .y = -1}, {1, 2, 3, 4});
-  CHECK(trouble_of(path) == "");
 }
 
 TEST_CASE("where the windows of parts differ, the layer is named") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "parts.exr";
-  OddFile file{.size = {2, 2},
+  OddFile file{.size = {3, 2},
                .channels = 3,
                .type = "half",
-               .display = {0, 0, 4, 4},
-               .x = 1,
+               .display = {0, 0, 1, 1},
+               .x = -1,
                .images = 2,
                .part_names = {"albedo", "normal"}};
-  const std::vector<float> pixels(12, 0.5f);
+  const std::vector<float> pixels(18, 0.5f);
   write_odd(path, file, pixels);
   CHECK(read(path, "albedo").said == read(path, "normal").said);
-  CHECK(contains(read(path, "normal").said.at(0), "parts.exr: its data window, 2x2 at (1, 0)"));
-  file.part_x = {1, -1};
+  CHECK(contains(read(path, "normal").said.at(0), "parts.exr: its data window, 3x2 at (-1, 0)"));
+  file.part_x = {-1, 0};
   write_odd(path, file, pixels);
-  CHECK(contains(read(path, "albedo").said.at(0), "parts.exr (layer albedo): its data window, 2x2 at (1, 0)"));
-  CHECK(contains(read(path, "normal").said.at(0), "parts.exr (layer normal): its data window, 2x2 at (-1, 0)"));
-  file.part_x = {1, 4};
+  CHECK(contains(read(path, "albedo").said.at(0), "parts.exr (layer albedo): its data window, 3x2 at (-1, 0)"));
+  CHECK(contains(read(path, "normal").said.at(0), "parts.exr (layer normal): its data window, 3x2 at (0, 0)"));
+  file.part_x = {-1, 4};
   write_odd(path, file, pixels);
-  CHECK(read(path, "albedo").size == Size{4, 4});
+  CHECK(read(path, "albedo").size == Size{1, 1});
   CHECK_THROWS_AS(read(path, "normal"), Error);
 }

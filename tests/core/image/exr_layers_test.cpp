@@ -1,6 +1,8 @@
 #include <filesystem>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/error.h"
 #include "core/image/image_file.h"
@@ -71,6 +73,36 @@ TEST_CASE("channels without a layer are read where none is asked for, with a not
   CHECK(pixels_of(path, "rough") == std::vector<float>{6});
 }
 
+TEST_CASE("channels with names of their own are layers, whatever their order, beside a picture, a vector, or alone") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "wall.exr";
+  const auto layers = [&](const std::vector<std::string>& names) {
+    std::vector<float> pixel;
+    for (size_t i = 0; i < names.size(); i++) pixel.push_back(float(i + 1));
+    write_odd(path, {.size = {1, 1}, .channels = int(names.size()), .type = "float", .channel_names = names}, pixel);
+    return fmt::format("{}", fmt::join(listed(path), " "));
+  };
+  CHECK(layers({"AO", "Metallic", "Roughness"}) == "AO:1 Metallic:1 Roughness:1");
+  CHECK(pixels_of(path, "metallic") == std::vector<float>{2});
+  CHECK(contains(error_of_layer(path, ""), R"(it holds the layers "AO", "Metallic", "Roughness"; say which)"));
+  CHECK(layers({"B", "G", "R", "Z"}) == ":3 Z:1");
+  CHECK(pixels_of(path, "") == std::vector<float>{3, 2, 1});
+  CHECK(layers({"A", "B", "G", "R", "Z"}) == ":4 Z:1");
+  CHECK(layers({"Z", "albedo.B", "albedo.G", "albedo.R", "roughness"}) == "Z:1 roughness:1 albedo:3");
+  CHECK(layers({"ORM.AO", "ORM.Metallic", "ORM.Roughness"}) == "ORM.AO:1 ORM.Metallic:1 ORM.Roughness:1");
+  CHECK(layers({"ORM.B", "ORM.G", "ORM.R", "ORM.height"}) == "ORM:3 ORM.height:1");
+  CHECK(layers({"Nx", "Ny", "Nz", "height"}) == "N:3 height:1");
+  CHECK(layers({"albedo_b", "albedo_g", "albedo_r"}) == "albedo:3");
+  CHECK(layers({"height", "u", "v"}) == "height:1 :2");
+  CHECK(layers({"A", "Y"}) == ":2");
+  CHECK(layers({"X", "Y", "Z"}) == ":3");
+  CHECK(layers({"Y", "Z"}) == ":1 Z:1");
+  CHECK(layers({"height"}) == "height:1");
+  CHECK(pixels_of(path, "") == std::vector<float>{1});
+  for (const char* name : {"R", "Y", "Z", "A", "1"}) CHECK(layers({name}) == ":1");
+  CHECK(layers({"ch0", "ch1", "ch2"}) == ":3");
+}
+
 TEST_CASE("the parts of an EXR file are layers") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "parts.exr";
@@ -87,6 +119,14 @@ TEST_CASE("the parts of an EXR file are layers") {
              .part_names = {"color", "more"}},
             {1, 2, 3});
   CHECK(listed(path) == std::vector<std::string>{"color:3", "more.color:3"});
+}
+
+TEST_CASE("an EXR file of luminance and chroma is refused") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "wall.exr";
+  write_odd(path, {.size = {1, 1}, .channels = 3, .type = "half", .channel_names = {"BY", "RY", "Y"}}, {0, 0, 1});
+  CHECK(
+      contains(error_of_layer(path, ""), "it holds luminance and chroma (channels Y, RY, BY); save it with channels"));
 }
 
 TEST_CASE("other files have no layers") {

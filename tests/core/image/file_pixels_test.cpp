@@ -39,6 +39,13 @@ std::vector<float> waves(Size size, int channels) {
   return out;
 }
 
+/// Colours of alpha 0.
+std::vector<float> invisible(Size size) {
+  std::vector<float> out = waves(size, 4);
+  for (size_t i = 3; i < out.size(); i += 4) out[i] = 0;
+  return out;
+}
+
 /// Files of all depths, orientations and ways to lie in a file, each with the semantic to read it as.
 std::vector<std::pair<fs::path, Semantic>> odd_files(const fs::path& folder) {
   std::vector<std::pair<fs::path, Semantic>> out;
@@ -57,12 +64,15 @@ std::vector<std::pair<fs::path, Semantic>> odd_files(const fs::path& folder) {
   std::vector<float> holes = waves(size, 1);
   holes[7] = std::numeric_limits<float>::infinity();
   add("holes.exr", {.size = size, .type = "half"}, holes);
+  add("invisible.exr", {.size = size, .channels = 4, .type = "half"}, invisible(size), Semantic::base_color);
+  add("invisible.tif", {.size = size, .channels = 4}, invisible(size), Semantic::base_color);
+  add("holed.exr", {.size = size, .type = "float"}, holes);
   std::vector<float> normals = waves(size, 3);
   for (float& v : normals) v = v * 2 - 1;
   add("signed.exr", {.size = size, .channels = 3, .type = "half"}, normals, Semantic::normal);
-  add("window.exr", {.size = {20, 12}, .channels = 3, .type = "half", .display = {0, 0, 32, 24}, .x = 6, .y = 9},
+  add("window.exr", {.size = {20, 12}, .channels = 3, .type = "half", .display = {3, 3, 12, 8}, .x = 1, .y = 2},
       waves({20, 12}, 3));
-  add("outside.exr", {.size = {20, 12}, .type = "float", .display = {0, 0, 12, 10}, .x = -5, .y = -4},
+  add("outside.exr", {.size = {20, 12}, .type = "float", .display = {0, 0, 12, 8}, .x = -5, .y = -4},
       waves({20, 12}, 1));
   for (int orientation = 1; orientation <= 8; orientation++)
     add("turned" + std::to_string(orientation) + ".tif",

@@ -26,8 +26,8 @@ Planes impulse(Size size, int x, int y, bool wraps) {
 
 TEST_CASE("a blur keeps the sum, even where it is wider than the image") {
   const Planes image = bricks({20, 12}, 1);
-  CHECK(sum(blurred(image, 1.5, Beyond::mirrored)) == doctest::Approx(sum(image)).epsilon(1e-5));
-  const Planes wide = blurred(image, 40, Beyond::mirrored);
+  CHECK(sum(blurred(image, 1.5, Beyond::mirrored, Task())) == doctest::Approx(sum(image)).epsilon(1e-5));
+  const Planes wide = blurred(image, 40, Beyond::mirrored, Task());
   CHECK(sum(wide) == doctest::Approx(sum(image)).epsilon(1e-5));
   CHECK(channel_moments(wide).variance(0) < 1e-4);
 }
@@ -35,7 +35,7 @@ TEST_CASE("a blur keeps the sum, even where it is wider than the image") {
 TEST_CASE("a blurred point is the Gaussian") {
   Planes point = Planes::zeros({31, 31}, 2);
   point.at(15, 15)[1] = 1;
-  const Planes out = blurred(point, 2, Beyond::mirrored);
+  const Planes out = blurred(point, 2, Beyond::mirrored, Task());
   CHECK(out.at(15, 15)[0] == 0);
   CHECK(out.at(15, 15)[1] == doctest::Approx(0.0397887).epsilon(1e-3));
   CHECK(out.at(17, 15)[1] / out.at(15, 15)[1] == doctest::Approx(0.6065307).epsilon(1e-5));
@@ -43,15 +43,15 @@ TEST_CASE("a blurred point is the Gaussian") {
 }
 
 TEST_CASE("a blur goes around the borders of planes that wrap, and goes on with the border's pixels of others") {
-  const Planes around = blurred(impulse({16, 9}, 0, 4, true), 1, Beyond::as_it_wraps);
+  const Planes around = blurred(impulse({16, 9}, 0, 4, true), 1, Beyond::as_it_wraps, Task());
   CHECK(around.wraps);
   CHECK(*around.at(15, 4) == doctest::Approx(*around.at(1, 4)));
   CHECK(*around.at(15, 4) > 0.01);
-  const Planes beyond = blurred(impulse({16, 9}, 0, 4, false), 1, Beyond::as_it_wraps);
+  const Planes beyond = blurred(impulse({16, 9}, 0, 4, false), 1, Beyond::as_it_wraps, Task());
   CHECK(*beyond.at(15, 4) == 0);
   // The border pixel stands for all that lie beyond it: half of the Gaussian, and half of its middle weight.
   CHECK(*beyond.at(0, 4) / *around.at(0, 4) == doctest::Approx((0.5 + 0.1995) / 0.399).epsilon(0.01));
-  CHECK(blurred(around, 0, Beyond::mirrored).values == around.values);
+  CHECK(blurred(around, 0, Beyond::mirrored, Task()).values == around.values);
 }
 
 TEST_CASE("a box blur keeps the sum and has the variance asked for") {
@@ -77,7 +77,7 @@ TEST_CASE("a box blur goes around the borders of planes that wrap, however wide 
 }
 
 TEST_CASE("a pyramid halves its levels, rounding up") {
-  const auto levels = gaussian_pyramid(bricks({37, 20}, 1), 3);
+  const auto levels = gaussian_pyramid(bricks({37, 20}, 1), 3, Task());
   REQUIRE(levels.size() == 3);
   CHECK(levels[1].size == Size{19, 10});
   CHECK(levels[2].size == Size{10, 5});

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <fstream>
-#include <limits>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -171,18 +170,6 @@ TEST_CASE("absurd sizes in a header are refused before memory is asked for") {
   CHECK(contains(error_of(folder.path() / "huge.tif"), "at most 2^31 values"));
   write_bytes(path, make_png({0, 4}, 8, 2, {Bytes(30)}));
   CHECK(contains(error_of(path), "cannot read"));
-}
-
-TEST_CASE("numbers that are not finite become 0, with a warning") {
-  const TemporaryFolder folder;
-  const float infinite = std::numeric_limits<float>::infinity();
-  for (const std::string type : {"float", "half"}) {
-    const fs::path path = folder.path() / fmt::format("{}.exr", type);
-    write_odd(path, {.size = {3, 1}, .type = type}, {std::nanf(""), -infinite, 0.5f});
-    const Read r = read(path);
-    CHECK(r.image->pixels() == std::vector<float>{0, 0, 0.5f});
-    CHECK(contains(r.warnings, fmt::format("warning: {}: 2 values are not finite", path.filename().string())));
-  }
 }
 
 TEST_CASE("values come as k / 255 and k / 65535, halfs and floats as they are") {

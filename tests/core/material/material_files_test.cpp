@@ -274,6 +274,8 @@ TEST_CASE("a packed name needs the channels it speaks of") {
   CHECK(maps_of("brushed_metallic_roughness.png", 1) ==
         std::vector<std::string>{"roughness=brushed_metallic_roughness.png"});
   CHECK(maps_of("brushed_metallic_roughness.png", 3).size() == 2);
+  CHECK(maps_of("wall_metalRoughness.png", 1) == std::vector<std::string>{"roughness=wall_metalRoughness.png"});
+  CHECK(maps_of("rock_nrm_rgh.png", 3) == std::vector<std::string>{"roughness=rock_nrm_rgh.png"});
 }
 
 TEST_CASE("of several files for one map the larger is taken, then the lossless one, and the notes say so") {
@@ -297,12 +299,37 @@ TEST_CASE("gloss stands in for roughness, inverted, only where there is no rough
         std::vector<std::string>{"roughness=rock_roughness.png"});
 }
 
-TEST_CASE("previews and lower levels of detail are left out, and the notes say why") {
-  const Recognition r = recognise_maps(files({"rock_preview_color.png", "rock_Normal_LOD2.png", "rock_sphere.png"}));
+TEST_CASE("previews are left out, and the notes say why") {
+  const Recognition r = recognise_maps(files({"rock_preview_color.png", "rock_mip2_normal.png", "rock_sphere.png"}));
   CHECK(r.maps.empty());
   CHECK(r.ignored.empty());
   CHECK(has_note(r, "rock_sphere.png left out: a picture of the material"));
-  CHECK(has_note(r, "rock_Normal_LOD2.png left out: a lower level of detail"));
+  CHECK(has_note(r, "rock_mip2_normal.png left out: a level of a mip chain"));
+}
+
+TEST_CASE("of several levels of detail the finest that is there is taken") {
+  struct Case {
+    std::vector<std::string> names;
+    std::string normal;
+  };
+  const std::vector<Case> cases = {
+      {{"tg_4K_Albedo.jpg", "tg_4K_LOD0_Normal.jpg", "tg_4K_LOD1_Normal.jpg"}, "tg_4K_LOD0_Normal.jpg"},
+      {{"tg_4K_Albedo.jpg", "tg_4K_Normal_LOD3.jpg", "tg_4K_Normal_LOD2.jpg"}, "tg_4K_Normal_LOD2.jpg"},
+      {{"tg_Albedo_LOD_1.jpg", "tg_Normal_LOD_10.jpg", "tg_Normal_LOD_2.jpg"}, "tg_Normal_LOD_2.jpg"},
+      {{"tgLOD2Albedo.jpg", "tgLOD2Normal.jpg"}, "tgLOD2Normal.jpg"},
+      {{"tg_lod-1_albedo.jpg", "tg_normal.jpg", "tg_lod-1_normal.jpg"}, "tg_normal.jpg"},
+  };
+  for (const auto& [names, normal] : cases) {
+    CAPTURE(normal);
+    const Recognition r = recognise_maps(files(names));
+    REQUIRE(r.maps.size() == 2);
+    CHECK(r.materials.size() == 1);
+    CHECK(r.maps[1].file == normal);
+  }
+  const Recognition r = recognise_maps(files({"tg_Normal_LOD3.jpg", "tg_Normal_LOD2.jpg"}));
+  CHECK(has_note(r, "normal is tg_Normal_LOD2.jpg, level of detail 2: the folder holds no finer one"));
+  CHECK(has_note(r, "tg_Normal_LOD3.jpg left out"));
+  CHECK_FALSE(has_note(recognise_maps(files({"tg_Normal_LOD0.jpg"})), "level of detail"));
 }
 
 TEST_CASE("the order in which files are listed does not matter") {

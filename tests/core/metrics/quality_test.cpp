@@ -33,7 +33,7 @@ const std::map<std::string, Quality>& calibration() {
         {"tiling", measured(exemplar, tiled(exemplar, size))},
         {"sample", measured(exemplar, sample)},
         {"blocks", measured(exemplar, random_blocks(exemplar, size, 16, 3))},
-        {"blur", measured(exemplar, blurred(sample, 2, Beyond::mirrored))},
+        {"blur", measured(exemplar, blurred(sample, 2, Beyond::mirrored, Task()))},
         {"shuffled", measured(exemplar, shuffled(tiled(exemplar, size), 4))},
         {"different", measured(exemplar, spots(size, 2))},
     };

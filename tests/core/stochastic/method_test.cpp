@@ -60,7 +60,7 @@ TEST_CASE("noise suits what has no lattice, no elements and no structure, and th
 
   const MethodChoice laid = suitable_method(*features_of({128, 128}, scratched), Task());
   CHECK(laid.method == Method::layout);
-  CHECK(laid.why.starts_with("its features stand out (structure "));
+  CHECK(laid.why.starts_with("its features stand out (structure 0."));
 
   const MethodChoice repeats = suitable_method(*plain->with(Lattice{2, {16, 0}, {0, 16}, 0.5}), Task());
   CHECK(repeats.method == Method::layout);
@@ -71,6 +71,16 @@ TEST_CASE("noise suits what has no lattice, no elements and no structure, and th
   const MethodChoice whole = suitable_method(*plain->with(std::make_shared<const Elements>(two)), Task());
   CHECK(whole.method == Method::layout);
   CHECK(whole.why == "its 2 elements stay whole");
+}
+
+TEST_CASE("structure is told as a share, however far from Gaussian an exemplar is") {
+  const auto line = [](int x, int y) { return x == 64 && y > 20 && y < 100 ? 1.0 : 0.001 * grain(x, y); };
+  const FeaturesPtr features = features_of({128, 128}, line);
+  CHECK(structure(*features, Task()) > 1);
+  const std::string why = suitable_method(*features, Task()).why;
+  CAPTURE(why);
+  CHECK(why.starts_with("its features stand out (structure 0."));
+  CHECK(why.ends_with(" of 1, above 0.14)"));
 }
 
 TEST_CASE("looking for structure can be cancelled") {

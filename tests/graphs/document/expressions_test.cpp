@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "tests/graphs/document/fake_types.h"
+#include "tests/texts.h"
 
 using namespace terrazzo;
 using namespace terrazzo::test;
@@ -140,6 +141,27 @@ TEST_CASE("sizes of sources are known to expressions before anything runs") {
   CHECK(size_of(load(nodes, twice, {"stones.size=32"}), "far") == Size{64, 64});
   CHECK(size_of(load(nodes, twice, {"size=100"}), "far") == Size{100, 100});
   CHECK(size_of(load(nodes, twice, {"far.size==@stones.size.x"}), "far") == Size{96, 96});
+}
+
+TEST_CASE("texts and lists that are made from one another stay short") {
+  std::string doubling = R"("t0": {"type": "text", "default": "0123456789"})";
+  for (int i = 1; i <= 60; i++)
+    doubling += fmt::format(R"(, "t{0}": {{"type": "text", "default": "=t{1} + t{1}"}})", i, i - 1);
+  CHECK(contains(problems_of(document(R"("a": {"type": "photo", "file": "$t60"})", doubling)),
+                 "the result is longer than 1 MiB"));
+  const std::string half(700000, 'x');
+  const std::string text = R"("t": {"type": "text", "default": ")" + half + R"("})";
+  CHECK(problems_of(document(R"("a": {"type": "photo", "file": "$t"})", text)) == "");
+  for (const char* value : {R"("$t$t")", R"("=t + t")"})
+    CHECK(contains(problems_of(document(fmt::format(R"("a": {{"type": "photo", "file": {}}})", value), text)),
+                   "longer than 1 MiB"));
+  CHECK(contains(problems_of(document(R"("g": {"type": "gather", "images": "@a", "channels": {"r": "$t", "g": "$t"}},
+    "a": {"type": "photo", "file": "x"})",
+                                      text)),
+                 "longer than 1 MiB"));
+  CHECK(
+      contains(problems_of(document(R"("a": {"type": "photo", "file": "$t", "foreach": {"values": "1..200"}})", text)),
+               "are longer than 64 MiB"));
 }
 
 TEST_CASE("an expression cannot ask for what is made from it, nor for what is not known") {

@@ -157,3 +157,40 @@ TEST_CASE("a port for one wire takes no loop, unless it has one round") {
   CHECK(problems_of(text(R"(["x"])")).empty());
   CHECK(problems_of(text(R"(["x", "y"])")).ends_with("the port takes one wire, and \"@p\" stands for 2 (a loop)"));
 }
+
+TEST_CASE("loops that read loops, and parameters of many uses, are bounded") {
+  const std::string loops = document(R"("p": {"type": "photo", "file": "a.png", "foreach": {"values": "1..1100"}},
+    "all": {"type": "gather", "images": "@p", "foreach": {"values": "1..1100"}},
+    "out": {"type": "write", "material": "@all[1]", "path": "x.png"})");
+  CHECK(contains(problems_of(loops), "a graph may have fewer than 1000000 wires"));
+  std::string parameters;
+  for (int i = 0; i < 300; i++)
+    parameters += fmt::format(R"({}"p{}": {{"type": "int", "default": 1}})", i == 0 ? "" : ", ", i);
+  const std::string uses = R"({"terrazzo": 1, "graphs": {"sub": {"parameters": {)" + parameters +
+                           R"(}, "nodes": {"n": {"type": "photo", "file": "a.png"}}}},
+    "nodes": {"all": {"type": "sub", "foreach": {"values": "1..700"}}}})";
+  CHECK(contains(problems_of(uses), "the subgraphs of a graph may have at most 200000 parameters together"));
+}
+
+TEST_CASE("a round's overrides are those of all rounds and its own, in their order") {
+  const std::vector<std::string> overrides = {"p[y].kind=normal", "p.kind=height", "p[x].kind=normal"};
+  const LoadedGraph loaded = looped(R"({"values": ["x", "y", "z"]})", R"("file": "a.png")", overrides);
+  const auto kind = [&](const char* node) { return std::get<std::string>(loaded.graph.find(node)->params.at("kind")); };
+  CHECK(kind("p[x]") == "normal");
+  CHECK(kind("p[y]") == "height");
+  CHECK(kind("p[z]") == "height");
+}
+
+TEST_CASE("a round has its loop's variables and the graph's parameters") {
+  const std::string text = document(
+      R"("p": {"type": "photo", "foreach": {"values": [1, 2]}, "file": "=dir + '/' + item + made + '.png'"},
+    "all": {"type": "gather", "images": "@p"}, "out": {"type": "write", "material": "@all", "path": "x.png"})",
+      R"("dir": {"type": "text", "default": "in"}, "made": {"type": "text", "default": "=dir + dir"},
+    "spare": {"type": "int", "default": 1})");
+  const LoadedGraph loaded = load_fake(text, {"dir=a"});
+  CHECK(files_of(loaded) == std::vector<std::string>{"/project/graphs/a/1aa.png", "/project/graphs/a/2aa.png"});
+  REQUIRE(loaded.warnings.size() == 1);
+  CHECK(contains(loaded.warnings[0].where, "spare"));
+  CHECK(contains(problems_of(document(R"("p": {"type": "photo", "foreach": {"values": [1]}, "file": "$itm"})")),
+                 "did you mean \"item\"?"));
+}

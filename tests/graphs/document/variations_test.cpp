@@ -80,12 +80,70 @@ TEST_CASE("what is wrong with a table is said with its line") {
   CHECK(problem(csv, "seed\n") == "t.csv: expected a line of names and at least one line of values");
   CHECK(problem(csv, "seed,out\n1\n") == "t.csv:2: expected 2 cells as in the first line, found 1");
   CHECK(problem(csv, "seed,\n1,2\n") == "t.csv:1: column 2 has no name");
+  CHECK(problem(csv, "seed,out,seed\n1,a,2\n") ==
+        "t.csv:1: columns 1 and 3 are both named \"seed\"; a value is given once");
+  CHECK(problem(csv, "\xEF\xBB\xBFout,\"out\"\n1,2\n") ==
+        "t.csv:1: columns 1 and 2 are both named \"out\"; a value is given once");
+  CHECK(problem(json, R"([{"seed": 1, "seed": 2}])").find("t.json:1:14: ") == 0);
   CHECK(problem(csv, "seed\n\"1\n\n") == "t.csv:2: a quote is opened and not closed");
   CHECK(problem(csv, "seed\n\"1\"2\n") == "t.csv:2: expected a comma or the end of the line after a cell in quotes");
   CHECK(problem(json, "{}").find("t.json:1:1: expected a list of objects") == 0);
   CHECK(problem(json, "[3]").find("t.json:1:2: expected a list of objects") == 0);
   CHECK(problem(json, "[{]").find("t.json:1:3") == 0);
   CHECK(trouble([&] { read_table(folder.path() / "none.csv"); }).find("there is no such table") != std::string::npos);
+}
+
+TEST_CASE("a sweep lists at most as many values as there may be variations, and each keeps only its beginning") {
+  std::string list = "n=1";
+  for (int i = 1; i < 10000; i++) list += ",1";
+  const std::vector<Variation> all = swept({list});
+  CHECK(all.size() == 10000);
+  CHECK(all.front().origins.at("n").where.size() < 120);
+  CHECK(trouble([&] { swept({list + ",1"}); }).find("more than 10000 variations") != std::string::npos);
+}
+
+TEST_CASE("a variation that is there twice is merged once") {
+  GraphMerger merger;
+  const std::string text =
+      document(R"("a": {"type": "photo", "file": "$f"})", R"("f": {"type": "path", "default": "x"})");
+  merger.add(load_fake(text, {"f=a"}).graph, "f=a");
+  merger.add(load_fake(text, {"f=b"}).graph, "f=b");
+  merger.add_again(1);
+  const MergedGraph all = merger.merged();
+  CHECK(all.graph.nodes.size() == 2);
+  CHECK(all.names[1] == all.names[2]);
+  CHECK(all.names[0] != all.names[1]);
+}
+
+TEST_CASE("what a table and a sweep both give is refused") {
+  const TemporaryFolder folder;
+  const fs::path csv = folder.path() / "t.csv";
+  write_text(csv, "seed,out\n1,a\n,b\n");
+  CHECK(trouble([&] {
+          combined(read_table(csv), swept({"size=1,2", "seed=1..3"}));
+        }) == "\"seed\" is given twice: by column \"seed\" of " + csv.string() + " and by --sweep \"seed=1..3\"");
+}
+
+TEST_CASE("integers in sweeps are exact, up to the limits of 64 bits") {
+  CHECK(labels(swept({"seed=9007199254740993..9007199254740996"})) ==
+        "seed=9007199254740993 | seed=9007199254740994 | seed=9007199254740995 | seed=9007199254740996");
+  CHECK(labels(swept({"seed=9223372036854775805..9223372036854775807"})) ==
+        "seed=9223372036854775805 | seed=9223372036854775806 | seed=9223372036854775807");
+  CHECK(labels(swept({"seed=-9223372036854775808..9223372036854775807:9223372036854775807"})) ==
+        "seed=-9223372036854775808 | seed=-1 | seed=9223372036854775806");
+  CHECK(labels(swept({"seed=9223372036854775807..-9223372036854775808:-9223372036854775808"})) ==
+        "seed=9223372036854775807 | seed=-1");
+  CHECK(labels(swept({"seed=9007199254740993..9007199254740993"})) == "seed=9007199254740993");
+  CHECK(labels(swept({"seed=9007199254740994..9007199254740992"})) ==
+        "seed=9007199254740994 | seed=9007199254740993 | seed=9007199254740992");
+  CHECK(trouble([] { swept({"seed=9223372036854775807..9223372036854775808"}); }) ==
+        "\"seed=9223372036854775807..9223372036854775808\": expected integers from -9223372036854775808 to "
+        "9223372036854775807, found 9223372036854775808");
+  CHECK(trouble([] { swept({"seed=9007199254740993..9007199254740992:1"}); }).find("a step that leads from") !=
+        std::string::npos);
+  CHECK(trouble([] { swept({"seed=-9223372036854775808..9223372036854775807"}); }).find("more than 10000") == 0);
+  CHECK(trouble([] { swept({"x=9007199254740993..9007199254740995:0.5"}); }) ==
+        "\"x=9007199254740993..9007199254740995:0.5\": beyond 9007199254740992 a step must be an integer");
 }
 
 TEST_CASE("merged variations share what is the same, and differ where their values do") {

@@ -58,7 +58,8 @@ std::string message_of(const std::function<void()>& act) {
 
 size_t count_files(const fs::path& folder) {
   size_t count = 0;
-  for (const auto& f : fs::recursive_directory_iterator(folder)) count += f.is_regular_file();
+  for (const auto& f : fs::recursive_directory_iterator(folder))
+    count += f.is_regular_file() && !f.path().filename().string().starts_with('.');
   return count;
 }
 
@@ -66,8 +67,8 @@ size_t count_files(const fs::path& folder) {
 
 TEST_CASE("a library gives back what was added") {
   const Place p;
-  p.library.add(p.entry("wall/rubble"));
-  p.library.add(p.entry("sand"));
+  p.library.add(p.entry("wall/rubble"), true);
+  p.library.add(p.entry("sand"), true);
   std::vector<std::string> faults;
   const std::vector<LibraryEntry> all = p.library.entries(faults);
   CHECK(faults.empty());
@@ -91,18 +92,18 @@ TEST_CASE("a library gives back what was added") {
 
 TEST_CASE("an entry is replaced with its files, and removed with them and its folders") {
   const Place p;
-  p.library.add(p.entry("wall/rubble"));
+  p.library.add(p.entry("wall/rubble"), true);
   const LibraryEntry old = p.library.find("wall/rubble");
   LibraryEntry other = p.entry("wall/rubble");
   save_value(sample_values()[size_t(ValueType::index)], other.analysis, Task(), 7);  // the same with another duration
-  p.library.add(other);
+  p.library.add(other, true);
   CHECK(p.library.find("wall/rubble").content != old.content);
   CHECK_FALSE(fs::exists(old.analysis));
   CHECK(count_files(p.path / "own") == 3);
   write_text(p.path / "own/wall/other.txt", "");
   p.library.remove("wall/rubble");
   CHECK(count_files(p.path / "own") == 1);
-  p.library.add(p.entry("a/b/c"));
+  p.library.add(p.entry("a/b/c"), true);
   write_text(p.path / "own/a/b/c.json", "{");  // one that cannot be read goes as well
   p.library.remove("a/b/c");
   CHECK_FALSE(fs::exists(p.path / "own/a"));
@@ -111,9 +112,9 @@ TEST_CASE("an entry is replaced with its files, and removed with them and its fo
 
 TEST_CASE("the first of several folders hides those after it") {
   const Place p;
-  Library({p.path / "shared"}).add(p.entry("sand"));
+  Library({p.path / "shared"}).add(p.entry("sand"), true);
   CHECK(p.library.find("sand").library == p.path / "shared");
-  p.library.add(p.entry("sand"));
+  p.library.add(p.entry("sand"), true);
   CHECK(p.library.find("sand").library == p.path / "own");
   std::vector<std::string> faults;
   CHECK(p.library.entries(faults).size() == 1);
@@ -134,7 +135,7 @@ TEST_CASE("names of entries stay inside the library") {
 
 TEST_CASE("faults of entries are found") {
   const Place p;
-  p.library.add(p.entry("sand"));
+  p.library.add(p.entry("sand"), true);
   const LibraryEntry e = p.library.find("sand");
   const auto faults = [&] {
     std::string out;
@@ -154,13 +155,13 @@ TEST_CASE("faults of entries are found") {
   fs::remove(e.analysis);
   CHECK(contains(faults(), "cannot be read"));
   fs::create_directories(p.path / "maps");
-  p.library.add(p.entry("no-index", ValueType::uv_map));
+  p.library.add(p.entry("no-index", ValueType::uv_map), true);
   CHECK(Library::faults_of(p.library.find("no-index")).front() == "its analysis is no index");
 }
 
 TEST_CASE("an entry that somebody has changed by hand is named with what is wrong") {
   const Place p;
-  p.library.add(p.entry("sand"));
+  p.library.add(p.entry("sand"), true);
   const fs::path file = p.path / "own/sand.json";
   const std::string good = read_text(file);
   const auto changed = [&](const std::string& from, const std::string& to) {
@@ -181,9 +182,35 @@ TEST_CASE("an entry that somebody has changed by hand is named with what is wron
   changed("}", "");
 }
 
+TEST_CASE("of several that replace an entry at once, one is there with its analysis") {
+  const Place p;
+  // Contents that come and go: what one replaces is what another has just brought.
+  const auto add = [&](int content) {
+    LibraryEntry e = p.entry("sand");
+    save_value(sample_values()[size_t(ValueType::index)], e.analysis, Task(), content);
+    p.library.add(e, true);
+  };
+  int without_analysis = 0;
+  for (int round = 0; round < 60; round++) {
+    std::vector<std::thread> adding;
+    for (int t = 0; t < 3; t++) adding.emplace_back([&, t] { add((round + t) % 2); });
+    for (std::thread& t : adding) t.join();
+    const LibraryEntry e = p.library.find("sand");
+    without_analysis += content_digest(e.analysis) != e.content || !fs::exists(e.picture);
+  }
+  CHECK(without_analysis == 0);
+  CHECK(count_files(p.path / "own") == 3);
+}
+
+TEST_CASE("an entry that was added meanwhile is not replaced by one that may not") {
+  const Place p;
+  p.library.add(p.entry("sand"), false);
+  CHECK(contains(message_of([&] { p.library.add(p.entry("sand"), false); }), "--force replaces it"));
+}
+
 TEST_CASE("processes that add and read one entry at once never see half of it") {
   const Place p;
-  p.library.add(p.entry("sand"));
+  p.library.add(p.entry("sand"), true);
   std::vector<std::thread> writers;
   std::atomic<bool> done = false;
   std::atomic<int> failures = 0;
@@ -192,7 +219,7 @@ TEST_CASE("processes that add and read one entry at once never see half of it") 
       for (int i = 0; i < 10; i++) {
         LibraryEntry e = p.entry("sand");
         save_value(sample_values()[size_t(ValueType::index)], e.analysis, Task(), t * 100 + i + 1);
-        failures += !message_of([&] { p.library.add(e); }).empty();
+        failures += !message_of([&] { p.library.add(e, true); }).empty();
       }
     });
   std::thread reader([&] {

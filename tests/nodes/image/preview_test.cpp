@@ -107,6 +107,37 @@ TEST_CASE("a step throws a shadow away from the light, as long as the relief is 
   CHECK(at(shallow, 42, 8) > at(deep, 42, 8) + 0.3);
 }
 
+TEST_CASE("heights that do not tile put no cliff on the border, with normals or without, once or repeated") {
+  // A slope that rises to the right by more than any step inside: across the border it falls back.
+  const auto slope = [](int side) {
+    return make_image(
+        {side, 32}, 1, [=](int x, int, int) { return float(x) / float(side); }, Semantic::height);
+  };
+  const auto lit = [](const ImagePtr& height, double repeats, bool with_normals) {
+    std::vector<Map> maps = {{"base_color", white(height->size())}, {"height", height}};
+    if (with_normals)
+      maps.push_back(
+          {"normal", run_node("make_normal", {{"edges", "clamp"}}, {{"height", {height}}}).get<Image>("normal")});
+    return preview(
+        Material::make("slope", maps),
+        {{"size", Size{64, 32}}, {"azimuth", 180.0}, {"elevation", 20.0}, {"relief", 4.0}, {"repeats", repeats}});
+  };
+  for (const bool with_normals : {false, true}) {
+    CAPTURE(with_normals);
+    const ImagePtr once = lit(slope(64), 1, with_normals), twice = lit(slope(32), 2, with_normals);
+    for (int x = 1; x < 63; x++) CHECK(at(once, x, 16) == doctest::Approx(at(once, 32, 16)).epsilon(0.02));
+    for (const int x : {2, 10, 29, 34, 50, 61})
+      CHECK(at(twice, x, 16) == doctest::Approx(at(twice, 16, 16)).epsilon(0.02));
+  }
+  // A wall that tiles throws its shadow across the border.
+  const auto wall = make_image(
+      {64, 32}, 1, [](int x, int, int) { return x < 8 || x >= 40 ? 1.f : 0.f; }, Semantic::height);
+  const auto across = make_image(
+      {64, 32}, 1, [](int x, int, int) { return x >= 56 ? 1.f : 0.f; }, Semantic::height);
+  CHECK(at(lit(wall, 1, false), 9, 16) < at(lit(wall, 1, false), 30, 16) - 0.5);
+  CHECK(at(lit(across, 1, false), 1, 16) < at(lit(across, 1, false), 40, 16) - 0.5);
+}
+
 TEST_CASE("rough and smooth, metal and not, occluded and open differ as they should") {
   const auto flat = [](Semantic semantic, float value) {
     return Map{std::string(name_of(semantic)), make_image(

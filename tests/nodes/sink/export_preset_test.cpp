@@ -3,9 +3,11 @@
 #include <filesystem>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/image/image_file.h"
+#include "nodes/common/registry.h"
 #include "tests/run_node.h"
 #include "tests/texts.h"
 
@@ -27,6 +29,12 @@ MaterialPtr wall(PhysicalSize metres = {}) {
                          {"height", map(Semantic::height, 1)},
                          {"roughness", map(Semantic::roughness, 1)}},
                         metres);
+}
+
+Params with_defaults(Params given) {
+  for (const Param& p : find_node_type("export_preset")->params)
+    if (p.fallback) given.try_emplace(p.name, *p.fallback);
+  return given;
 }
 
 NodeRun run(const fs::path& folder, Params params, const MaterialPtr& m = wall()) {
@@ -105,6 +113,97 @@ TEST_CASE("the images in a binary glTF have the quality and the depth asked for"
   };
   CHECK(size("jpg", 10, "keep") < size("jpg", 95, "keep"));
   CHECK(size("png", 95, "uint8") < size("png", 95, "uint16"));
+}
+
+TEST_CASE("mip levels show nothing of what lies under transparent pixels, in every preset and format") {
+  const Size size{32, 32};
+  const auto is_leaf = [](int x, int y) { return (x - 13) * (x - 13) + (y - 17) * (y - 17) < 60; };
+  const MaterialPtr leaf = Material::make(
+      "leaf", {{"base_color", make_image(
+                                  size, 3, [&](int x, int y, int c) { return is_leaf(x, y) ? 0.2f * float(c) : 1.0f; },
+                                  Semantic::base_color, "srgb_texture")},
+               {"opacity", make_image(
+                               size, 1, [&](int x, int y, int) { return float(is_leaf(x, y)); }, Semantic::opacity)}});
+  for (const ExportPreset& p : export_presets())
+    for (const char* format : {"png", "tif", "exr", "tga"}) {
+      const Params params = {{"preset", std::string(p.name)},
+                             {"format", std::string(format)},
+                             {"mips", true},
+                             {"depth", format == std::string("exr") ? "float" : "keep"},
+                             {"path", std::string()}};
+      const bool takes_format = find_node_type("export_preset")->check(with_defaults(params)).empty();
+      if (p.document == PresetDocument::glb || !takes_format) continue;
+      CAPTURE(p.name);
+      CAPTURE(format);
+      const TemporaryFolder folder;
+      CHECK(run(folder.path(), params, leaf).says("colours count by their opacity in mip levels"));
+      int levels = 0;
+      for (const auto& f : fs::directory_iterator(folder.path())) {
+        if (f.path().string().find(".mip") == std::string::npos) continue;
+        const ImagePtr level = read_image(f.path(), {}, [](const std::string&) {});
+        if (level->channels() < 3) continue;
+        levels++;
+        const std::vector<float> pixels = level->pixels();
+        for (size_t i = 0; i < pixels.size(); i += size_t(level->channels())) CHECK(pixels[i] < 0.01f);
+      }
+      CHECK(levels == 5);
+    }
+}
+
+TEST_CASE("what a format certainly cannot hold is refused before anything runs, whatever the preset") {
+  const NodeType& type = *find_node_type("export_preset");
+  const auto refusal = [&](std::string_view preset, const char* format, const std::vector<std::string>& maps) {
+    Params params = with_defaults({{"preset", std::string(preset)}, {"format", std::string(format)}, {"path", "out"}});
+    Forecast material;
+    material.maps = maps;
+    try {
+      type.infer(params, {{"material", {material}}});
+    } catch (const Error& e) {
+      return fmt::format("{}: {}", e.about(), e.what());
+    }
+    return std::string();
+  };
+  for (const char* preset : {"gltf", "glb", "unity_hdrp", "unity_urp", "godot"}) {
+    CAPTURE(preset);
+    const std::string said = refusal(preset, "jpg", {"base_color", "opacity"});
+    CHECK(contains(said, "format: "));
+    CHECK(contains(said, "alpha channel (colours, sRGB; alpha: opacity), which JPEG does not have; take png"));
+    CHECK(refusal(preset, "jpg", {"base_color"}).empty());
+    CHECK(refusal(preset, "png", {"base_color", "opacity"}).empty());
+    CHECK(refusal(preset, "jpg", {}).empty());
+  }
+  for (const char* preset : {"unreal", "usd", "materialx", "blender", "maps"})
+    CHECK(refusal(preset, "jpg", {"base_color", "opacity", "roughness"}).empty());
+  CHECK(contains(refusal("unity_hdrp", "jpg", {"base_color", "roughness"}), "format: "));
+  CHECK(contains(refusal("unity_urp", "jpg", {"base_color", "metallic"}), "format: "));
+}
+
+TEST_CASE("what an earlier export wrote and this one does not is told, and not taken for current") {
+  const auto without = [](std::string_view map) {
+    std::vector<Map> maps = wall()->maps();
+    std::erase_if(maps, [&](const Map& m) { return m.name == map; });
+    return Material::make("wall", maps);
+  };
+  const auto maps_in = [](const fs::path& folder) {
+    return run_node("load_material", {{"path", folder.string()}}).get<Material>("material")->map_names();
+  };
+  const TemporaryFolder maps;
+  CHECK_FALSE(run(maps.path(), {{"mips", true}}).says("earlier export"));
+  const NodeRun fewer = run(maps.path(), {}, without("height"));
+  CHECK(
+      fewer.says("still holds wall_base_color.mip1.png, wall_base_color.mip2.png, wall_base_color.mip3.png, "
+                 "wall_height.mip1.png"));
+  CHECK(fewer.says("wall_height.png"));
+  CHECK(maps_in(maps.path()) == "base_color, normal, roughness");
+  CHECK_FALSE(run(maps.path(), {{"mips", true}}).says("earlier export"));
+  CHECK_FALSE(run(maps.path(), {{"name", "other"}}).says("earlier export"));
+
+  const TemporaryFolder binary;
+  run(binary.path(), {{"preset", "glb"}});
+  CHECK(run(binary.path(), {{"preset", "glb"}}, without("height")).says("still holds wall_height.png of an earlier"));
+  CHECK(contains(error_of("load_material", {{"path", binary.path().string()}}), "one binary file"));
+  CHECK_FALSE(run(binary.path(), {{"preset", "glb"}}).says("earlier export"));
+  CHECK(maps_in(binary.path()) == "height");
 }
 
 TEST_CASE("float files hold linear colours") {

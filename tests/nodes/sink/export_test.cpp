@@ -98,6 +98,17 @@ TEST_CASE("a depth the format does not hold becomes the nearest, and a note says
     CHECK(read(folder.path() / fmt::format("{}.tif", map))->info().depth == Depth::f16);
 }
 
+TEST_CASE("halfs are written as floats in TIFF, which more programs read, unless halfs are asked for") {
+  const TemporaryFolder folder;
+  const MaterialPtr material = Material::make("m", {{"height", map_of(Semantic::height, 1, Depth::f16)}});
+  const NodeRun r = run(folder.path(), "{map}.tif", {}, material);
+  CHECK(read(folder.path() / "height.tif")->info().depth == Depth::f32);
+  CHECK(read(folder.path() / "height.tif")->pixels() == material->find("height")->pixels());
+  CHECK(r.notes.empty());
+  run(folder.path(), "{map}.tif", {{"depth", "half"}}, material);
+  CHECK(read(folder.path() / "height.tif")->info().depth == Depth::f16);
+}
+
 TEST_CASE("colours are converted on request, data never") {
   const TemporaryFolder folder;
   run(folder.path(), "{map}.exr", {{"color_space", "lin_rec709"}, {"depth", "float"}});

@@ -177,3 +177,58 @@ TEST_CASE("a packed file whose name says nothing is known by its pixels") {
   write_image(*pattern->find("roughness"), folder.path() / "wall_roughness.png", {}, [](double) {});
   CHECK(run_node("load_material", {{"path", path}}).says("ignored, the name says no map: wall_extra.png"));
 }
+
+TEST_CASE("alpha that the file says is none, or that is 0 everywhere, is no opacity; DDS is looked at") {
+  const TemporaryFolder folder;
+  const auto loaded = [&](const char* name) {
+    const NodeRun run = run_node("load_material", {{"path", folder.path().string()}});
+    INFO(name);
+    CHECK(run.get<Material>("material")->map_names() == "base_color");
+    CHECK(run.get<Material>("material")->find("base_color")->channels() == 3);
+    return run;
+  };
+  write(folder.path() / "wall_basecolor.png", 4, [](int x, int, int c) { return c == 3 ? 0 : float(x) / 15; });
+  CHECK(loaded("png").says("warning: wall_basecolor.png: its alpha is 0 everywhere, so that nothing would be seen"));
+  fs::remove(folder.path() / "wall_basecolor.png");
+  // 1x1, 32 bits, BI_RGB.
+  Bytes bmp(58);
+  for (const auto& [at, value] : {std::pair{0, 'B'},
+                                  {1, 'M'},
+                                  {2, char(58)},
+                                  {10, char(54)},
+                                  {14, char(40)},
+                                  {18, char(1)},
+                                  {22, char(1)},
+                                  {26, char(1)},
+                                  {28, char(32)},
+                                  {54, char(10)}})
+    bmp[size_t(at)] = uint8_t(value);
+  write_bytes(folder.path() / "wall_basecolor.bmp", bmp);
+  CHECK(loaded("bmp").says("wall_basecolor.bmp: the fourth byte of its pixels is unused"));
+  fs::remove(folder.path() / "wall_basecolor.bmp");
+  Bytes dds(136);  // 4x4 of DXT1, a cube map
+  for (const auto& [at, value] : {std::pair{0, 'D'},
+                                  {1, 'D'},
+                                  {2, 'S'},
+                                  {3, ' '},
+                                  {4, char(124)},
+                                  {8, char(7)},
+                                  {9, char(0x10)},
+                                  {12, char(4)},
+                                  {16, char(4)},
+                                  {76, char(32)},
+                                  {80, char(4)},
+                                  {84, 'D'},
+                                  {85, 'X'},
+                                  {86, 'T'},
+                                  {87, '1'},
+                                  {109, char(0x10)},
+                                  {113, char(0xfe)}})
+    dds[size_t(at)] = uint8_t(value);
+  write_bytes(folder.path() / "wall_basecolor.dds", dds);
+  CHECK(contains(error_of("load_material", {{"path", folder.path().string()}}),
+                 "wall_basecolor.dds: it is a cube map; expected a flat picture"));
+  dds[113] = 0;
+  write_bytes(folder.path() / "wall_basecolor.dds", dds);
+  CHECK(loaded("dds").says("base_color: wall_basecolor.dds"));
+}

@@ -133,7 +133,7 @@ TEST_CASE("what a file says of itself counts more than its name") {
                              : std::string(name) == "wall_color.tif"
                                  ? "seed 7\nterrazzo: base_color color_space=lin_rec709"
                                  : "terrazzo: height color_space=raw";
-    const ImagePtr image = make_image({16, 16}, 3, [](int x, int y, int) { return float(x * y % 7) / 8; });
+    const ImagePtr image = make_image({16, 16}, 3, [](int x, int y, int c) { return float((x * y + c) % 7) / 8; });
     const FileFormat format = *format_from(name);
     write_image(*image, folder.path() / name,
                 {.format = format, .depth = format == FileFormat::exr ? Depth::f32 : Depth::u8, .description = text},

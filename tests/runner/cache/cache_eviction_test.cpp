@@ -287,5 +287,6 @@ TEST_CASE("a process that is stopped while it holds the folder's lock does not h
   const std::vector<Value> values = store_row(folder.path(), 1);
   const File stopped = File::open(CacheFolder(folder.path()).lock(), O_RDWR | O_CREAT);
   REQUIRE(lock_file(stopped, LOCK_EX));
-  CHECK_FALSE(lock_file_soon(File::open(CacheFolder(folder.path()).lock(), O_RDWR), LOCK_SH));
+  CHECK_FALSE(
+      lock_file_soon(File::open(CacheFolder(folder.path()).lock(), O_RDWR), LOCK_SH, std::chrono::milliseconds(20)));
 }

@@ -43,7 +43,7 @@ TEST_CASE(
     CHECK(r.err.find(warning, at + 1) == std::string::npos);
     CHECK(contains(r.err, "and were clipped by uint16; write it as .exr"));
     if (mode == "none") CHECK(r.err.find('\n') + 1 == r.err.size());
-    CHECK(contains(read_text(w.path / "page.html"), "<p class=\"failed\">files: warning: height: "));
+    CHECK(contains(read_text(w.path / "page.html"), "<span class=\"failed\">files: warning: height: "));
   }
   const ProgramRun again = w.run({"synth", "tall", "-o", "out", "--size", "48x48"});
   CHECK(contains(again.err, warning));

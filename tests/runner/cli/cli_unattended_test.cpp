@@ -6,10 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/file_io.h"
-#include "runner/engine/sandbox.h"
 #include "test_paths.h"
-#include "tests/runner/fakes.h"
 #include "tests/runner/workplace.h"
+#include "tests/texts.h"
 
 /// Runs that nobody watches.
 using namespace terrazzo;
@@ -218,108 +217,4 @@ TEST_CASE("a summary that cannot be written is told before anything runs") {
   const ProgramRun r = w.run({"run", "soft.json", "--summary", "file/sum.json"});
   CHECK(r.code == 2);
   CHECK_MESSAGE(r.err.find("error: --summary file/sum.json: ") == 0, r.err);
-}
-
-namespace {
-
-/// A graph in a folder, and things around that it is not to touch.
-struct Prison : Workplace {
-  Prison() {
-    fs::create_directories(path / "in");
-    write_picture(path / "in/photo.png", 5);
-    write_picture(path / "secret.png", 7);
-    fs::create_directories(path / "outside");
-    fs::create_symlink(path / "outside", path / "in/away");
-    fs::create_symlink(path / "secret.png", path / "in/link.png");
-  }
-  ProgramRun run_graph(const std::string& source, const std::string& target, std::vector<std::string> more = {}) const {
-    write_text(path / "in/graph.json", R"({"terrazzo": 1, "parameters": {"out": {"type": "path", "default": ")" +
-                                           target + R"("}}, "nodes": {
-  "photo": {"type": "load_map", "path": ")" +
-                                           source + R"("},
-  "files": {"type": "export", "material": "@photo", "path": "$out/{map}.png"}
-}})");
-    std::vector<std::string> args = {"run", "in/graph.json", "--sandbox", "in"};
-    args.insert(args.end(), more.begin(), more.end());
-    return run(args);
-  }
-};
-
-}  // namespace
-
-TEST_CASE("in a sandbox nodes read and write nothing elsewhere, through links neither, and it is said where and why") {
-  const Prison w;
-  const ProgramRun good = w.run_graph("photo.png", "out");
-  CHECK_MESSAGE(good.code == 0, good.err);
-  CHECK(listing(w.path / "in/out") == std::vector<std::string>{"base_color.png"});
-  struct Case {
-    const char* source;
-    const char* target;
-    const char* says;
-  };
-  for (const Case& c : {Case{"../secret.png", "out2", "node \"photo\" (load_map), parameter \"path\": may not read "},
-                        Case{"link.png", "out2", "node \"photo\" (load_map), parameter \"path\": may not read "},
-                        Case{"away/x.png", "out2", "node \"photo\" (load_map), parameter \"path\": may not read "},
-                        Case{"photo.png", "../out", "node \"files\" (export), parameter \"path\""},
-                        Case{"photo.png", "away", "node \"files\" (export), parameter \"path\""},
-                        Case{"photo.png", "away/deep/er", "node \"files\" (export), parameter \"path\""}}) {
-    for (const bool dry : {false, true}) {
-      const ProgramRun r =
-          w.run_graph(c.source, c.target, dry ? std::vector<std::string>{"--dry-run"} : std::vector<std::string>{});
-      CHECK(r.code == 2);
-      CHECK_MESSAGE(r.err.find(c.says) != std::string::npos, r.err);
-      CHECK_MESSAGE(r.err.find("lies outside of the sandbox in; name it on the command line") != std::string::npos,
-                    r.err);
-    }
-  }
-  CHECK(fs::is_empty(w.path / "outside"));
-  CHECK_FALSE(fs::exists(w.path / "out"));
-  CHECK_FALSE(fs::exists(w.path / "in/out2"));
-}
-
-TEST_CASE("what --set names is allowed in a sandbox, and nothing beside it") {
-  const Prison w;
-  const ProgramRun named =
-      w.run_graph("../secret.png", "out", {"--set", "photo.path=secret.png", "--set", "out=result"});
-  CHECK_MESSAGE(named.code == 0, named.err);
-  CHECK(listing(w.path / "result") == std::vector<std::string>{"base_color.png"});
-  CHECK(w.run_graph("../secret.png", "out", {"--set", "out=result"}).code == 2);
-  CHECK(w.run_graph("photo.png", "../results", {"--set", "photo.path=secret.png"}).code == 2);
-  const ProgramRun synth = w.run({"synth", "nowhere", "-o", "out", "--sandbox", "gone"});
-  CHECK(synth.code == 2);
-}
-
-TEST_CASE("a link that comes to lead outside of the sandbox after the plan was made is refused when the node runs") {
-  const Prison w;
-  fs::create_directories(w.path / "in/out");
-  FakeTypes t;
-  Graph g;
-  add(g, "a", t.number, {{"value", 1.0}});
-  t.during_sum = [&](NodeContext&) {
-    fs::remove(w.path / "in/out");
-    fs::create_symlink(w.path / "outside", w.path / "in/out");
-    fs::remove(w.path / "in/number.txt");
-    fs::create_symlink(w.path / "number.txt", w.path / "in/number.txt");
-  };
-  write_text(w.path / "number.txt", "7");
-  write_text(w.path / "in/number.txt", "7");
-  add(g, "evil", t.sum, {}, {"a"});
-  add(g, "file", t.write, {{"path", (w.path / "in/out/x.txt").string()}}, {"evil"});
-  add(g, "source", t.file, {{"path", (w.path / "in/number.txt").string()}});
-  add(g, "late", t.sum, {}, {"source"});
-  const Sandbox sandbox(w.path / "in", {});
-  REQUIRE(sandbox_problems(g.nodes, sandbox).empty());
-  RunOptions options;
-  options.sandbox = &sandbox;
-  const RunResult r = run_graph(g, options);
-  REQUIRE(r.failures.size() == 1);
-  CHECK(r.failures[0].node == "file");
-  CHECK_MESSAGE(r.failures[0].message.find("may not write ") != std::string::npos, r.failures[0].message);
-  CHECK(fs::is_empty(w.path / "outside"));
-
-  RunOptions reading = keeping({"source"});
-  reading.sandbox = &sandbox;
-  const RunResult read = run_graph(g, reading);
-  REQUIRE(read.failures.size() == 1);
-  CHECK_MESSAGE(read.failures[0].message.find("may not read ") != std::string::npos, read.failures[0].message);
 }

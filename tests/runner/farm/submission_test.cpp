@@ -61,6 +61,31 @@ TEST_CASE("a cancelled job is that until it is submitted again") {
   CHECK(farm.state() == "lost");
 }
 
+TEST_CASE("a cancellation that ends nothing fails, and says so") {
+  const Farm farm;
+  CHECK(farm.w.run({"submit", "graph.json"}).code == 0);
+  const fs::path arrays = FarmFolder(farm.w.path / "cache").jobs() / farm.job() / "arrays";
+  const std::string id = fs::path(listing(arrays).front()).stem().string();
+  farm.tools.add("squeue", "echo '12_0|0|PD|terrazzo:" + id + "||None|bob'");
+  const ProgramRun run = farm.w.run({"submit", farm.job(), "--cancel"});
+  CHECK(run.code == 1);
+  CHECK(run.out.find("cancelled") == std::string::npos);
+  CHECK_MESSAGE(run.err.find("is still in the queue after 10 seconds: 12_0 of bob") != std::string::npos, run.err);
+}
+
+TEST_CASE("what is ignored of the environment is said once, when something is handed over") {
+  const Farm farm;
+  const Environment account("SBATCH_ACCOUNT", "project"), wait("SBATCH_WAIT", "1");
+  const ProgramRun run = farm.w.run({"submit", "graph.json"});
+  CHECK(run.code == 0);
+  CHECK_MESSAGE(
+      run.err.find("warning: SBATCH_ACCOUNT, SBATCH_WAIT in the environment are ignored; ask with --partition, "
+                   "--account, --time or --sbatch=OPTION") != std::string::npos,
+      run.err);
+  CHECK(farm.w.run({"submit", farm.job(), "--status"}).err.find("SBATCH_") == std::string::npos);
+  CHECK(farm.w.run({"submit", "graph.json", "--sbatch=--array=0-5"}).code == 2);
+}
+
 TEST_CASE("what no node has is refused; what Slurm does not start is told") {
   const Farm farm;
   const ProgramRun refused = farm.w.run({"submit", "graph.json", "--cores", "64"});
@@ -72,7 +97,7 @@ TEST_CASE("what no node has is refused; what Slurm does not start is told") {
   CHECK(farm.w.run({"submit", "graph.json", "--cores", "4"}).code == 0);
   const fs::path arrays = FarmFolder(farm.w.path / "cache").jobs() / farm.job() / "arrays";
   const std::string id = fs::path(listing(arrays).front()).stem().string();
-  farm.tools.add("squeue", "echo '12_0|0|PD|terrazzo:" + id + "||PartitionConfig'");
+  farm.tools.add("squeue", "echo '12_0|0|PD|terrazzo:" + id + "||PartitionConfig|ann'");
   CHECK(farm.w.run({"submit", "--status"}).out.find("1 waiting; Slurm does not start some of it: PartitionConfig") !=
         std::string::npos);
 }

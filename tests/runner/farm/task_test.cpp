@@ -1,6 +1,8 @@
 #include <csignal>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "runner/farm/farm_folder.h"
@@ -37,6 +39,15 @@ struct Job {
     REQUIRE(names.size() == 1);
     folder = FarmFolder(w.path / "cache").jobs() / names.front();
   }
+  fs::path inputs() const { return FarmFolder::of_job(folder).inputs(); }
+  /// The copy of a.png.
+  fs::path input() const {
+    for (const auto& entry : fs::recursive_directory_iterator(inputs()))
+      if (entry.path().filename() == "a.png") return entry.path();
+    FAIL("there is no copy");
+    return {};
+  }
+  ProgramRun submit() const { return w.run({"submit", "graph.json", "--openjd", "template.json"}); }
   ProgramRun task(std::vector<std::string> args) const {
     args.insert(args.begin(), {"task", folder.string()});
     return w.run(args);
@@ -107,13 +118,122 @@ TEST_CASE("a unit that cannot read an input names the user's file, not its copy"
   CHECK(w.run({"submit", job, "--status"}).out.find(original) != std::string::npos);
 }
 
-TEST_CASE("inputs, version and plug-ins must be those of the submission") {
+TEST_CASE("version, plug-ins and colours must be those of the submission; submitting again takes those from here") {
   const Job job;
-  for (const auto& entry : fs::recursive_directory_iterator(FarmFolder::of_job(job.folder).inputs()))
-    if (entry.is_regular_file()) write_picture(entry.path(), 7, Semantic::base_color, {96, 96});
-  const ProgramRun run = job.task({"index"});
-  CHECK(run.code == 1);
-  CHECK(run.err.find("has another key here") != std::string::npos);
+  // As another version would have frozen it: each of the keys matters, not only those of sources.
+  for (const char* node : {"a", "index", "weighted", "slow"}) {
+    CAPTURE(node);
+    FarmJob other = read_farm_job(job.folder);
+    REQUIRE(other.keys.contains(node));
+    other.keys[node] = Hasher().add("other").digest();
+    other.program = "terrazzo 0.0.1";
+    CHECK(write_farm_job(other, job.folder));
+    const ProgramRun run = job.task({"index"});
+    CHECK(run.code == 1);
+    CHECK_MESSAGE(run.err.find(std::string("node \"") + node + "\"") != std::string::npos, run.err);
+    CHECK(run.err.find("has another key here than when terrazzo 0.0.1 froze it") != std::string::npos);
+    const ProgramRun again = job.submit();
+    CHECK(again.code == 0);
+    CHECK_MESSAGE(again.err.find("job.json") != std::string::npos, again.err);
+  }
+  CHECK(job.task({"index"}).code == 0);
+}
+
+namespace {
+
+void replace_in(const fs::path& file, const std::string& from, const std::string& to) {
+  std::string text = read_text(file);
+  REQUIRE(text.find(from) != std::string::npos);
+  write_text(file, text.replace(text.find(from), from.size(), to));
+}
+
+/// As a disk that fails would: its size and time stay.
+void alter_unseen(const fs::path& file) {
+  const fs::file_time_type time = fs::last_write_time(file);
+  std::string bytes = read_text(file);
+  bytes[bytes.size() / 2] ^= 0x10;
+  write_text(file, bytes);
+  fs::last_write_time(file, time);
+}
+
+}  // namespace
+
+TEST_CASE("a job that was damaged is refused by the name of the file, and mended by submitting again") {
+  const Job job;
+  CHECK(job.submit().err.find("mended") == std::string::npos);
+  REQUIRE(job.task({"--list"}).code == 0);  // the cache remembers the inputs' digests now
+  const std::string before = fmt::format("{}", fmt::join(listing(job.w.path), " "));
+  struct Damage {
+    const char* what;
+    std::function<void()> act;
+    std::string named;
+  };
+  const fs::path graph = job.folder / "graph.json", document = job.folder / "job.json", input = job.input();
+  const std::string copy = "farm/inputs/" + input.lexically_relative(job.inputs()).string();
+  const std::string original = "the job's copy of " + (job.w.path / "a.png").string();
+  const Damage all[] = {
+      {"another path", [&] { replace_in(graph, "x.exr", "z.exr"); }, graph.string() + " is not the graph"},
+      {"another size", [&] { replace_in(graph, "[64, 64]", "[32, 32]"); }, graph.string() + " is not the graph"},
+      {"a cut graph", [&] { fs::resize_file(graph, 100); }, graph.string() + " is not the graph"},
+      {"no graph", [&] { fs::remove(graph); }, graph.string()},
+      {"no job", [&] { fs::remove(document); }, document.string() + " is no job of terrazzo"},
+      {"a cut job", [&] { fs::resize_file(document, 200); }, document.string() + " is no job of terrazzo"},
+      {"an altered job", [&] { replace_in(document, "\"wanted\": true", "\"wanted\": false"); },
+       document.string() + " is no job of terrazzo"},
+      {"another format", [&] { replace_in(document, "\"format\": 2", "\"format\": 1"); },
+       document.string() + " is no job of terrazzo"},
+      {"a lost input", [&] { fs::remove(input); }, copy + ", " + original + ", has been lost"},
+      {"a cut input", [&] { fs::resize_file(input, 50); }, copy + ", " + original + ", has been altered"},
+      {"an altered input",
+       [&] {
+         write_picture(input, 7, Semantic::base_color, {96, 96});
+       },
+       copy + ", " + original + ", has been altered"},
+      {"an input that looks unaltered", [&] { alter_unseen(input); }, copy + ", " + original + ", has been altered"},
+      {"one input more", [&] { fs::copy_file(input, input.parent_path() / "b.png"); },
+       "b.png lies among the job's inputs"},
+  };
+  for (const Damage& damage : all) {
+    CAPTURE(damage.what);
+    damage.act();
+    const ProgramRun run = job.task({"x"});
+    CHECK(run.code == 1);
+    CHECK_MESSAGE(run.err.find(damage.named) != std::string::npos, run.err);
+    CHECK_MESSAGE(run.err.find("submit the same again") != std::string::npos, run.err);
+    CHECK(fmt::format("{}", fmt::join(listing(job.w.path), " ")) == before);
+    const ProgramRun again = job.submit();
+    CHECK(again.code == 0);
+    CHECK_MESSAGE(again.err.find("mended in ") != std::string::npos, again.err);
+    CHECK(job.submit().err.find("mended") == std::string::npos);
+  }
+  CHECK(job.task({"x"}).code == 0);
+  CHECK(job.states().at("x") == "done");
+  CHECK_FALSE(fs::exists(job.w.path / "z.exr"));
+
+  // Where all is made, the job is mended all the same.
+  REQUIRE(job.task({"y"}).code == 0);
+  fs::resize_file(document, 200);
+  CHECK(job.w.run({"submit", "--status"}).code == 1);
+  CHECK(job.submit().code == 0);
+  CHECK(job.w.run({"submit", "--status"}).code == 0);
+}
+
+TEST_CASE("tasks of a damaged array, and a job that does not say whose it is") {
+  const Job job;
+  const fs::path array = job.folder / "arrays" / listing(job.folder / "arrays").front();
+  replace_in(array, "[[\"", "[[\"y\",\"");
+  const ProgramRun run = job.task({"--array", array.stem().string(), "--index", "0"});
+  CHECK(run.code == 2);
+  CHECK_MESSAGE(run.err.find("its file is damaged; submit the same again") != std::string::npos, run.err);
+  CHECK(job.submit().code == 0);
+  CHECK(job.task({"--array", array.stem().string(), "--index", "0"}).code == 0);
+
+  write_text(job.folder / "assignment.json", "{");
+  const ProgramRun shown = job.w.run({"submit", "--status"});
+  CHECK(shown.code == 1);
+  CHECK_MESSAGE(shown.out.find("assignment.json does not say who is to make the job") != std::string::npos, shown.out);
+  CHECK(job.submit().code == 0);
+  CHECK(job.states().at("y") == "elsewhere");
 }
 
 TEST_CASE("wrong names of jobs, units and arrays") {
@@ -126,7 +246,7 @@ TEST_CASE("wrong names of jobs, units and arrays") {
   CHECK(none.code == 2);
   CHECK(none.err.find("neither a graph file nor a job") != std::string::npos);
   write_text(job.folder / "job.json", "{}");
-  CHECK(job.task({"x"}).err.find("no job of terrazzo, or damaged") != std::string::npos);
+  CHECK(job.task({"x"}).err.find("no job of terrazzo, or has been altered or damaged") != std::string::npos);
 }
 
 TEST_CASE("submit without Slurm says what is missing, and prints what it would do") {

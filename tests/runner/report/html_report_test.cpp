@@ -96,6 +96,41 @@ TEST_CASE("a report of a failed run says what failed, and draws it") {
   CHECK(contains(run.page, "<p class=\"failed\">Failed: "));
 }
 
+TEST_CASE("nodes of many variations fold, those of one that failed are open; few nodes are one table") {
+  FakeTypes t;
+  const auto page_of = [&](int variations) {
+    Graph g;
+    add(g, "shared", t.number, {{"value", 1.0}});
+    for (int i = 0; i < variations; i++)
+      add(g, fmt::format("total [seed {}]", i), t.sum, {{"plus", double(i)}}, {"shared"});
+    add(g, "broken [seed 3]", t.fail, {}, {"shared"});
+    return ReportedRun(g).page;
+  };
+  const std::string many = page_of(60), few = page_of(8);
+  CHECK(count(many, "<details><summary><b>seed ") == 59);
+  CHECK(count(many, "<details open><summary><b>seed 3</b>") == 1);
+  CHECK(count(many, "<table class=\"sortable stages\">") == 61);
+  CHECK(count(many, "<tr><td>shared</td>") == 1);
+  CHECK(count(few, "<table class=\"sortable stages\">") == 1);
+  CHECK(count(few, "<b>seed ") == 0);
+}
+
+TEST_CASE("what many nodes say alike stands in a report once, and long lists fold") {
+  FakeTypes t;
+  t.sum.compute = [compute = t.sum.compute](NodeContext& node) {
+    node.warn("too <bright>");
+    node.note(fmt::format("plus {}", node.number("plus")));
+    compute(node);
+  };
+  Graph g;
+  add(g, "shared", t.number, {{"value", 1.0}});
+  for (int i = 0; i < 40; i++) add(g, fmt::format("total {}", i), t.sum, {{"plus", double(i)}}, {"shared"});
+  const std::string page = ReportedRun(g).page;
+  CHECK(count(page, "total 0 and 39 more nodes: ") == 2);  // above, and among the notes
+  CHECK(count(page, "<li>") == 1 + 41);
+  CHECK(count(page, "<details><summary>41 notes</summary>") == 1);
+}
+
 TEST_CASE("what is up to date is not computed for a report's origins") {
   FakeTypes t;
   t.number.category = "source";

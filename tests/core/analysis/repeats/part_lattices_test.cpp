@@ -64,7 +64,7 @@ TEST_CASE("the phase between two views of the same cells is found, whatever thei
       return v < 0.8f && negative ? v + 0.4f : v;
     };
     const ExemplarView a = view(left, tiles), b = view({0, 0, 110, 90}, other);
-    const Vector2d cells = phase_between({a, grid}, {b, grid});
+    const Vector2d cells = phase_between({a, grid}, {b, grid}, Task());
     CAPTURE(negative);
     CHECK(std::abs(part_of(cells.x() - 7.0 / 24)) * 24 < 0.6);
     CHECK(std::abs(part_of(cells.y() - 5.5 / 16)) * 16 < 0.6);
@@ -80,7 +80,7 @@ TEST_CASE("pixels that a mask leaves out do not count for the phase") {
       planes.values.push_back(seen ? tiles(x - 3, y) : 5 * tiles(x + 9, y + 7));
       allowed.push_back(seen);
     }
-  const Vector2d cells = phase_between({view(left, tiles), grid}, {view_of(planes, allowed, left), grid});
+  const Vector2d cells = phase_between({view(left, tiles), grid}, {view_of(planes, allowed, left), grid}, Task());
   CHECK(std::abs(part_of(cells.x() - 3.0 / 24)) * 24 < 0.6);
   CHECK(std::abs(part_of(cells.y())) * 16 < 0.6);
 }

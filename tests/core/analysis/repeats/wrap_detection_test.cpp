@@ -31,6 +31,43 @@ TEST_CASE("tiling is seen from the borders") {
       seems_to_tile(*Material::of(make_image({64, 64}, 1, [](int x, int, int) { return float(x) / 64; })), Task()));
 }
 
+TEST_CASE("borders of white noise tell nothing, those of blurred noise do") {
+  const auto noise = [](int radius, int period) {
+    return Material::of(make_image({40, 60}, 1, [=](int x, int y, int) {
+      float sum = 0;
+      for (int i = 0; i <= radius; i++)
+        for (int j = 0; j <= radius; j++)
+          sum += float(unit_double(random_bits(5, (x + i) % (period ? 40 : 1000), (y + j) % (period ? 60 : 1000))));
+      return sum / float((radius + 1) * (radius + 1));
+    }));
+  };
+  CHECK_FALSE(borders_meet(*noise(0, 1), Task()));
+  CHECK(borders_meet(*noise(3, 1), Task()));
+  CHECK_FALSE(borders_meet(*noise(3, 0), Task()));
+}
+
+TEST_CASE("what a mask leaves out does not count, and if it leaves too little of the borders, nothing is known") {
+  const auto gravel = [](int period, bool harmed) {
+    return Material::of(make_image({96, 96}, 1, [=](int x, int y, int) {
+      if (harmed && x > 80 && y > 20 && y < 60) return 0.f;
+      float sum = 0;
+      for (int dy = 0; dy < 3; dy++)
+        for (int dx = 0; dx < 3; dx++)
+          sum += float(unit_double(random_bits(7, (x + dx) % period, (y + dy) % period))) / 9;
+      return sum;
+    }));
+  };
+  // Half the size, and white where the gravel is whole.
+  const ImagePtr sound = make_image({48, 48}, 1, [](int x, int y, int) { return float(x < 39 || y < 9 || y > 31); });
+  CHECK_FALSE(seems_to_tile(*gravel(96, true), Task()));
+  CHECK(seems_to_tile(*gravel(96, true), Task(), sound));
+  CHECK_FALSE(seems_to_tile(*gravel(1000, true), Task(), sound));
+  const ImagePtr left_half = make_image({96, 96}, 1, [](int x, int, int) { return float(x < 48); });
+  CHECK_FALSE(seems_to_tile(*gravel(96, false), Task(), left_half));
+  const ImagePtr nothing = make_image({96, 96}, 1, [](int, int, int) { return 0.f; });
+  CHECK_FALSE(seems_to_tile(*gravel(96, false), Task(), nothing));
+}
+
 TEST_CASE("gravel that was cut out anywhere does not tile, though what lies across its borders looks like gravel") {
   const auto gravel = [](int period) {
     return Material::of(make_image({96, 96}, 1, [period](int x, int y, int) {

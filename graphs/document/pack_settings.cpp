@@ -1,0 +1,95 @@
+#include "graphs/document/pack_settings.h"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/file/path_relation.h"
+#include "graphs/document/read_document.h"
+
+namespace terrazzo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether a node's name in an override is this node or one of its rounds, or stands for it: "walls/brick" does for
+/// "walls[red]/brick".
+bool names_node(std::string_view given, std::string_view node) {
+  while (!given.empty() || !node.empty()) {
+    const std::string_view wanted = given.substr(0, given.find('/'));
+    const std::string_view step = node.substr(0, node.find('/'));
+    const bool is_round = wanted.substr(0, wanted.find('[')) == step;
+    if (wanted != step && !is_round && wanted != step.substr(0, step.find('['))) return false;
+    given.remove_prefix(std::min(given.size(), wanted.size() + 1));
+    node.remove_prefix(std::min(node.size(), step.size() + 1));
+  }
+  return true;
+}
+
+bool sets(const Override& o, std::string_view node, std::string_view name) {
+  return names_node(o.node, node) && (o.name == name || o.name.starts_with(std::string(name) + "."));
+}
+
+bool is_set(const std::vector<Override>& given, std::string_view node, std::string_view name) {
+  return std::ranges::any_of(given, [&](const Override& o) { return sets(o, node, name); });
+}
+
+/// Whether a file name pattern names only places that lie in this one, or files whose names begin with its own.
+bool is_at(const fs::path& place, const std::string& pattern) {
+  const fs::path known = pattern.substr(0, pattern.find('{'));
+  if (lies_in(place, known)) return true;
+  const bool begins = pattern.starts_with(place.string());
+  return begins && pattern.find('/', place.string().size()) == std::string::npos;
+}
+
+}  // namespace
+
+std::vector<Override> pack_settings(const fs::path& pack, const std::vector<Override>& others,
+                                    std::vector<Problem>& problems) {
+  std::vector<Override> out = read_settings(pack / "settings.json", problems);
+  std::error_code missing;
+  if (!fs::exists(pack / "sources.json", missing)) return out;
+  const std::optional<JsonValue> sources = read_json_document(pack / "sources.json", "file of a pack", problems);
+  if (!sources) return out;
+  std::map<std::string_view, const JsonValue*> by_target;
+  for (const JsonMember& m : sources->members) by_target.emplace(m.name, &m.value);
+  std::erase_if(out, [&](const Override& o) {
+    const auto names = by_target.find(o.node.empty() ? o.name : o.node + "." + o.name);
+    return names != by_target.end() && std::ranges::any_of(names->second->items, [&](const JsonValue& name) {
+             const size_t dot = name.text.rfind('.');
+             return dot == std::string::npos ? is_set(others, "", name.text)
+                                             : is_set(others, name.text.substr(0, dot), name.text.substr(dot + 1));
+           });
+  });
+  return out;
+}
+
+std::vector<Problem> writes_elsewhere(const Drafts& drafts, const fs::path& folder,
+                                      const std::vector<Override>& given) {
+  std::vector<Problem> out;
+  for (const NodeDraft& d : drafts) {
+    const GraphNode& node = d.node;
+    if (!node.type || !node.type->is_sink()) continue;
+    for (const Param& param : node.type->params) {
+      const auto value = node.params.find(param.name);
+      if (param.type != ParamType::path || value == node.params.end()) continue;
+      const std::string& path = std::get<std::string>(value->second);
+      if (path.empty() || is_at(folder, path) || is_set(given, node.name, param.name)) continue;
+      const auto by = d.set_by.find(param.name);
+      const auto allows = [&](const Settable& s) {
+        return !s.path.empty() && is_at(s.path, path) && is_set(given, s.node, s.name);
+      };
+      if (by != d.set_by.end() && std::ranges::any_of(by->second, allows)) continue;
+      out.push_back(problem_of(node, param.name,
+                               fmt::format("may not write {}: a pack writes into the folder that it lies in, {}, and "
+                                           "elsewhere only what --set or --params names",
+                                           path, folder.string())));
+    }
+  }
+  return out;
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,197 @@
+#include "nodes/source/packing_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/text.h"
+#include "core/image/normal_convention.h"
+#include "core/material/material_maps.h"
+#include "core/material/shared_detail.h"
+
+namespace terrazzo {
+
+namespace {
+
+using Notes = std::vector<std::string>;
+
+/// As `maps` of load_material takes it: "wall.png:g", "wall.exr:arm.g".
+std::string channel_of(const RecognisedMap& m, char channel) {
+  return fmt::format("{}:{}{}{}", m.file, m.layer, m.layer.empty() ? "" : ".", channel);
+}
+
+void leave_out(const std::string& name, std::vector<Map>& maps) {
+  std::erase_if(maps, [&](const Map& m) { return m.name == name; });
+}
+
+bool has(const std::vector<Map>& maps, std::string_view name) {
+  return std::ranges::find(maps, name, &Map::name) != maps.end();
+}
+
+/// The one map that the name means of a picture in one channel; nullopt if it is sure to mean a packed file.
+std::optional<std::string> map_of_grey_picture(const RecognisedMap& m) {
+  const std::vector<RecognisedMap> as_grey = recognise_map({.name = m.file, .size = {}, .channels = 1});
+  const bool is_one = m.layer.empty() && m.said_by.empty() && as_grey.size() == 1 && as_grey.front().channels.empty();
+  return is_one ? std::optional(as_grey.front().map) : std::nullopt;
+}
+
+/// The maps of one file, each in one channel of red, green and blue.
+using Packing = std::vector<const RecognisedMap*>;
+
+void settle_grey_packing(const Packing& packing, std::vector<Map>& maps, Notes& notes) {
+  const RecognisedMap& first = *packing.front();
+  if (const std::optional<std::string> only = map_of_grey_picture(first); only && has(maps, *only)) {
+    for (const RecognisedMap* m : packing)
+      if (m->map != *only) leave_out(m->map, maps);
+    notes.push_back(
+        fmt::format("{} is a grey picture and not a packed one: it is read as {} alone", first.file, *only));
+    return;
+  }
+  Notes names;
+  for (const RecognisedMap* m : packing) names.push_back(m->map);
+  notes.push_back(fmt::format(
+      "{}{}: {} are read from its channels, but these are the same: it is a grey picture, not a packed one. If it "
+      "is one map, say which, and leave the others out: `maps` {{\"{}\": \"{}:r\", \"{}\": \"\"}}",
+      warning_mark, first.file, fmt::join(names, ", "), names[0], first.file,
+      fmt::join(names.begin() + 1, names.end(), "\": \"\", \"")));
+}
+
+bool channel_is_constant(const ImagePtr& file, const RecognisedMap& place, char channel) {
+  RecognisedMap one = place;
+  one.channels = std::string(1, channel);
+  one.inverted = false;
+  Notes unused;
+  return is_constant(*map_of_file(one, file, "raw", unused));
+}
+
+/// Roughness and metallic in green and blue, as in glTF: red may hold occlusion.
+void tell_of_red(const Packing& packing, const ImagePtr& file, const std::vector<Map>& maps, Notes& notes) {
+  const RecognisedMap& first = *packing.front();
+  const bool names_two = recognise_map({.name = first.file, .size = {}, .channels = 3}).size() == 2;
+  if (packing.size() != 2 || !names_two || !first.said_by.empty()) return;
+  if (has(maps, "ambient_occlusion") || channel_is_constant(file, first, 'r')) return;
+  const bool blue_is_empty = channel_is_constant(file, first, 'b');
+  notes.push_back(fmt::format(
+      "{}{}: {} and {} are read from green and blue, as in glTF; red is left out. If it is occlusion, `maps` "
+      "{{\"ambient_occlusion\": \"{}\"}} takes it in{}",
+      blue_is_empty ? warning_mark : "", first.file, packing[0]->map, packing[1]->map, channel_of(first, 'r'),
+      blue_is_empty ? fmt::format(". Blue is the same everywhere: if the maps begin with red, `maps` says it: "
+                                  "{{\"roughness\": \"{}\", \"metallic\": \"{}\"}}",
+                                  channel_of(first, 'r'), channel_of(first, 'g'))
+                    : ""));
+}
+
+bool is_full(const Image& image) {
+  return is_constant(image) && image.read({0, 0, 1, 1})[0] == 1;
+}
+
+/// Of albedo_height and the like.
+bool is_alpha_of_pair(const RecognisedMap& m) {
+  return m.channels == "a" && !m.inverted && m.semantic != Semantic::opacity && m.said_by.empty();
+}
+
+}  // namespace
+
+bool may_be_left_out(const RecognisedMap& m) {
+  if (m.names_no_material || is_alpha_of_pair(m)) return true;
+  if (m.channels.size() != 1) return false;
+  const std::optional<std::string> only = map_of_grey_picture(m);
+  return only && *only != m.map;
+}
+
+void settle_packings(const std::vector<RecognisedMap>& sources, const ImageOf& image_of, std::vector<Map>& maps,
+                     Notes& notes) {
+  std::map<std::pair<std::string, std::string>, Packing> packings;
+  for (const RecognisedMap& m : sources) {
+    if (m.channels.size() == 1 && m.channels != "a") packings[{m.file, m.layer}].push_back(&m);
+    const auto map = std::ranges::find(maps, m.map, &Map::name);
+    if (!is_alpha_of_pair(m) || map == maps.end() || !is_full(*map->image)) continue;
+    notes.push_back(fmt::format("{}{}: its alpha channel is full everywhere, so that it holds no {}; left out",
+                                warning_mark, m.file, m.map));
+    leave_out(m.map, maps);
+  }
+  for (const auto& [place, packing] : packings) {
+    const ImagePtr file = image_of(*packing.front());
+    if (packing.size() > 1 && is_grey(*file))
+      settle_grey_packing(packing, maps, notes);
+    else
+      tell_of_red(packing, file, maps, notes);
+  }
+}
+
+void leave_out_unrelated(const std::vector<RecognisedMap>& sources, std::vector<Map>& maps, Notes& notes) {
+  constexpr double least_shared = 0.06;  // higher: a map is lost; lower: that of another material is mixed in
+  const auto find = [&](const RecognisedMap& m) { return std::ranges::find(maps, m.map, &Map::name); };
+  for (const RecognisedMap& m : sources) {
+    const auto map = find(m);
+    if (!m.names_no_material || map == maps.end()) continue;
+    double shared = 0;
+    for (const RecognisedMap& other : sources)
+      if (const auto o = find(other); !other.names_no_material && o != maps.end())
+        shared = std::max(shared, shared_detail(map->image, o->image));
+    if (shared >= least_shared) continue;
+    notes.push_back(fmt::format(
+        "{}{} is left out: its name says no material, and its picture has nothing in common with the other maps "
+        "(correlation {:.2f}). `maps` {{\"{}\": \"{}\"}} takes it in",
+        warning_mark, m.place(), shared, m.map, m.file));
+    leave_out(m.map, maps);
+  }
+}
+
+std::optional<Semantic> hidden_in_alpha(const RecognisedMap& m) {
+  if (!m.channels.empty()) return std::nullopt;
+  if (m.semantic == Semantic::base_color) return Semantic::opacity;
+  if (m.semantic == Semantic::normal) return Semantic::height;
+  const bool may_have_gloss = m.semantic == Semantic::specular || m.semantic == Semantic::metallic;
+  return may_have_gloss ? std::optional(Semantic::roughness) : std::nullopt;
+}
+
+namespace {
+
+std::string_view described(Semantic hidden) {
+  if (hidden == Semantic::roughness) return ", inverted: gloss, as in the specular workflow and in Unity";
+  return hidden == Semantic::height ? ": the normals follow its slopes; `maps` says otherwise" : "";
+}
+
+std::string with_article(const std::string& map) {
+  return (map == "opacity" ? "an " : "a ") + map;
+}
+
+/// On exemplars heights correlate with the slopes by 0.77 and more; roughness runs against them. Occlusion of scans
+/// stays below 0.42, that of generated exemplars does not, and is taken for height.
+bool is_height_of(const RecognisedMap& normal, const ImagePtr& alpha, const std::vector<Map>& maps) {
+  constexpr double least = 0.6;  // higher: heights are left out; lower: more occlusion is taken for height
+  const auto map = std::ranges::find(maps, normal.map, &Map::name);
+  if (map == maps.end() || map->image->channels() < 3) return false;
+  const ConventionEvidence e = convention_from_height(*map->image, *alpha);
+  return e.normal_y && e.along_x > least && std::abs(e.along_y) > least;
+}
+
+}  // namespace
+
+void add_alpha(const RecognisedMap& m, const ImagePtr& file, std::vector<Map>& maps, Notes& notes) {
+  const bool may_hide = m.channels.empty() && m.semantic != Semantic::data;
+  const std::optional<Semantic> hidden = hidden_in_alpha(m);
+  const ImagePtr alpha =
+      may_hide ? alpha_of(file, hidden.value_or(m.semantic), hidden == Semantic::roughness) : nullptr;
+  if (!alpha) return;
+  if (!hidden || (hidden == Semantic::height && !is_height_of(m, alpha, maps))) {
+    notes.push_back(
+        fmt::format("{}the alpha channel of {} is left out. If it is a map, `maps` says which, as in "
+                    "{{\"roughness\": \"{}\"}}",
+                    hidden ? warning_mark : "", m.place(), channel_of(m, 'a')));
+    return;
+  }
+  const std::string name(name_of(*hidden));
+  if (has(maps, name)) {
+    notes.push_back(fmt::format("the alpha channel of {} is left out: there is {} map", m.place(), with_article(name)));
+    return;
+  }
+  maps.push_back({name, alpha});
+  notes.push_back(fmt::format("{}: {} (alpha channel){}", name, m.place(), described(*hidden)));
+}
+
+}  // namespace terrazzo
