@@ -8,13 +8,20 @@
 #   disk       files that may not grow, and, for root, a full file system
 #   documents  graphs with bytes altered, doubled or lost
 #   analyses   saved analyses altered or cut off
+#   cancel     Ctrl-C at any moment while large, flat pictures are looked at
+#   limits     hardly any stack, hardly any threads
+#   links      folders exchanged for links that lead out of the sandbox in which a run works
 #   soak       runs of several processes at once in a cache that is far too small
+#   packs      the unpacked copy of a pack altered, cut off, lost or added to
+#   expansion  short graphs that stand for very much: bounded in time and memory
+#   library    one name added twice at once, on a slow disk
+#   frozen     the files of a farm's job altered, cut off or lost
 # Usage: tests/attacks.sh [ROUNDS [NAME...]]   of each, or of these; 50 rounds if not given
 # TERRAZZO_PROGRAM: the program, if not build/terrazzo. TERRAZZO_ATTACK_SEED: a number that it told, to do the same again.
 set -uo pipefail
-all=(kills cache removal images disk documents analyses soak)
+all=(kills cache removal images disk documents analyses cancel limits links soak packs expansion library frozen)
 rounds=${1:-50}
-[[ $rounds =~ ^[0-9]+$ ]] || { sed -n '2,14s/^# //p' "$0"; exit 2; }
+[[ $rounds =~ ^[0-9]+$ ]] || { sed -n '2,21s/^# //p' "$0"; exit 2; }
 attacks=("${@:2}")
 [ ${#attacks[@]} -gt 0 ] || attacks=("${all[@]}")
 for name in "${attacks[@]}"; do
@@ -211,6 +218,79 @@ analyses() {
   judge out clean-analysis
 }
 
+# A picture that is large and flat is small as a file. What it takes to look at it must not grow faster than its area.
+cancel() {
+  if [ ! -d flat ]; then
+    cat >flat.json <<JSON
+{"terrazzo": 1, "nodes": {"grey": {"type": "solid", "size": [6000, 6000], "value": [0.5, 0.5, 0.5], "semantic": "base_color"},
+  "files": {"type": "export", "material": "@grey", "path": "flat/base_color.png"}}}
+JSON
+    clean_flat=$("$program" run flat.json --no-cache --progress none 2>&1) || { complain "no flat picture: $clean_flat"; return; }
+  fi
+  rm -rf cache out
+  "$program" run walls.json --cache cache --set out=out --set material=flat --progress none >said 2>&1 &
+  local waiting=$!
+  below 3000
+  sleep "$((number / 1000)).$(printf %03d $((number % 1000)))"
+  # Of a shell in the background SIGINT is ignored; the program takes both alike.
+  kill -TERM $waiting 2>/dev/null
+  local sent=$SECONDS
+  wait $waiting
+  code=$?
+  [ "$code" -eq 130 ] || complain "exit $code after Ctrl-C"
+  # It takes a second on a machine that is idle.
+  [ $((SECONDS - sent)) -le 20 ] || complain "Ctrl-C took $((SECONDS - sent)) seconds"
+  [ ! -e out ] || complain "a cancelled run has left files"
+}
+
+limits() {
+  one_of stack threads
+  rm -rf cache out
+  if [ "$choice" = stack ]; then
+    one_of 48 64 128 256
+    (ulimit -s "$choice"; run cache out; echo "$code" >code)
+    code=$(cat code)
+    judge out
+  else
+    # The limit does not hold for root.
+    below 8
+    local as=()
+    if [ "$(id -u)" -eq 0 ]; then
+      as=(setpriv --reuid 65534 --clear-groups)
+      chmod 777 . && chmod -R a+rX . && "${as[@]}" "$program" --version >/dev/null 2>&1 || return 0
+    fi
+    timeout -s KILL "$longest" "${as[@]}" bash -c "ulimit -u $((number + 1)); exec '$program' run walls.json --cache cache \
+      --set out=out --set material=exemplar-exr --progress none" >said 2>&1
+    code=$?
+    judge out clean-exr
+  fi
+}
+
+links() {
+  rm -rf cell outside
+  mkdir -p cell/out outside
+  cp -r exemplar-png cell/maps
+  cat >cell/graph.json <<'JSON'
+{"terrazzo": 1, "nodes": {"in": {"type": "load_material", "path": "maps"},
+  "large": {"type": "resize", "material": "@in", "size": [700, 700]},
+  "one": {"type": "export", "material": "@large", "path": "out/{map}.png"},
+  "two": {"type": "export", "material": "@in", "path": "out/deep/{map}.tif"},
+  "three": {"type": "export", "material": "@in", "path": "out/{map}.exr"}}}
+JSON
+  while :; do
+    mv -T cell/out cell/aside && ln -s ../outside cell/out
+    rm -f cell/out && mv -T cell/aside cell/out
+  done 2>/dev/null &
+  local switching=$!
+  code=0
+  timeout -k 5 $longest "$program" run cell/graph.json --sandbox cell --no-cache --progress none >said 2>&1 || code=$?
+  kill "$switching"
+  wait "$switching" 2>/dev/null
+  [ "$code" -le 2 ] || complain "it ended with code $code"
+  [ "$code" -eq 0 ] || [ -s said ] || complain "it failed without a word"
+  [ -z "$(find outside -mindepth 1)" ] || complain "it wrote outside: $(find outside -mindepth 1)"
+}
+
 soak() {
   local n waiting=() which=()
   [ -d small-cache ] || mkdir small-cache
@@ -229,6 +309,133 @@ soak() {
     wait "${waiting[n - 1]}" || { cp "said$n" said; complain "one of several runs failed"; continue; }
     diff -r "out$n" "clean-seed-${which[n - 1]}" >/dev/null || complain "one of several runs gave wrong bytes"
   done
+}
+
+packs() {
+  local files
+  rm -rf out
+  mapfile -t files < <(find first/packs -type f)
+  [ ${#files[@]} -gt 0 ] || { complain "the pack has no copy"; return; }
+  one_of "${files[@]}"
+  local file=$choice
+  one_of damage lose add link
+  case $choice in
+    damage) damage "$file" ;;
+    lose) rm "$file" ;;
+    add) cp "$file" "${file%/*}/more_normal.${file##*.}" ;;
+    link) cp "$file" aside && damage aside && ln -sf "$PWD/aside" "$file" ;;
+  esac
+  code=0
+  timeout -k 5 $longest "$program" run walls.tzpack --cache first --set out=out --progress none >said 2>&1 || code=$?
+  [ "$code" -eq 0 ] || complain "the copy was not mended"
+  judge out
+}
+
+# in_bounds WORD...: the program with these words ends soon, in little memory, and says what is wrong if anything is.
+in_bounds() {
+  code=0
+  (
+    "$program" --version | grep -q sanitizers || ulimit -v 3000000
+    timeout -k 5 60 "$program" "$@"
+  ) >said 2>&1 || code=$?
+  [ "$code" -le 2 ] || complain "\`$*\` of a graph of the kind $kind ended with code $code"
+  [ "$code" -eq 0 ] || [ -s said ] || complain "\`$*\` failed without a word"
+}
+
+# many N FORMAT: FORMAT with each number up to N in place of every %d, between commas.
+many() {
+  awk -v n="$1" -v format="$2" 'BEGIN { for (i = 1; i <= n; i++) { item = format; gsub(/%d/, i, item); printf "%s%s", (i > 1 ? "," : ""), item } }'
+}
+
+expansion() {
+  local kinds=(texts named parameters values presets maps loops chain settings equal) kind
+  kind=${kinds[(round - 1) % ${#kinds[@]}]}
+  local nodes='"n": {"type": "noise", "size": 16}, "f": {"type": "export", "material": "@n", "path": "o.png"}' parameters='' more=''
+  local words=(check big.json)
+  case $kind in
+    texts)
+      parameters='"t0": {"type": "text", "default": "0123456789"}'
+      local i
+      for ((i = 1; i <= 24; i++)); do parameters+=", \"t$i\": {\"type\": \"text\", \"default\": \"=t$((i - 1)) + t$((i - 1))\"}"; done
+      nodes='"n": {"type": "noise", "size": 16}, "f": {"type": "export", "material": "@n", "path": "$t24.png"}'
+      ;;
+    named)
+      parameters="\"t\": {\"type\": \"text\", \"default\": \"$(printf '%0100000d' 0)\"}"
+      nodes="$(many 30000 "\"n%d\": {\"type\": \"load_map\", \"path\": \"x.png\", \"layer\": \"\$t\$t\$t\$t\$t\$t\$t\$t\"}")"
+      ;;
+    parameters) parameters=$(many 100000 '"p%d": {"type": "int", "default": %d}') ;;
+    values) words+=(--sweep "n.seed=$(many 15000 1)") && words[0]=run && words+=(--dry-run) ;;
+    presets)
+      parameters=$(many 10000 '"p%d": {"type": "int", "default": %d}')
+      more=", \"presets\": {$(many 10000 '"s%d": {"set": {"p%d": 2}}')}"
+      ;;
+    maps) nodes=$(many 30000 '"n%d": {"type": "load_map", "path": "exemplar-png/base_color.png"}') ;;
+    loops)
+      parameters=$(many 5000 '"p%d": {"type": "int", "default": %d}')
+      nodes='"n": {"type": "noise", "size": 16, "foreach": {"values": "1..10000"}, "seed": "$item"}, "m": {"type": "merge", "foreach": {"values": "1..10000"}, "materials": "@n"}'
+      ;;
+    chain)
+      parameters=$(many 5000 '"p%d": {"type": "path", "default": "exemplar-png/base_color.png"}')
+      nodes="$(many 5000 '"n%d": {"type": "load_map", "path": "$p%d"}'), \"m1\": {\"type\": \"blend\", \"a\": \"@n1\", \"b\": \"@n1\"}, "
+      nodes+=$(awk 'BEGIN { for (i = 2; i <= 5000; i++) printf "%s\"m%d\": {\"type\": \"blend\", \"a\": \"@m%d\", \"b\": \"@n%d\"}", (i > 2 ? "," : ""), i, i - 1, i }')
+      ;;
+    settings)
+      nodes="$(many 20000 '"n%d": {"type": "noise", "size": 16}')"
+      echo "{$(many 20000 '"n%d.seed": %d')}" >settings.json
+      words+=(--params settings.json)
+      ;;
+    equal) words=(run big.json --dry-run --sweep "n.seed=$(many 9000 7)") ;;
+  esac
+  echo "{\"terrazzo\": 1, \"parameters\": {$parameters}, \"nodes\": {$nodes}$more}" >big.json
+  in_bounds "${words[@]}"
+  [ "$kind" != texts ] || grep -q "longer than 1 MiB" said || complain "texts that double one another are not bounded"
+  [ "$kind" != values ] || grep -q "more than 10000 variations" said || complain "a sweep of so many values is not refused"
+}
+
+library() {
+  [ -f slow_sync.so ] || "${CC:-cc}" -shared -fPIC -O1 -o slow_sync.so "$source/tests/slow_sync.c" 2>said ||
+    { complain "there is no C compiler, or it fails"; return; }
+  rm -rf library
+  local first=saved.analysis second=other.analysis waiting=() adding added=0
+  one_of same other
+  [ "$choice" = same ] || { first=other.analysis; second=saved.analysis; }
+  "$program" library add wall "$first" --library library >said 2>&1 || complain "nothing could be added"
+  # One of them brings what the other replaces.
+  for adding in "$first" "$second"; do
+    LD_PRELOAD=$scratch/slow_sync.so "$program" library add wall "$adding" --library library --force >"said-$adding" 2>&1 &
+    waiting+=($!)
+    below 100
+    sleep "0.$(printf %03d "$number")"
+  done
+  for adding in "${waiting[@]}"; do wait "$adding" && added=$((added + 1)); done
+  cat said-*.analysis >said
+  [ "$added" = 2 ] || complain "one of two could not be added"
+  "$program" library check --library library >said 2>&1 || complain "the entry is neither of the two"
+}
+
+frozen() {
+  rm -rf farm-cache farm-out
+  cp -r farm-clean farm-cache
+  local files
+  mapfile -t files < <(find farm-cache/farm/jobs farm-cache/farm/inputs -type f | sort)
+  one_of "${files[@]}"
+  local file=$choice
+  one_of damage damage lose
+  if [ "$choice" = lose ]; then rm "$file"; else damage "$file"; fi
+  code=0
+  timeout -k 5 $longest "$program" task "$job" "${units[@]}" >said 2>&1 || code=$?
+  judge farm-out clean "$file: "
+  [ "$code" -eq 0 ] || grep -q "submit the same again" said ||
+    complain "$file: it is not said what mends it"
+  rm -rf farm-out
+  submit_to farm-cache || complain "$file: the job could not be submitted again"
+  code=0
+  timeout -k 5 $longest "$program" task "$job" "${units[@]}" >said 2>&1 || code=$?
+  [ "$code" -eq 0 ] && diff -r farm-out clean >/dev/null || complain "$file: submitting again does not mend it"
+}
+
+submit_to() {
+  "$program" submit walls.json --set out=farm-out --openjd template.json --cache "$1" >said 2>&1
 }
 
 # What clean runs give, without a cache.
@@ -258,6 +465,16 @@ for step in "analyse.json --set material=exemplar-png --set out=saved.analysis" 
   # shellcheck disable=SC2086
   "$program" run "$source/graphs/"$step --cache first --progress none >said 2>&1 || { complain "$step failed"; exit 1; }
 done
+
+"$program" pack walls.json -o walls.tzpack >said 2>&1 && "$program" run walls.tzpack --cache first --set out=out --progress none \
+  >said 2>&1 || { complain "no pack could be made"; exit 1; }
+"$program" run "$source/graphs/analyse.json" --set material=exemplar-png --set weighted.weights.height=2 \
+  --set out=other.analysis --cache first --progress none >said 2>&1 || { complain "another analysis failed"; exit 1; }
+submit_to farm-clean || { complain "nothing could be submitted"; exit 1; }
+job=$(echo farm-clean/farm/jobs/*)
+mapfile -t units < <("$program" task "$job" --list | python3 -c 'import json, sys
+for unit in json.load(sys.stdin)["units"]: print(unit["name"])')
+job=${job/farm-clean/farm-cache}
 
 for attack in "${attacks[@]}"; do
   before=$failed started=$SECONDS
