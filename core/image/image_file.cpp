@@ -16,8 +16,10 @@ std::string lower_extension(const std::filesystem::path& path) {
 }  // namespace
 
 bool looks_like_image(const std::filesystem::path& path) {
-  static const std::vector<std::string> known = {".png", ".jpg", ".jpeg", ".tif",  ".tiff", ".exr", ".tga",
-                                                 ".bmp", ".hdr", ".gif",  ".webp", ".psd",  ".tx",  ".dds"};
+  static const std::vector<std::string> known = {
+      ".png", ".jpg",  ".jpeg", ".jpe", ".jfif", ".tif", ".tiff", ".exr", ".tga", ".bmp", ".hdr",
+      ".gif", ".webp", ".psd",  ".tx",  ".dds",  ".ppm", ".pgm",  ".pbm", ".pnm", ".pfm", ".jp2",
+      ".j2k", ".j2c",  ".sgi",  ".rgb", ".rgba", ".bw",  ".dpx",  ".cin", ".iff", ".rla", ".fits"};
   return std::find(known.begin(), known.end(), lower_extension(path)) != known.end();
 }
 

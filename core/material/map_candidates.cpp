@@ -1,6 +1,7 @@
 #include "core/material/map_candidates.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include <fmt/format.h>
@@ -18,7 +19,8 @@ int lossiness_of(const std::string& file) {
   if (e == "exr") return 0;
   if (e == "tif" || e == "tiff") return 1;
   if (e == "png") return 2;
-  return e == "jpg" || e == "jpeg" || e == "webp" || e == "gif" || e == "dds" ? 4 : 3;
+  constexpr std::array lossy = {"jpg", "jpeg", "jpe", "jfif", "webp", "gif", "dds", "jp2", "j2k", "j2c"};
+  return std::ranges::find(lossy, e) != lossy.end() ? 4 : 3;
 }
 
 bool has_word(const std::string& name, std::string_view word) {

@@ -135,6 +135,14 @@ KeywordMatch find_keyword(const std::vector<NameWord>& words, int channels) {
   return found;
 }
 
+KeywordMatch normals_by_convention(const std::vector<NameWord>& words, int channels) {
+  if (channels == 1) return {};
+  for (size_t i = words.size(); i-- > 1 && is_neutral(words[i].text);)
+    if (const auto found = convention(words[i].text); found && words[i].text != "gl")
+      return {{WordPart{Semantic::normal, "", ""}}, i, i + 1, found};
+  return {};
+}
+
 int further_words(const std::vector<NameWord>& words, const KeywordMatch& match) {
   return int(std::count_if(words.begin() + ptrdiff_t(match.last), words.end(),
                            [](const NameWord& w) { return !is_neutral(w.text); }));

@@ -27,4 +27,8 @@ int further_words(const std::vector<NameWord>& words, const KeywordMatch& match)
 /// Poliigon ends names with the workflow that a map is for: COL_2K_METALNESS is no metallic map.
 std::vector<NameWord> without_workflow(std::vector<NameWord> words, int channels);
 
+/// A name that says only which way green points is that of normals: slate-ogl, wall_2k_dx. Of a file of two channels
+/// or more, or of which that is not known (0).
+KeywordMatch normals_by_convention(const std::vector<NameWord>& words, int channels);
+
 }  // namespace terrazzo

@@ -57,7 +57,8 @@ RecognisedFile named_by_file(const MapFile& file) {
   RecognisedFile out;
   const std::vector<NameWord> words = without_workflow(words_of_file(file.name), file.channels);
   out.level_of_detail = level_of_detail_in(words);
-  const KeywordMatch match = find_keyword(words, file.channels);
+  KeywordMatch match = find_keyword(words, file.channels);
+  if (!match) match = normals_by_convention(words, file.channels);
   if (!match) {
     const std::string stem = file.name.substr(0, file.name.rfind('.'));
     out.stem = stem_in(stem);

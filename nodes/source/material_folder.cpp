@@ -11,6 +11,7 @@
 #include "core/base/suggest.h"
 #include "core/base/text.h"
 #include "core/image/image_file.h"
+#include "core/material/file_words.h"
 #include "core/material/map_description.h"
 #include "core/material/map_names.h"
 #include "core/material/material_maps.h"
@@ -52,6 +53,38 @@ void require_folder(const fs::path& folder) {
                                   did_you_mean(folder.filename().string(), siblings)));
 }
 
+/// Of files whose names say a map, and which are pictures of a format that is not read.
+Texts notes_on_other_formats(const fs::path& folder) {
+  static const std::set<std::string> unread = {"kra",   "xcf",  "psb", "svg", "clip", "ktx",  "ktx2",
+                                               "basis", "astc", "vtf", "jxl", "heic", "heif", "avif",
+                                               "dng",   "cr2",  "cr3", "nef", "arw"};
+  Texts notes;
+  std::error_code failure;
+  for (const fs::directory_entry& e : fs::directory_iterator(folder, failure)) {
+    const std::string name = e.path().filename().string();
+    const std::string ending = extension_of(name);
+    if (!is_no_folder(e) || name[0] == '.' || !unread.count(ending)) continue;
+    const std::vector<RecognisedMap> maps = recognise_map({.name = name, .size = {}});
+    if (maps.empty() || !reason_to_skip(name).empty()) continue;
+    notes.push_back(fmt::format("{}{} is left out: .{} is not read. If it is to be {}, save it as PNG, TIFF or EXR",
+                                warning_mark, name, ending, maps.front().map));
+  }
+  std::sort(notes.begin(), notes.end());
+  return notes;
+}
+
+/// Files whose names say maps, and whose endings say no image.
+std::string maps_of_other_endings(const Texts& present) {
+  std::string out;
+  for (const std::string& name : present) {
+    const bool is_file = !name.ends_with('/') && !looks_like_image(name);
+    if (!is_file || extension_of(name).empty() || recognise_map({.name = name, .size = {}}).empty()) continue;
+    out += fmt::format("; {} would be a map by its name, but .{} is no ending of an image that is read", name,
+                       extension_of(name));
+  }
+  return out;
+}
+
 [[noreturn]] void fail_nothing_recognised(const fs::path& folder, const Recognition& recognition) {
   std::vector<std::string> present;
   std::error_code failure;
@@ -64,11 +97,14 @@ void require_folder(const fs::path& folder) {
   std::string found = present.empty() ? "the folder is empty" : fmt::format("it holds {}", fmt::join(present, ", "));
   if (more) found += fmt::format(" and {} more", more);
   for (const std::string& note : recognition.notes) found += "; " + note;
+  found += maps_of_other_endings(present);
   if (!present.empty() && std::ranges::all_of(present, [](const std::string& name) { return name.ends_with('/'); }))
     found += ", all of them folders: name one that holds the maps";
   throw Error("path",
-              fmt::format("no maps recognised in {}: {}. File names say what a map is by a word at their end ({}); {}",
-                          folder.string(), found, words_for_maps(), advice_on_map_names));
+              fmt::format("no maps recognised in {}: {}. File names say what a map is by a word at their end, such as "
+                          "color, normal, height, roughness, metallic, ao or opacity (`terrazzo nodes load_material` "
+                          "has them all); {}",
+                          folder.string(), found, advice_on_map_names));
 }
 
 /// Names the folder's files, the ignored ones taken out.
@@ -331,6 +367,7 @@ FoundMaterial find_maps(const Params& params, Texts& notes) {
   }
   const std::vector<MapFile> files = files_to_recognise(params, taken, notes);
   Texts more_notes = notes_on_folders(folder);
+  for (std::string& n : notes_on_other_formats(folder)) more_notes.push_back(std::move(n));
   if (const auto sidecar = sidecar_that_counts(params))
     add_described(*sidecar, files, given, out, more_notes);
   else

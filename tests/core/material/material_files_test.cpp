@@ -140,6 +140,19 @@ TEST_CASE("the naming conventions of the usual sources are recognised") {
   }
 }
 
+TEST_CASE("Unity's words for properties count, and the convention of normals where no other word says a map") {
+  const auto maps = [](const std::vector<std::string>& names) { return shown(recognise_maps(files(names)).maps); };
+  CHECK(maps({"Wall_MainTex.png", "Wall_ParallaxMap.png"}) ==
+        std::vector<std::string>{"base_color=Wall_MainTex.png", "height=Wall_ParallaxMap.png"});
+  CHECK(maps({"slate2-tiled-albedo2.png", "slate2-tiled-ogl.png", "slate2-tiled-rough2.png"}) ==
+        std::vector<std::string>{"base_color=slate2-tiled-albedo2.png", "normal=slate2-tiled-ogl.png up",
+                                 "roughness=slate2-tiled-rough2.png"});
+  CHECK(maps({"slate_2k_dx.png"}) == std::vector<std::string>{"normal=slate_2k_dx.png down"});
+  CHECK(maps({"slate_rough_dx.png"}) == std::vector<std::string>{"roughness=slate_rough_dx.png"});
+  CHECK(maps({"ogl.png", "wall_gl.png", "dx_wall.png"}).empty());
+  CHECK(recognise_map({.name = "slate_ogl.png", .size = {}, .channels = 1}).empty());
+}
+
 TEST_CASE("files as sites and programs ship them are recognised by name") {
   struct Shipped {
     const char* name;

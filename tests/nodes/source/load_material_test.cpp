@@ -315,3 +315,22 @@ TEST_CASE("a window that all layers of a file have is told once of a material") 
   const NodeRun run = run_node("load_material", {{"path", folder.path().string()}});
   CHECK(std::ranges::count_if(run.notes, [](const std::string& n) { return contains(n, "data window"); }) == 1);
 }
+
+TEST_CASE("pictures of rarer formats are maps, and those of formats that are not read are warned of") {
+  const TemporaryFolder folder;
+  const std::string pixels = "P6\n2 1\n255\n\x33\x66\x99\xff\xff\xff";
+  write_bytes(folder.path() / "wall_color.ppm", Bytes(pixels.begin(), pixels.end()));
+  std::ofstream(folder.path() / "wall_height.kra") << "PK";
+  std::ofstream(folder.path() / "sketch.kra") << "PK";
+  const NodeRun run = run_node("load_material", {{"path", folder.path().string()}});
+  CHECK(run.get<Material>("material")->find("base_color")->read({0, 0, 1, 1}) == std::vector<float>{0.2f, 0.4f, 0.6f});
+  CHECK(
+      run.says("warning: wall_height.kra is left out: .kra is not read. If it is to be height, save it as PNG, TIFF or "
+               "EXR"));
+  CHECK_FALSE(run.says("sketch"));
+  fs::remove(folder.path() / "wall_color.ppm");
+  const std::string error = error_of("load_material", {{"path", folder.path().string()}});
+  CHECK(contains(error, "wall_height.kra would be a map by its name, but .kra is no ending of an image that is read"));
+  CHECK_FALSE(contains(error, "sketch.kra would"));
+  CHECK(contains(error, "`terrazzo nodes load_material` has them all"));
+}
