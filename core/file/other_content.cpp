@@ -50,8 +50,10 @@ std::string other_content(const std::filesystem::path& path) {
   bytes.resize(size_t(in.gcount()));
   for (const Signature& s : signatures)
     if (bytes.starts_with(s.begins)) return std::string(s.is);
-  const bool is_picture = bytes.starts_with("#?") || (bytes.size() > 1 && bytes[0] == 'P' && is_digit(bytes[1]));
-  if (bytes.empty() || is_picture || !is_text(bytes)) return "";  // Radiance and portable maps begin like text
+  // Radiance, FITS and portable maps begin like text.
+  const bool is_picture = bytes.starts_with("#?") || bytes.starts_with("SIMPLE  =") ||
+                          (bytes.size() > 1 && bytes[0] == 'P' && is_digit(bytes[1]));
+  if (bytes.empty() || is_picture || !is_text(bytes)) return "";
   const std::string text = lowercase(bytes.substr(std::min(bytes.size(), bytes.find_first_not_of(" \n\r\t"))));
   for (const Signature& s : markups)
     if (text.starts_with(s.begins)) return std::string(s.is);

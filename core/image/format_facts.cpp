@@ -86,7 +86,11 @@ FormatFacts bmp(const FileNumbers& file) {
 FormatFacts tga(const FileNumbers& file) {
   constexpr uint64_t footer_size = 26, at_attributes_type = 494;
   enum : uint64_t { no_alpha = 0, ignore = 1, premultiplied = 4 };
-  const uint64_t depth = file.number(16, 1);
+  enum : uint64_t { grey = 3, packed_grey = 11, attribute_bits = 0xf };
+  const uint64_t depth = file.number(16, 1), kind = file.number(2, 1);
+  // The library takes the two bytes for grey and alpha of 8 bits each.
+  if ((kind == grey || kind == packed_grey) && depth == 16 && (file.number(17, 1) & attribute_bits) == 0)
+    return refused("its header says grey values of 16 bits, which TGA does not know; save it as 16-bit PNG");
   if ((depth != 32 && depth != 16) || file.size() < footer_size) return {};
   const uint64_t footer = file.size() - footer_size;
   if (file.text(footer + 8, 16) != "TRUEVISION-XFILE") return {};

@@ -191,7 +191,10 @@ NormalLayout layout_of_many(const ImagePtr& image, const Image* height, const st
   if (blue_is_copy) return without_z(fmt::format("its blue is a copy of its {}", look.same(1, 2) ? "green" : "red"));
   // Signed normals whose z is 0 are one half once they are encoded. A full channel is that of flat normals, too, and
   // one that runs against z is that of normals that point into the surface.
-  if (!look.is_empty(2) || look.misfit() <= tuning->misfit || std::abs(look.follows()) > tuning->follows) return {};
+  if (look.misfit() <= tuning->misfit || std::abs(look.follows()) > tuning->follows) return {};
+  if (!look.is_empty(2))
+    return {.doubt = fmt::format("its blue is no z that belongs to red and green (correlation {:.2f}, off by {:.2f})",
+                                 look.follows(), look.misfit())};
   return without_z(fmt::format("its blue is {} throughout", look.is_near(2, 0)   ? "0"
                                                             : look.is_near(2, 1) ? "full"
                                                                                  : "one half"));

@@ -27,6 +27,7 @@ struct NormalLayout {
   std::string reason{};   ///< why z is not taken from the image, "it has no z", "its blue is 0 throughout"
   double overlong = 0;    ///< without z: the share of the pixels whose x and y are clearly longer than 1
   bool is_given = false;  ///< told by `given`
+  std::string doubt{};    ///< with z: why the third channel does not seem to be it, "its blue ..."
 };
 
 /// Told by `given`, else by the channels' names and by the pixels. `names`: as the file has them; empty: not known.

@@ -114,6 +114,19 @@ bool is_constant(const Image& image) {
   return true;
 }
 
+bool is_only_alpha(const Image& image) {
+  const int alpha = image.channels() - 1;
+  if (alpha % 2 == 0) return false;
+  const auto noise = float(tuning->compression_noise);
+  const std::vector<float> first = image.read({0, 0, 1, 1});
+  const auto is_first = [&](int c) {
+    return channel_is(image, c, noise, [&](const float*) { return first[size_t(c)]; });
+  };
+  for (int c = 0; c < alpha; c++)
+    if (!is_first(c)) return false;
+  return !is_first(alpha);
+}
+
 ImagePtr alpha_of(const ImagePtr& file, Semantic semantic, bool inverted) {
   if (file->channels() % 2 != 0) return nullptr;
   const int alpha = file->channels() - 1;

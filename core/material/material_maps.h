@@ -30,6 +30,9 @@ bool is_grey(const Image& image);
 /// Whether every pixel is the same.
 bool is_constant(const Image& image);
 
+/// Whether all but the alpha of a file with alpha is the same everywhere, and alpha is not.
+bool is_only_alpha(const Image& image);
+
 /// A file's alpha channel as a map of that meaning; null if there is none or it is 1 everywhere.
 ImagePtr alpha_of(const ImagePtr& file, Semantic semantic, bool inverted = false);
 

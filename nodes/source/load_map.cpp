@@ -18,7 +18,7 @@ namespace terrazzo {
 
 namespace {
 
-/// A mask painted as transparency would silently be all white or all black.
+/// A mask or an opacity map painted as transparency would silently be all white or all black.
 void note_transparency(NodeContext& node, const Image& mask) {
   const int channels = mask.channels();
   if (channels != 2 && channels != 4) return;
@@ -28,8 +28,8 @@ void note_transparency(NodeContext& node, const Image& mask) {
   });
   if (transparent)
     node.warn(fmt::format(
-        "only the mask's first channel counts, not its alpha; to use alpha, take output \"{}\" of channel_split",
-        channels == 2 ? "g" : "a"));
+        "only the {}'s first channel counts, not its alpha; to use alpha, take output \"{}\" of channel_split",
+        mask.info().semantic == Semantic::mask ? "mask" : "map", channels == 2 ? "g" : "a"));
 }
 
 /// What the parameter `interpret` says; nothing if it is empty. Throws Error.
@@ -89,7 +89,7 @@ void compute(NodeContext& node) {
   const ImagePtr read = read_image(
       path, info, [&](const std::string& warning) { node.note(warning); }, layer, given.as_stored.value_or(false));
   const ImagePtr image = interpreted(node, read, given);
-  if (info.semantic == Semantic::mask) note_transparency(node, *image);
+  if (info.semantic == Semantic::mask || info.semantic == Semantic::opacity) note_transparency(node, *image);
   node.output("image", image);
 }
 

@@ -79,11 +79,13 @@ void compute(NodeContext& node) {
   const fs::path folder = folder_of(node.params());
   const std::string given_space = node.text("color_space") == "auto" ? "" : color_space_of(node, "color_space");
   std::vector<std::string> notes;
-  const FoundMaterial material_found = find_maps(node.params(), notes);
-  const std::vector<RecognisedMap>& found = material_found.maps;
+  FoundMaterial material_found = find_maps(node.params(), notes);
   for (std::string& n : notes) node.note(std::move(n));
   notes.clear();
-  const Sources sources = read_sources(node, folder, found);
+  const Sources sources = read_sources(node, folder, material_found.maps);
+  const auto image_of = [&](const RecognisedMap& m) { return sources.at(place_of(m)).image; };
+  for (RecognisedMap& m : material_found.maps) settle_only_alpha(m, *image_of(m), notes);
+  const std::vector<RecognisedMap>& found = material_found.maps;
   std::vector<Map> maps;
   Texts with_alpha;
   const auto add_map = [&](const RecognisedMap& m) {
@@ -108,12 +110,11 @@ void compute(NodeContext& node) {
     if (is_normal(m)) add_map(m);  // a height map may tell their channels apart
   std::vector<RecognisedMap> by_name = found;
   std::erase_if(by_name, [&](const RecognisedMap& m) { return is_given(node.params(), m); });
-  settle_packings(
-      by_name, [&](const RecognisedMap& m) { return sources.at(place_of(m)).image; }, maps, notes);
+  settle_packings(by_name, image_of, maps, notes);
+  tell_of_unused_channels(by_name, found, image_of, notes);
   leave_out_unrelated(by_name, maps, notes);
   for (const RecognisedMap& m : found)
-    if (std::ranges::find(with_alpha, m.map) == with_alpha.end())
-      add_alpha(m, sources.at(place_of(m)).image, maps, notes);
+    if (std::ranges::find(with_alpha, m.map) == with_alpha.end()) add_alpha(m, image_of(m), maps, notes);
   Texts ignored = material_found.ignored;
   add_unnamed_packing(folder, material_found.unnamed, maps, ignored, notes);
   if (!ignored.empty()) notes.push_back(note_on_ignored(ignored));
@@ -194,7 +195,8 @@ NodeType load_material_node() {
       "of three or four channels whose names say nothing but whose pixels do, gloss and "
       "smoothness maps are inverted into roughness, grey maps stored in colour are reduced to one channel, and a base "
       "colour's alpha becomes the opacity map, that of a specular or metallic map, inverted, the roughness if there is "
-      "no other, that of a normal map the height if the normals follow it. Layers and channels of EXR files are "
+      "no other, that of a normal map the height if the normals follow it; opacity that is only in alpha is read from "
+      "there. Layers and channels of EXR files are "
       "recognised by their names, whatever their order. A picture named just like the other maps' material is its base "
       "colour. If several files hold one map, OpenGL normals, finer levels of detail, larger and lossless "
       "files are preferred. A file terrazzo-material.json, as export writes it, counts more than names, and so does "

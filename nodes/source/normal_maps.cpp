@@ -19,6 +19,10 @@ RebuiltNormals rebuilt_normals(const ImagePtr& image, const NormalFile& file, co
   } catch (const Error& e) {
     throw Error("path", fmt::format("{}: {}", subject, e.what()));
   }
+  if (!layout.doubt.empty())
+    notes.push_back(
+        fmt::format("{}{}: {}; it may hold another map. It is taken for z; {} rebuilds z from red and green",
+                    warning_mark, subject, layout.doubt, advice_to_interpret(file.map, "xy")));
   if (layout.has_z) return {};
   notes.push_back(fmt::format("{}: {}; z is rebuilt from x and y", subject, layout.reason));
   if (layout.overlong > 0.001)

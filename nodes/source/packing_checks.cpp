@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -122,6 +123,74 @@ void settle_packings(const std::vector<RecognisedMap>& sources, const ImageOf& i
   }
 }
 
+namespace {
+
+/// Neither the same everywhere nor a copy of one of `used`.
+bool holds_more(const Image& file, int channel, const std::set<int>& used) {
+  constexpr float noise =
+      8.0f / 255;  // higher: faint maps are lost silently; lower: what JPEG makes of constants warns
+  const int channels = file.channels();
+  float least = 1e30f, most = -1e30f;
+  std::vector<bool> is_copy(size_t(channels), true);
+  for_each_strip(file, [&](const Rect& r, const float* p) {
+    for (int64_t i = 0; i < r.area(); i++, p += channels) {
+      least = std::min(least, p[channel]);
+      most = std::max(most, p[channel]);
+      for (const int c : used)
+        if (std::abs(p[c] - p[channel]) > noise) is_copy[size_t(c)] = false;
+    }
+  });
+  return most - least > noise && std::ranges::none_of(used, [&](int c) { return is_copy[size_t(c)]; });
+}
+
+/// The channels that maps of a file take, and those that its name gives to maps.
+std::set<int> used_channels(const RecognisedMap& place, int channels, const std::vector<RecognisedMap>& found) {
+  std::vector<RecognisedMap> maps =
+      recognise_map({.name = place.file, .size = {}, .channels = channels, .layer = place.layer});
+  for (const RecognisedMap& m : found)
+    if (m.file == place.file && m.layer == place.layer) maps.push_back(m);
+  std::set<int> used;
+  for (const RecognisedMap& m : maps)
+    for (const char c : m.channels) used.insert(int(std::string_view("rgba").find(c)));
+  if (used == std::set<int>{1, 2}) used.insert(0);  // see tell_of_red
+  return used;
+}
+
+}  // namespace
+
+void tell_of_unused_channels(const std::vector<RecognisedMap>& sources, const std::vector<RecognisedMap>& found,
+                             const ImageOf& image_of, Notes& notes) {
+  std::map<std::pair<std::string, std::string>, Packing> packings;
+  for (const RecognisedMap& m : sources)
+    if (!m.channels.empty() && m.said_by.empty()) packings[{m.file, m.layer}].push_back(&m);
+  for (const auto& [place, packing] : packings) {
+    const RecognisedMap& first = *packing.front();
+    const ImagePtr file = image_of(first);
+    const std::set<int> used = used_channels(first, file->channels(), found);
+    Notes unused;
+    for (int c = 0; c < file->channels(); c++)
+      if (!used.count(c) && holds_more(*file, c, used)) unused.emplace_back(1, "rgba"[c]);
+    if (unused.empty()) continue;
+    notes.push_back(
+        fmt::format("{}{}: its {} left out, and not the same everywhere. If {} a map, `maps` says which, as in "
+                    "{{\"ambient_occlusion\": \"{}\"}}",
+                    warning_mark, first.file,
+                    unused.size() == 1 ? fmt::format("channel {} is", unused[0])
+                                       : fmt::format("channels {} are", fmt::join(unused, " and ")),
+                    unused.size() == 1 ? "it is" : "one is", channel_of(first, unused[0][0])));
+  }
+}
+
+void settle_only_alpha(RecognisedMap& map, const Image& file, Notes& notes) {
+  const bool is_cover = map.semantic == Semantic::opacity || map.semantic == Semantic::mask;
+  if (!map.channels.empty() || !is_cover || !is_only_alpha(file)) return;
+  map.channels = "a";
+  notes.push_back(
+      fmt::format("{}: {} is the same everywhere but for its alpha channel, which is read; `maps` {{\"{}\": \"{}\"}} "
+                  "says otherwise",
+                  map.map, map.file, map.map, channel_of(map, 'r')));
+}
+
 void leave_out_unrelated(const std::vector<RecognisedMap>& sources, std::vector<Map>& maps, Notes& notes) {
   constexpr double least_shared = 0.06;  // higher: a map is lost; lower: that of another material is mixed in
   const auto find = [&](const RecognisedMap& m) { return std::ranges::find(maps, m.map, &Map::name); };
@@ -179,10 +248,12 @@ void add_alpha(const RecognisedMap& m, const ImagePtr& file, std::vector<Map>& m
       may_hide ? alpha_of(file, hidden.value_or(m.semantic), hidden == Semantic::roughness) : nullptr;
   if (!alpha) return;
   if (!hidden || (hidden == Semantic::height && !is_height_of(m, alpha, maps))) {
-    notes.push_back(
-        fmt::format("{}the alpha channel of {} is left out. If it is a map, `maps` says which, as in "
-                    "{{\"roughness\": \"{}\"}}",
-                    hidden ? warning_mark : "", m.place(), channel_of(m, 'a')));
+    const bool is_all = is_one_value(m.semantic) && is_only_alpha(*file);
+    notes.push_back(fmt::format(
+        "{}the alpha channel of {} is left out{}. If it is a map, `maps` says which, as in "
+        "{{\"{}\": \"{}\"}}",
+        hidden || is_all ? warning_mark : "", m.place(), is_all ? ", though all else in it is the same everywhere" : "",
+        is_all ? m.map : "roughness", channel_of(m, 'a')));
     return;
   }
   const std::string name(name_of(*hidden));

@@ -23,6 +23,14 @@ bool may_be_left_out(const RecognisedMap& map);
 void settle_packings(const std::vector<RecognisedMap>& sources, const ImageOf& image_of, std::vector<Map>& maps,
                      std::vector<std::string>& notes);
 
+/// Warns of channels that hold something and that no map takes, of the files that names part into channels. `sources`:
+/// what names say; `found`: all maps.
+void tell_of_unused_channels(const std::vector<RecognisedMap>& sources, const std::vector<RecognisedMap>& found,
+                             const ImageOf& image_of, std::vector<std::string>& notes);
+
+/// An opacity map or a mask is in the alpha channel where that alone differs from pixel to pixel.
+void settle_only_alpha(RecognisedMap& map, const Image& file, std::vector<std::string>& notes);
+
 /// Leaves out maps whose names say no material and whose pictures have nothing in common with those of the others.
 void leave_out_unrelated(const std::vector<RecognisedMap>& sources, std::vector<Map>& maps,
                          std::vector<std::string>& notes);

@@ -132,6 +132,20 @@ bool says_nothing(const std::string& channel) {
   return place_of(channel) < picture.size() || is_numbered(channel, {});
 }
 
+/// Alpha without a layer beside others is that of the only other layer, or else a layer of its own: the picture it may
+/// have belonged to is not there.
+void settle_bare_alpha(std::vector<Name>& names) {
+  const auto bare = std::ranges::find(names, "", &Name::layer);
+  if (bare == names.end() || place_in(picture, bare->channel) != 3) return;
+  if (std::ranges::count(names, "", &Name::layer) > 1 || names.size() == 1) return;
+  const Name& other = names[bare == names.begin() ? 1 : 0];
+  const bool is_shared = std::ranges::any_of(names, [&](const Name& n) {
+    return &n != &*bare && (n.layer != other.layer || place_in(picture, n.channel) == 3);
+  });
+  constexpr size_t most_channels = 4;
+  bare->layer = is_shared || names.size() > most_channels ? bare->channel : other.layer;
+}
+
 /// The layer of each channel of a part.
 std::vector<Name> names_in(const std::vector<std::string>& channels) {
   if (channels.size() == 1 && says_nothing(channels.front())) return {{"", channels.front()}};
@@ -151,6 +165,7 @@ std::vector<Name> names_in(const std::vector<std::string>& channels) {
       out[members[i]] = {prefix + (is_below ? "." : "") + names[i].layer, names[i].channel};
     }
   }
+  settle_bare_alpha(out);
   return out;
 }
 

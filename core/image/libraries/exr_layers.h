@@ -23,6 +23,7 @@ struct ExrPart {
 /// part (OpenEXR's Technical Introduction, "Layers"), or before a last letter (normalX, normalY). Of several parts each
 /// name comes before that. Of the channels of one prefix those of a picture (R, G, B, A), a vector (X, Y, Z or U, V) or
 /// a grey value (Y, A) are its layer; each other one is a layer of its own: "roughness", "Z" beside R, G and B.
+/// Alpha alone without a prefix belongs to the only other layer; beside several it is a layer of its own.
 std::vector<ExrLayer> exr_layers(const std::vector<ExrPart>& parts);
 
 }  // namespace terrazzo

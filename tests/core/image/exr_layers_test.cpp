@@ -103,6 +103,27 @@ TEST_CASE("channels with names of their own are layers, whatever their order, be
   CHECK(layers({"ch0", "ch1", "ch2"}) == ":3");
 }
 
+TEST_CASE("alpha without a layer belongs to the only other layer, beside several it is one of its own") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "wall.exr";
+  const auto layers = [&](const std::vector<std::string>& names) {
+    std::vector<float> pixel;
+    for (size_t i = 0; i < names.size(); i++) pixel.push_back(float(i + 1));
+    write_odd(path, {.size = {1, 1}, .channels = int(names.size()), .type = "float", .channel_names = names}, pixel);
+    return fmt::format("{}", fmt::join(listed(path), " "));
+  };
+  CHECK(layers({"A", "albedo.B", "albedo.G", "albedo.R"}) == "albedo:4");
+  CHECK(pixels_of(path, "") == std::vector<float>{4, 3, 2, 1});
+  CHECK(layers({"A", "Displacement.Y"}) == "Displacement:2");
+  CHECK(pixels_of(path, "") == std::vector<float>{2, 1});
+  CHECK(layers({"A", "normal.X", "normal.Y", "normal.Z"}) == "normal:4");
+  CHECK(pixels_of(path, "") == std::vector<float>{2, 3, 4, 1});
+  CHECK(layers({"A", "albedo.A", "albedo.B", "albedo.G", "albedo.R"}) == "A:1 albedo:4");
+  CHECK(layers({"A", "albedo.B", "albedo.G", "albedo.R", "normal.X", "normal.Y", "normal.Z"}) ==
+        "A:1 albedo:3 normal:3");
+  CHECK(layers({"A", "five.1", "five.2", "five.3", "five.4"}) == "A:1 five:4");
+}
+
 TEST_CASE("the parts of an EXR file are layers") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "parts.exr";

@@ -286,6 +286,8 @@ TEST_CASE("FITS is refused, as its numbers have no range") {
   text.resize(5760, ' ');
   write_bytes(path, Bytes(text.begin(), text.end()));
   CHECK(contains(trouble_of(path), "it is FITS"));
+  CHECK(contains(error_of("load_map", {{"path", path.string()}}), "it is FITS"));
+  CHECK_NOTHROW(require_readable_image(path));  // what is asked first does not take it for a text
 }
 
 TEST_CASE("integers of 32 bits that are ids are refused, shades are not") {
@@ -306,4 +308,20 @@ TEST_CASE("integers of 32 bits that are ids are refused, shades are not") {
   CHECK(trouble_of(folder.path() / "shades.tif") == "");
   write_bytes(folder.path() / "none.tif", make_tiff({.bits = 32}, packed({0, 0}, 4)));
   CHECK(trouble_of(folder.path() / "none.tif") == "");
+}
+
+TEST_CASE("TGA of 16-bit grey values is refused, and one of grey and alpha is read") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "grey.tga";
+  for (const uint64_t kind : {3, 11}) {
+    ByteWriter out;
+    out.number(0, 1).number(0, 1).number(kind, 1).zeros(9).number(2, 2).number(1, 2).number(16, 1).number(0, 1);
+    if (kind == 11) out.number(1, 1);
+    write_bytes(path, out.number(16384, 2).number(32768, 2).bytes);
+    CHECK(contains(trouble_of(path), "its header says grey values of 16 bits, which TGA does not know; save it as"));
+  }
+  ByteWriter out;
+  out.number(0, 1).number(0, 1).number(3, 1).zeros(9).number(2, 2).number(1, 2).number(16, 1).number(8, 1);
+  write_bytes(path, out.number(0xff33, 2).number(0xff66, 2).bytes);
+  CHECK(read(path).pixels() == std::vector<float>{0.2f, 1, 0.4f, 1});
 }

@@ -306,3 +306,23 @@ TEST_CASE("plans know that normals have three channels") {
                          {"data", Texts{}}};
   CHECK(type.preflight(params, {}).images.at("normal").channels == 3);
 }
+
+TEST_CASE("blue that is another map is a warning, and `interpret` settles it") {
+  const auto with_blue = [](float x, float y, float) { return Pixel{x, y, 0.5f + 0.3f * std::sin(7919 * x)}; };
+  const Written file("wall_normal.png", with_blue);
+  const NodeRun one = run_node("load_map", {{"path", (file.path() / file.name).string()}, {"semantic", "normal"}});
+  CHECK(one.says("warning: wall_normal.png: its blue is no z that belongs to red and green"));
+  CHECK(one.says("`interpret` \"xy\" rebuilds z from red and green"));
+  const NodeRun all = run_node("load_material", {{"path", file.path().string()}});
+  CHECK(all.says("warning: normal: wall_normal.png: its blue is no z"));
+  file.check(eight_bits, "it is said to have no z", "xy");
+  for (const char* type : {"uint8", "half"}) {
+    const Written whole(
+        "wall_normal.tif",
+        [](float x, float y, float z) {
+          return Pixel{x, y, z};
+        },
+        type);
+    CHECK_FALSE(run_node("load_material", {{"path", whole.path().string()}}).says("warning"));
+  }
+}

@@ -192,3 +192,70 @@ TEST_CASE("a map without a material's name is left out if its picture has nothin
                "common with the other maps"));
   CHECK(names(load(folder, {{"height", "DisplacementMap.png"}})) == "base_color, normal, height");
 }
+
+TEST_CASE("channels of a packed file that no map takes are a warning if they hold something of their own") {
+  const TemporaryFolder folder;
+  const fs::path orm = folder.path() / "wall_ORM.png";
+  write(orm, 4, ramp);
+  CHECK(load(folder).says(
+      "warning: wall_ORM.png: its channel a is left out, and not the same everywhere. If it is a map, "
+      "`maps` says which, as in {\"ambient_occlusion\": \"wall_ORM.png:a\"}"));
+  CHECK_FALSE(load(folder, {{"height", "wall_ORM.png:a"}}).says("warning"));
+  CHECK_FALSE(load(folder, {{"ambient_occlusion", ""}, {"height", "wall_ORM.png:a"}}).says("warning"));
+  write(orm, 4, [](int x, int y, int c) { return c == 3 ? 0.5f : ramp(x, y, c); });
+  CHECK_FALSE(load(folder).says("warning"));
+  fs::remove(orm);
+
+  const fs::path gltf = folder.path() / "wall_metalRoughness.png";
+  write(gltf, 4, [](int x, int y, int c) { return c == 0 ? 0.0f : ramp(x, y, c); });
+  CHECK(load(folder).says("warning: wall_metalRoughness.png: its channel a is left out"));
+  fs::remove(gltf);
+
+  const fs::path unity = folder.path() / "wall_MetallicGlossMap.png";
+  write(unity, 4, ramp);
+  CHECK(
+      load(folder).says("warning: wall_MetallicGlossMap.png: its channels g and b are left out, and not the same "
+                        "everywhere. If one is a map, `maps` says which, as in {\"ambient_occlusion\": "
+                        "\"wall_MetallicGlossMap.png:g\"}"));
+  write(unity, 4, [](int x, int y, int c) { return ramp(x, y, c == 3 ? 3 : 0); });
+  CHECK_FALSE(load(folder).says("left out"));
+}
+
+TEST_CASE("an opacity map that is only in alpha is read from there, other maps are warned of") {
+  const TemporaryFolder folder;
+  const auto white_with_alpha = [](int x, int y, int c) { return c == 3 ? ramp(x, y, 0) : 1.0f; };
+  write(folder.path() / "leaf_opacity.png", 4, white_with_alpha);
+  NodeRun run = load(folder);
+  CHECK(run.get<Material>("material")->find("opacity")->read({5, 7, 1, 1})[0] == ramp(5, 7, 0));
+  CHECK(
+      run.says("opacity: leaf_opacity.png is the same everywhere but for its alpha channel, which is read; `maps` "
+               "{\"opacity\": \"leaf_opacity.png:r\"} says otherwise"));
+  CHECK_FALSE(run.says("left out"));
+  CHECK(first_of(load(folder, {{"opacity", "leaf_opacity.png:r"}}), "opacity") == 1);
+  CHECK(run_node("load_map", {{"path", (folder.path() / "leaf_opacity.png").string()}, {"semantic", "opacity"}})
+            .says("warning: only the map's first channel counts, not its alpha"));
+  fs::remove(folder.path() / "leaf_opacity.png");
+
+  write(folder.path() / "leaf_height.png", 4, white_with_alpha);
+  run = load(folder);
+  CHECK(first_of(run, "height") == 1);
+  CHECK(
+      run.says("warning: the alpha channel of leaf_height.png is left out, though all else in it is the same "
+               "everywhere. If it is a map, `maps` says which, as in {\"height\": \"leaf_height.png:a\"}"));
+}
+
+TEST_CASE("alpha without a layer beside a named layer of an EXR file is the alpha of that map, and no map itself") {
+  const TemporaryFolder folder;
+  const auto pixel = [&](const char* file, const std::vector<std::string>& channels, const std::vector<float>& values) {
+    write_odd(folder.path() / file,
+              {.size = {1, 1}, .channels = int(channels.size()), .type = "float", .channel_names = channels}, values);
+  };
+  pixel("wall_albedo.exr", {"A", "albedo.B", "albedo.G", "albedo.R"}, {0.5f, 0.1f, 0.2f, 0.3f});
+  pixel("wall_height.exr", {"A", "Displacement.Y"}, {1, 0.7f});
+  pixel("wall_normal.exr", {"A", "normal.X", "normal.Y", "normal.Z"}, {1, -0.6f, 0, 0.8f});
+  const NodeRun run = load(folder);
+  CHECK(names(run) == "base_color, normal, height, opacity");
+  CHECK(run.get<Material>("material")->find("base_color")->read({0, 0, 1, 1}) == std::vector<float>{0.3f, 0.2f, 0.1f});
+  CHECK(first_of(run, "opacity") == 0.5f);
+  CHECK(first_of(run, "height") == 0.7f);
+}
