@@ -89,6 +89,7 @@ StoredMeaning meaning_of(const OpenFile& file, const ImageInfo& info) {
                            : header.type == "int" ? double(std::numeric_limits<int32_t>::max())
                                                   : 0,
           .is_colour = is_color(info.semantic),
+          .may_be_premultiplied = header.format == "openexr" && is_color(info.semantic) && header.description.empty(),
           .can_be_averaged = can_be_averaged(info)};
 }
 

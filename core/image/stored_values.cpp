@@ -85,9 +85,11 @@ void StoredValues::mend_as(std::span<T> values, const Traits& traits) {
       if (facts.inverted_alpha) alpha = traits.inverted(alpha);
       const bool is_zero = traits.is_zero(alpha);
       any_alpha_ |= !is_zero;
+      if (meaning_.may_be_premultiplied) translucent_ += !is_zero && traits.number(alpha) < 1;
+      if (facts.premultiplied || meaning_.may_be_premultiplied)
+        brighter_ += std::any_of(p, p + colours, [&](T v) { return traits.number(v) > traits.number(alpha); });
       if (facts.premultiplied) {
         without_colour_ += is_zero;
-        brighter_ += std::any_of(p, p + colours, [&](T v) { return traits.number(v) > traits.number(alpha); });
         if (!is_zero)
           for (int c = 0; c < colours; c++) p[c] = traits.divided(p[c], alpha);
       }
@@ -171,6 +173,11 @@ std::vector<StoredValues::Remark> StoredValues::remarks() const {
       text += fmt::format(". Colours larger than alpha in {} say otherwise", counted(brighter_, "pixel"));
     out.push_back({text, without_colour_ > 0 || brighter_ > 0});
   }
+  if (translucent_ > 0 && brighter_ == 0)
+    out.push_back(
+        {"no colour is larger than alpha, as in colours multiplied by it, which EXR files hold by convention; they are "
+         "read as they are. If they are multiplied, divide them, with OpenImageIO by \"oiiotool FILE --unpremult -o "
+         "FILE\""});
   if (is_invisible())
     out.push_back({"its alpha is 0 everywhere, so that nothing would be seen; it is read as opaque", true});
   if (!holes_.empty())

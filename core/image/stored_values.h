@@ -19,10 +19,11 @@ struct StoredMeaning {
   FormatFacts facts{};
   Rect stored;  ///< in the image's coordinates
   int channels = 1;
-  bool is_float = false;        ///< values may be not finite
-  double integer_range = 0;     ///< the largest value that came as 1, of 32-bit integers; else 0
-  bool is_colour = false;       ///< an even number of channels ends with alpha
-  bool can_be_averaged = true;  ///< see core/image/pixel_space.h
+  bool is_float = false;              ///< values may be not finite
+  double integer_range = 0;           ///< the largest value that came as 1, of 32-bit integers; else 0
+  bool is_colour = false;             ///< an even number of channels ends with alpha
+  bool may_be_premultiplied = false;  ///< by convention of the format, which files do not say
+  bool can_be_averaged = true;        ///< see core/image/pixel_space.h
 };
 
 /// Mends values as they come, and remembers what can only be judged when all have come.
@@ -68,6 +69,7 @@ class StoredValues {
   int64_t pixels_ = 0;          ///< that have come
   int64_t without_colour_ = 0;  ///< alpha is 0, and colours are multiplied by it
   int64_t brighter_ = 0;        ///< colours are larger than alpha
+  int64_t translucent_ = 0;     ///< alpha is between 0 and 1
   bool any_alpha_ = false;
   std::array<float, 4> largest_{};  ///< of each channel
   int64_t holed_pixels_ = 0, last_holed_ = -1;

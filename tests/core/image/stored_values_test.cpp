@@ -141,3 +141,19 @@ TEST_CASE("colours of WebP are those under its alpha") {
   write_bytes(path, animated);
   CHECK(contains(trouble_of(path), "it is an animation with alpha; expected a single picture"));
 }
+
+TEST_CASE("colours that may be multiplied by alpha are told of where none is larger than it, and stay as they are") {
+  const auto remarks = [](std::vector<float> values) {
+    StoredValues stored(
+        {.stored = {0, 0, 2, 1}, .channels = 4, .is_float = true, .is_colour = true, .may_be_premultiplied = true});
+    const std::vector<float> before = values;
+    stored.mend(std::span<float>(values));
+    CHECK(values == before);
+    return stored.remarks();
+  };
+  const auto told = remarks({0.4f, 0.2f, 0.1f, 0.5f, 0.8f, 0.4f, 0.2f, 1});
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].text.find("no colour is larger than alpha") == 0);
+  CHECK(remarks({0.8f, 0.4f, 0.2f, 0.5f, 0.8f, 0.4f, 0.2f, 1}).empty());
+  CHECK(remarks({0, 0, 0, 0, 0.8f, 0.4f, 0.2f, 1}).empty());
+}
