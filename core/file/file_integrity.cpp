@@ -1,6 +1,7 @@
 #include "core/file/file_integrity.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <fstream>
 #include <span>
@@ -30,6 +31,7 @@ bool stands_alone(uint8_t marker) {
 class Numbers {
  public:
   explicit Numbers(const std::filesystem::path& path) : in_(path, std::ios::binary | std::ios::ate) {
+    if (!in_.is_open()) throw_system_error("read", path, errno);
     size_ = uint64_t(std::max<std::streamoff>(0, in_.tellg()));
   }
   void set_big_endian(bool is_big_endian) { is_big_endian_ = is_big_endian; }

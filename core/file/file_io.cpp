@@ -142,6 +142,7 @@ std::optional<Digest> content_digest(const std::filesystem::path& path) {
 }
 
 std::string system_message(int code) {
+  if (code == EMFILE) return "the program has as many files open as its limit on open files allows (ulimit -n)";
   return std::generic_category().message(code);
 }
 

@@ -33,13 +33,28 @@ const Tunable<Tuning> tuning("image_read",
                                   "not measured: what filters undershoot zero by is no sign", -1, 0},
                              });
 
-/// The stored pixels in the depth asked for.
+/// The stored pixels in the depth asked for. Throws Cancelled with the task that the thread works for.
 template <typename T>
 std::vector<T> read_stored(const fs::path& path, const OpenFile& file, Depth as) {
+  // More at a time keeps decoders busy that use several threads; less is sooner told of a cancelled task.
+  constexpr int64_t values_at_once = int64_t{1} << 23;
+  const Task& task = WorksFor::task();
+  task.check();
   require_complete(path, file);
-  std::vector<T> out(size_t(file.header().stored.area()) * file.channels());
+  const StoredImage& header = file.header();
+  std::vector<T> out(size_t(header.stored.area()) * file.channels());
+  const int64_t row = int64_t{header.stored.width} * file.channels();
   try {
-    file.in->read(as, out.data());
+    if (!header.by_rows || int64_t(out.size()) <= values_at_once) {
+      file.in->read(as, out.data());
+    } else {
+      const int step = file.in->row_step();
+      const int rows = step * int(std::max<int64_t>(1, values_at_once / (row * step)));
+      for (int y = 0; y < header.stored.height; y += rows) {
+        task.check();
+        file.in->read_rows(y, std::min(y + rows, header.stored.height), as, out.data() + size_t(row) * size_t(y));
+      }
+    }
   } catch (const Error& e) {
     fail_to_read(path, "it is damaged or cut off: " + one_line(e.what()));
   }
@@ -221,7 +236,9 @@ std::vector<T> read_meant(const fs::path& path, const OpenFile& file, const Imag
                           const Warn& warn) {
   StoredValues stored(meaning_of(file, info));
   std::vector<T> values = read_stored<T>(path, file, as);
+  WorksFor::task().check();
   stored.mend(values);
+  WorksFor::task().check();
   const auto channels = size_t(file.channels()), width = size_t(file.header().stored.width);
   const auto at = [&](int x, int y) { return (size_t(y) * width + size_t(x)) * channels; };
   const auto to_float = [&](T v) { return as == Depth::f16 ? imath_half_to_float(uint16_t(v)) : float(v); };
@@ -240,6 +257,7 @@ std::vector<T> read_meant(const fs::path& path, const OpenFile& file, const Imag
                   : as == Depth::f32 ? T(1)
                                      : std::numeric_limits<T>::max();
   warn_of_values(path, stored, warn);
+  WorksFor::task().check();
   return placed(file, std::move(values));
 }
 

@@ -2,12 +2,14 @@
 
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <csetjmp>
 #include <cstdio>
 
 #include <png.h>
 
 #include "core/base/error.h"
+#include "core/file/file_io.h"
 
 namespace terrazzo {
 
@@ -194,6 +196,7 @@ class PngEncoder final : public ImageEncoder {
 
 std::unique_ptr<ImageDecoder> open_png(const std::filesystem::path& path) {
   CFile file(std::fopen(path.c_str(), "rbe"));
+  if (!file && errno == EMFILE) throw_system_error("read", path, EMFILE);
   if (!file) return nullptr;
   auto decoder = std::make_unique<PngDecoder>(std::move(file));
   if (!decoder->is_png()) return nullptr;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "graphs/document/excerpt.h"
+
 namespace terrazzo {
 
 const JsonValue* JsonValue::find(std::string_view name) const {
@@ -92,10 +94,7 @@ std::string found(const JsonValue& value) {
       break;
   }
   if (value.text.empty()) return "an empty text";
-  if (value.text.size() <= most) return fmt::format("the text {}", in_quotes(value.text));
-  size_t end = most;
-  while (end > 0 && (static_cast<uint8_t>(value.text[end]) & 0xC0) == 0x80) end--;
-  return fmt::format("the text {} and so on", in_quotes(value.text.substr(0, end)));
+  return fmt::format("the text {}", excerpt(value.text, most));
 }
 
 namespace {

@@ -166,6 +166,7 @@ void Levels::read_item(Level& level, const JsonMember& member, const std::vector
   std::map<std::string, std::vector<size_t>> by_name;  // positions in `its`
   for (size_t i = 0; i < its.size(); i++) by_name[its[i].name].push_back(i);
   for (const LoopRound& round : *rounds) {
+    if (is_full_) return;
     const std::string local = fmt::format("{}[{}]", member.name, round.label);
     std::vector<size_t> positions = by_name[member.name];
     if (const auto own = by_name.find(local); own != by_name.end()) {

@@ -80,6 +80,8 @@ class Levels {
     const auto at = by_path_.find(path);
     return at == by_path_.end() ? nullptr : at->second;
   }
+  /// Whether there is more than may be; the rest has not been read then, and a problem says so.
+  bool is_full() const { return is_full_; }
   /// Files and folders that loops were made from.
   const std::vector<LoopSource>& made_from() const { return made_from_; }
   /// Parameters that loops need and that have no value.

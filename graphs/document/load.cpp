@@ -100,6 +100,7 @@ class Loader {
     root.names.substitution = std::make_unique<Substitution>(*root.names.scope);
     levels_.read(std::move(owned), overrides);
     coded("node");
+    if (levels_.is_full()) finish();  // what more is wrong would be sought in all that was read so far
     std::vector<Problem> conversions;
     for (const std::unique_ptr<Level>& level : levels_.all()) check_wires(*level, problems_, conversions);
     connect(levels_, problems_);

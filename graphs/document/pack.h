@@ -10,7 +10,8 @@
 /// A graph with all that it reads in one file, which runs elsewhere. It is a tar archive:
 ///   graph.json      the graph, with its subgraphs and presets in it
 ///   settings.json   where its inputs lie, relative to this file, as for --params
-///   sources.json    for settings that are made from others: which these are. If one of them is set, they do not count
+///   sources.json    for settings that are made from others: which these are. If one of them is set, they do not count.
+///                   Without it nothing else than what the settings name may be set
 ///   inputs/, loops/ the files
 namespace terrazzo {
 

@@ -37,12 +37,43 @@ bool is_set(const std::vector<Override>& given, std::string_view node, std::stri
   return std::ranges::any_of(given, [&](const Override& o) { return sets(o, node, name); });
 }
 
-/// Whether a file name pattern names only places that lie in this one, or files whose names begin with its own.
+/// Whether a file name pattern names only places that lie in the folder: what "/a/b{map}.png" names lies in "/a".
+bool is_in(const fs::path& folder, const std::string& pattern) {
+  const size_t open = pattern.find('{');
+  return lies_in(folder,
+                 open == std::string::npos ? fs::path(pattern) : fs::path(pattern.substr(0, open)).parent_path());
+}
+
+/// The same of a place that has been set, which may also be how the names of files begin.
 bool is_at(const fs::path& place, const std::string& pattern) {
-  const fs::path known = pattern.substr(0, pattern.find('{'));
-  if (lies_in(place, known)) return true;
+  if (is_in(place, pattern)) return true;
   const bool begins = pattern.starts_with(place.string());
   return begins && pattern.find('/', place.string().size()) == std::string::npos;
+}
+
+/// What is not as it should be in the sources of a pack; null if all is.
+const JsonValue* no_sources(const JsonValue& sources) {
+  if (!sources.is_object()) return &sources;
+  for (const JsonMember& m : sources.members) {
+    if (m.value.kind != JsonValue::Kind::list) return &m.value;
+    for (const JsonValue& name : m.value.items)
+      if (name.kind != JsonValue::Kind::text) return &name;
+  }
+  return nullptr;
+}
+
+/// Without its sources a pack's inputs stay what they are, whatever they are made from is set to: only what its
+/// settings name can be set by itself.
+void refuse_others(const std::vector<Override>& settings, const std::vector<Override>& others,
+                   std::vector<Problem>& problems) {
+  for (const Override& o : others) {
+    const auto is_own = [&](const Override& s) { return !s.node.empty() && s.node == o.node && s.name == o.name; };
+    if (std::ranges::any_of(settings, is_own)) continue;
+    o.diagnostics(problems).add(o.place,
+                                "the pack has no sources.json, which tells what of its inputs goes with what is set: "
+                                "an older version made it, or it is damaged. Pack it again (terrazzo pack), or run it "
+                                "as it is");
+  }
 }
 
 }  // namespace
@@ -50,10 +81,22 @@ bool is_at(const fs::path& place, const std::string& pattern) {
 std::vector<Override> pack_settings(const fs::path& pack, const std::vector<Override>& others,
                                     std::vector<Problem>& problems) {
   std::vector<Override> out = read_settings(pack / "settings.json", problems);
+  const fs::path file = pack / "sources.json";
   std::error_code missing;
-  if (!fs::exists(pack / "sources.json", missing)) return out;
-  const std::optional<JsonValue> sources = read_json_document(pack / "sources.json", "file of a pack", problems);
+  if (!fs::exists(file, missing)) {
+    refuse_others(out, others, problems);
+    return out;
+  }
+  const std::optional<JsonValue> sources = read_json_document(file, "file of a pack", problems);
   if (!sources) return out;
+  if (const JsonValue* wrong = no_sources(*sources)) {
+    problems.push_back({{},
+                        "sources.json",
+                        fmt::format("expected an object of lists of names such as {{\"wall.path\": [\"scan\"]}}, found "
+                                    "{}: the pack is damaged, pack it again (terrazzo pack)",
+                                    found(*wrong))});
+    return out;
+  }
   std::map<std::string_view, const JsonValue*> by_target;
   for (const JsonMember& m : sources->members) by_target.emplace(m.name, &m.value);
   std::erase_if(out, [&](const Override& o) {
@@ -77,7 +120,7 @@ std::vector<Problem> writes_elsewhere(const Drafts& drafts, const fs::path& fold
       const auto value = node.params.find(param.name);
       if (param.type != ParamType::path || value == node.params.end()) continue;
       const std::string& path = std::get<std::string>(value->second);
-      if (path.empty() || is_at(folder, path) || is_set(given, node.name, param.name)) continue;
+      if (path.empty() || is_in(folder, path) || is_set(given, node.name, param.name)) continue;
       const auto by = d.set_by.find(param.name);
       const auto allows = [&](const Settable& s) {
         return !s.path.empty() && is_at(s.path, path) && is_set(given, s.node, s.name);

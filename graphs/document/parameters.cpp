@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/file/read_guard.h"
 #include "graphs/document/convert.h"
+#include "graphs/document/excerpt.h"
 
 namespace terrazzo {
 
@@ -51,7 +52,7 @@ std::optional<Expression> parse_expression(const JsonValue& text, Diagnostics& d
   try {
     return Expression(std::string_view(text.text).substr(1));
   } catch (const ExpressionError& e) {
-    diagnostics.add(place_in(text, e.offset()), fmt::format("{}, in {}", e.what(), in_quotes(text.text)));
+    diagnostics.add(place_in(text, e.offset()), fmt::format("{}, in {}", e.what(), excerpt(text.text)));
     return std::nullopt;
   }
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/suggest.h"
 #include "graphs/document/convert.h"
+#include "graphs/document/excerpt.h"
 #include "graphs/expression/operations.h"
 
 namespace terrazzo {
@@ -107,7 +108,7 @@ bool GraphScope::check_names(const Expression& expression, const JsonValue& text
     const std::vector<std::string> all = hints_++ < most_problems_shown ? names() : names_;
     const std::string hint = all.empty() ? "; it has none" : suggestion(name, all);
     diagnostics.add(place_in(text, offset),
-                    fmt::format("the graph has no parameter {}{}, in {}", in_quotes(name), hint, in_quotes(text.text)));
+                    fmt::format("the graph has no parameter {}{}, in {}", in_quotes(name), hint, excerpt(text.text)));
   }
   for (const auto& [name, offset] : expression.nodes()) {
     const std::set<std::string>& known_nodes = around_ ? around_->node_names_ : node_names_;
@@ -116,7 +117,7 @@ bool GraphScope::check_names(const Expression& expression, const JsonValue& text
     std::vector<std::string> all;  // to look for the nearest one in; not for problems that will not be shown
     if (hints_++ < most_problems_shown) all.assign(known_nodes.begin(), known_nodes.end());
     diagnostics.add(place_in(text, offset),
-                    fmt::format("@{} leads to no node{}, in {}", name, suggestion(name, all), in_quotes(text.text)));
+                    fmt::format("@{} leads to no node{}, in {}", name, suggestion(name, all), excerpt(text.text)));
   }
   return known;
 }
@@ -136,7 +137,7 @@ void GraphScope::check_condition(GraphParameter& p) {
   if (condition && !condition->nodes().empty())
     diagnostics.add(
         place_in(*p.visible_if, condition->nodes().begin()->second),
-        fmt::format("\"visible_if\" is asked before anything is known of nodes, in {}", in_quotes(p.visible_if->text)));
+        fmt::format("\"visible_if\" is asked before anything is known of nodes, in {}", excerpt(p.visible_if->text)));
   else if (condition && check_names(*condition, *p.visible_if, diagnostics))
     return;
   p.visible_if.reset();
@@ -149,12 +150,12 @@ std::optional<ParamValue> GraphScope::evaluate(const Expression& expression, con
     const std::string wanted = expression::plain_unit(unit);
     if (!wanted.empty() && !out.unit.empty() && wanted != out.unit) {
       diagnostics.add(value.place,
-                      fmt::format("expected {}, found a value in {}, in {}", wanted, out.unit, in_quotes(value.text)));
+                      fmt::format("expected {}, found a value in {}, in {}", wanted, out.unit, excerpt(value.text)));
       return std::nullopt;
     }
     return out.value;
   } catch (const ExpressionError& e) {
-    diagnostics.add(place_in(value, e.offset()), fmt::format("{}, in {}", e.what(), in_quotes(value.text)));
+    diagnostics.add(place_in(value, e.offset()), fmt::format("{}, in {}", e.what(), excerpt(value.text)));
     return std::nullopt;
   }
 }
@@ -167,7 +168,7 @@ void GraphScope::evaluate(GraphParameter& p) {
   if (result) {
     JsonValue json = json_of(*result);
     json.place = p.formula->text.place;
-    diagnostics.set_origin(fmt::format(" (from {})", in_quotes(p.formula->text.text)));
+    diagnostics.set_origin(fmt::format(" (from {})", excerpt(p.formula->text.text)));
     p.value = read_param(json, p.param, p.formula->base, diagnostics);
     if (json.is_text()) p.as_written = json.text;
   }

@@ -19,10 +19,11 @@ namespace {
 /// Whether unpacking a file of this name stays in the folder.
 bool is_safe(const std::string& name) {
   const fs::path path(name);
+  if (!path.lexically_normal().has_filename()) return false;
   bool goes_up = false;
   for (const fs::path& part : path) goes_up |= part == "..";
   static const std::set<std::string> own = {"graph.json", "settings.json", "sources.json"};
-  return !name.empty() && !path.is_absolute() && !goes_up && !name.ends_with('/') &&
+  return !name.empty() && !path.is_absolute() && !goes_up &&
          (own.contains(name) || name.starts_with("inputs/") || name.starts_with("loops/"));
 }
 
@@ -42,6 +43,11 @@ std::vector<TarEntry> entries_of(const fs::path& pack) {
     if (!names.insert(e.name).second)
       throw Error(fmt::format("{}: the pack holds \"{}\" twice", pack.string(), e.name));
   }
+  for (const fs::path& name : names)
+    for (fs::path above = name.parent_path(); !above.empty(); above = above.parent_path())
+      if (names.contains(above))
+        throw Error(fmt::format("{}: the pack holds \"{}\" as a file and as a folder, of \"{}\"", pack.string(),
+                                above.string(), name.string()));
   return entries;
 }
 
@@ -146,9 +152,14 @@ fs::path unpacked(const fs::path& pack, const fs::path& folder) {
   fs::create_directories(folder, failure);
   remove_unused(folder);
   const fs::path temporary = temporary_beside(place);
-  for (const TarEntry& e : entries) {
-    fs::create_directories((temporary / e.name).parent_path(), failure);
-    extract(pack, e, temporary / e.name);
+  try {
+    for (const TarEntry& e : entries) {
+      fs::create_directories((temporary / e.name).parent_path(), failure);
+      extract(pack, e, temporary / e.name);
+    }
+  } catch (...) {
+    fs::remove_all(temporary, failure);
+    throw;
   }
   fs::rename(temporary, place, failure);
   if (failure) {  // another process was faster

@@ -137,7 +137,7 @@ std::vector<Problem> Job::warnings() const {
   const CheckedJob job = checked();
   std::vector<Problem> out = job.warnings();
   for (Problem& p : look_at_sources(job.graph(), WorksFor::task()).warnings) out.push_back(std::move(p));
-  for (Problem& p : doubts_about(job.graph())) out.push_back(std::move(p));
+  for (Problem& p : doubts_about(job.graph(), WorksFor::task())) out.push_back(std::move(p));
   return out;
 }
 

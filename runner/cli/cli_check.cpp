@@ -65,10 +65,11 @@ Findings look_at(const CheckFlags& flags) {
     make_plan(loaded.graph, nullptr);
   }
   const CancelOnSignal signals;
-  SourceFindings sources = look_at_sources(loaded.graph, Task(&signals.flag(), {}));
+  const Task task(&signals.flag(), {});
+  SourceFindings sources = look_at_sources(loaded.graph, task);
   if (!sources.errors.empty()) throw GraphError(loaded.graph.file.string(), std::move(sources.errors));
   std::ranges::move(sources.warnings, std::back_inserter(out.warnings));
-  for (Problem& p : doubts_about(loaded.graph)) out.warnings.push_back(std::move(p));
+  for (Problem& p : doubts_about(loaded.graph, task)) out.warnings.push_back(std::move(p));
   return out;
 }
 

@@ -271,11 +271,13 @@ std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes) {
   return std::move(problems.of_nodes);
 }
 
-std::vector<Problem> doubts_about(const Graph& graph) {
+std::vector<Problem> doubts_about(const Graph& graph, const Task& task) {
+  const WorksFor working(task);
   std::vector<Problem> out;
   Forecasts forecasts;
   for (const GraphNode& node : graph.nodes) {
     if (node.is_open) continue;
+    task.check();
     try {
       forecasts.add(node);
     } catch (const Error&) {

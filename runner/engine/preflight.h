@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/task.h"
 #include "graphs/document/problem.h"
 #include "runner/engine/plan.h"
 
@@ -36,7 +37,7 @@ struct FileToWrite {
 /// The files that needed stages are going to write, or have written.
 std::vector<FileToWrite> files_to_write(const Plan& plan);
 
-/// What is allowed in a checked graph and hardly meant (see NodeType::doubts).
-std::vector<Problem> doubts_about(const Graph& graph);
+/// What is allowed in a checked graph and hardly meant (see NodeType::doubts). Throws Cancelled.
+std::vector<Problem> doubts_about(const Graph& graph, const Task& task);
 
 }  // namespace terrazzo

@@ -260,3 +260,12 @@ TEST_CASE("one member of a map can be set by itself") {
   CHECK(problems_of(text, {"n.y=4"}).find("the graph has no node \"n\"") != std::string::npos);
   CHECK_FALSE(problems_of(text, {"m.y=word"}).empty());
 }
+
+TEST_CASE("a message quotes the beginning of a long expression") {
+  std::string sum = "=1";
+  for (int i = 0; i < 30000; i++) sum += "+1";
+  const std::string said = problems_of(document(adjust(R"("amount": ")" + sum + "\"")));
+  CHECK(said.find("expected an expression of at most 10000 bytes") != std::string::npos);
+  CHECK(said.find("and so on") != std::string::npos);
+  CHECK(said.size() < 1000);
+}

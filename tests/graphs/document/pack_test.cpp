@@ -209,6 +209,17 @@ TEST_CASE("a pack writes beside itself, and elsewhere only where it is told to")
   CHECK_FALSE(refused(*packed_with("/elsewhere/$out.png", "out"), {"out=y"}).empty());
   CHECK(refused(*packed_with("${out}_{map}.png", "out"), {"out=/somewhere/wall"}) == "");
   CHECK_FALSE(refused(*packed_with("${out}side/{map}.png", "out"), {"out=/somewhere/out"}).empty());
+  CHECK_FALSE(refused(*packed_with("${out}{map}/x.png", "out"), {"out=/somewhere/out"}).empty());
+  // The folder's own name is no beginning of other names.
+  for (const char* rest : {"{map}.png", "-{map}.png", "-x.png"}) {
+    const auto beside = packed_with("$out.png", "out");
+    const std::string sibling = beside->elsewhere.path().string() + rest;
+    CAPTURE(sibling);
+    std::string text = read_text(beside->place / "graph.json");
+    text.replace(text.find("$out.png"), 8, sibling);
+    write_text(beside->place / "graph.json", text);
+    CHECK(contains(refused(*beside), "may not write " + sibling));
+  }
 }
 
 TEST_CASE("a copy of a pack that has lost, gained or changed something is mended") {
@@ -289,12 +300,41 @@ TEST_CASE("what is no pack, or would leave its folder, is refused") {
                         ": expected a pack (terrazzo pack), found an archive without graph.json and settings.json")
                            .c_str(),
                        Error);
-  for (const char* name : {"../evil", "/evil", "inputs/../../evil", "inputs/", "other", "inputs/a/../../../evil"}) {
+  for (const char* name : {"../evil", "/evil", "inputs/../../evil", "inputs/", "other", "inputs/a/../../../evil",
+                           "inputs/.", "inputs/a/."}) {
     CAPTURE(name);
     CHECK_THROWS_AS(unpacked(archive({"graph.json", "settings.json", name}), folder.path() / "packs"), Error);
   }
+  for (const std::vector<std::string>& both :
+       {std::vector<std::string>{"inputs/1/a", "inputs/1"}, {"inputs/1", "inputs/1/b/a"}}) {
+    const fs::path path = archive({"graph.json", "settings.json", both[0], both[1]});
+    CHECK_THROWS_WITH_AS(unpacked(path, folder.path() / "packs"),
+                         doctest::Contains("p.tzpack: the pack holds \"inputs/1\" as a file and as a folder"), Error);
+  }
+  CHECK_FALSE(fs::exists(folder.path() / "packs"));
   CHECK_FALSE(fs::exists(folder.path() / "evil"));
   const fs::path place = unpacked(archive({"graph.json", "settings.json", "inputs/0/a"}), folder.path() / "packs");
   CHECK(listing(place) == std::vector<std::string>{"graph.json", "inputs", "settings.json"});
   CHECK(unpacked(folder.path() / "p.tzpack", folder.path() / "packs") == place);
+}
+
+TEST_CASE("a pack whose sources are lost or damaged does not take what it is told for what it has") {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "a.png", "A");
+  write_text(folder.path() / "b.png", "B");
+  write_text(folder.path() / "g.json",
+             R"({"terrazzo": 1, "parameters": {"p": {"type": "path", "default": "a.png"}},
+    "nodes": {"a": {"type": "photo", "file": "$p"}, "w": {"type": "write", "material": "@a", "path": "o.png"}}})");
+  const Packed packed(folder.path() / "g.json");
+  const std::string other = (folder.path() / "b.png").string();
+  fs::remove(packed.place / "sources.json");
+  CHECK(file_of(packed.load(), "a") == "A");
+  CHECK(file_of(packed.load({"a.file=" + other}), "a") == "B");
+  CHECK_THROWS_WITH_AS(packed.load({"p=" + other}), doctest::Contains("Pack it again"), GraphError);
+  for (const char* damaged : {R"({"a.file": "p"})", R"(["p"])", R"({"a.file": [1]})", R"({"a.file": [)", "3"}) {
+    CAPTURE(damaged);
+    write_text(packed.place / "sources.json", damaged);
+    CHECK_THROWS_AS(packed.load({"p=" + other}), GraphError);
+    CHECK_THROWS_AS(packed.load(), GraphError);
+  }
 }

@@ -57,7 +57,8 @@ TEST_CASE("in a sandbox nodes read and write nothing elsewhere, through links ne
           w.run_graph(c.source, c.target, dry ? std::vector<std::string>{"--dry-run"} : std::vector<std::string>{});
       CHECK(r.code == 2);
       CHECK_MESSAGE(r.err.find(c.says) != std::string::npos, r.err);
-      CHECK_MESSAGE(r.err.find("lies outside of the sandbox in; name it on the command line") != std::string::npos,
+      CHECK_MESSAGE(r.err.find("lies outside of the sandbox in; give it to a parameter of type path with --set") !=
+                        std::string::npos,
                     r.err);
     }
   }

@@ -133,3 +133,13 @@ TEST_CASE("shapes go along the wires, and what is not known is no mistake") {
   CHECK(around.problems_of(chain(R"("x": {"type": "crop", "material": "@all", "size": [48, 8]})"))
             .find("expected a rectangle inside the material of 32x32") != std::string::npos);
 }
+
+TEST_CASE("looking for doubts stops when it is told to") {
+  const TemporaryFolder folder;
+  write_picture(folder.path() / "photo.png", 5);
+  const Graph graph =
+      load_graph_text(document(R"("p": {"type": "load_map", "path": "photo.png"})"), folder.path() / "g.json").graph;
+  CHECK_NOTHROW(doubts_about(graph, Task()));
+  const std::atomic<bool> cancelled = true;
+  CHECK_THROWS_AS(doubts_about(graph, Task(&cancelled, {})), Cancelled);
+}
