@@ -264,6 +264,7 @@ def _describe(error: BaseException, trace: Any) -> str:
     if frames:
         last = frames[-1]
         text += f" ({last.name}, {os.path.basename(last.filename)}:{last.lineno})"
+    text = text.encode("utf-8", "backslashreplace").decode()  # lone surrogates have no UTF-8 form
     if trace is not None:
         error = error.with_traceback(trace)
     _raised.append((text, error))

@@ -90,6 +90,21 @@ class TrustTest(Case):
             with self.assertRaisesRegex((tz.Error, ValueError), "surrogate|no Unicode"):
                 act()
 
+    def test_file_names_and_exceptions_that_are_no_unicode_are_shown(self):
+        with self.assertRaisesRegex(tz.Error, r"nowhere\\x80\.json"):
+            tz.Graph.load("nowhere\udc80.json")
+
+        @tz.node(version=1)
+        def raises_a_lone_surrogate(image: tz.Image) -> tz.Image:
+            raise ValueError("a\ud800b")
+
+        g = tz.Graph.loads("""{"terrazzo": 1, "nodes": {
+            "from": {"type": "solid", "size": 16, "value": [0.5, 0.5, 0.5], "semantic": "base_color"},
+            "raises": {"type": "raises_a_lone_surrogate", "image": "@from"},
+            "files": {"type": "export", "material": "@raises", "path": "made here/{map}.png"}}}""")
+        with self.assertRaisesRegex(tz.Error, r"a\\ud800b"):
+            self.session().run(g)
+
     def test_arrays_that_are_too_large_are_refused_before_they_are_copied(self):
         huge = np.broadcast_to(np.float32(0), (60000, 60000, 4))
         with self.assertRaisesRegex(ValueError, "takes 54931 MiB, more than the memory budget of"):
