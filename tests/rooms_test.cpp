@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -47,7 +48,46 @@ std::vector<std::string> matches(const std::string& text, const std::regex& patt
   return found;
 }
 
+/// The types that a file defines with external linkage, with their namespaces. It goes by how clang-format sets code:
+/// namespaces and their types begin lines, and a comment names the namespace that ends.
+std::vector<std::string> types_of(const std::string& text) {
+  const std::regex type(
+      R"(^(?:template <.*> )?(?:class|struct|union|enum(?: class)?) (?:\[\[\w+\]\] )?(\w+(?:::\w+)*)[^;()]*\{.*)");
+  std::vector<std::string> found, namespaces;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (line.starts_with("namespace ") && line.ends_with("{"))
+      namespaces.push_back(line.substr(10, line.size() - 11));
+    else if (line.starts_with("}  // namespace") && !namespaces.empty())
+      namespaces.pop_back();
+    else if (std::count(namespaces.begin(), namespaces.end(), "") == 0 && std::regex_match(line, match, type)) {
+      std::string name;
+      for (const std::string& space : namespaces) name += space.substr(0, space.find_last_not_of(' ') + 1) + "::";
+      found.push_back(name + match[1].str());
+    }
+  }
+  return found;
+}
+
 }  // namespace
+
+TEST_CASE("types of one name are found, those of anonymous namespaces aside") {
+  CHECK(types_of("namespace a {\n\nnamespace {\nstruct Own {\n};\n}  // namespace\n\nclass Shown : public B {\n};\n"
+                 "struct Declared;\nstruct One { int x; };\nenum class Two : int { x };\n}  // namespace a\n") ==
+        std::vector<std::string>{"a::Shown", "a::One", "a::Two"});
+}
+
+TEST_CASE("no two files define a type of one name: the linker would take either for both") {
+  std::map<std::string, fs::path> seen;
+  for (const char* folder : {"core", "nodes", "graphs", "runner"})
+    for (const fs::path& file : sources(folder))
+      for (const std::string& type : types_of(text_of(source / file))) {
+        const auto [first, is_new] = seen.emplace(type, file);
+        CHECK_MESSAGE(is_new, type, " is defined in ", first->second.string(), " and in ", file.string());
+      }
+  CHECK(seen.size() > 400);
+}
 
 TEST_CASE("includes between rooms follow the order of tests/rooms.txt") {
   const std::vector<std::string> order = rooms();

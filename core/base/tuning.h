@@ -11,16 +11,17 @@
 /// step's tuning structure, described where it is defined, and can be overridden in a benchmark run without
 /// recompiling:
 ///
-///     struct Tuning {
+///     struct SeamsTuning {
 ///       double stay = 32;
 ///       int reach = 4;
 ///     };
-///     const Tunable<Tuning> tuning("seams", {
-///         {&Tuning::stay, "stay", "appearance units per pixel", "higher: straighter seams; lower: seams that find
+///     const Tunable<SeamsTuning> seams_tuning("seams", {
+///         {&SeamsTuning::stay, "stay", "appearance units per pixel", "higher: straighter seams; lower: seams that find
 ///         joints", "seams"},
-///         {&Tuning::reach, "reach", "pixels", "higher: joints farther away are found; costs time", "seams", 1, 96},
+///         {&SeamsTuning::reach, "reach", "pixels", "higher: joints farther away are found; costs time", "seams", 1,
+///         96},
 ///     });
-///     ... tuning->reach ...
+///     ... seams_tuning->reach ...
 ///
 /// The least and the most that a field takes (1 and 96) keep a run from crashing or going on and on: code that divides
 /// by a constant need not expect 0.

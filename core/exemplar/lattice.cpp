@@ -11,7 +11,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct LatticeTuning {
   double smallest_resolved = 3;
   double smallest_cell = 0.5;
   double most_shear = 1.0 / 256;
@@ -26,52 +26,53 @@ struct Tuning {
   double bending_weight = 2;
   int farthest = 3;
 };
-const Tunable<Tuning> tuning(
+const Tunable<LatticeTuning> lattice_tuning(
     "lattice",
     {
-        {&Tuning::smallest_resolved, "smallest_resolved", "pixels of the level",
+        {&LatticeTuning::smallest_resolved, "smallest_resolved", "pixels of the level",
          "from which on a cell is large enough to tell places within it apart. Higher: more levels only keep to whole "
          "cells; lower: cells of few pixels decide what fits",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::smallest_cell, "smallest_cell", "pixels of the level",
+        {&LatticeTuning::smallest_cell, "smallest_cell", "pixels of the level",
          "finer cells have no say: finer levels bring pieces into place. Higher: cells are broken up at coarse levels; "
          "lower: so few places are in phase that the same rows come back all over a large surface",
          "regularity"},
-        {&Tuning::most_shear, "most_shear", "share of a side",
+        {&LatticeTuning::most_shear, "most_shear", "share of a side",
          "by which a surface may be sheared to wrap around. Higher: more sizes wrap; lower: pieces lie more level",
          "not measured: it moves one end of a piece of 64 pixels by a quarter of a pixel"},
-        {&Tuning::least_shear, "least_shear", "pixels",
+        {&LatticeTuning::least_shear, "least_shear", "pixels",
          "the same of small surfaces: rows of a woven or scanned exemplar are rarely exactly level",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::looseness, "looseness", "cells",
+        {&LatticeTuning::looseness, "looseness", "cells",
          "how far out of phase a position may be. Higher: less is copied verbatim; lower: less is broken",
          "regularity"},
-        {&Tuning::certainty_counts, "certainty_counts", "share",
+        {&LatticeTuning::certainty_counts, "certainty_counts", "share",
          "of the looseness that a certain lattice takes away: the surer it is, the less its cells differ. Higher: sure "
          "lattices are kept to; lower: pieces fit better",
          "not measured: taken over from the code before constants were listed", 0, 1},
-        {&Tuning::most_slanted, "most_slanted", "share of their length",
+        {&LatticeTuning::most_slanted, "most_slanted", "share of their length",
          "by which level courses rise. Higher: walls that were not scanned level have courses; lower: patterns aslant "
          "have none",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::least_offset, "least_offset", "pixels",
+        {&LatticeTuning::least_offset, "least_offset", "pixels",
          "by which one brick lies off another, if it does: less is what measuring leaves of nothing. Higher: fine "
          "patterns are taken for level ones; lower: bricks seem longer than they are",
          "not measured: taken over from the code before constants were listed", 0.5},
-        {&Tuning::most_bent, "most_bent", "share of a cell", "higher: more sizes wrap; lower: cells hold together",
+        {&LatticeTuning::most_bent, "most_bent", "share of a cell",
+         "higher: more sizes wrap; lower: cells hold together",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::unseen_bend, "unseen_bend", "share of a cell",
+        {&LatticeTuning::unseen_bend, "unseen_bend", "share of a cell",
          "that a certain lattice can be bent by without its being seen. Higher: sizes that do not quite fit are taken "
          "without a word; lower: they are changed, or warned of",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::unseen_bend_by_doubt, "unseen_bend_by_doubt", "share of a cell",
+        {&LatticeTuning::unseen_bend_by_doubt, "unseen_bend_by_doubt", "share of a cell",
          "the same, in addition, of one that is not certain at all, whose cells vary anyway",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::bending_weight, "bending_weight", "logarithms of a factor on the side",
+        {&LatticeTuning::bending_weight, "bending_weight", "logarithms of a factor on the side",
          "to a cell that is bent by its length. Higher: sizes that wrap are farther from those asked for; lower: their "
          "cells are bent",
          "not measured: a side half as long again is as bad as cells bent by a fifth"},
-        {&Tuning::farthest, "farthest", "steps along both vectors",
+        {&LatticeTuning::farthest, "farthest", "steps along both vectors",
          "in which a course may run. Higher: bonds of many bricks have courses, too; lower: less chance",
          "not measured: taken over from the code before constants were listed", 1, 1000},
     });
@@ -92,7 +93,7 @@ int best_side(const Lattice& lattice, int length, bool along_x, int give) {
     const int room = give + std::max(0, n - length);
     const double bent = lattice.bent({n, n}, along_x, !along_x, {room, room});
     if (bent > Lattice::most_bent() && n != length) continue;
-    const double badness = std::abs(portable::log(double(n) / length)) + tuning->bending_weight * bent;
+    const double badness = std::abs(portable::log(double(n) / length)) + lattice_tuning->bending_weight * bent;
     if (badness >= least) continue;
     least = badness;
     best = n;
@@ -103,11 +104,11 @@ int best_side(const Lattice& lattice, int length, bool along_x, int give) {
 }  // namespace
 
 double Lattice::most_bent() {
-  return tuning->most_bent;
+  return lattice_tuning->most_bent;
 }
 
 double Lattice::unseen_bend() const {
-  return tuning->unseen_bend + tuning->unseen_bend_by_doubt * (1 - certainty);
+  return lattice_tuning->unseen_bend + lattice_tuning->unseen_bend_by_doubt * (1 - certainty);
 }
 
 bool Lattice::is_whole() const {
@@ -119,8 +120,8 @@ bool Lattice::is_whole() const {
 Vector2d Lattice::along_bands(bool courses) const {
   if (rank == 1) return (first.x() == 0) == courses ? courses ? Vector2d{1, 0} : Vector2d{0, 1} : Vector2d{};
   if (rank == 0) return {};
-  const int farthest = tuning->farthest;
-  const double most_slanted = tuning->most_slanted;
+  const int farthest = lattice_tuning->farthest;
+  const double most_slanted = lattice_tuning->most_slanted;
   Vector2d shortest;
   for (int i = -farthest; i <= farthest; i++)
     for (int j = -farthest; j <= farthest; j++) {
@@ -143,7 +144,7 @@ Lattice Lattice::level_bands(bool courses) const {
 
 double Lattice::longest_step() const {
   if (rank != 2) return 0;
-  const double least = tuning->least_offset;
+  const double least = lattice_tuning->least_offset;
   const auto nearer = [least](double a, double b) {
     a = std::abs(a);
     b = std::abs(b);
@@ -179,7 +180,7 @@ bool Lattice::fits(Size size, bool wraps_x, bool wraps_y, double precision) cons
   const auto comes_back = [&](int length, bool along_x) {
     const Vector2d e = misfit(length, along_x);
     const double along = std::abs(e[along_x ? 0 : 1]), across = std::abs(e[along_x ? 1 : 0]);
-    return along <= precision && across <= std::max(tuning->least_shear, tuning->most_shear * length);
+    return along <= precision && across <= std::max(lattice_tuning->least_shear, lattice_tuning->most_shear * length);
   };
   return (!wraps_x || comes_back(size.width, true)) && (!wraps_y || comes_back(size.height, false));
 }
@@ -239,9 +240,9 @@ LatticePhase::LatticePhase(const Lattice& lattice, const Lattice& shown, const V
   first_ = lattice.first * scale;
   second_ = lattice.second * scale;
   const double cell = rank_ == 1 ? std::abs(first_.sum()) : std::sqrt(std::abs(cross(first_, second_)));
-  resolves_cells_ = cell >= tuning->smallest_resolved;
-  if (cell < tuning->smallest_cell) rank_ = 0;
-  const double loose = cell * tuning->looseness * (1 - lattice.certainty * tuning->certainty_counts);
+  resolves_cells_ = cell >= lattice_tuning->smallest_resolved;
+  if (cell < lattice_tuning->smallest_cell) rank_ = 0;
+  const double loose = cell * lattice_tuning->looseness * (1 - lattice.certainty * lattice_tuning->certainty_counts);
   // Whole pixels of the finest level are out of phase by up to half a pixel along each axis that the lattice speaks of.
   const double rounding = (rank_ == 1 ? 0.501 : 0.708) * scale;
   const double tolerance = std::clamp(loose, rounding, 1.0);

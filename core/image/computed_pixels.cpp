@@ -12,14 +12,14 @@
 
 #include "core/base/tuning.h"
 #include "core/image/image_limits.h"
-#include "core/image/kept_pixels.h"
+#include "core/image/pixel_buffer.h"
 #include "core/image/pull_plan.h"
 
 namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct ComputedPixelsTuning {
   double most_work_repeated = 1.3;
   int longest_pull = 32;
   int strip_rows = 64;
@@ -28,30 +28,30 @@ struct Tuning {
   int most_values_at_once = 1 << 24;
   int least_values_of_a_strip = 1 << 16;
 };
-const Tunable<Tuning> tuning(
+const Tunable<ComputedPixelsTuning> computed_pixels_tuning(
     "computed_pixels",
     {
-        {&Tuning::most_work_repeated, "most_work_repeated", "factor",
+        {&ComputedPixelsTuning::most_work_repeated, "most_work_repeated", "factor",
          "by which a pull by strips may be more work than one of the whole image. Higher: less memory; lower: less "
          "time",
          "not measured: blurs of a radius over 6 pixels are more"},
-        {&Tuning::longest_pull, "longest_pull", "images",
+        {&ComputedPixelsTuning::longest_pull, "longest_pull", "images",
          "higher: fewer images keep their pixels; costs stack and time",
          "not measured: bounds what a pull holds at once", 1},
-        {&Tuning::strip_rows, "strip_rows", "rows",
+        {&ComputedPixelsTuning::strip_rows, "strip_rows", "rows",
          "in which images are pulled, and which decide whether surroundings cost too much. Higher: surroundings are "
          "computed less often; lower: less memory",
          "not measured: as many as cost little memory at 8192 pixels a row", 1},
-        {&Tuning::most_images_repeated, "most_images_repeated", "images",
+        {&ComputedPixelsTuning::most_images_repeated, "most_images_repeated", "images",
          "that may be computed again in all for the readers of one. Higher: less memory; lower: less time",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::values_at_once, "values_at_once", "values",
+        {&ComputedPixelsTuning::values_at_once, "values_at_once", "values",
          "that a pull computes of the image. Higher: surroundings are computed less often; lower: less memory",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::most_values_at_once, "most_values_at_once", "values",
+        {&ComputedPixelsTuning::most_values_at_once, "most_values_at_once", "values",
          "that a pull computes of a larger image that it is made from. Higher: less time; lower: less memory",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::least_values_of_a_strip, "least_values_of_a_strip", "values",
+        {&ComputedPixelsTuning::least_values_of_a_strip, "least_values_of_a_strip", "values",
          "that one thread computes at once. Higher: surroundings are computed less often; lower: more threads have "
          "work",
          "not measured: taken over from the code before constants were listed"},
@@ -60,26 +60,26 @@ const Tunable<Tuning> tuning(
 constexpr auto patience = std::chrono::milliseconds(50);  ///< until a waiting thread looks whether it is cancelled
 
 int rows_of(Size size, int channels, int64_t values) {
-  return int(std::max<int64_t>(tuning->strip_rows, values / (int64_t{size.width} * channels)));
+  return int(std::max<int64_t>(computed_pixels_tuning->strip_rows, values / (int64_t{size.width} * channels)));
 }
 
 /// The pulls of all threads together, of a few images each, are to take a part of the memory budget only.
 int64_t most_values_at_once() {
   constexpr uint64_t share = 64;
-  return std::min<int64_t>(tuning->most_values_at_once, int64_t(memory_budget() / share));
+  return std::min<int64_t>(computed_pixels_tuning->most_values_at_once, int64_t(memory_budget() / share));
 }
 
 }  // namespace
 
 int longest_pull() {
-  return tuning->longest_pull;
+  return computed_pixels_tuning->longest_pull;
 }
 
 /// All pixels, as far as they have been computed. Threads take strips until there are none left.
 struct ComputedPixels::Filling {
   Filling(Size size, int channels)
       : pixels(size, channels),
-        rows(rows_of(size, channels, tuning->least_values_of_a_strip)),
+        rows(rows_of(size, channels, computed_pixels_tuning->least_values_of_a_strip)),
         strips((size.height + rows - 1) / rows) {}
 
   /// A strip for the calling thread; -1 if all have been taken.
@@ -94,7 +94,7 @@ struct ComputedPixels::Filling {
     return next < strips ? next++ : -1;
   }
 
-  KeptPixels pixels;
+  PixelBuffer pixels;
   const int rows;  ///< of a strip
   const int strips;
   std::mutex mutex;
@@ -125,14 +125,15 @@ void ComputedPixels::choose_kept() {
   for (const ImagePtr& image : operation_->sources)
     if (auto source = of(*image)) sources.insert(std::move(source));
   const auto length = [&] { return PullPlan(*this, PullPlan::Until::to_be_kept).length(); };
-  if (length() > size_t(tuning->longest_pull))
+  if (length() > size_t(computed_pixels_tuning->longest_pull))
     for (const auto& source : sources)
       if (source->pull_length_ > 1) source->to_be_kept_ = true;
-  if (PullPlan(*this, PullPlan::Until::to_be_kept).work_by_strips(tuning->strip_rows) > tuning->most_work_repeated)
+  if (PullPlan(*this, PullPlan::Until::to_be_kept).work_by_strips(computed_pixels_tuning->strip_rows) >
+      computed_pixels_tuning->most_work_repeated)
     for (const auto& source : sources) source->to_be_kept_ = true;
   for (const auto& source : sources) {
     const int readers = ++source->readers_;
-    if (readers > 1 && int64_t{readers} * source->pull_length_ > tuning->most_images_repeated)
+    if (readers > 1 && int64_t{readers} * source->pull_length_ > computed_pixels_tuning->most_images_repeated)
       source->to_be_kept_ = true;
   }
   pull_length_ = int(length());
@@ -164,7 +165,7 @@ void ComputedPixels::read(const Rect& region, float* out) const {
 
 int ComputedPixels::rows_at_once(PullPlan& plan, const Rect& region) const {
   if (plan.length() == 1) return region.height;
-  int rows = std::min(region.height, rows_of({region.width, 1}, channels_, tuning->values_at_once));
+  int rows = std::min(region.height, rows_of({region.width, 1}, channels_, computed_pixels_tuning->values_at_once));
   while (rows > 1 && plan.most_values({region.x, region.y, region.width, rows}) > most_values_at_once())
     rows = (rows + 1) / 2;
   return rows;

@@ -186,11 +186,11 @@ double Distribution::otsu_threshold() const {
   return threshold;
 }
 
-double Curve::operator()(double x) const {
+double PiecewiseLinear::operator()(double x) const {
   return interpolated(x_, y_, x);
 }
 
-Curve matching_curve(const Distribution& from, const Distribution& to) {
+PiecewiseLinear matching_curve(const Distribution& from, const Distribution& to) {
   std::vector<double> x, y;
   for (size_t i = 0; i < from.atoms().size(); i++) {
     x.push_back(from.atoms()[i].value);

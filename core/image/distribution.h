@@ -44,9 +44,9 @@ class Distribution {
 };
 
 /// A curve through points of ascending x, linear in between and constant outside.
-class Curve {
+class PiecewiseLinear {
  public:
-  Curve(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)) {}
+  PiecewiseLinear(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)) {}
   double operator()(double x) const;
 
  private:
@@ -55,6 +55,6 @@ class Curve {
 
 /// The curve that gives values distributed like `from` the distribution `to`: each goes to the value of equal rank
 /// (exact histogram specification by quantiles).
-Curve matching_curve(const Distribution& from, const Distribution& to);
+PiecewiseLinear matching_curve(const Distribution& from, const Distribution& to);
 
 }  // namespace terrazzo

@@ -265,13 +265,13 @@ std::vector<float> read_padded(const PixelView& image, const Rect& region, Outsi
 }
 
 namespace {
-int strip_rows(const Image& image) {
+int rows_of_a_strip(const Image& image) {
   return std::max<int>(1, int((int64_t{1} << 20) / (int64_t{image.width()} * image.channels())));
 }
 }  // namespace
 
 void for_each_strip(const Image& image, const std::function<void(const Rect&, const float*)>& visit) {
-  const int rows = strip_rows(image);
+  const int rows = rows_of_a_strip(image);
   std::vector<float> buffer;
   for (int y = 0; y < image.height(); y += rows) {
     WorksFor::task().check();
@@ -290,7 +290,7 @@ ImagePtr materialized(const ImagePtr& image, const Task& task) {
   if (image->in_memory()) return image;
   const ImageInfo& info = image->info();
   std::vector<float> pixels(value_count(info));
-  const int rows = std::min(64, strip_rows(*image));
+  const int rows = std::min(64, rows_of_a_strip(*image));
   const int strips = (info.size.height + rows - 1) / rows;
   std::atomic<int> done{0};
   tbb::parallel_for(0, strips, [&](int strip) {

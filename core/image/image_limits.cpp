@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "core/image/kept_pixels.h"
+#include "core/image/pixel_buffer.h"
 
 namespace terrazzo {
 
@@ -50,9 +50,9 @@ std::string as_option(const char* option, uint64_t bytes) {
 }  // namespace
 
 void set_memory_budget(uint64_t bytes) {
-  static const uint64_t usual_kept = KeptPixels::memory_limit();
+  static const uint64_t usual_kept = PixelBuffer::memory_limit();
   given_budget = bytes;
-  KeptPixels::set_memory_limit(bytes > 0 ? std::min(usual_kept, bytes / share_of_kept) : usual_kept);
+  PixelBuffer::set_memory_limit(bytes > 0 ? std::min(usual_kept, bytes / share_of_kept) : usual_kept);
 }
 
 uint64_t memory_budget() {

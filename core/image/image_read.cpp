@@ -22,16 +22,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Tuning {
+struct ImageReadTuning {
   double clearly_negative = -0.01;
 };
-const Tunable<Tuning> tuning("image_read",
-                             {
-                                 {&Tuning::clearly_negative, "clearly_negative", "of the range of values",
-                                  "below which normals are taken for signed numbers. Higher: encoded ones that were "
-                                  "filtered are taken for them; lower: nearly flat ones are not",
-                                  "not measured: what filters undershoot zero by is no sign", -1, 0},
-                             });
+const Tunable<ImageReadTuning> image_read_tuning(
+    "image_read", {
+                      {&ImageReadTuning::clearly_negative, "clearly_negative", "of the range of values",
+                       "below which normals are taken for signed numbers. Higher: encoded ones that were "
+                       "filtered are taken for them; lower: nearly flat ones are not",
+                       "not measured: what filters undershoot zero by is no sign", -1, 0},
+                  });
 
 /// The stored pixels in the depth asked for. Throws Cancelled with the task that the thread works for.
 template <typename T>
@@ -127,7 +127,7 @@ std::vector<StoredValues::Hole> filled_holes(const fs::path& path, const StoredV
 }
 
 bool are_signed_normals(std::span<const float> values) {
-  const auto clearly_negative = float(tuning->clearly_negative);
+  const auto clearly_negative = float(image_read_tuning->clearly_negative);
   return std::ranges::any_of(values, [clearly_negative](float v) { return v < clearly_negative; });
 }
 

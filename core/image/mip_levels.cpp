@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/base/hash.h"
-#include "core/image/kept_pixels.h"
 #include "core/image/opacity_weights.h"
+#include "core/image/pixel_buffer.h"
 #include "core/image/pixel_space.h"
 #include "core/image/resample.h"
 
@@ -20,7 +20,7 @@ class KeptSource final : public PixelSource {
   void read(const Rect& region, float* out) const override { pixels_.read(region, out); }
 
  private:
-  KeptPixels pixels_;
+  PixelBuffer pixels_;
 };
 
 ImagePtr kept(const ImagePtr& image) {

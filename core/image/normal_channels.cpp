@@ -17,7 +17,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct NormalChannelsTuning {
   double noise = 8.0 / 255;
   double rare = 0.005;
   double constant = 0.05;
@@ -28,37 +28,37 @@ struct Tuning {
   double lead = 1.5;
   double overlong = 0.2;
 };
-const Tunable<Tuning> tuning(
+const Tunable<NormalChannelsTuning> normal_channels_tuning(
     "normal_channels",
     {
-        {&Tuning::noise, "noise", "of the range of values",
+        {&NormalChannelsTuning::noise, "noise", "of the range of values",
          "by which channels that are the same may differ. Higher: coloured maps are taken for grey; lower: lossy grey "
          "ones are not",
          "not measured: as material_maps.compression_noise", 0, 1},
-        {&Tuning::rare, "rare", "of the pixels", "that may differ by more. Higher, lower: likewise",
+        {&NormalChannelsTuning::rare, "rare", "of the pixels", "that may differ by more. Higher, lower: likewise",
          "not measured: single pixels are damage", 0, 1},
-        {&Tuning::constant, "constant", "of the range of values",
+        {&NormalChannelsTuning::constant, "constant", "of the range of values",
          "standard deviation of an empty blue channel. Higher: flat normals lose their z; lower: what JPEG makes of an "
          "empty channel is not known",
          "normal_channels", 0, 1},
-        {&Tuning::near, "near", "of the range of values",
+        {&NormalChannelsTuning::near, "near", "of the range of values",
          "from an empty blue channel's mean to 0, 1/2 or 1. Higher, lower: likewise", "normal_channels", 0, 0.25},
-        {&Tuning::misfit, "misfit", "of the range of values",
+        {&NormalChannelsTuning::misfit, "misfit", "of the range of values",
          "of a full blue channel to the z of x and y, root mean square. Higher: full channels are kept; lower: z of "
          "gentle normals is made anew",
          "normal_channels", 0, 1},
-        {&Tuning::follows, "follows", "correlation",
+        {&NormalChannelsTuning::follows, "follows", "correlation",
          "of blue with the z of x and y, beyond which it is no empty channel. Higher: lossy z is made anew; lower: "
          "full channels are kept",
          "not measured: far from what either kind has", 0, 1},
-        {&Tuning::clear, "clear", "correlation",
+        {&NormalChannelsTuning::clear, "clear", "correlation",
          "of x and y with the slopes of a surface. Higher: more files are refused; lower: noise decides",
          "normal_channels", 0, 1},
-        {&Tuning::lead, "lead", "times",
+        {&NormalChannelsTuning::lead, "lead", "times",
          "by which one reading of two channels must be better than the other. Higher: more files are refused; lower: x "
          "and y are swapped",
          "normal_channels", 1, 10},
-        {&Tuning::overlong, "overlong", "of the pixels",
+        {&NormalChannelsTuning::overlong, "overlong", "of the pixels",
          "that may have x and y longer than 1. Higher: what is no normal map is read as one; lower: noisy ones are "
          "refused",
          "not measured: far from what either kind has", 0, 1},
@@ -71,9 +71,9 @@ float encoded_z(float x, float y) {
 }
 
 /// All that is asked of the pixels.
-class Look {
+class ChannelLook {
  public:
-  explicit Look(const Image& image) : image_(image), channels_(image.channels()), moments_(channels_ + 1) {
+  explicit ChannelLook(const Image& image) : image_(image), channels_(image.channels()), moments_(channels_ + 1) {
     for_each_strip(image, [&](const Rect& r, const float* p) {
       std::array<float, 5> values{};
       for (int64_t i = 0; i < r.area(); i++, p += channels_) {
@@ -82,7 +82,8 @@ class Look {
         moments_.add(values.data());
         if (channels_ >= 3) misfit_ += (double(p[2]) - values[size_t(channels_)]) * (p[2] - values[size_t(channels_)]);
         for (int a = 0; a < channels_; a++)
-          for (int b = 0; b < a; b++) differ_[size_t(a)][size_t(b)] += std::abs(p[a] - p[b]) > float(tuning->noise);
+          for (int b = 0; b < a; b++)
+            differ_[size_t(a)][size_t(b)] += std::abs(p[a] - p[b]) > float(normal_channels_tuning->noise);
       }
     });
   }
@@ -90,12 +91,12 @@ class Look {
   double deviation(int c) const { return std::sqrt(moments_.variance(c)); }
   bool same(int a, int b) const {
     return double(differ_[size_t(std::max(a, b))][size_t(std::min(a, b))]) <=
-           tuning->rare * double(image_.size().area());
+           normal_channels_tuning->rare * double(image_.size().area());
   }
-  bool is_constant(int c) const { return deviation(c) <= tuning->constant; }
+  bool is_constant(int c) const { return deviation(c) <= normal_channels_tuning->constant; }
   /// Constant, and at one of the values that stand for an unused channel.
   bool is_empty(int c) const { return is_constant(c) && (is_near(c, 0) || is_near(c, 0.5) || is_near(c, 1)); }
-  bool is_near(int c, double value) const { return std::abs(mean(c) - value) <= tuning->near; }
+  bool is_near(int c, double value) const { return std::abs(mean(c) - value) <= normal_channels_tuning->near; }
   bool is_opaque() const { return deviation(channels_ - 1) < 1e-6; }
   /// Root mean square of blue less the z of red and green, and the correlation of the two.
   double misfit() const { return std::sqrt(misfit_ / double(image_.size().area())); }
@@ -125,7 +126,8 @@ std::optional<bool> are_swapped(const ImagePtr& image, int first, int second, co
   for (const Image* by : {height, static_cast<const Image*>(nullptr)}) {
     const double straight = evidence(*two(first, second), by), swapped = evidence(*two(second, first), by);
     const double best = std::max(straight, swapped), other = std::min(straight, swapped);
-    if (best >= tuning->clear && best >= tuning->lead * other) return swapped > straight;
+    if (best >= normal_channels_tuning->clear && best >= normal_channels_tuning->lead * other)
+      return swapped > straight;
     if (!by) break;
   }
   return std::nullopt;
@@ -173,13 +175,13 @@ NormalLayout layout_of_two(const ImagePtr& image, const std::vector<std::string>
   if (x >= 0 && y >= 0 && alpha < 0) return {.x = x, .y = y, .has_z = false, .reason = "it has no z"};
   if (alpha >= 0 && y >= 0 && bare(names[size_t(y)]) != "y")
     return {.x = alpha, .y = y, .has_z = false, .reason = "it holds x in alpha and y in green, as DXT5nm"};
-  const Look look(*image);
+  const ChannelLook look(*image);
   if (look.is_opaque() || look.same(0, 1)) fail_grey();
   return layout_of_grey_and_alpha(image, 0, 1, height, advice);
 }
 
 NormalLayout layout_of_many(const ImagePtr& image, const Image* height, const std::string& advice) {
-  const Look look(*image);
+  const ChannelLook look(*image);
   const bool has_alpha = image->channels() == 4 && !look.is_opaque();
   const bool copies = look.same(0, 1) && look.same(1, 2);
   if (copies && !has_alpha) fail_grey();
@@ -191,7 +193,8 @@ NormalLayout layout_of_many(const ImagePtr& image, const Image* height, const st
   if (blue_is_copy) return without_z(fmt::format("its blue is a copy of its {}", look.same(1, 2) ? "green" : "red"));
   // Signed normals whose z is 0 are one half once they are encoded. A full channel is that of flat normals, too, and
   // one that runs against z is that of normals that point into the surface.
-  if (look.misfit() <= tuning->misfit || std::abs(look.follows()) > tuning->follows) return {};
+  if (look.misfit() <= normal_channels_tuning->misfit || std::abs(look.follows()) > normal_channels_tuning->follows)
+    return {};
   if (!look.is_empty(2))
     return {.doubt = fmt::format("its blue is no z that belongs to red and green (correlation {:.2f}, off by {:.2f})",
                                  look.follows(), look.misfit())};
@@ -274,7 +277,7 @@ NormalLayout normal_layout(const ImagePtr& image, const std::vector<std::string>
                                               : layout_of_many(image, height, advice);
   if (out.has_z) return out;
   out.overlong = overlong_share(*image, out);
-  if (!out.is_given && out.overlong > tuning->overlong)
+  if (!out.is_given && out.overlong > normal_channels_tuning->overlong)
     throw Error(
         fmt::format("{}, but in {:.0f} % of the pixels x and y are longer than a normal: it is no normal map, or "
                     "x was in a channel that is lost. Say what it is by {}, or leave it out",

@@ -11,26 +11,26 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct NormalConventionTuning {
   double clear = 0.1;
   double strong = 0.5;
   double clear_curl = 0.2;
   int largest_grid = 512;
 };
-const Tunable<Tuning> tuning(
+const Tunable<NormalConventionTuning> normal_convention_tuning(
     "normal_convention",
     {
-        {&Tuning::clear, "clear", "correlation",
+        {&NormalConventionTuning::clear, "clear", "correlation",
          "of slopes and heights. Higher: more maps stay undecided; lower: noise decides",
          "not measured: taken over from the code before constants were listed", 0, 1},
-        {&Tuning::strong, "strong", "correlation",
+        {&NormalConventionTuning::strong, "strong", "correlation",
          "the same along the one axis that has slopes, as of planks. Higher: grooves of one way stay undecided; lower: "
          "an inverted height map is not noticed",
          "not measured: taken over from the code before constants were listed", 0, 1},
-        {&Tuning::clear_curl, "clear_curl", "correlation",
+        {&NormalConventionTuning::clear_curl, "clear_curl", "correlation",
          "of the two slopes of a normal map by itself. Higher: more maps stay undecided; lower: noise decides",
          "not measured: taken over from the code before constants were listed", 0, 1},
-        {&Tuning::largest_grid, "largest_grid", "cells a side",
+        {&NormalConventionTuning::largest_grid, "largest_grid", "cells a side",
          "over which maps are averaged. Higher: fine relief has a say; costs time", "not measured: bounds the time"},
     });
 
@@ -76,7 +76,7 @@ void add(double a, double b, Moments<2>& to) {
 }
 
 Size common_grid(const Image& a, const Image& b) {
-  const int largest = tuning->largest_grid;
+  const int largest = normal_convention_tuning->largest_grid;
   return {std::min({a.width(), b.width(), largest}), std::min({a.height(), b.height(), largest})};
 }
 
@@ -141,7 +141,7 @@ ConventionEvidence convention_from_height(const Image& normal, const Image& heig
   out.along_x = correlation(along_x);
   out.along_y = correlation(along_y);
   // Grooves that run across (planks, say) leave red without evidence: then a strong green must do.
-  const double clear = tuning->clear, strong = tuning->strong;
+  const double clear = normal_convention_tuning->clear, strong = normal_convention_tuning->strong;
   if (std::abs(out.along_y) < (std::abs(out.along_x) < clear ? strong : clear)) return out;
   if (std::abs(out.along_x) < clear) {
     out.normal_y = out.along_y > 0 ? NormalY::up : NormalY::down;
@@ -157,7 +157,7 @@ NormalMisfit misfit_with_height(const Image& normal, const Image& height) {
   const Size size = common_grid(normal, height);
   if (size.width < 3 || size.height < 3 || normal.channels() < 2) return {};
   const Grid n = averaged(normal, size), h = averaged(height, size);
-  const double strong = tuning->strong;
+  const double strong = normal_convention_tuning->strong;
   NormalMisfit best;
   for (const NormalMisfit::Kind kind : {none, turned_90, turned_180, turned_270, mirrored_x, mirrored_y}) {
     // The grid is not square either where the height has another shape than the normals.
@@ -187,7 +187,7 @@ double mean_blue(const Image& normal) {
 
 ConventionEvidence convention_from_curl(const Image& normal) {
   ConventionEvidence out;
-  const int largest_grid = tuning->largest_grid;
+  const int largest_grid = normal_convention_tuning->largest_grid;
   const Size size{std::min(normal.width(), largest_grid), std::min(normal.height(), largest_grid)};
   if (size.width < 3 || size.height < 3 || normal.channels() < 2) return out;
   const Grid n = averaged(normal, size);
@@ -196,7 +196,8 @@ ConventionEvidence convention_from_curl(const Image& normal) {
     for (int x = 1; x + 1 < size.width; x++)
       add(n.at(0, x, y - 1) - n.at(0, x, y + 1), n.at(1, x + 1, y) - n.at(1, x - 1, y), curl);
   out.along_y = correlation(curl);
-  if (std::abs(out.along_y) >= tuning->clear_curl) out.normal_y = out.along_y > 0 ? NormalY::up : NormalY::down;
+  if (std::abs(out.along_y) >= normal_convention_tuning->clear_curl)
+    out.normal_y = out.along_y > 0 ? NormalY::up : NormalY::down;
   return out;
 }
 

@@ -48,7 +48,7 @@ bool says_transparency(const FileNumbers& file, const PsdLayout& psd, uint64_t a
   return false;
 }
 
-PsdLayout layout_of(const FileNumbers& file) {
+PsdLayout psd_layout_of(const FileNumbers& file) {
   PsdLayout psd;
   psd.is_big = file.big_endian(4, 2) == 2;
   psd.channels = int(file.big_endian(12, 2));
@@ -205,7 +205,7 @@ class PsdDecoder final : public ImageDecoder {
 std::unique_ptr<ImageDecoder> open_psd(const std::filesystem::path& path) {
   const FileNumbers file(path);
   if (file.text(0, 4) != "8BPS") return nullptr;
-  const PsdLayout psd = layout_of(file);
+  const PsdLayout psd = psd_layout_of(file);
   const bool is_known = psd.mode == grey || psd.mode == rgb || (psd.mode == indexed && psd.bits == 8);
   const bool has_bits = psd.bits == 8 || psd.bits == 16 || psd.bits == 32;
   if (!is_known || !has_bits || psd.channels < psd.colours()) return nullptr;

@@ -9,28 +9,28 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct PullPlanTuning {
   double most_area_added = 1.25;
   int area_of_a_call = 4096;
   int most_parts = 8;
 };
-const Tunable<Tuning> tuning(
+const Tunable<PullPlanTuning> pull_plan_tuning(
     "pull_plan",
     {
-        {&Tuning::most_area_added, "most_area_added", "factor",
+        {&PullPlanTuning::most_area_added, "most_area_added", "factor",
          "up to which parts are put together. Higher: fewer calls; lower: fewer pixels that nobody asked for",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::area_of_a_call, "area_of_a_call", "pixels",
+        {&PullPlanTuning::area_of_a_call, "area_of_a_call", "pixels",
          "that a call costs as much as. Higher: fewer calls; lower: fewer pixels that nobody asked for",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::most_parts, "most_parts", "parts of an image",
+        {&PullPlanTuning::most_parts, "most_parts", "parts of an image",
          "higher: parts that lie far from one another stay apart; lower: fewer calls",
          "not measured: bounds the time of putting them together"},
     });
 
 double cost_of_union(const Rect& a, const Rect& b) {
-  return double(united(a, b).area()) - tuning->most_area_added * double(a.area() + b.area()) -
-         double(tuning->area_of_a_call);
+  return double(united(a, b).area()) - pull_plan_tuning->most_area_added * double(a.area() + b.area()) -
+         double(pull_plan_tuning->area_of_a_call);
 }
 
 /// Adds a part to those that are needed of an image.
@@ -41,7 +41,7 @@ void add_part(std::vector<Rect>& parts, Rect part) {
       return cost_of_union(a, part) < cost_of_union(b, part);
     });
     if (*best == part) return;
-    if (cost_of_union(*best, part) > 0 && parts.size() < size_t(tuning->most_parts)) break;
+    if (cost_of_union(*best, part) > 0 && parts.size() < size_t(pull_plan_tuning->most_parts)) break;
     part = united(*best, part);
     parts.erase(best);
   }

@@ -15,21 +15,21 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct StoredValuesTuning {
   double most_unfinite = 0.05;
   int largest_hole = 16;
 };
-const Tunable<Tuning> tuning("stored_values",
-                             {
-                                 {&Tuning::most_unfinite, "most_unfinite", "of the pixels",
-                                  "that may be not finite. Higher: maps that are mostly made up are read; lower: "
-                                  "renders with a few wild pixels are refused",
-                                  "not measured: what is filled in should not show", 0, 1},
-                                 {&Tuning::largest_hole, "largest_hole", "pixels",
-                                  "from a pixel that is not finite to one that is. Higher: larger holes become flat "
-                                  "spots; lower: more files are refused",
-                                  "not measured: a spot of that size shows", 1, 1024},
-                             });
+const Tunable<StoredValuesTuning> stored_values_tuning(
+    "stored_values", {
+                         {&StoredValuesTuning::most_unfinite, "most_unfinite", "of the pixels",
+                          "that may be not finite. Higher: maps that are mostly made up are read; lower: "
+                          "renders with a few wild pixels are refused",
+                          "not measured: what is filled in should not show", 0, 1},
+                         {&StoredValuesTuning::largest_hole, "largest_hole", "pixels",
+                          "from a pixel that is not finite to one that is. Higher: larger holes become flat "
+                          "spots; lower: more files are refused",
+                          "not measured: a spot of that size shows", 1, 1024},
+                     });
 
 template <typename T>
 struct Integers {
@@ -64,7 +64,7 @@ struct Halfs {
 void StoredValues::note_hole(int64_t pixel, int channel) {
   holed_pixels_ += pixel != last_holed_;
   last_holed_ = pixel;
-  const double most = std::max(1.0, tuning->most_unfinite * double(meaning_.stored.area()));
+  const double most = std::max(1.0, stored_values_tuning->most_unfinite * double(meaning_.stored.area()));
   if (double(holed_pixels_) > most) return;  // they will be refused
   holes_.push_back({int(pixel % meaning_.stored.width), int(pixel / meaning_.stored.width), channel});
 }
@@ -129,11 +129,11 @@ std::vector<StoredValues::Hole> StoredValues::filled_holes(const std::function<v
                     holed_pixels_, counted(all.area(), "pixel"), holes_.front().x + meaning_.stored.x,
                     holes_.front().y + meaning_.stored.y, limit));
   };
-  if (double(holed_pixels_) > std::max(1.0, tuning->most_unfinite * double(all.area())))
-    fail(fmt::format("at most {:g} % are filled from their neighbours", tuning->most_unfinite * 100));
+  if (double(holed_pixels_) > std::max(1.0, stored_values_tuning->most_unfinite * double(all.area())))
+    fail(fmt::format("at most {:g} % are filled from their neighbours", stored_values_tuning->most_unfinite * 100));
   for (Hole& hole : filled) {
     int count = 0;
-    for (int reach = 1; count == 0 && reach <= tuning->largest_hole; reach *= 2) {
+    for (int reach = 1; count == 0 && reach <= stored_values_tuning->largest_hole; reach *= 2) {
       const Rect square = intersect({hole.x - reach, hole.y - reach, 2 * reach + 1, 2 * reach + 1}, all);
       around.resize(size_t(square.area()) * size_t(meaning_.channels));
       read(square, around.data());
@@ -146,7 +146,7 @@ std::vector<StoredValues::Hole> StoredValues::filled_holes(const std::function<v
       if (count > 0) hole.value = float(sum / count);
     }
     if (count == 0)
-      fail(fmt::format("no value within {} pixels of ({}, {}) is finite", tuning->largest_hole,
+      fail(fmt::format("no value within {} pixels of ({}, {}) is finite", stored_values_tuning->largest_hole,
                        hole.x + meaning_.stored.x, hole.y + meaning_.stored.y));
   }
   return filled;

@@ -23,7 +23,7 @@ struct TgaLayout {
   bool from_top() const { return (descriptor & 0x20) != 0; }
 };
 
-TgaLayout layout_of(const FileNumbers& file) {
+TgaLayout tga_layout_of(const FileNumbers& file) {
   TgaLayout tga{.type = file.number(2, 1),
                 .bits = file.number(16, 1),
                 .descriptor = file.number(17, 1),
@@ -103,7 +103,7 @@ class TgaDecoder final : public ImageDecoder {
 std::unique_ptr<ImageDecoder> open_tga_with_alpha_bit(const std::filesystem::path& path) {
   if (lowercase(path.extension().string()) != ".tga") return nullptr;
   const FileNumbers file(path);
-  const TgaLayout tga = layout_of(file);
+  const TgaLayout tga = tga_layout_of(file);
   if (!tga.has_alpha_bit() || format_facts(path).unused_alpha) return nullptr;
   return std::make_unique<TgaDecoder>(path, tga);
 }

@@ -17,15 +17,16 @@ namespace {
 
 constexpr int64_t longest_side = 65536;
 
-struct Tuning {
+struct AtlasTuning {
   double unlike_sides = 0.05;
 };
-const Tunable<Tuning> tuning("atlas", {
-                                          {&Tuning::unlike_sides, "unlike_sides", "factor",
-                                           "on the square of what sides differ by, beside the area. Higher: atlases "
-                                           "are nearer to squares; lower: they waste less",
-                                           "not measured: taken over from the code before constants were listed"},
-                                      });
+const Tunable<AtlasTuning> atlas_tuning("atlas",
+                                        {
+                                            {&AtlasTuning::unlike_sides, "unlike_sides", "factor",
+                                             "on the square of what sides differ by, beside the area. Higher: atlases "
+                                             "are nearer to squares; lower: they waste less",
+                                             "not measured: taken over from the code before constants were listed"},
+                                        });
 
 // --- Where exemplars lie
 
@@ -61,7 +62,8 @@ struct Extent {
   }
   /// What a layout costs: its area, and less so how far it is from a square.
   double cost() const {
-    return double(width) * double(height) + tuning->unlike_sides * double(width - height) * double(width - height);
+    return double(width) * double(height) +
+           atlas_tuning->unlike_sides * double(width - height) * double(width - height);
   }
 };
 

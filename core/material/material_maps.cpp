@@ -15,16 +15,16 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct MaterialMapsTuning {
   double compression_noise = 8.0 / 255;
 };
-const Tunable<Tuning> tuning("material_maps",
-                             {
-                                 {&Tuning::compression_noise, "compression_noise", "of the range of values",
-                                  "by which the channels of a grey map may differ. Higher: maps of several channels "
-                                  "are taken for grey ones; lower: lossy files are warned of",
-                                  "not measured: taken over from the code before constants were listed", 0, 1},
-                             });
+const Tunable<MaterialMapsTuning> material_maps_tuning(
+    "material_maps", {
+                         {&MaterialMapsTuning::compression_noise, "compression_noise", "of the range of values",
+                          "by which the channels of a grey map may differ. Higher: maps of several channels "
+                          "are taken for grey ones; lower: lossy files are warned of",
+                          "not measured: taken over from the code before constants were listed", 0, 1},
+                     });
 
 /// Whether channel c of an image never differs from `value(pixel)` by more than `tolerance`.
 template <typename Value>
@@ -55,7 +55,7 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
   if (!channels.empty()) return channels;
   const int colors = file.channels() - (file.channels() % 2 == 0 ? 1 : 0);  // without alpha
   if (is_one_value(m.semantic)) {
-    const auto compression_noise = float(tuning->compression_noise);
+    const auto compression_noise = float(material_maps_tuning->compression_noise);
     for (int c = 1; c < colors; c++)
       if (!channel_is(file, c, compression_noise, [](const float* p) { return p[0]; })) {
         notes.push_back(
@@ -102,7 +102,7 @@ ImagePtr map_of_file(const RecognisedMap& source, const ImagePtr& file, const st
 
 bool is_grey(const Image& image) {
   if (image.channels() < 3) return false;
-  const auto noise = float(tuning->compression_noise);
+  const auto noise = float(material_maps_tuning->compression_noise);
   const auto first = [](const float* p) { return p[0]; };
   return channel_is(image, 1, noise, first) && channel_is(image, 2, noise, first);
 }
@@ -117,7 +117,7 @@ bool is_constant(const Image& image) {
 bool is_only_alpha(const Image& image) {
   const int alpha = image.channels() - 1;
   if (alpha % 2 == 0) return false;
-  const auto noise = float(tuning->compression_noise);
+  const auto noise = float(material_maps_tuning->compression_noise);
   const std::vector<float> first = image.read({0, 0, 1, 1});
   const auto is_first = [&](int c) {
     return channel_is(image, c, noise, [&](const float*) { return first[size_t(c)]; });

@@ -22,10 +22,11 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct MixTuning {
   int rows = 64;
 };
-const Tunable<Tuning> tuning("mix", {{&Tuning::rows, "rows", "rows",
+const Tunable<MixTuning> mix_tuning("mix",
+                                    {{&MixTuning::rows, "rows", "rows",
                                       "of each height map that are read for the range of heights. Higher: the range is "
                                       "nearer to the true one; costs time",
                                       "not measured: a row in 16 of 1024, and stones are higher than a few rows", 1}});
@@ -95,7 +96,7 @@ std::vector<double> parts_of(const Image& map, size_t materials) {
 // --- What is mixed
 
 /// What all maps of a mix share.
-struct Layers {
+struct MixLayers {
   BorderShape shape;
   std::vector<ImagePtr> distances{};
   std::vector<ImagePtr> heights{};  ///< of each material, for borders by height
@@ -105,7 +106,7 @@ struct Layers {
 void set_range(BorderShape& shape, const std::vector<ImagePtr>& heights) {
   float lowest = std::numeric_limits<float>::max(), highest = std::numeric_limits<float>::lowest();
   for (const ImagePtr& map : heights) {
-    const int rows = std::min(map->height(), tuning->rows);
+    const int rows = std::min(map->height(), mix_tuning->rows);
     for (int k = 0; k < rows; k++)
       for (const float v : map->read({0, int((2 * int64_t{k} + 1) * map->height() / (2 * rows)), map->width(), 1})) {
         if (!std::isfinite(v)) continue;
@@ -133,7 +134,7 @@ std::vector<ImagePtr> compared_heights(const std::vector<MaterialPtr>& materials
 /// Pixels of one map, mixed as the shares say.
 class MixedPixels {
  public:
-  MixedPixels(const Layers& layers, const ImageInfo& info, bool sinks)
+  MixedPixels(const MixLayers& layers, const ImageInfo& info, bool sinks)
       : shape_(layers.shape),
         count_(layers.count),
         distances_(layers.distances.size()),
@@ -195,7 +196,7 @@ class MixedPixels {
   bool sinks_;  ///< heights of what has sunk
 };
 
-ImagePtr mixed_image(const Layers& layers, const ImageInfo& info, const std::vector<ImagePtr>& maps, bool sinks) {
+ImagePtr mixed_image(const MixLayers& layers, const ImageInfo& info, const std::vector<ImagePtr>& maps, bool sinks) {
   std::vector<ImagePtr> inputs;
   for (const std::vector<ImagePtr>& images : {layers.distances, layers.heights, maps})
     for (const ImagePtr& image : images) inputs.push_back(nearest_at_size(image, info.size));
@@ -208,7 +209,7 @@ ImagePtr mixed_image(const Layers& layers, const ImageInfo& info, const std::vec
   return pixel_by_pixel(info, recipe.digest(), inputs, MixedPixels(layers, info, sinks));
 }
 
-ImagePtr mixed_map(const Layers& layers, const std::vector<MaterialPtr>& materials, const std::string& name) {
+ImagePtr mixed_map(const MixLayers& layers, const std::vector<MaterialPtr>& materials, const std::string& name) {
   ImageInfo info = materials.front()->find(name)->info();
   std::vector<ImagePtr> maps;
   for (size_t i = 0; i < materials.size(); i++) {
@@ -221,7 +222,7 @@ ImagePtr mixed_map(const Layers& layers, const std::vector<MaterialPtr>& materia
   return mixed_image(layers, info, maps, compared);
 }
 
-ImagePtr labels_of(const Layers& layers, Size size) {
+ImagePtr labels_of(const MixLayers& layers, Size size) {
   const ImageInfo info{.size = size, .channels = 1, .semantic = Semantic::guidance, .depth = Depth::u16};
   std::vector<ImagePtr> labels;
   for (size_t i = 0; i < layers.count; i++) {
@@ -263,11 +264,11 @@ Mix mixed(const std::vector<MaterialPtr>& materials, const ImagePtr& map, const 
   require_same_maps("materials", known);
   for (const MaterialPtr& m : materials) require_one_size(materials.front()->size(), m->size());
   require_one_channel("mix", *map);
-  Layers layers{.shape = {.border = options.border,
-                          .width = options.width,
-                          .softness = options.softness,
-                          .offset = options.offset},
-                .count = materials.size()};
+  MixLayers layers{.shape = {.border = options.border,
+                             .width = options.width,
+                             .softness = options.softness,
+                             .offset = options.offset},
+                   .count = materials.size()};
   const Size size = materials.front()->size();
   if (options.border == Border::height) layers.heights = compared_heights(materials);
   if (layers.shape.half() == 0) layers.heights.clear();

@@ -15,7 +15,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct PackingGuessTuning {
   double metal_share = 0.95;
   double metal_tolerance = 0.06;
   double least_white = 0.95;
@@ -25,30 +25,30 @@ struct Tuning {
   double least_skew = 0.5;
 };
 constexpr const char* measured = "packings without a name";
-const Tunable<Tuning> tuning(
+const Tunable<PackingGuessTuning> packing_guess_tuning(
     "packing_guess",
     {
-        {&Tuning::metal_share, "metal_share", "of the pixels",
+        {&PackingGuessTuning::metal_share, "metal_share", "of the pixels",
          "that must be black or white in a metallic map. Higher: fewer packings are found; lower: contrasty roughness "
          "is taken for metal",
          measured, 0.5, 1},
-        {&Tuning::metal_tolerance, "metal_tolerance", "of the range of values",
+        {&PackingGuessTuning::metal_tolerance, "metal_tolerance", "of the range of values",
          "that black and white may be off. Higher: dark roughness is taken for metal; lower: lossy files are not found",
          measured, 0, 0.4},
-        {&Tuning::least_white, "least_white", "of the range of values",
+        {&PackingGuessTuning::least_white, "least_white", "of the range of values",
          "that the brightest occlusion has. Higher: fewer packings are found; lower: roughness is taken for occlusion",
          measured, 0, 1},
-        {&Tuning::least_mean_lead, "least_mean_lead", "of the range of values",
+        {&PackingGuessTuning::least_mean_lead, "least_mean_lead", "of the range of values",
          "by which occlusion must be brighter than roughness on average. Higher: fewer are found; lower: more wrongly",
          measured, 0, 1},
-        {&Tuning::least_hollow_lead, "least_hollow_lead", "correlation",
+        {&PackingGuessTuning::least_hollow_lead, "least_hollow_lead", "correlation",
          "by which occlusion must follow the hollows better than roughness. Higher: fewer are found; lower: more "
          "wrongly",
          measured, 0, 2},
-        {&Tuning::least_hollow, "least_hollow", "correlation",
+        {&PackingGuessTuning::least_hollow, "least_hollow", "correlation",
          "of occlusion with the height above its surroundings. Higher: fewer are found; lower: more wrongly", measured,
          -1, 1},
-        {&Tuning::least_skew, "least_skew", "skewness",
+        {&PackingGuessTuning::least_skew, "least_skew", "skewness",
          "towards white of occlusion without a height map. Higher: fewer are found; lower: more wrongly", measured, 0,
          100},
     });
@@ -97,9 +97,9 @@ double skewness(const Plane& p) {
 }
 
 bool is_metal(const Plane& p) {
-  const auto tolerance = float(tuning->metal_tolerance);
+  const auto tolerance = float(packing_guess_tuning->metal_tolerance);
   const auto extreme = std::count_if(p.begin(), p.end(), [&](float v) { return v <= tolerance || v >= 1 - tolerance; });
-  return double(extreme) >= tuning->metal_share * double(p.size());
+  return double(extreme) >= packing_guess_tuning->metal_share * double(p.size());
 }
 
 /// How far the height lies above its surroundings.
@@ -123,22 +123,23 @@ struct Channel {
 };
 
 /// A packing by what its channels hold; '-' is a constant.
-struct Layout {
+struct Packing {
   std::string_view name;
   std::string_view order;  ///< o, r, m, s for smoothness
 };
-constexpr std::array layouts = {Layout{"ORM", "orm"}, Layout{"RMA", "rmo"}, Layout{"MRA", "mro"},
-                                Layout{"MaskMap", "mo-s"}};
+constexpr std::array layouts = {Packing{"ORM", "orm"}, Packing{"RMA", "rmo"}, Packing{"MRA", "mro"},
+                                Packing{"MaskMap", "mo-s"}};
 
 bool fits_occlusion(const Channel& occlusion, const Channel& roughness, bool have_height) {
-  const bool leads = occlusion.mean >= roughness.mean + tuning->least_mean_lead;
-  if (!leads || occlusion.brightest < tuning->least_white || occlusion.is_metal) return false;
+  const bool leads = occlusion.mean >= roughness.mean + packing_guess_tuning->least_mean_lead;
+  if (!leads || occlusion.brightest < packing_guess_tuning->least_white || occlusion.is_metal) return false;
   if (have_height)
-    return occlusion.hollow >= tuning->least_hollow && occlusion.hollow >= roughness.hollow + tuning->least_hollow_lead;
-  return -skewness(occlusion.plane) >= tuning->least_skew;
+    return occlusion.hollow >= packing_guess_tuning->least_hollow &&
+           occlusion.hollow >= roughness.hollow + packing_guess_tuning->least_hollow_lead;
+  return -skewness(occlusion.plane) >= packing_guess_tuning->least_skew;
 }
 
-bool fits(const Layout& layout, std::vector<Channel> channels, bool have_height) {
+bool fits(const Packing& layout, std::vector<Channel> channels, bool have_height) {
   if (layout.order.size() != channels.size()) return false;
   const Channel *occlusion = nullptr, *roughness = nullptr;
   for (size_t i = 0; i < channels.size(); i++) {
@@ -156,7 +157,7 @@ bool fits(const Layout& layout, std::vector<Channel> channels, bool have_height)
   return !roughness->is_metal && fits_occlusion(*occlusion, *roughness, have_height);
 }
 
-PackingGuess guess_of(const Layout& layout, bool have_height) {
+PackingGuess guess_of(const Packing& layout, bool have_height) {
   PackingGuess out;
   for (size_t i = 0; i < layout.order.size(); i++) {
     const char what = layout.order[i], channel = "rgba"[i];
@@ -188,8 +189,8 @@ PackingGuess guess_packing(const ImagePtr& file, const ImagePtr& height) {
                         .brightest = *std::max_element(p.begin(), p.end()),
                         .hollow = height ? correlation(p, hollow) : 0,
                         .is_metal = is_metal(p)});
-  const Layout* found = nullptr;
-  for (const Layout& layout : layouts) {
+  const Packing* found = nullptr;
+  for (const Packing& layout : layouts) {
     if (!fits(layout, channels, height != nullptr)) continue;
     if (found) return {};  // it could be either
     found = &layout;

@@ -11,7 +11,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int side = 256;
+constexpr int compared_side = 256;
 
 /// Values at a grid of points.
 struct Grid {
@@ -54,7 +54,7 @@ Grid blurred(const Grid& grid) {
   return along(along(grid, 1, 0), 0, 1);
 }
 
-Grid detail(const Grid& grid) {
+Grid high_pass(const Grid& grid) {
   const Grid coarse = blurred(grid);
   return grid.with([&](int x, int y) { return grid.at(x, y) - coarse.at(x, y); });
 }
@@ -89,9 +89,10 @@ double correlation(const Grid& a, const Grid& b) {
 }  // namespace
 
 double shared_detail(const ImagePtr& a, const ImagePtr& b) {
-  const Size size{std::min({side, a->width(), b->width()}), std::min({side, a->height(), b->height()})};
+  const Size size{std::min({compared_side, a->width(), b->width()}),
+                  std::min({compared_side, a->height(), b->height()})};
   const Grid grey_a = grey(a, size), grey_b = grey(b, size);
-  return std::max(correlation(detail(grey_a), detail(grey_b)), correlation(slopes(grey_a), slopes(grey_b)));
+  return std::max(correlation(high_pass(grey_a), high_pass(grey_b)), correlation(slopes(grey_a), slopes(grey_b)));
 }
 
 }  // namespace terrazzo

@@ -15,17 +15,17 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct CopiesTuning {
   double slack = 0.2;
   int eights_of_dimensions = 2;
 };
-const Tunable<Tuning> tuning(
+const Tunable<CopiesTuning> copies_tuning(
     "copies", {
-                  {&Tuning::slack, "slack", "share of a distance",
+                  {&CopiesTuning::slack, "slack", "share of a distance",
                    "by which the nearest patch may be missed. Higher: less time; lower: copies among many alike "
                    "patches are found whole",
                    "not measured: taken over from the code before constants were listed"},
-                  {&Tuning::eights_of_dimensions, "eights_of_dimensions", "eight components",
+                  {&CopiesTuning::eights_of_dimensions, "eights_of_dimensions", "eight components",
                    "of a patch in which the nearest is looked for. Higher: alike patches are kept apart; costs time",
                    "not measured: taken over from the code before constants were listed", 1, 6},
               });
@@ -55,8 +55,8 @@ CopiedRegions copied_regions(Size size, const std::vector<Shift>& shifts) {
 }
 
 double verbatim_copies(const Planes& exemplar, const Planes& output, const Task& task) {
-  const int dimensions = 8 * tuning->eights_of_dimensions;
-  const double slack = tuning->slack;
+  const int dimensions = 8 * copies_tuning->eights_of_dimensions;
+  const double slack = copies_tuning->slack;
   const PatchList from_exemplar = all_patches(exemplar.size), from_output = all_patches(output.size);
   const Projection space = principal_projection(exemplar, from_exemplar, dimensions, task);
   const NearestPoints tree(project(exemplar, from_exemplar, space, task), dimensions);

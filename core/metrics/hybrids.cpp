@@ -18,22 +18,22 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct HybridsTuning {
   double joint = 0.2;
   double whole = 0.85;
   int bent = 2;
   double crumb = 0.05;
 };
-const Tunable<Tuning> tuning(
-    "hybrids", {{&Tuning::joint, "joint", "inner radii",
+const Tunable<HybridsTuning> hybrids_tuning(
+    "hybrids", {{&HybridsTuning::joint, "joint", "inner radii",
                  "mean depth along a line up to which it is a joint. Higher: fewer elements are taken for two, lower: "
                  "two that touch are one more often",
                  "elements", 0, 1},
-                {&Tuning::whole, "whole", "of an element's area", "that must come from one for it to be whole",
+                {&HybridsTuning::whole, "whole", "of an element's area", "that must come from one for it to be whole",
                  "not measured: as the figure is defined", 0, 1},
-                {&Tuning::bent, "bent", "pixels", "by which the place in the exemplar may jump within a piece",
+                {&HybridsTuning::bent, "bent", "pixels", "by which the place in the exemplar may jump within a piece",
                  "not measured: as the figure is defined", 0, 64},
-                {&Tuning::crumb, "crumb", "of the median area", "below which a region belongs to its neighbour",
+                {&HybridsTuning::crumb, "crumb", "of the median area", "below which a region belongs to its neighbour",
                  "elements", 0, 1}});
 
 /// For each pixel of the exemplar 255 at the middle of a joint to 0 at the middle of its element.
@@ -69,7 +69,7 @@ class Pieces {
   bool is_near(int from, int to, int step, int length) const {
     int apart = std::abs(to - from - step);
     if (uv_.wraps().exemplar) apart = std::min(apart, std::abs(apart - length));
-    return apart <= tuning->bent;
+    return apart <= hybrids_tuning->bent;
   }
   void join(int x, int y, int u, int v, int right, int down) {
     const ExemplarPixel a = uv_.at(x, y), b = uv_.at(u, v);
@@ -95,11 +95,11 @@ Regions result_elements(const UvMap& uv, const Elements& elements, const Task& t
   const bool wraps = uv.wraps().x && uv.wraps().y;
   const Regions basins = catchment_basins(relief, uv.size(), wraps);
   task.check();
-  const double least = 255 * (1 - tuning->joint);
+  const double least = 255 * (1 - hybrids_tuning->joint);
   std::vector<int64_t> areas(size_t(elements.count));
   for (const uint16_t e : elements.at) areas[e]++;
   std::ranges::nth_element(areas, areas.begin() + std::ptrdiff_t(areas.size() / 2));
-  const auto smallest = int64_t(tuning->crumb * double(areas[areas.size() / 2]));
+  const auto smallest = int64_t(hybrids_tuning->crumb * double(areas[areas.size() / 2]));
   return joined(basins, region_borders(basins, relief, uv.size(), wraps), {least, least, 0, smallest});
 }
 
@@ -152,7 +152,7 @@ HybridElements hybrid_elements(const UvMap& uv, const Elements& elements, const 
     if (cut[region]) continue;
     out.elements++;
     all += area;
-    if (double(largest) >= tuning->whole * double(area)) continue;
+    if (double(largest) >= hybrids_tuning->whole * double(area)) continue;
     hybrid += area;
     hybrids++;
   }

@@ -23,7 +23,7 @@ uint64_t output_seed(const Planes& exemplar, const Planes& output) {
   return output.size == exemplar.size ? exemplar_seed : 8;
 }
 
-struct Tuning {
+struct PatchStatisticsTuning {
   double slack = 0.1;
   int eights_of_directions = 20;
   int quantiles = 512;
@@ -32,25 +32,28 @@ struct Tuning {
   int queries = 4000;
   int eights_of_dimensions = 3;
 };
-const Tunable<Tuning> tuning(
+const Tunable<PatchStatisticsTuning> patch_statistics_tuning(
     "patch_statistics",
     {
-        {&Tuning::slack, "slack", "share of a distance",
+        {&PatchStatisticsTuning::slack, "slack", "share of a distance",
          "by which the nearest patch may be missed. Higher: less time; lower: coherence and completeness are exact",
          "not measured: bounds the time"},
-        {&Tuning::eights_of_directions, "eights_of_directions", "eight directions",
+        {&PatchStatisticsTuning::eights_of_directions, "eights_of_directions", "eight directions",
          "in which patches are compared for swd. Higher: it varies less; costs time",
          "not measured: taken over from the code before constants were listed", 1, 125},
-        {&Tuning::quantiles, "quantiles", "values in each direction", "the same. Higher: tails have a say; costs time",
+        {&PatchStatisticsTuning::quantiles, "quantiles", "values in each direction",
+         "the same. Higher: tails have a say; costs time",
          "not measured: taken over from the code before constants were listed", 2},
-        {&Tuning::sliced_patches, "sliced_patches", "patches", "the same. Higher: it varies less; costs time",
+        {&PatchStatisticsTuning::sliced_patches, "sliced_patches", "patches",
+         "the same. Higher: it varies less; costs time",
          "not measured: taken over from the code before constants were listed", 1},
-        {&Tuning::pool, "pool", "patches",
+        {&PatchStatisticsTuning::pool, "pool", "patches",
          "among which the nearest is looked for. Higher: rare features are found; costs time",
          "not measured: taken over from the code before constants were listed", 2},
-        {&Tuning::queries, "queries", "patches", "for which it is. Higher: figures vary less; costs time",
+        {&PatchStatisticsTuning::queries, "queries", "patches",
+         "for which it is. Higher: figures vary less; costs time",
          "not measured: taken over from the code before constants were listed", 1},
-        {&Tuning::eights_of_dimensions, "eights_of_dimensions", "eight components",
+        {&PatchStatisticsTuning::eights_of_dimensions, "eights_of_dimensions", "eight components",
          "of a patch in which it is. Higher: fine detail has a say; costs time",
          "not measured: taken over from the code before constants were listed", 1, 6},
     });
@@ -83,11 +86,11 @@ double mean_of(const std::vector<double>& values) {
 }
 
 /// The distances of the first rows of `points` to what `tree` holds.
-std::vector<double> distances(const NearestPoints& tree, const std::vector<float>& points, bool among_themselves,
-                              const Task& task) {
-  const int dimensions = 8 * tuning->eights_of_dimensions;
-  const double slack = tuning->slack;
-  std::vector<double> out(std::min(size_t(tuning->queries), points.size() / size_t(dimensions)));
+std::vector<double> nearest_distances(const NearestPoints& tree, const std::vector<float>& points,
+                                      bool among_themselves, const Task& task) {
+  const int dimensions = 8 * patch_statistics_tuning->eights_of_dimensions;
+  const double slack = patch_statistics_tuning->slack;
+  std::vector<double> out(std::min(size_t(patch_statistics_tuning->queries), points.size() / size_t(dimensions)));
   tbb::parallel_for(tbb::blocked_range<size_t>(0, out.size(), 64), [&](const auto& range) {
     task.check();
     for (size_t i = range.begin(); i < range.end(); i++) {
@@ -101,8 +104,9 @@ std::vector<double> distances(const NearestPoints& tree, const std::vector<float
 }  // namespace
 
 double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Task& task) {
-  const int directions = 8 * tuning->eights_of_directions, quantiles = tuning->quantiles;
-  const auto sliced_patches = size_t(tuning->sliced_patches);
+  const int directions = 8 * patch_statistics_tuning->eights_of_directions,
+            quantiles = patch_statistics_tuning->quantiles;
+  const auto sliced_patches = size_t(patch_statistics_tuning->sliced_patches);
   const Projection slices = random_directions(patch_values(exemplar), directions, direction_seed);
   const auto a = project(exemplar, random_patches(exemplar.size, sliced_patches, exemplar_seed), slices, task);
   const auto b =
@@ -122,8 +126,8 @@ double sliced_wasserstein(const Planes& exemplar, const Planes& output, const Ta
 }
 
 PatchSimilarity patch_similarity(const Planes& exemplar, const Planes& output, const Task& task) {
-  const auto pool = size_t(tuning->pool);
-  const int dimensions = 8 * tuning->eights_of_dimensions;
+  const auto pool = size_t(patch_statistics_tuning->pool);
+  const int dimensions = 8 * patch_statistics_tuning->eights_of_dimensions;
   const PatchList from_exemplar = random_patches(exemplar.size, pool, exemplar_seed);
   const PatchList from_output = random_patches(output.size, pool, output_seed(exemplar, output));
   const Projection space = principal_projection(exemplar, from_exemplar, dimensions, task);
@@ -132,9 +136,9 @@ PatchSimilarity patch_similarity(const Planes& exemplar, const Planes& output, c
   std::array<std::unique_ptr<NearestPoints>, 2> trees;
   tbb::parallel_invoke([&] { trees[0] = std::make_unique<NearestPoints>(e, dimensions); },
                        [&] { trees[1] = std::make_unique<NearestPoints>(o, dimensions); });
-  std::vector<double> among = distances(*trees[0], e, true, task);
-  const std::vector<double> coherent = distances(*trees[0], o, false, task);
-  const std::vector<double> complete = distances(*trees[1], e, false, task);
+  std::vector<double> among = nearest_distances(*trees[0], e, true, task);
+  const std::vector<double> coherent = nearest_distances(*trees[0], o, false, task);
+  const std::vector<double> complete = nearest_distances(*trees[1], e, false, task);
   const double own = mean_of(among) + 1e-9;
   std::sort(among.begin(), among.end());
   const double usual = quantile(among, 0.95);

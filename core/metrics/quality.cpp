@@ -138,8 +138,8 @@ ComparedPlanes compared_planes(const Material& exemplar, const Material& output,
   return out;
 }
 
-Quality measure_quality(Planes exemplar, Planes output, const QualityParts& parts, const Task& task) {
-  Quality q;
+QualityFigures measure_quality(Planes exemplar, Planes output, const QualityParts& parts, const Task& task) {
+  QualityFigures q;
   q.acf = autocorrelation_difference(exemplar, output, task);
   task.progress(0.1);
   q.repeat = repetition(exemplar, output, task);

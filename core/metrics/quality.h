@@ -11,7 +11,7 @@ namespace terrazzo {
 
 /// How well an output reproduces its exemplar's texture, from pixels alone and without learned weights. Dimensionless;
 /// lower is better. Read them together: plain tiling wins all but verbatim and repeat.
-struct Quality {
+struct QualityFigures {
   double swd = 0;           ///< see sliced_wasserstein; mean over a Gaussian pyramid
   double cooccurrence = 0;  ///< see cooccurrence_distance; mean over up to 3 levels
   double coherence = 0;     ///< see PatchSimilarity; mean over up to 3 levels
@@ -37,7 +37,7 @@ struct QualityParts {
 
 /// Both images have the same channels and at least smallest_measured pixels a side. Deterministic. Thread-safe; throws
 /// Cancelled.
-Quality measure_quality(Planes exemplar, Planes output, const QualityParts& parts, const Task& task);
+QualityFigures measure_quality(Planes exemplar, Planes output, const QualityParts& parts, const Task& task);
 
 /// The channels of the exemplar's and the output's maps, stacked, in units of the exemplar's standard deviation.
 /// Colours and vectors give three channels, other maps their first; grey becomes three channels if the other image has

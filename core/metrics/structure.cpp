@@ -17,11 +17,11 @@ namespace terrazzo {
 
 namespace {
 
-constexpr uint64_t exemplar_seed = 7;
+constexpr uint64_t structure_seed = 7;
 constexpr double usual = 0.95;  ///< share of the exemplar's windows that are not foreign to it
 constexpr float slightest_edge = 1e-6f;
 
-struct Tuning {
+struct StructureTuning {
   double edge_scale = 0.35;
   double smoothing = 0.5;
   double slack = 0.1;
@@ -29,31 +29,31 @@ struct Tuning {
   int queries = 2000;
   int eights_of_dimensions = 3;
 };
-const Tunable<Tuning> tuning(
+const Tunable<StructureTuning> structure_tuning(
     "structure",
     {
-        {&Tuning::edge_scale, "edge_scale", "steps",
+        {&StructureTuning::edge_scale, "edge_scale", "steps",
          "deviation of the Gaussian under which edges are seen. Higher: grain has no say; lower: fine joints have",
          "structure", 0.1, 4},
-        {&Tuning::smoothing, "smoothing", "steps",
+        {&StructureTuning::smoothing, "smoothing", "steps",
          "deviation of the Gaussian by which the tensor is smoothed. Higher: edges may lie a bit elsewhere; lower: "
          "they must lie where they did",
          "structure", 0, 4},
-        {&Tuning::slack, "slack", "share of a distance", "by which the nearest window may be missed. Higher: less time",
-         "not measured: as patch_statistics.slack"},
-        {&Tuning::pool, "pool", "windows",
+        {&StructureTuning::slack, "slack", "share of a distance",
+         "by which the nearest window may be missed. Higher: less time", "not measured: as patch_statistics.slack"},
+        {&StructureTuning::pool, "pool", "windows",
          "of the exemplar among which the nearest is looked for. Higher: copies are found exactly; costs time",
          "not measured: all windows of 512x512 where elements are larger than 56 pixels, nearly", 2},
-        {&Tuning::queries, "queries", "windows", "for which it is. Higher: the figure varies less; costs time",
+        {&StructureTuning::queries, "queries", "windows", "for which it is. Higher: the figure varies less; costs time",
          "not measured: a share of 0.05 varies by 0.005", 1},
-        {&Tuning::eights_of_dimensions, "eights_of_dimensions", "eight components",
+        {&StructureTuning::eights_of_dimensions, "eights_of_dimensions", "eight components",
          "of a window in which it is. Higher: fine detail has a say; costs time", "structure", 1, 6},
     });
 
 /// The structure tensor's three entries.
 Planes structure_tensor(const Planes& image, int step, const Task& task) {
   const Beyond beyond = image.wraps ? Beyond::as_it_wraps : Beyond::mirrored;
-  const Planes smooth = blurred(image, tuning->edge_scale * std::max(2, step), beyond, task);
+  const Planes smooth = blurred(image, structure_tuning->edge_scale * std::max(2, step), beyond, task);
   Planes out = Planes::zeros(image.size, 3, image.wraps);
   tbb::parallel_for(0, image.size.height, [&](int y) {
     for (int x = 0; x < image.size.width; x++) {
@@ -68,7 +68,7 @@ Planes structure_tensor(const Planes& image, int step, const Task& task) {
       }
     }
   });
-  return blurred(out, tuning->smoothing * step, beyond, task);
+  return blurred(out, structure_tuning->smoothing * step, beyond, task);
 }
 
 /// Without the pixels at the border, whose tensor depends on what lies beyond; as long as two windows fit.
@@ -118,8 +118,8 @@ class ExemplarWindows {
       : step_(step), task_(task), period_(edges.wraps ? edges.size : Size{}) {
     const Planes image = edges.wraps ? continued(edges, (patch_side - 1) * step) : inner(edges, step);
     across_ = patch_positions(image.size, step).width;
-    patches_ = random_patches(image.size, size_t(tuning->pool), exemplar_seed, step);
-    space_ = principal_projection(image, patches_, 8 * tuning->eights_of_dimensions, task, step);
+    patches_ = random_patches(image.size, size_t(structure_tuning->pool), structure_seed, step);
+    space_ = principal_projection(image, patches_, 8 * structure_tuning->eights_of_dimensions, task, step);
     points_ = project(image, patches_, space_, task);
     tree_ = std::make_unique<NearestPoints>(points_, space_.outputs);
   }
@@ -134,9 +134,9 @@ class ExemplarWindows {
 
   /// Of windows at random places; those of an image as large as the exemplar lie where the exemplar's do.
   std::vector<double> distances_of(const Planes& edges, Size exemplar) const {
-    const uint64_t seed = edges.size == exemplar ? exemplar_seed : 8;
+    const uint64_t seed = edges.size == exemplar ? structure_seed : 8;
     const Planes image = inner(edges, step_);
-    const PatchList windows = random_patches(image.size, size_t(tuning->queries), seed, step_);
+    const PatchList windows = random_patches(image.size, size_t(structure_tuning->queries), seed, step_);
     return distances(project(image, windows, space_, task_), false);
   }
 
@@ -153,8 +153,8 @@ class ExemplarWindows {
 
   std::vector<double> distances(const std::vector<float>& points, bool own) const {
     const auto dimensions = size_t(space_.outputs);
-    const double slack = tuning->slack;
-    std::vector<double> out(std::min(size_t(tuning->queries), points.size() / dimensions));
+    const double slack = structure_tuning->slack;
+    std::vector<double> out(std::min(size_t(structure_tuning->queries), points.size() / dimensions));
     tbb::parallel_for(tbb::blocked_range<size_t>(0, out.size(), 64), [&](const auto& range) {
       task_.check();
       for (size_t i = range.begin(); i < range.end(); i++) {

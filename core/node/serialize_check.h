@@ -6,6 +6,8 @@
 
 namespace terrazzo {
 
+/// Throws DamagedFile(otherwise) unless the condition holds.
+void require_sound(bool condition, const char* otherwise);
 /// Validates a pyramid read from a file: each level half the size of the one before, none too large or too small for
 /// synthesis, and bases that match the channels. Throws DamagedFile.
 void check_levels(const std::vector<AppearanceLevel>& levels, int channels);

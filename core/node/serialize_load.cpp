@@ -27,10 +27,6 @@ auto checked(const Make& make) {
   }
 }
 
-void require(bool condition, const char* otherwise) {
-  if (!condition) throw DamagedFile(otherwise);
-}
-
 /// Takes values out of a block file. Everything in it may be the work of an enemy.
 class ValueReader {
  public:
@@ -39,18 +35,18 @@ class ValueReader {
   Value value() {
     Value v = any(file_->header().type);
     in_.expect_end();
-    require(digest_of(v) == file_->header().digest, "its content does not have the digest it says");
+    require_sound(digest_of(v) == file_->header().digest, "its content does not have the digest it says");
     return v;
   }
 
   Size exemplar_of_index() {
-    require(file_->header().type == uint32_t(ValueType::index), "it holds no index");
+    require_sound(file_->header().type == uint32_t(ValueType::index), "it holds no index");
     return appearance_start().exemplar;
   }
 
  private:
   Value any(uint32_t type) {
-    require(type < value_type_names.size(), "it holds a value of an unknown type");
+    require_sound(type < value_type_names.size(), "it holds a value of an unknown type");
     switch (static_cast<ValueType>(type)) {
       case ValueType::image:
         return image();
@@ -75,12 +71,12 @@ class ValueReader {
     s.width = in_.get<int32_t>();
     s.height = in_.get<int32_t>();
     // Keeps every product of an area with channels or sizes of elements within 64 bits.
-    require(s.width > 0 && s.height > 0 && s.area() <= int64_t{1} << 48, "a size in it is impossible");
+    require_sound(s.width > 0 && s.height > 0 && s.area() <= int64_t{1} << 48, "a size in it is impossible");
     return s;
   }
 
   const BlockStream& stream(uint32_t number, StreamKind kind) const {
-    require(number < file_->streams().size() && file_->streams()[number].kind == kind, "a stream is missing");
+    require_sound(number < file_->streams().size() && file_->streams()[number].kind == kind, "a stream is missing");
     return file_->streams()[number];
   }
 
@@ -88,15 +84,15 @@ class ValueReader {
     ImageInfo info;
     info.size = size();
     info.channels = in_.get_below<uint8_t>(5);
-    require(info.channels > 0, "an image has no channels");
+    require_sound(info.channels > 0, "an image has no channels");
     info.semantic = static_cast<Semantic>(in_.get_below<uint8_t>(uint8_t(semantic_names.size())));
     info.color_space = in_.get_text();
     info.depth = static_cast<Depth>(in_.get_below<uint8_t>(4));
     info.normal_y = static_cast<NormalY>(in_.get_below<uint8_t>(2));
     const auto digest = in_.get<Digest>();
     const auto number = in_.get<uint32_t>();
-    require(stream(number, StreamKind::samples).elements == uint64_t(info.size.area()) * uint64_t(info.channels),
-            "an image has another size than its pixels");
+    require_sound(stream(number, StreamKind::samples).elements == uint64_t(info.size.area()) * uint64_t(info.channels),
+                  "an image has another size than its pixels");
     return Image::with_digest(info, digest, stored_pixels(file_, number, info.size, info.channels));
   }
 
@@ -109,14 +105,14 @@ class ValueReader {
       maps.push_back({std::move(map), image()});
     }
     const auto width = in_.get<double>(), height = in_.get<double>();
-    require(width >= 0 && width <= largest_extent && height >= 0 && height <= largest_extent,
-            "a surface has an impossible size");
+    require_sound(width >= 0 && width <= largest_extent && height >= 0 && height <= largest_extent,
+                  "a surface has an impossible size");
     return checked([&] { return Material::make(std::move(name), std::move(maps), {width, height}); });
   }
 
   double component() {
     const auto v = in_.get<double>();
-    require(std::isfinite(v), "a lattice has a component that is not a number");
+    require_sound(std::isfinite(v), "a lattice has a component that is not a number");
     return v;
   }
 
@@ -124,7 +120,7 @@ class ValueReader {
     Lattice l;
     l.rank = in_.get_below<uint8_t>(3);
     for (double* v : {&l.first.x(), &l.first.y(), &l.second.x(), &l.second.y(), &l.certainty}) *v = component();
-    require(l.is_valid(), "a lattice has no extent");
+    require_sound(l.is_valid(), "a lattice has no extent");
     return l;
   }
 
@@ -148,13 +144,13 @@ class ValueReader {
     if (in_.get_below<uint8_t>(2) == 0) return nullptr;
     auto out = std::make_shared<Elements>();
     out->size = size();
-    require(out->size == of, "elements have another size than the exemplar");
+    require_sound(out->size == of, "elements have another size than the exemplar");
     out->count = in_.get<int32_t>();
-    require(out->count > 0 && out->count <= most_elements, "a number of elements is out of range");
+    require_sound(out->count > 0 && out->count <= most_elements, "a number of elements is out of range");
     out->certainty = in_.get<double>();
-    require(out->certainty >= 0 && out->certainty <= 1, "a certainty is out of range");
+    require_sound(out->certainty >= 0 && out->certainty <= 1, "a certainty is out of range");
     out->at = array<uint16_t>(uint64_t(out->size.area()));
-    for (const uint16_t e : out->at) require(e < out->count, "a pixel belongs to no element");
+    for (const uint16_t e : out->at) require_sound(e < out->count, "a pixel belongs to no element");
     return out;
   }
 
@@ -180,7 +176,7 @@ class ValueReader {
   template <typename T>
   std::vector<T> array(uint64_t count) {
     const BlockStream& s = stream(in_.get<uint32_t>(), StreamKind::bytes);
-    require(s.elements / sizeof(T) == count && s.elements % sizeof(T) == 0, "an array has the wrong length");
+    require_sound(s.elements / sizeof(T) == count && s.elements % sizeof(T) == 0, "an array has the wrong length");
     static_assert(bytes_per_block % sizeof(T) == 0);
     std::vector<T> items;
     for (const StoredBlock& b : s.blocks) {
@@ -196,15 +192,16 @@ class ValueReader {
     AppearanceLevel l;
     l.size = size();
     l.dimensions = in_.get<int32_t>();
-    require(l.dimensions >= 0 && l.dimensions <= appearance_dimensions, "a number of dimensions is out of range");
+    require_sound(l.dimensions >= 0 && l.dimensions <= appearance_dimensions, "a number of dimensions is out of range");
     l.scale = in_.get<double>();
     l.retained = in_.get<double>();
-    require(std::isfinite(l.scale) && std::isfinite(l.retained), "a scale is not a number");
+    require_sound(std::isfinite(l.scale) && std::isfinite(l.retained), "a scale is not a number");
     l.vectors = array<AppearanceVector>(uint64_t(l.size.area()));
     for (const AppearanceVector& v : l.vectors)
-      for (const int c : v) require(c >= -appearance_limit && c <= appearance_limit, "a component is out of range");
+      for (const int c : v)
+        require_sound(c >= -appearance_limit && c <= appearance_limit, "a component is out of range");
     l.usable = array<uint8_t>(array_length<uint8_t>());
-    require(l.usable.empty() || l.usable.size() == l.vectors.size(), "a mask has another size than its level");
+    require_sound(l.usable.empty() || l.usable.size() == l.vectors.size(), "a mask has another size than its level");
     const uint64_t inputs = array_length<float>();
     l.mean = array<float>(inputs);
     l.basis = array<float>(inputs * uint64_t(l.dimensions));
@@ -222,7 +219,8 @@ class ValueReader {
     if (in_.get_below<uint8_t>(2) == 0) return nullptr;
     auto out = std::make_shared<Fingerprint>();
     out->cells = size();
-    require(std::max(out->cells.width, out->cells.height) <= Fingerprint::most_cells, "a fingerprint is too large");
+    require_sound(std::max(out->cells.width, out->cells.height) <= Fingerprint::most_cells,
+                  "a fingerprint is too large");
     const auto count = in_.get<uint32_t>();
     for (uint32_t i = 0; i < count; i++) {
       Fingerprint::Channel c;
@@ -249,14 +247,14 @@ class ValueReader {
     AppearanceStart a;
     a.exemplar = size();
     a.channels = in_.get<int32_t>();
-    require(a.channels > 0, "an appearance has no channels");
+    require_sound(a.channels > 0, "an appearance has no channels");
     a.wraps = in_.get_below<uint8_t>(2) != 0;
     a.repeats = repeats();
     a.maps = fingerprint();
     check_repeats(a.repeats, a.exemplar);
     a.elements = elements(a.exemplar);
     a.levels = in_.get<uint32_t>();
-    require(a.levels > 0, "an appearance has no levels");
+    require_sound(a.levels > 0, "an appearance has no levels");
     return a;
   }
 
@@ -265,8 +263,8 @@ class ValueReader {
     std::vector<AppearanceLevel> levels;
     for (uint32_t i = 0; i < start.levels; i++) levels.push_back(level());
     check_levels(levels, start.channels);
-    require(start.repeats.streaks.shortened(start.exemplar) == levels.front().size,
-            "its finest level has another size than the exemplar");
+    require_sound(start.repeats.streaks.shortened(start.exemplar) == levels.front().size,
+                  "its finest level has another size than the exemplar");
     return checked([&] {
       return Appearance::make(std::move(levels), start.channels, start.wraps, start.repeats, std::move(start.maps),
                               std::move(start.elements), start.exemplar);
@@ -280,9 +278,9 @@ class ValueReader {
       SimilarSets s;
       s.per_pixel = in_.get<int32_t>();
       const auto area = uint64_t(l.size.area());
-      require(s.per_pixel >= 0 && s.per_pixel <= most_similar, "a number of similar pixels is out of range");
+      require_sound(s.per_pixel >= 0 && s.per_pixel <= most_similar, "a number of similar pixels is out of range");
       s.positions = array<uint32_t>(area * uint64_t(s.per_pixel));
-      for (const uint32_t p : s.positions) require(p < area, "a similar pixel lies outside the exemplar");
+      for (const uint32_t p : s.positions) require_sound(p < area, "a similar pixel lies outside the exemplar");
       levels.push_back(std::move(s));
     }
     return checked([&] { return Index::make(std::move(of), std::move(levels)); });

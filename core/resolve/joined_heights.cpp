@@ -16,23 +16,23 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct JoinedHeightsTuning {
   double firm = 1000;
   int sweeps = 3;
   int rounds = 3;
 };
-const Tunable<Tuning> tuning(
+const Tunable<JoinedHeightsTuning> joined_heights_tuning(
     "joined_heights",
     {
-        {&Tuning::firm, "firm", "links to a neighbour",
+        {&JoinedHeightsTuning::firm, "firm", "links to a neighbour",
          "what a pixel that is kept is held by. Higher: it moves less; lower: heights around it are found in fewer "
          "rounds",
          "not measured: all its neighbours together move it by a few thousandths of what they differ", 0, 1000000},
-        {&Tuning::sweeps, "sweeps", "rounds",
+        {&JoinedHeightsTuning::sweeps, "sweeps", "rounds",
          "of smoothing the finest level, before and after the coarse part is added. Higher: less is left of steps; "
          "costs time, as a pixel sees twice as far",
          "not measured: taken over from the code before constants were listed", 1, 64},
-        {&Tuning::rounds, "rounds", "rounds",
+        {&JoinedHeightsTuning::rounds, "rounds", "rounds",
          "in which the coarse part is found; each leaves about a third of the error. Higher: holes meet their rim "
          "better; costs time",
          "joined_heights"},
@@ -85,8 +85,8 @@ class JoinedPixels : public PixelSource {
         layout_(std::move(layout)),
         same_(map_->size() == layout_->exemplar()),
         heights_(map_->in_memory()),
-        sweeps_(tuning->sweeps),
-        firm_(float(tuning->firm)),
+        sweeps_(joined_heights_tuning->sweeps),
+        firm_(float(joined_heights_tuning->firm)),
         steps_(smoothing_steps(sweeps_)),
         size_(layout_->size()),
         kept_(kept, size_),
@@ -309,7 +309,7 @@ class JoinedPixels : public PixelSource {
   }
 
   void find_coarse(const Task& task) {
-    const int rounds = tuning->rounds;
+    const int rounds = joined_heights_tuning->rounds;
     const int64_t blocks = (size_.area() / block.area() + 1) * rounds;
     std::atomic<int64_t> done{0};
     for (int i = 0; i < rounds; i++) {

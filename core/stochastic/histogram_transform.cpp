@@ -26,7 +26,7 @@ void for_each_end(const Distribution& d, const Visit& visit) {
 }
 
 /// Values to the Gaussian number of their rank, scaled to a variance of 1.
-Curve to_gaussian_curve(const Distribution& d) {
+PiecewiseLinear to_gaussian_curve(const Distribution& d) {
   std::vector<double> x, y;
   double sum = 0, squares = 0, total = 0;
   for (size_t i = 0; i < d.atoms().size(); i++) {
@@ -48,12 +48,12 @@ LookupTable from_gaussian_table(const Distribution& d) {
     x.push_back(normal_quantile(rank));
     y.push_back(value);
   });
-  return {-farthest, farthest, gaussian_intervals, Curve(std::move(x), std::move(y))};
+  return {-farthest, farthest, gaussian_intervals, PiecewiseLinear(std::move(x), std::move(y))};
 }
 
 }  // namespace
 
-Curve sorted_pixels(const Distribution& distribution) {
+PiecewiseLinear sorted_pixels(const Distribution& distribution) {
   std::vector<double> x, y;
   for_each_end(distribution, [&](double rank, double value) {
     x.push_back(rank);
@@ -76,8 +76,8 @@ double LookupTable::operator()(double x) const {
 HistogramTransform::HistogramTransform(const Distribution& values)
     : forward_(to_gaussian_curve(values)), back_(from_gaussian_table(values)) {}
 
-Curve restoring_curve(const Distribution& from, const Distribution& to) {
-  const Curve wanted = sorted_pixels(to);
+PiecewiseLinear restoring_curve(const Distribution& from, const Distribution& to) {
+  const PiecewiseLinear wanted = sorted_pixels(to);
   double total = 0, below = 0, count = 0, sum = 0;
   for (const Distribution::Atom& a : from.atoms()) total += double(a.count);
   std::vector<double> x, y;

@@ -9,7 +9,7 @@ namespace terrazzo {
 
 /// The value at each rank in [0, 1] of a distribution whose sorted pixels are joined by straight lines: unlike
 /// Distribution::quantile it gives every value as often as it occurs, so that a map of two values keeps its hard edges.
-Curve sorted_pixels(const Distribution& distribution);
+PiecewiseLinear sorted_pixels(const Distribution& distribution);
 
 /// A function sampled evenly over [low, high]: linear in between and constant outside. Immutable; thread-safe.
 class LookupTable {
@@ -32,12 +32,12 @@ class HistogramTransform {
   double to_value(double gaussian) const { return back_(gaussian); }
 
  private:
-  Curve forward_;
+  PiecewiseLinear forward_;
   LookupTable back_;
 };
 
 /// The curve that gives values distributed like `from`, a sample, the distribution `to`, every value of it as often as
 /// it occurs there. Smooth over a thousandth of the sample, but for values that occur more often in it.
-Curve restoring_curve(const Distribution& from, const Distribution& to);
+PiecewiseLinear restoring_curve(const Distribution& from, const Distribution& to);
 
 }  // namespace terrazzo

@@ -13,11 +13,11 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct MethodTuning {
   double most_structure = 0.5;
 };
-const Tunable<Tuning> tuning(
-    "method", {{&Tuning::most_structure, "most_structure", "excess kurtosis",
+const Tunable<MethodTuning> method_tuning(
+    "method", {{&MethodTuning::most_structure, "most_structure", "excess kurtosis",
                 "of exemplars that noise by example suits. Higher: more exemplars, some of whose features "
                 "it tears; lower: fewer",
                 "method", 0, 100}});
@@ -97,12 +97,12 @@ MethodChoice suitable_method(const Features& features, const Task& task) {
   if (std::min(features.size().width, features.size().height) < smallest_side)
     return {Method::layout, "it is too small to tell whether it has structure"};
   const double found = structure(features, task);
-  if (found > tuning->most_structure)
+  if (found > method_tuning->most_structure)
     return {Method::layout, fmt::format("its features stand out (structure {:.2f} of 1, above {:.2f})", share_of(found),
-                                        share_of(tuning->most_structure))};
+                                        share_of(method_tuning->most_structure))};
   return {Method::noise,
           fmt::format("it has no lattice, no elements and hardly any structure ({:.2f} of 1, up to {:.2f})",
-                      share_of(found), share_of(tuning->most_structure))};
+                      share_of(found), share_of(method_tuning->most_structure))};
 }
 
 }  // namespace terrazzo

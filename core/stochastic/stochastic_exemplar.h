@@ -53,7 +53,7 @@ class StochasticExemplar {
   MatrixXd axes_;                               ///< a column for each component, in deviations of the channels
   Planes components_;                           ///< Gaussianised; wraps if the exemplar tiles
   std::vector<HistogramTransform> transforms_;  ///< of each component
-  std::vector<Curve> restoring_;                ///< of each channel
+  std::vector<PiecewiseLinear> restoring_;      ///< of each channel
 };
 
 }  // namespace terrazzo

@@ -11,16 +11,17 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct TriangleGridTuning {
   int sharpness = 4;
 };
-const Tunable<Tuning> tuning("triangle_grid", {
-                                                  {&Tuning::sharpness, "sharpness", "exponent",
-                                                   "of the barycentric coordinates. Higher: more of the surface "
-                                                   "shows one sample, with its features whole; lower: "
-                                                   "softer transitions from sample to sample",
-                                                   "noise_by_example", 1, 32},
-                                              });
+const Tunable<TriangleGridTuning> triangle_grid_tuning(
+    "triangle_grid", {
+                         {&TriangleGridTuning::sharpness, "sharpness", "exponent",
+                          "of the barycentric coordinates. Higher: more of the surface "
+                          "shows one sample, with its features whole; lower: "
+                          "softer transitions from sample to sample",
+                          "noise_by_example", 1, 32},
+                     });
 
 constexpr double row_height = 0.86602540378443865;  ///< of an equilateral triangle, in edges
 
@@ -38,7 +39,7 @@ int64_t cells_of(int64_t pixels, int cell) {
 
 double sharpened(double coordinate) {
   double weight = coordinate;
-  for (int i = 1; i < tuning->sharpness; i++) weight *= coordinate;
+  for (int i = 1; i < triangle_grid_tuning->sharpness; i++) weight *= coordinate;
   return weight;
 }
 

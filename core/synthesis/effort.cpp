@@ -5,17 +5,17 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct EffortTuning {
   int small_passes = 4;
   int places_tried = 1;
 };
-const Tunable<Tuning> tuning(
+const Tunable<EffortTuning> effort_tuning(
     "effort",
     {
-        {&Tuning::small_passes, "small_passes", "passes",
+        {&EffortTuning::small_passes, "small_passes", "passes",
          "on level 1 where it is one of the coarsest two: exemplars under 128 pixels. Higher: fewer crumbs; costs time",
          "small_exemplars", 0, 100},
-        {&Tuning::places_tried, "places_tried", "places",
+        {&EffortTuning::places_tried, "places_tried", "places",
          "for a window that is unlike the exemplar. Higher: little less is left broken; costs time", "coherence_repair",
          0, 1000},
     });
@@ -34,9 +34,9 @@ Effort effort_of(const LevelFacts& f) {
     return {16, f.level >= 3 ? 24 : 8, &full_window(), 16};
   }
   if (f.level == 0) return {f.coarsest() ? 2 : 1, 0, &sparse_window()};  // a tiny exemplar has no other level
-  if (f.level == 1) return {f.places_landmarks() ? tuning->small_passes : 2, 0, &full_window()};
+  if (f.level == 1) return {f.places_landmarks() ? effort_tuning->small_passes : 2, 0, &full_window()};
   if (f.kept) return {10, f.level >= 3 ? 24 : 8, &full_window()};
-  return {7, f.level >= 3 ? 24 : 8, &full_window(), tuning->places_tried};
+  return {7, f.level >= 3 ? 24 : 8, &full_window(), effort_tuning->places_tried};
 }
 
 int reach_of(int passes) {

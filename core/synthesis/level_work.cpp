@@ -11,21 +11,21 @@ namespace terrazzo {
 namespace {
 
 /// How evenly the exemplar is used.
-struct Tuning {
+struct LevelWorkTuning {
   double least_landmark_factor = 0.5;
   double least_factor = 0.75;
   int finest_recounted = 2;
 };
-const Tunable<Tuning> tuning(
+const Tunable<LevelWorkTuning> level_work_tuning(
     "level_work",
     {
-        {&Tuning::least_landmark_factor, "least_landmark_factor", "factor",
+        {&LevelWorkTuning::least_landmark_factor, "least_landmark_factor", "factor",
          "lower: what is used too little is cheaper at the coarsest levels, and wins; finer levels break "
          "features for it. Not for exemplars under 128 pixels (small_exemplars)",
          "not measured: that unused cells become cheaper was measured, not by how much", 0, 1},
-        {&Tuning::least_factor, "least_factor", "factor", "the same at the other levels",
+        {&LevelWorkTuning::least_factor, "least_factor", "factor", "the same at the other levels",
          "not measured: that unused cells become cheaper was measured, not by how much", 0, 1},
-        {&Tuning::finest_recounted, "finest_recounted", "level",
+        {&LevelWorkTuning::finest_recounted, "finest_recounted", "level",
          "lower: use is counted anew in every pass of finer levels; costs time, and parts need one another",
          "not measured: parts of a surface must not depend on one another"},
     });
@@ -54,7 +54,8 @@ LevelWork::LevelWork(const SharedWork& shared, int level)
       fixed_(shared.fixed(level)),
       control_(facts_.steered ? std::make_unique<LevelControl>(shared.controls, level, exemplar_) : nullptr),
       usage_(shared.exemplar(level).size, facts_.counts_use() ? shared.options.evenness : 0,
-             facts_.places_landmarks() && !facts_.small() ? tuning->least_landmark_factor : tuning->least_factor,
+             facts_.places_landmarks() && !facts_.small() ? level_work_tuning->least_landmark_factor
+                                                          : level_work_tuning->least_factor,
              demand_of(shared.exemplar(level), control_.get())) {
   Field none;
   const CorrectionLevel whole = correction_level(PlaneWindow::all_of(shared_.plane(level)), fixed_);
@@ -89,7 +90,8 @@ Field LevelWork::starts(const Field& parent, const PlaneWindow& window) {
 }
 
 void LevelWork::count_use(std::span<const ExemplarPixel> starts) {
-  if (facts_.level < tuning->finest_recounted) usage_.count_for_good(starts, shared_.fixed(facts_.level + 1));
+  if (facts_.level < level_work_tuning->finest_recounted)
+    usage_.count_for_good(starts, shared_.fixed(facts_.level + 1));
 }
 
 Field LevelWork::begun(std::span<const ExemplarPixel> starts, const PlaneWindow& from,

@@ -9,36 +9,37 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct SharedWorkTuning {
   double shortest_brick = 64;
   double surest_lattice = 0.4;
   double surest_courses = 0.9;
   double shortest_course = 24;
 };
-const Tunable<Tuning> tuning(
+const Tunable<SharedWorkTuning> shared_work_tuning(
     "shared_work",
-    {{&Tuning::shortest_brick, "shortest_brick", "pixels",
+    {{&SharedWorkTuning::shortest_brick, "shortest_brick", "pixels",
       "of bricks, and of elements that keep to a lattice. Lower: what seams lay well enough costs time as "
       "well, and thin joints suffer",
       "element_layout"},
-     {&Tuning::surest_lattice, "surest_lattice", "certainty",
+     {&SharedWorkTuning::surest_lattice, "surest_lattice", "certainty",
       "of cells that repeat, from which on elements are laid in phase with them rather than anywhere. Higher: "
       "straight rows bend; lower: stones that vary overlap",
       "element_layout"},
-     {&Tuning::surest_courses, "surest_courses", "certainty",
+     {&SharedWorkTuning::surest_courses, "surest_courses", "certainty",
       "the same of straight courses, whose bricks and boards are laid along them. Higher: boards are "
       "squeezed between others; lower: stones that lie in rough courses are cut",
       "element_layout"},
-     {&Tuning::shortest_course, "shortest_course", "pixels",
+     {&SharedWorkTuning::shortest_course, "shortest_course", "pixels",
       "the height from which on that holds. Lower: fine bricks are laid along courses, too, and cut",
       "element_layout"}});
 
 /// Whether what keeps to courses, or to a lattice, is better laid as bricks, or by seams, than as elements.
 bool keeps_to_lattice(const Lattice& lattice, const Elements& elements) {
   if (lattice.rank == 2)
-    return lattice.certainty >= tuning->surest_lattice && typical_side(elements) < tuning->shortest_brick;
-  return lattice.rank == 1 && lattice.certainty >= tuning->surest_courses &&
-         lattice.first.norm() >= tuning->shortest_course;
+    return lattice.certainty >= shared_work_tuning->surest_lattice &&
+           typical_side(elements) < shared_work_tuning->shortest_brick;
+  return lattice.rank == 1 && lattice.certainty >= shared_work_tuning->surest_courses &&
+         lattice.first.norm() >= shared_work_tuning->shortest_course;
 }
 
 /// Parts that repeat each in its own way keep to where they lie in the exemplar, and so does what controls place.
@@ -85,7 +86,7 @@ LatticeSurface SharedWork::surface() const {
 }
 
 const Lattice* SharedWork::element_lattice() const {
-  const bool sure = lattice.rank == 1 || (lattice.rank == 2 && lattice.certainty >= tuning->surest_lattice);
+  const bool sure = lattice.rank == 1 || (lattice.rank == 2 && lattice.certainty >= shared_work_tuning->surest_lattice);
   return sure && index.appearance()->repeats().parts.empty() ? &lattice : nullptr;
 }
 
@@ -100,7 +101,7 @@ LevelFacts SharedWork::facts(int level) const {
           .kept = fixed(level).any(),
           .steered = !controls.empty(),
           .may_have_bricks = options.whole_bricks && appearance.repeats().parts.empty() &&
-                             (lattice.rank == 1 || lattice.longest_step() >= tuning->shortest_brick),
+                             (lattice.rank == 1 || lattice.longest_step() >= shared_work_tuning->shortest_brick),
           .has_elements = laid,
           .elements_on_lattice = lattice.rank == 2 && element_lattice() != nullptr,
           .small_elements = elements && !laid && element_lattice() && lattice.rank == 2};

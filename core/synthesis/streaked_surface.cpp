@@ -11,14 +11,14 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct StreakedSurfaceTuning {
   double coherence = 0.4;
 };
-const Tunable<Tuning> tuning("streaked_surface",
-                             {{&Tuning::coherence, "coherence", "factor on the cost of continuing a piece",
-                               "of streaks. Higher: more of them end, and short ones look like crumbs; lower: streaks "
-                               "are copied many side by side, and end along upright seams",
-                               "streaks", 0, 1}});
+const Tunable<StreakedSurfaceTuning> streaked_surface_tuning(
+    "streaked_surface", {{&StreakedSurfaceTuning::coherence, "coherence", "factor on the cost of continuing a piece",
+                          "of streaks. Higher: more of them end, and short ones look like crumbs; lower: streaks "
+                          "are copied many side by side, and end along upright seams",
+                          "streaks", 0, 1}});
 
 }  // namespace
 
@@ -44,13 +44,13 @@ StreakedSurface::StreakedSurface(const Appearance& appearance, const SynthesisOp
       exemplar_(appearance.size()),
       wraps_(appearance.wraps()) {
   if (!streaks_.any()) return;
-  KeptPixels kept = shortened_kept();
+  ExistingPixels kept = shortened_kept();
   shortened_ = {.size = streaks_.covering(options.size),
                 .seed = options.seed,
                 .tile_x = options.tile_x,
                 .tile_y = options.tile_y,
                 .quality = options.quality,
-                .coherence = options.coherence * tuning->coherence,
+                .coherence = options.coherence * streaked_surface_tuning->coherence,
                 .evenness = options.evenness,
                 .whole_bricks = options.whole_bricks,
                 .jitter = options.jitter,
@@ -65,10 +65,10 @@ ExemplarPixel StreakedSurface::shortened(ExemplarPixel p) const {
 }
 
 /// A step is kept as long as each of its pixels; the one in its middle stands for it.
-KeptPixels StreakedSurface::shortened_kept() const {
+ExistingPixels StreakedSurface::shortened_kept() const {
   if (options_.kept.empty()) return {};
   const Size from = options_.size, to = streaks_.covering(from);
-  KeptPixels kept;
+  ExistingPixels kept;
   kept.keep.assign(size_t(to.area()), Keep::always);
   for (int y = 0; y < from.height; y++)
     for (int x = 0; x < from.width; x++) {

@@ -26,7 +26,7 @@ class StreakedSurface {
   struct Axis;
   Axis along(const Rect& region) const;
   ExemplarPixel shortened(ExemplarPixel p) const;
-  KeptPixels shortened_kept() const;
+  ExistingPixels shortened_kept() const;
   /// The exemplar pixel so far on along the streaks; nothing outside of an exemplar that does not tile.
   std::optional<ExemplarPixel> along_streak(const Axis& a, ExemplarPixel p, int by) const;
   /// The first of the pixels that a step of the shortened exemplar stands for.

@@ -34,7 +34,7 @@ struct SynthesisOptions {
   /// What steers the exemplar's parts to their places.
   std::vector<Control> controls{};
   /// Output pixels that are there already: they stay bit for bit, and the others continue them.
-  KeptPixels kept{};
+  ExistingPixels kept{};
   /// The output position of the kept pixels' (0, 0): where the lattices of an exemplar's parts start. That of a whole
   /// exemplar starts elsewhere with each seed, or where it does in what is kept.
   std::array<int, 2> origin{};

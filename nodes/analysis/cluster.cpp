@@ -43,7 +43,7 @@ Planes planes_of(const NodeContext& node) {
   return features ? joined(weighted_planes(*features, node.task()), of_images) : of_images;
 }
 
-OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+OutputForecasts infer_cluster(const Params&, const InputForecasts& inputs) {
   const Forecast* features = forecast_at(inputs, "features");
   const size_t images = wires_at(inputs, "images");
   require_any(features != nullptr, images > 0);
@@ -64,7 +64,7 @@ std::string described(const Clusters& clusters) {
   return text;
 }
 
-void compute(NodeContext& node) {
+void compute_cluster(NodeContext& node) {
   const Planes planes = box_blurred(planes_of(node), node.number("smoothing"), node.task());
   const ClusterOptions options{int(node.integer("k")), int(node.integer("iterations")), uint64_t(node.integer("seed"))};
   Clusters clusters = find_clusters(planes, options, node.task());
@@ -125,8 +125,8 @@ NodeType cluster_node() {
                .help = "Another number starts from other pixels.",
                .min = 0}};
   t.files_read = [](const Params&) { return color_config_files(); };
-  t.compute = compute;
-  t.infer = infer;
+  t.compute = compute_cluster;
+  t.infer = infer_cluster;
   return t;
 }
 

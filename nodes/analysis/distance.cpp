@@ -28,7 +28,7 @@ std::vector<float> distances(const std::vector<uint8_t>& set, Size size, bool wr
   return out;
 }
 
-void compute(NodeContext& node) {
+void compute_distance(NodeContext& node) {
   const ImagePtr mask = node.input<Image>("mask");
   const std::vector<uint8_t> set = set_pixels(*mask, float(node.number("threshold")));
   if (std::find(set.begin(), set.end(), 1) == set.end())
@@ -49,7 +49,7 @@ void compute(NodeContext& node) {
   node.output("distance", Image::from_floats(info, std::move(out)));
 }
 
-OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+OutputForecasts infer_distance(const Params&, const InputForecasts& inputs) {
   const ImageFacts mask = image_at(inputs, "mask");
   require_one_channel("mask", mask);
   return {{"distance", forecast_of_image(values_facts(mask.size, Semantic::guidance))}};
@@ -88,8 +88,8 @@ NodeType distance_node() {
                "pixels."},
       edges_param()};
   t.memory_hint = [](const NodeContext& node) { return size_t(node.input<Image>("mask")->size().area()) * 32; };
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_distance;
+  t.compute = compute_distance;
   return t;
 }
 

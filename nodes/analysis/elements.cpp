@@ -36,7 +36,7 @@ Elements one_element(Size size) {
   return {size, std::vector<uint16_t>(size_t(size.area())), 1, 0};
 }
 
-void compute(NodeContext& node) {
+void compute_elements(NodeContext& node) {
   const auto features = node.input<Features>("features");
   const double least = node.number("least_certainty");
   ElementsPtr elements = find_elements(*features, node.task());
@@ -89,7 +89,7 @@ NodeType elements_node() {
                            {"labels", forecast_of_image(values_facts(features.size, Semantic::guidance))},
                            {"picture", forecast_of_image(values_facts(features.size, Semantic::base_color, 3))}};
   };
-  t.compute = compute;
+  t.compute = compute_elements;
   return t;
 }
 

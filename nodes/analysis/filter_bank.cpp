@@ -21,7 +21,7 @@ ImagePtr grey_map(const NodeContext& node, const Material& material) {
   return analysis_image(map);
 }
 
-void compute(NodeContext& node) {
+void compute_filter_bank(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const bool wraps = exemplar_tiles(node, *material);
   const ImagePtr grey = nearest_at_size(grey_map(node, *material), material->size());
@@ -37,7 +37,7 @@ void compute(NodeContext& node) {
   node.output("blobs", Image::from_floats(info, std::move(responses.blobs)));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_filter_bank(const Params& params, const InputForecasts& inputs) {
   const std::string& map = std::get<std::string>(params.at("map"));
   const Forecast& material = inputs.at("material").front();
   require_analysable_maps("map", map.empty() ? Texts{} : Texts{map}, inputs);
@@ -87,8 +87,8 @@ NodeType filter_bank_node() {
     const double side = std::max(256.0, 256 * node.number("scale"));
     return size_t(19 * 16 * side * side) + size_t(node.input<Material>("material")->size().area()) * 40;
   };
-  t.compute = compute;
-  t.infer = infer;
+  t.compute = compute_filter_bank;
+  t.infer = infer_filter_bank;
   return t;
 }
 

@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_guidance(NodeContext& node) {
   const auto material = node.input<Material>("material");
   EdgeOptions options;
   options.maps = node.texts("maps");
@@ -35,7 +35,7 @@ void compute(NodeContext& node) {
     node.note(fmt::format("edges are where strength exceeds {:.3f} (chosen automatically)", edges.threshold));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_guidance(const Params& params, const InputForecasts& inputs) {
   require_analysable_maps("maps", std::get<Texts>(params.at("maps")), inputs);
   const std::optional<Size> size = material_size(inputs.at("material").front());
   return {{"distance", forecast_of_image(values_facts(size, Semantic::guidance))},
@@ -91,8 +91,8 @@ NodeType guidance_node() {
       tiles_param(),
   };
   t.files_read = [](const Params&) { return color_config_files(); };
-  t.compute = compute;
-  t.infer = infer;
+  t.compute = compute_guidance;
+  t.infer = infer_guidance;
   set_analysis_memory(t, "material", {.per_pixel = 16, .per_value = 8});
   return t;
 }

@@ -11,7 +11,7 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_pca(NodeContext& node) {
   AppearanceOptions options;
   options.dimensions = int(node.integer("dimensions"));
   options.retained_variance = node.number("retained_variance");
@@ -26,7 +26,7 @@ void compute(NodeContext& node) {
   node.output("appearance", appearance);
 }
 
-OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+OutputForecasts infer_pca(const Params&, const InputForecasts& inputs) {
   const Forecast& features = inputs.at("features").front();
   const std::optional<Size> size = features.size;
   if (size) require_analysable(*size);
@@ -74,8 +74,8 @@ NodeType pca_node() {
        .min = 0,
        .max = 100},
   };
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_pca;
+  t.compute = compute_pca;
   set_analysis_memory(t, "features", {.per_pixel = 48, .per_value = 6});
   return t;
 }

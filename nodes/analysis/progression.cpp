@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_progression(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const NumberMap weights = weights_of_chosen(*material, node.texts("maps"));
   const FeaturesPtr features = weighted_features(*material, weights, exemplar_tiles(node, *material));
@@ -21,7 +21,7 @@ void compute(NodeContext& node) {
   node.output("progression", progression_of(*features, deviation, node.flag("inverted"), node.task()));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_progression(const Params& params, const InputForecasts& inputs) {
   require_analysable_maps("maps", std::get<Texts>(params.at("maps")), inputs);
   const std::optional<Size> size = material_size(inputs.at("material").front());
   return {{"progression", forecast_of_image(values_facts(size, Semantic::guidance))}};
@@ -62,8 +62,8 @@ NodeType progression_node() {
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Material>("material")->size().area()) * 20 * sizeof(float);
   };
-  t.compute = compute;
-  t.infer = infer;
+  t.compute = compute_progression;
+  t.infer = infer_progression;
   return t;
 }
 

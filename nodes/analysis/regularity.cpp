@@ -79,7 +79,7 @@ void add_streaks(NodeContext& node, const Features& features, Repeats& repeats) 
                         std::max(repeats.streaks.x, repeats.streaks.y)));
 }
 
-void compute(NodeContext& node) {
+void compute_regularity(NodeContext& node) {
   const auto features = node.input<Features>("features");
   const ImagePtr labels = node.optional_input<Image>("labels");
   const double least = node.number("least_certainty");
@@ -110,7 +110,7 @@ void compute(NodeContext& node) {
   node.output("features", features->with(repeats));
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_regularity(const Params& params) {
   if (std::get<std::string>(params.at("mode")) != "manual") return {};
   const auto& first = std::get<Numbers>(params.at("first"));
   const auto& second = std::get<Numbers>(params.at("second"));
@@ -190,7 +190,7 @@ NodeType regularity_node() {
        .max_count = 2},
   };
   t.persist = Persist::payload;
-  t.check = check;
+  t.check = check_regularity;
   set_analysis_memory(t, "features", lattice_memory);
   t.infer = [](const Params& params, const InputForecasts& inputs) {
     const Forecast& features = inputs.at("features").front();
@@ -198,7 +198,7 @@ NodeType regularity_node() {
       require_labels(image_at(inputs, "labels"), features.size);
     return OutputForecasts{{"features", {.size = features.size, .values = features.values}}};
   };
-  t.compute = compute;
+  t.compute = compute_regularity;
   return t;
 }
 

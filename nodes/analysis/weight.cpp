@@ -20,7 +20,7 @@ bool may_be_absent(const std::string& map) {
   return semantic_from(map).has_value();
 }
 
-void compute(NodeContext& node) {
+void compute_weight(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const bool wraps = exemplar_tiles(node, *material);
   NumberMap weights = node.number_map("weights");
@@ -46,7 +46,7 @@ void require_weighted_maps(const Params& params, const Forecast& material) {
   if (!missing.empty()) throw Errors(missing);
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_weight(const Params& params, const InputForecasts& inputs) {
   const Forecast& material = inputs.at("material").front();
   check_all([&] { require_weighted_maps(params, material); }, [&] { require_analysable_maps("material", {}, inputs); });
   return {{"features", {.size = material_size(material), .values = values_of(material)}}};
@@ -81,7 +81,7 @@ NodeType weight_node() {
   };
   t.persist = Persist::digest;
   t.files_read = [](const Params&) { return color_config_files(); };
-  t.compute = compute;
+  t.compute = compute_weight;
   t.doubts = [](const Params& params, const InputForecasts&) {
     std::vector<std::string> out;
     for (const auto& [name, weights] : std::get<NumberMap>(params.at("weights")))
@@ -89,7 +89,7 @@ NodeType weight_node() {
         out.push_back(fmt::format("\"weights.{0}\": the weight of {0} is 0: nothing in it is looked at", name));
     return out;
   };
-  t.infer = infer;
+  t.infer = infer_weight;
   set_analysis_memory(t, "material", lattice_memory);
   return t;
 }

@@ -240,7 +240,7 @@ void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, b
                   unused));
 }
 
-ImagePtr new_pixels_mask(const UvMap& result, const KeptPixels& kept) {
+ImagePtr new_pixels_mask(const UvMap& result, const ExistingPixels& kept) {
   std::vector<float> mask;
   mask.reserve(kept.keep.size());
   for (size_t i = 0; i < kept.keep.size(); i++)

@@ -47,6 +47,6 @@ void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, b
 void warn_of_less_surface(NodeContext& node, const Index& index, Size result);
 
 /// A mask of a result: white where it does not show the kept pixels.
-ImagePtr new_pixels_mask(const UvMap& result, const KeptPixels& kept);
+ImagePtr new_pixels_mask(const UvMap& result, const ExistingPixels& kept);
 
 }  // namespace terrazzo

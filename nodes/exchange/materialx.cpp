@@ -61,9 +61,9 @@ std::string pair_of(double x, double y) {
   return fmt::format("{:g}, {:g}", x, y);
 }
 
-class Writer {
+class MaterialxWriter {
  public:
-  Writer(const MaterialScene& scene, bool open_pbr)
+  MaterialxWriter(const MaterialScene& scene, bool open_pbr)
       : scene_(scene), surface_(surface_of(open_pbr)), name_(identifier(scene.name)) {}
 
   std::string text() {
@@ -163,7 +163,7 @@ class Writer {
 }  // namespace
 
 std::string materialx_text(const MaterialScene& scene, bool open_pbr) {
-  return Writer(scene, open_pbr).text();
+  return MaterialxWriter(scene, open_pbr).text();
 }
 
 }  // namespace terrazzo

@@ -7,26 +7,26 @@ namespace terrazzo {
 namespace {
 
 /// An input of UsdPreviewSurface, and the map that feeds it.
-struct Slot {
+struct UsdSlot {
   const char* input;
   const char* type;
   const char* map;
   const char* output;  ///< of the texture
 };
-constexpr Slot slots[] = {
+constexpr UsdSlot slots[] = {
     {"diffuseColor", "color3f", "base_color", "rgb"}, {"normal", "normal3f", "normal", "rgb"},
     {"roughness", "float", "roughness", "r"},         {"metallic", "float", "metallic", "r"},
     {"occlusion", "float", "ambient_occlusion", "r"}, {"opacity", "float", "opacity", "r"},
     {"emissiveColor", "color3f", "emission", "rgb"},  {"displacement", "float", "height", "r"},
 };
 
-std::string type_of(const Slot& slot) {
+std::string type_of(const UsdSlot& slot) {
   return std::string_view(slot.output) == "rgb" ? "float3" : "float";
 }
 
-class Writer {
+class UsdWriter {
  public:
-  explicit Writer(const MaterialScene& scene) : scene_(scene), name_(identifier(scene.name)) {}
+  explicit UsdWriter(const MaterialScene& scene) : scene_(scene), name_(identifier(scene.name)) {}
 
   std::string text() const {
     return fmt::format(
@@ -36,7 +36,7 @@ class Writer {
   }
 
  private:
-  bool is_used(const Slot& slot) const {
+  bool is_used(const UsdSlot& slot) const {
     return scene_.find_alone(slot.map) && (slot.input != std::string_view("displacement") || scene_.relief > 0);
   }
 
@@ -69,7 +69,7 @@ class Writer {
   std::string material() const {
     const std::string path = fmt::format("/{}/Material", name_);
     std::string inputs, textures;
-    for (const Slot& slot : slots) {
+    for (const UsdSlot& slot : slots) {
       if (!is_used(slot)) continue;
       inputs += fmt::format("            {} inputs:{}.connect = <{}/{}.outputs:{}>\n", slot.type, slot.input, path,
                             slot.map, slot.output);
@@ -103,7 +103,7 @@ class Writer {
         scene_.find_alone("opacity") ? "            float inputs:opacityThreshold = 0.5\n" : "");
   }
 
-  std::string texture(const Slot& slot, const std::string& path) const {
+  std::string texture(const UsdSlot& slot, const std::string& path) const {
     const SceneFile& file = *scene_.find_alone(slot.map);
     const bool is_colour = file.content->image->info().color_space == "srgb_texture";
     std::string more;
@@ -135,7 +135,7 @@ class Writer {
 }  // namespace
 
 std::string usd_text(const MaterialScene& scene) {
-  return Writer(scene).text();
+  return UsdWriter(scene).text();
 }
 
 }  // namespace terrazzo

@@ -59,7 +59,7 @@ void require_mode(const std::string& mode, const ImageFacts& base) {
                                     fmt::join(mode_names, ", ")));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_blend(const Params& params, const InputForecasts& inputs) {
   const ImageFacts base = image_at(inputs, "base"), top = image_at(inputs, "top"), mask = image_at(inputs, "mask");
   require_same_size("top", top, "base", base);
   require_same_size("mask", mask, "base", base);
@@ -71,7 +71,7 @@ OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
   return {{"image", forecast_of_image(base)}};
 }
 
-void compute(NodeContext& node) {
+void compute_blend(NodeContext& node) {
   const BlendInputs in{node.input<Image>("base"), node.input<Image>("top"), node.optional_input<Image>("mask"),
                        node.number("opacity")};
   const std::string& mode = node.text("mode");
@@ -122,8 +122,8 @@ NodeType blend_node() {
        .help = "Colours stored as srgb_texture are blended in linear light; false blends stored values, as most "
                "paint programs do."}};
   t.persist = Persist::derived;
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_blend;
+  t.compute = compute_blend;
   return t;
 }
 

@@ -7,7 +7,7 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_blur(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
   const AxisFilter filter = gaussian_filter(node.number("radius"));
   const Outside outside = filter.copies ? Outside::clamp : derived_edges_of(node, image);
@@ -40,7 +40,7 @@ NodeType blur_node() {
       derived_edges_param()};
   t.persist = Persist::digest;
   t.infer = same_image_rule();
-  t.compute = compute;
+  t.compute = compute_blur;
   return t;
 }
 

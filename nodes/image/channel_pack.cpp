@@ -80,7 +80,7 @@ ImageInfo packed_info(const NodeContext& node, const std::vector<Source>& source
   return info;
 }
 
-void compute(NodeContext& node) {
+void compute_channel_pack(NodeContext& node) {
   const std::vector<Source> sources = sources_of(node);
   const ImageInfo info = packed_info(node, sources);
   std::vector<ImagePtr> images;
@@ -97,7 +97,7 @@ void compute(NodeContext& node) {
               }));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_channel_pack(const Params& params, const InputForecasts& inputs) {
   const NumberMap& fill = std::get<NumberMap>(params.at("fill"));
   check_all([&] { require_one_number_each(fill); }, [&] { require_any(!inputs.empty()); });
   ImageFacts first, out;
@@ -155,8 +155,8 @@ NodeType channel_pack_node() {
   t.persist = Persist::derived;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.check = [](const Params& p) { return color_space_problems(p, "color_space"); };
-  t.compute = compute;
-  t.infer = infer;
+  t.compute = compute_channel_pack;
+  t.infer = infer_channel_pack;
   return t;
 }
 

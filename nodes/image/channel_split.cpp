@@ -6,7 +6,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr std::array<const char*, 4> channel_names = {"r", "g", "b", "a"};
+constexpr std::array<const char*, 4> part_names = {"r", "g", "b", "a"};
 
 ImagePtr one_channel(const NodeContext& node, const ImagePtr& image, int channel) {
   ImageInfo info = image->info();
@@ -22,9 +22,9 @@ ImagePtr one_channel(const NodeContext& node, const ImagePtr& image, int channel
   });
 }
 
-void compute(NodeContext& node) {
+void compute_channel_split(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
-  for (int c = 0; c < 4; c++) node.output(channel_names[c], one_channel(node, image, c));
+  for (int c = 0; c < 4; c++) node.output(part_names[c], one_channel(node, image, c));
 }
 
 }  // namespace
@@ -43,11 +43,11 @@ NodeType channel_split_node() {
   t.persist = Persist::derived;
   t.infer = [](const Params&, const InputForecasts& inputs) {
     OutputForecasts out;
-    for (const char* name : channel_names)
+    for (const char* name : part_names)
       out[name] = forecast_of_image({image_at(inputs, "image").size, 1, Semantic::data, "raw"});
     return out;
   };
-  t.compute = compute;
+  t.compute = compute_channel_split;
   return t;
 }
 

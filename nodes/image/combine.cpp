@@ -69,7 +69,7 @@ void output_mix(NodeContext& node, const std::vector<MaterialPtr>& materials, co
   node.output("labels", mix.labels);
 }
 
-void compute(NodeContext& node) {
+void compute_combine(NodeContext& node) {
   const auto materials = node.list<Material>("materials");
   if (const auto map = node.optional_input<Image>("mix")) {
     output_mix(node, materials, map);
@@ -130,7 +130,7 @@ OutputForecasts mix_forecast(const Params& params, const InputForecasts& inputs)
           {"labels", forecast_of_image(values_facts(size, Semantic::guidance))}};
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_combine(const Params& params, const InputForecasts& inputs) {
   const std::vector<KnownMaps> materials = known_maps(inputs);
   const bool lays_over = wires_at(inputs, "mix") > 0;
   check_all([&] { require_same_maps("materials", materials); },
@@ -153,7 +153,7 @@ OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
                         });
 }
 
-std::vector<Param> params() {
+std::vector<Param> combine_params() {
   std::vector<Param> all = atlas_params();
   all[0].help += " Side by side only.";
   all[1].help = "Side by side only: what fills gaps. clamp extends the border pixels, wrap repeats the exemplar.";
@@ -233,11 +233,11 @@ NodeType combine_node() {
   t.outputs[0].help = "the exemplars side by side, or the mix";
   t.outputs[1].help += "; of a mix 1";
   t.outputs[2].help += "; of a mix the one that shows most";
-  t.params = params();
+  t.params = combine_params();
   t.persist = Persist::derived;
   t.files_read = [](const Params&) { return color_config_files(); };
-  t.compute = compute;
-  t.infer = infer;
+  t.compute = compute_combine;
+  t.infer = infer_combine;
   return t;
 }
 

@@ -12,7 +12,7 @@ GridSpec spec_of(const Params& params) {
           std::get<Texts>(params.at("captions"))};
 }
 
-void compute(NodeContext& node) {
+void compute_contact_sheet(NodeContext& node) {
   node.output("image", picture_grid(node.list<Image>("images"), spec_of(node.params()), node.task()));
 }
 
@@ -66,7 +66,7 @@ NodeType contact_sheet_node() {
     const size_t pictures = node.list<Image>("images").size();
     return size_t(grid_size(pictures, spec_of(node.params())).area()) * 3 * sizeof(float);
   };
-  t.compute = compute;
+  t.compute = compute_contact_sheet;
   t.infer = [](const Params& params, const InputForecasts& inputs) {
     const size_t pictures = inputs.at("images").size();
     require_grid(pictures, spec_of(params));

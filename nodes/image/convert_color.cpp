@@ -9,7 +9,7 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_convert_color(NodeContext& node) {
   ImagePtr image = node.input<Image>("image");
   ImageInfo info = image->info();
   const std::string& config = node.text("config");
@@ -19,7 +19,7 @@ void compute(NodeContext& node) {
   node.output("image", convert_color(image, color_space_of(node, "to", config), config));
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_convert_color(const Params& params) {
   const std::string& config = std::get<std::string>(params.at("config"));
   std::vector<std::string> problems = color_space_problems(params, "to", "", config);
   for (std::string& p : color_space_problems(params, "from", "auto", config)) problems.push_back(std::move(p));
@@ -56,7 +56,7 @@ NodeType convert_color_node() {
        .help = "An OpenColorIO configuration file; empty for $OCIO or the built-in one."}};
   t.persist = Persist::digest;
   t.files_read = [](const Params& params) { return color_config_files(std::get<std::string>(params.at("config"))); };
-  t.check = check;
+  t.check = check_convert_color;
   t.doubts = [](const Params&, const InputForecasts& inputs) {
     const std::optional<Semantic> semantic = image_at(inputs, "image").semantic;
     return semantic && is_data(*semantic)
@@ -70,7 +70,7 @@ NodeType convert_color_node() {
     image.color_space.reset();  // its name is the configuration's
     return OutputForecasts{{"image", forecast_of_image(image)}};
   };
-  t.compute = compute;
+  t.compute = compute_convert_color;
   return t;
 }
 

@@ -13,7 +13,7 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_convert_normal(NodeContext& node) {
   const ImagePtr normal = node.input<Image>("normal");
   ImageInfo info = normal->info();
   const ImagePtr turned = with_normal_y(normal, normal_y_of(node));
@@ -28,7 +28,7 @@ void compute(NodeContext& node) {
               }));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_convert_normal(const Params& params, const InputForecasts& inputs) {
   require_normals("normal", image_at(inputs, "normal"));
   return same_image_rule("normal", "normal")(params, inputs);
 }
@@ -52,8 +52,8 @@ NodeType convert_normal_node() {
                .fallback = false,
                .help = "Makes every vector unit length as well, as \"normalize\" does."}};
   t.persist = Persist::digest;
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_convert_normal;
+  t.compute = compute_convert_normal;
   return t;
 }
 

@@ -98,7 +98,7 @@ Sources converted(const NodeContext& node, const Sources& sources) {
 }
 
 /// Colours have to be of the same primaries; the sRGB curve does not change them.
-void require_one_space(const ImageFacts& base, const ImageFacts& specular) {
+void require_same_primaries(const ImageFacts& base, const ImageFacts& specular) {
   if (!base.color_space || !specular.color_space) return;
   const auto primaries = [](const ImageFacts& image) {
     return *image.color_space == "srgb_texture" ? std::string("lin_rec709") : *image.color_space;
@@ -109,7 +109,7 @@ void require_one_space(const ImageFacts& base, const ImageFacts& specular) {
                                       *base.color_space, *specular.color_space));
 }
 
-void compute(NodeContext& node) {
+void compute_convert_workflow(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const Swap swap = swap_of(node.text("to"));
   const ImagePtr base = material->find(base_name), other = material->find(swap.from);
@@ -136,7 +136,7 @@ ImageFacts converted_facts(const ImageFacts& base, Semantic semantic) {
   return out;
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_convert_workflow(const Params& params, const InputForecasts& inputs) {
   const Swap swap = swap_of(std::get<std::string>(params.at("to")));
   const Forecast& input = inputs.at("material").front();
   if (input.possible_maps) {
@@ -150,7 +150,7 @@ OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
     return maps;
   };
   const ImageFacts base = map_of(input, base_name);
-  if (swap.from == "specular") require_one_space(base, map_of(input, swap.from));
+  if (swap.from == "specular") require_same_primaries(base, map_of(input, swap.from));
   Forecast out{.maps = swapped(input.maps), .images = input.images};
   if (input.possible_maps) out.possible_maps = swapped(*input.possible_maps);
   for (const std::string& made : {base_name, swap.to})
@@ -182,8 +182,8 @@ NodeType convert_workflow_node() {
                .help = "The workflow to convert to. A map of that name that the material already has is replaced.",
                .choices = {"metallic", "specular"}}};
   t.persist = Persist::digest;
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_convert_workflow;
+  t.compute = compute_convert_workflow;
   return t;
 }
 

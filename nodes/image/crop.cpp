@@ -59,7 +59,7 @@ ImagePtr cropped(const NodeContext& node, const Map& map, const Rect& rect, Size
   return Image::computed(info, map_recipe(node, *map.image), {.sources = {map.image}, .reads = reads, .compute = copy});
 }
 
-void compute(NodeContext& node) {
+void compute_crop(NodeContext& node) {
   const MaterialPtr material = node.input<Material>("material");
   const Size size = material->size();
   const Rect rect = asked_rect(node.params(), size);
@@ -68,7 +68,7 @@ void compute(NodeContext& node) {
   node.output("material", Material::make(part->name(), part->maps(), part->metres() * share));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_crop(const Params& params, const InputForecasts& inputs) {
   const Forecast& material = inputs.at("material").front();
   const std::optional<Size> size = material_size(material);
   const std::optional<Rect> rect = size ? std::optional(asked_rect(params, *size)) : std::nullopt;
@@ -122,8 +122,8 @@ NodeType crop_node() {
       edges,
   };
   t.persist = Persist::derived;
-  t.compute = compute;
-  t.infer = infer;
+  t.compute = compute_crop;
+  t.infer = infer_crop;
   return t;
 }
 

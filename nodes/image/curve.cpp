@@ -18,7 +18,7 @@ std::vector<std::pair<double, double>> points_of(const Params& params) {
   return out;
 }
 
-void compute(NodeContext& node) {
+void compute_curve(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
   const ImageInfo info = image->info();
   const int channels = info.channels, values = value_channels(info);
@@ -29,12 +29,12 @@ void compute(NodeContext& node) {
               }));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_curve(const Params& params, const InputForecasts& inputs) {
   require_no_normals("image", image_at(inputs, "image"));
   return same_image_rule()(params, inputs);
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_curve(const Params& params) {
   const size_t count = std::get<Numbers>(params.at("points")).size();
   if (count % 2 != 0) return {fmt::format("\"points\": expected pairs of numbers, x and y; found {} numbers", count)};
   const auto points = points_of(params);
@@ -71,9 +71,9 @@ NodeType curve_node() {
                .help = "smooth: a cubic curve. linear: straight lines from point to point.",
                .choices = {"smooth", "linear"}}};
   t.persist = Persist::derived;
-  t.check = check;
-  t.infer = infer;
-  t.compute = compute;
+  t.check = check_curve;
+  t.infer = infer_curve;
+  t.compute = compute_curve;
   return t;
 }
 

@@ -15,14 +15,14 @@ ImagePtr constant(const NodeContext& node, Size size) {
   return constant_image(node, info, node.numbers("otherwise"));
 }
 
-void compute(NodeContext& node) {
+void compute_get_map(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const std::string& map = node.text("map");
   const bool is_lacking = !node.numbers("otherwise").empty() && !material->find(map);
   node.output("image", is_lacking ? constant(node, material->size()) : require_map("map", *material, map));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_get_map(const Params& params, const InputForecasts& inputs) {
   const std::string& map = std::get<std::string>(params.at("map"));
   const Numbers& otherwise = std::get<Numbers>(params.at("otherwise"));
   const Forecast& material = inputs.at("material").front();
@@ -61,8 +61,8 @@ NodeType get_map_node() {
                .max = 65504,
                .max_count = 4}};
   t.persist = Persist::digest;
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_get_map;
+  t.compute = compute_get_map;
   return t;
 }
 

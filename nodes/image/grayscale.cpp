@@ -24,7 +24,7 @@ std::vector<double> weights_of(const Params& params, int channels) {
   return weights;
 }
 
-void compute(NodeContext& node) {
+void compute_grayscale(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
   const ImageInfo from = image->info();
   const std::vector<double> weights = weights_of(node.params(), value_channels(from));
@@ -41,7 +41,7 @@ void compute(NodeContext& node) {
               }));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_grayscale(const Params& params, const InputForecasts& inputs) {
   ImageFacts image = image_at(inputs, "image");
   require_no_normals("image", image);
   if (const std::optional<int> channels = value_channels(image)) weights_of(params, *channels);
@@ -74,8 +74,8 @@ NodeType grayscale_node() {
        .help = "With method weights: the factor of each channel.",
        .max_count = 4}};
   t.persist = Persist::derived;
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_grayscale;
+  t.compute = compute_grayscale;
   return t;
 }
 

@@ -54,7 +54,7 @@ void find_black_and_white(NodeContext& node, const Image& image, std::vector<Lev
   }
 }
 
-void compute(NodeContext& node) {
+void compute_levels(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
   std::vector<Level> levels = given_levels(node, value_channels(image->info()));
   if (node.text("auto") != "off") find_black_and_white(node, *image, levels);
@@ -73,7 +73,7 @@ void compute(NodeContext& node) {
               }));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_levels(const Params& params, const InputForecasts& inputs) {
   const ImageFacts image = image_at(inputs, "image");
   require_no_normals("image", image);
   if (const std::optional<int> channels = value_channels(image))
@@ -93,7 +93,7 @@ Param level_param(const std::string& name, double fallback, const std::string& h
           .max_count = 4};
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_levels(const Params& params) {
   const auto numbers = [&](const char* name) { return std::get<Numbers>(params.at(name)); };
   const Numbers black = numbers("in_black"), white = numbers("in_white");
   if (std::get<std::string>(params.at("auto")) != "off") return {};
@@ -145,9 +145,9 @@ NodeType levels_node() {
        .fallback = true,
        .help = "Keeps values within [out_black, out_white]. 8- and 16-bit maps stay within [0, 1] anyway."}};
   t.persist = Persist::digest;
-  t.check = check;
-  t.infer = infer;
-  t.compute = compute;
+  t.check = check_levels;
+  t.infer = infer_levels;
+  t.compute = compute_levels;
   return t;
 }
 

@@ -6,7 +6,7 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_make_bent_normal(NodeContext& node) {
   const ImagePtr height = node.input<Image>("height");
   ImageInfo info = height->info();
   info.channels = 3;
@@ -23,7 +23,7 @@ void compute(NodeContext& node) {
   node.output("normal", materialized(normal, node.task()));
 }
 
-OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+OutputForecasts infer_make_bent_normal(const Params&, const InputForecasts& inputs) {
   const ImageFacts height = image_at(inputs, "height");
   require_one_channel("height", height);
   return {{"normal", forecast_of_image({height.size, 3, Semantic::normal, "raw"})}};
@@ -62,8 +62,8 @@ NodeType make_bent_normal_node() {
   t.memory_ahead = [](const Params&, const InputForecasts& inputs) {
     return uint64_t(image_at(inputs, "height").size.value_or(Size{}).area()) * 3 * sizeof(float);
   };
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_make_bent_normal;
+  t.compute = compute_make_bent_normal;
   return t;
 }
 

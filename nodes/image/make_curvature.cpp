@@ -50,7 +50,7 @@ ImagePtr leanings_of(const NodeContext& node, const ImagePtr& image, Outside out
       });
 }
 
-void compute(NodeContext& node) {
+void compute_make_curvature(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
   const Outside outside = derived_edges_of(node, image);
   const ImagePtr curvature = from_neighbours(node, "curvature", leanings_of(node, image, outside), 1, outside,
@@ -76,7 +76,7 @@ void compute(NodeContext& node) {
               }));
 }
 
-OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+OutputForecasts infer_make_curvature(const Params&, const InputForecasts& inputs) {
   const ImageFacts image = image_at(inputs, "image");
   const bool may_be_height = image.semantic != Semantic::normal && image.channels.value_or(1) == 1;
   const bool may_be_normals =
@@ -128,8 +128,8 @@ NodeType make_curvature_node() {
                .choices = {"both", "convex", "concave"}},
               derived_edges_param()};
   t.persist = Persist::derived;
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_make_curvature;
+  t.compute = compute_make_curvature;
   return t;
 }
 

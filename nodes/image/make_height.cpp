@@ -58,7 +58,7 @@ bool leans(const Image& normal) {
   return std::abs(x) > limit || std::abs(y) > limit;
 }
 
-void compute(NodeContext& node) {
+void compute_make_height(NodeContext& node) {
   const ImagePtr normal = node.input<Image>("normal");
   const IntegrationOptions options{
       .filter = slope_filter_from(node.text("filter")),
@@ -75,13 +75,13 @@ void compute(NodeContext& node) {
   node.output("height", Image::from_floats(info, std::move(heights)));
 }
 
-OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+OutputForecasts infer_make_height(const Params&, const InputForecasts& inputs) {
   const ImageFacts normal = image_at(inputs, "normal");
   require_normals("normal", normal);
   return {{"height", forecast_of_image({normal.size, 1, Semantic::height, normal.color_space})}};
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_make_height(const Params& params) {
   if (std::get<double>(params.at("height_scale")) != 0) return {};
   return {"\"height_scale\": expected a number other than 0, found 0; any surface would be flat"};
 }
@@ -132,9 +132,9 @@ NodeType make_height_node() {
   t.memory_hint = [](const NodeContext& node) {
     return size_t(node.input<Image>("normal")->size().area()) * 5 * sizeof(float);
   };
-  t.check = check;
-  t.infer = infer;
-  t.compute = compute;
+  t.check = check_make_height;
+  t.infer = infer_make_height;
+  t.compute = compute_make_height;
   return t;
 }
 

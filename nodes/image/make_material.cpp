@@ -51,7 +51,7 @@ ImagePtr with_semantic(const ImagePtr& image, const std::string& semantic) {
   return Image::redescribed(image, info);
 }
 
-void compute(NodeContext& node) {
+void compute_make_material(NodeContext& node) {
   const auto images = node.list<Image>("images");
   const Texts& semantics = node.texts("semantics");
   std::vector<Map> added;
@@ -85,7 +85,7 @@ ImageFacts added_facts(const Params& params, const InputForecasts& inputs, size_
   return image;
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_make_material(const Params& params, const InputForecasts& inputs) {
   const size_t count = inputs.at("images").size();
   require_right_texts(params, count);
   const Texts& names = std::get<Texts>(params.at("names"));
@@ -137,8 +137,8 @@ NodeType make_material_node() {
        .help = "A semantic for each image (height, roughness, mask, ...), or keep. Empty keeps all."},
   };
   t.persist = Persist::digest;
-  t.compute = compute;
-  t.infer = infer;
+  t.compute = compute_make_material;
+  t.infer = infer_make_material;
   return t;
 }
 

@@ -8,7 +8,7 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_make_normal(NodeContext& node) {
   const ImagePtr height = node.input<Image>("height");
   ImageInfo info = height->info();
   info.channels = 3;
@@ -30,7 +30,7 @@ void compute(NodeContext& node) {
   node.output("normal", normal);
 }
 
-OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+OutputForecasts infer_make_normal(const Params&, const InputForecasts& inputs) {
   const ImageFacts height = image_at(inputs, "height");
   require_one_channel("height", height);
   return {{"normal", forecast_of_image({height.size, 3, Semantic::normal, "raw"})}};
@@ -59,8 +59,8 @@ NodeType make_normal_node() {
               derived_edges_param(),
               normal_y_param()};
   t.persist = Persist::derived;
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_make_normal;
+  t.compute = compute_make_normal;
   return t;
 }
 

@@ -8,7 +8,7 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_make_occlusion(NodeContext& node) {
   const ImagePtr height = node.input<Image>("height");
   ImageInfo info = height->info();
   info.semantic = Semantic::ambient_occlusion;
@@ -22,7 +22,7 @@ void compute(NodeContext& node) {
   node.output("occlusion", materialized(occlusion, node.task()));
 }
 
-OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+OutputForecasts infer_make_occlusion(const Params&, const InputForecasts& inputs) {
   const ImageFacts height = image_at(inputs, "height");
   require_one_channel("height", height);
   return {{"occlusion", forecast_of_image({height.size, 1, Semantic::ambient_occlusion, "raw"})}};
@@ -58,8 +58,8 @@ NodeType make_occlusion_node() {
   t.memory_ahead = [](const Params&, const InputForecasts& inputs) {
     return uint64_t(image_at(inputs, "height").size.value_or(Size{}).area()) * sizeof(float);
   };
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_make_occlusion;
+  t.compute = compute_make_occlusion;
   return t;
 }
 

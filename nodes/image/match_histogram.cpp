@@ -11,13 +11,13 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_match_histogram(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image"), reference = node.input<Image>("reference");
   const ImageInfo info = image->info();
   const int channels = value_channels(info);
   const std::vector<Distribution> own = Distribution::of(*image, node.task()),
                                   wanted = Distribution::of(*reference, node.task());
-  std::vector<Curve> curves;
+  std::vector<PiecewiseLinear> curves;
   for (int c = 0; c < channels; c++) curves.push_back(matching_curve(own[c], wanted[c]));
   const double strength = node.number("strength");
   node.output("image", pixel_by_pixel(info, node.key(), {image}, [=](auto in, float* out, int64_t count) {
@@ -30,7 +30,7 @@ void compute(NodeContext& node) {
               }));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_match_histogram(const Params& params, const InputForecasts& inputs) {
   const ImageFacts image = image_at(inputs, "image"), reference = image_at(inputs, "reference");
   require_no_normals("image", image);
   const std::optional<int> channels = value_channels(image), wanted = value_channels(reference);
@@ -60,8 +60,8 @@ NodeType match_histogram_node() {
                .min = 0,
                .max = 1}};
   t.persist = Persist::digest;
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_match_histogram;
+  t.compute = compute_match_histogram;
   return t;
 }
 

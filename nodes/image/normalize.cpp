@@ -61,13 +61,13 @@ ImagePtr unit_vectors(const NodeContext& node, const ImagePtr& image) {
   });
 }
 
-void compute(NodeContext& node) {
+void compute_normalize(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
   node.output("image",
               image->info().semantic == Semantic::normal ? unit_vectors(node, image) : normalized_values(node, image));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_normalize(const Params& params, const InputForecasts& inputs) {
   const ImageFacts image = image_at(inputs, "image");
   if (image.semantic == Semantic::normal && image.channels.value_or(3) < 3)
     throw Error("image", fmt::format("expected normals of 3 channels, found {}", describe(image)));
@@ -106,8 +106,8 @@ NodeType normalize_node() {
                .fallback = true,
                .help = "One stretch for all channels, which keeps hues; false stretches each channel by itself."}};
   t.persist = Persist::digest;
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_normalize;
+  t.compute = compute_normalize;
   return t;
 }
 

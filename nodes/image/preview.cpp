@@ -39,7 +39,7 @@ Size size_of(const NodeContext& node) {
   return size_of(node.params(), node.input<Material>("material")->size());
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_preview(const Params& params, const InputForecasts& inputs) {
   const std::optional<Size> material = material_size(inputs.at("material").front());
   ImageFacts picture{.channels = 3, .semantic = Semantic::base_color};
   const bool is_one = std::get<Numbers>(params.at("lights")).size() < 2;
@@ -47,7 +47,7 @@ OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
   return {{"image", forecast_of_image(picture)}};
 }
 
-void compute(NodeContext& node) {
+void compute_preview(NodeContext& node) {
   PreviewSpec s;
   s.shape = shape_of(node.params());
   s.size = size_of(node);
@@ -77,7 +77,7 @@ Param number(std::string name, double fallback, double min, double max, std::str
           .unit = std::move(unit)};
 }
 
-std::vector<Param> params() {
+std::vector<Param> preview_params() {
   return {
       {.name = "shape",
        .type = ParamType::choice,
@@ -140,7 +140,7 @@ NodeType preview_node() {
       "to check that maps agree: bumps must be bright on the side of the light.";
   t.inputs = {{.name = "material", .type = ValueType::material, .help = "any maps; missing ones get defaults"}};
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "8-bit colour picture"}};
-  t.params = params();
+  t.params = preview_params();
   t.persist = Persist::payload;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.memory_hint = [](const NodeContext& node) {
@@ -153,8 +153,8 @@ NodeType preview_node() {
     const bool is_nothing = std::get<Size>(params.at("size")) == Size{0, 0};
     return is_nothing ? Texts{"\"size\": expected at most one side of 0, found two"} : Texts{};
   };
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_preview;
+  t.compute = compute_preview;
   return t;
 }
 

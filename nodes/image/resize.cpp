@@ -38,7 +38,7 @@ ImagePtr resized(NodeContext& node, const Map& map, const Material& material, Ou
   return resampled_by_weight(map.image, weights, size, filter, outside, recipe);
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_resize(const Params& params, const InputForecasts& inputs) {
   const Forecast& material = inputs.at("material").front();
   const Texts& chosen = std::get<Texts>(params.at("maps"));
   preflight_maps("maps", chosen, material);
@@ -49,14 +49,14 @@ OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
            })}};
 }
 
-void compute(NodeContext& node) {
+void compute_resize(NodeContext& node) {
   const MaterialPtr material = node.input<Material>("material");
   const Outside outside = node.text("filter") == "nearest" ? Outside::clamp : derived_edges_of(node, *material);
   node.output("material", with_maps_changed(material, node.texts("maps"),
                                             [&](const Map& m) { return resized(node, m, *material, outside); }));
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_resize(const Params& params) {
   const Size size = std::get<Size>(params.at("size"));
   if ((size.width || size.height) && std::get<double>(params.at("scale")) != 1)
     return {"\"scale\" and \"size\" cannot both be given; leave one of them out"};
@@ -103,9 +103,9 @@ NodeType resize_node() {
       {.name = "maps", .type = ParamType::texts, .fallback = Texts{}, .help = "The maps to scale; empty for all."},
   };
   t.persist = Persist::derived;
-  t.compute = compute;
-  t.check = check;
-  t.infer = infer;
+  t.compute = compute_resize;
+  t.check = check_resize;
+  t.infer = infer_resize;
   return t;
 }
 

@@ -16,7 +16,7 @@ float smooth_step(float t) {
   return t * t * (3 - 2 * t);
 }
 
-void compute(NodeContext& node) {
+void compute_threshold(NodeContext& node) {
   const ImagePtr image = node.input<Image>("image");
   double value = node.number("value");
   if (node.flag("auto")) {
@@ -37,7 +37,7 @@ void compute(NodeContext& node) {
               }));
 }
 
-OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+OutputForecasts infer_threshold(const Params&, const InputForecasts& inputs) {
   ImageFacts image = image_at(inputs, "image");
   require_one_channel("image", image);
   return {{"mask", forecast_of_image({image.size, 1, Semantic::mask, "raw"})}};
@@ -68,8 +68,8 @@ NodeType threshold_node() {
                .max = largest_sample},
               {.name = "inverted", .type = ParamType::boolean, .fallback = false, .help = "Swaps 0 and 1."}};
   t.persist = Persist::digest;
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_threshold;
+  t.compute = compute_threshold;
   return t;
 }
 

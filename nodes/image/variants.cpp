@@ -39,7 +39,7 @@ std::vector<Variant> asked_variants(const Params& params) {
   return all;
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_variants(const Params& params) {
   const size_t count = asked_variants(params).size();
   if (count <= most_variants) return {};
   return {fmt::format("\"rotations\", \"scales\" and \"mirror\" together give {} copies; expected at most {}", count,
@@ -52,12 +52,12 @@ std::vector<Exemplar> varied_exemplars(const Exemplar& original, const Params& p
   return exemplars;
 }
 
-void compute(NodeContext& node) {
+void compute_variants(NodeContext& node) {
   const Exemplar original = masked_exemplar(node.input<Material>("material"), node.optional_input<Image>("mask"));
   output_atlas(node, varied_exemplars(original, node.params(), edges_of(node)), "fewer `rotations` or `scales`");
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_variants(const Params& params, const InputForecasts& inputs) {
   const Forecast& material = inputs.at("material").front();
   require_mask_of(inputs, "mask", 0, material);
   return atlas_forecast({material}, int(std::get<int64_t>(params.at("gap"))),
@@ -113,9 +113,9 @@ NodeType variants_node() {
        .choices = {"none", "x", "y", "xy"}}};
   for (Param& p : atlas_params()) t.params.push_back(std::move(p));
   t.persist = Persist::derived;
-  t.check = check;
-  t.compute = compute;
-  t.infer = infer;
+  t.check = check_variants;
+  t.compute = compute_variants;
+  t.infer = infer_variants;
   return t;
 }
 

@@ -25,7 +25,7 @@ double rounded(double v) {
   return std::round(v * 1e6) / 1e6;
 }
 
-void add_pixel_figures(const Quality& q, std::vector<Report::Figure>& out) {
+void add_pixel_figures(const QualityFigures& q, std::vector<Report::Figure>& out) {
   out.push_back({"swd", rounded(q.swd),
                  "distance of the patch distributions, all scales; lower is better, 0 = the same patches as often"});
   out.push_back({"cooccurrence", rounded(q.cooccurrence),
@@ -109,7 +109,7 @@ void check_layout(const Forecast& uv, std::optional<Size> exemplar, std::optiona
   throw Error("labels", "labels of elements need the uv map too; connect \"uv\"");
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_compare(const Params& params, const InputForecasts& inputs) {
   const Forecast &exemplar = inputs.at("exemplar").front(), &output = inputs.at("output").front();
   for (const auto& [side, material] : {std::pair("exemplar", &exemplar), std::pair("output", &output)})
     preflight_maps("maps", std::get<Texts>(params.at("maps")), *material, fmt::format("the {}", side));
@@ -132,7 +132,7 @@ std::optional<Elements> given_elements(NodeContext& node, const UvMapPtr& uv) {
   return elements;
 }
 
-void compute(NodeContext& node) {
+void compute_compare(NodeContext& node) {
   const MaterialPtr exemplar = node.input<Material>("exemplar"), output = node.input<Material>("output");
   const UvMapPtr uv = node.optional_input<UvMap>("uv");
   const std::vector<std::string> maps = compared_maps(*exemplar, *output, node.texts("maps"));
@@ -153,7 +153,7 @@ void compute(NodeContext& node) {
       .verbatim = !layout,
       .element = elements ? typical_side(*elements) * exemplar->size().width / elements->size.width : 0,
       .wraps = wraps && is_whole};
-  const Quality q = measure_quality(std::move(planes.exemplar), std::move(planes.output), parts, node.task());
+  const QualityFigures q = measure_quality(std::move(planes.exemplar), std::move(planes.output), parts, node.task());
 
   std::vector<Report::Figure> figures;
   add_pixel_figures(q, figures);
@@ -174,7 +174,7 @@ void compute(NodeContext& node) {
                                      std::move(figures), {{"sheet", sheet}}));
 }
 
-size_t memory_hint(const NodeContext& node) {
+size_t memory_of_compare(const NodeContext& node) {
   size_t pixels = 0;
   for (const char* port : {"exemplar", "output"}) {
     const MaterialPtr material = node.input<Material>(port);
@@ -258,9 +258,9 @@ NodeType compare_node() {
        .max = 16384,
        .unit = "pixels"},
   };
-  t.memory_hint = memory_hint;
-  t.compute = compute;
-  t.infer = infer;
+  t.memory_hint = memory_of_compare;
+  t.compute = compute_compare;
+  t.infer = infer_compare;
   return t;
 }
 

@@ -105,7 +105,7 @@ void add_pictures(const Report& report, const fs::path& path, std::vector<MapFil
   }
 }
 
-void compute(NodeContext& node) {
+void compute_export(NodeContext& node) {
   const auto material = node.optional_input<Material>("material");
   const auto uv = node.optional_input<UvMap>("uv");
   const auto report = node.optional_input<Report>("report");
@@ -126,7 +126,7 @@ void compute(NodeContext& node) {
 }
 
 /// Checks of the parameters before anything runs.
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_export(const Params& params) {
   const auto text = [&](const char* name) { return std::get<std::string>(params.at(name)); };
   std::vector<std::string> problems;
   const auto attempt = [&](const auto& test) {
@@ -148,7 +148,7 @@ std::vector<std::string> check(const Params& params) {
   return problems;
 }
 
-std::vector<Param> params() {
+std::vector<Param> export_params() {
   return {
       {.name = "path",
        .type = ParamType::path,
@@ -211,9 +211,9 @@ NodeType export_node() {
       {.name = "uv", .type = ValueType::uv_map, .help = "a uv map to write", .optional = true},
       {.name = "report", .type = ValueType::report, .help = "a report to write", .optional = true},
   };
-  t.params = params();
+  t.params = export_params();
   t.persist = Persist::digest;
-  t.compute = compute;
+  t.compute = compute_export;
   t.files_read = [](const Params& p) {
     return std::get<std::string>(p.at("color_space")) == "keep" ? std::vector<fs::path>() : color_config_files();
   };
@@ -222,7 +222,7 @@ NodeType export_node() {
     constexpr size_t per_file = size_t{12} << 20;  // a strip as floats, and as the file's values
     return per_file * (1 + (material ? material->maps().size() : 0));
   };
-  t.check = check;
+  t.check = check_export;
   t.preflight = foresee_export;
   return t;
 }

@@ -138,14 +138,14 @@ void require_written(const Params& params, const Forecast& described, const Text
                                          name_of_files(std::get<std::string>(params.at("name")), *material), unsaid));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_export_preset(const Params& params, const InputForecasts& inputs) {
   const Forecast& material = inputs.at("material").front();
   require_written(params, material, material.maps);
   return {};
 }
 
 /// What would be refused if the material turns out to have all maps that it may have, such as opacity in alpha.
-Texts doubts(const Params& params, const InputForecasts& inputs) {
+Texts doubts_about_export_preset(const Params& params, const InputForecasts& inputs) {
   const auto material = inputs.find("material");
   if (material == inputs.end() || !material->second.front().possible_maps) return {};
   Texts all = material->second.front().maps;
@@ -243,7 +243,7 @@ void warn_of_left_over(NodeContext& node, const fs::path& folder, const Texts& b
                     left_over.size() == 1 ? "it" : "them"));
 }
 
-void compute(NodeContext& node) {
+void compute_export_preset(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const ExportPreset& preset = preset_of(node.params());
   const std::string wanted = wanted_name(node.text("name"), *material);
@@ -283,7 +283,7 @@ void compute(NodeContext& node) {
   write_all(node, jobs);
 }
 
-Texts check(const Params& params) {
+Texts check_export_preset(const Params& params) {
   Texts problems;
   const auto numbers = [&](const char* name) -> const Numbers& { return std::get<Numbers>(params.at(name)); };
   const std::string& format = std::get<std::string>(params.at("format"));
@@ -302,14 +302,14 @@ Texts check(const Params& params) {
   return problems;
 }
 
-Forecast preflight(const Params& params, const InputForecasts&) {
+Forecast preflight_export_preset(const Params& params, const InputForecasts&) {
   const std::string& path = std::get<std::string>(params.at("path"));
   const fs::path folder = path.substr(0, path.find('{'));
   const bool is_known = folder == path;
   return {.files = {{"path", is_known ? folder : folder.parent_path(), "", "the maps"}}};
 }
 
-std::vector<Param> params() {
+std::vector<Param> export_preset_params() {
   Texts presets;
   std::string help = "Whose files, channels and conventions:";
   for (const ExportPreset& p : export_presets()) {
@@ -373,7 +373,7 @@ NodeType export_preset_node() {
       "and in terrazzo-material.json beside the files, from which load_material reads them right again. Heights have "
       "at least 16 bits, since 8 show as steps.";
   t.inputs = {{.name = "material", .type = ValueType::material, .help = "the maps to write"}};
-  t.params = params();
+  t.params = export_preset_params();
   t.version = 4;
   t.persist = Persist::digest;
   t.files_read = [](const Params&) { return color_config_files(); };
@@ -383,11 +383,11 @@ NodeType export_preset_node() {
     const bool in_memory = preset_of(node.params()).document == PresetDocument::glb;
     return per_file * (1 + material->maps().size()) + (in_memory ? size_t(material->size().area()) * 16 : 0);
   };
-  t.check = check;
-  t.infer = infer;
-  t.compute = compute;
-  t.preflight = preflight;
-  t.doubts = doubts;
+  t.check = check_export_preset;
+  t.infer = infer_export_preset;
+  t.compute = compute_export_preset;
+  t.preflight = preflight_export_preset;
+  t.doubts = doubts_about_export_preset;
   return t;
 }
 

@@ -15,20 +15,20 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct DepthChecksTuning {
   double clear = 0.1;
   double strong = 0.5;
   double hollow = 0.25;
 };
-const Tunable<Tuning> tuning(
+const Tunable<DepthChecksTuning> depth_checks_tuning(
     "depth_checks",
     {
-        {&Tuning::clear, "clear", "correlation",
+        {&DepthChecksTuning::clear, "clear", "correlation",
          "of red with the slopes of a depth map. Higher: more maps stay undecided; lower: noise decides",
          "not measured: as normal_convention.clear", 0, 1},
-        {&Tuning::strong, "strong", "correlation", "the same of green alone. Higher, lower: likewise",
+        {&DepthChecksTuning::strong, "strong", "correlation", "the same of green alone. Higher, lower: likewise",
          "not measured: as normal_convention.strong", 0, 1},
-        {&Tuning::hollow, "hollow", "correlation",
+        {&DepthChecksTuning::hollow, "hollow", "correlation",
          "of occlusion with the height above its surroundings. Higher, lower: likewise",
          "not measured: as packing_guess.least_hollow", 0, 1},
     });
@@ -41,9 +41,10 @@ struct Judgement {
 
 std::optional<Judgement> judged_by_normals(const Image& normal, std::optional<NormalY> normal_y, const Image& height) {
   const ConventionEvidence e = convention_from_height(normal, height);
-  const bool red_tells = std::abs(e.along_x) >= tuning->clear;
+  const bool red_tells = std::abs(e.along_x) >= depth_checks_tuning->clear;
   const double up = normal_y == NormalY::down ? -e.along_y : e.along_y;
-  const bool green_tells = normal_y && std::abs(up) >= (red_tells ? tuning->clear : tuning->strong);
+  const bool green_tells =
+      normal_y && std::abs(up) >= (red_tells ? depth_checks_tuning->clear : depth_checks_tuning->strong);
   if (!red_tells && !green_tells) return std::nullopt;
   if (red_tells && green_tells && (e.along_x < 0) != (up < 0)) return std::nullopt;  // one of the two is flipped
   return Judgement{(red_tells ? e.along_x : up) < 0,
@@ -61,7 +62,7 @@ std::optional<Judgement> judged(std::optional<NormalY> given, const std::vector<
   for (const Map& m : maps) {
     if (m.image->info().semantic != Semantic::ambient_occlusion) continue;
     const double fit = hollow_correlation(m.image, height);
-    if (std::abs(fit) >= tuning->hollow)
+    if (std::abs(fit) >= depth_checks_tuning->hollow)
       return Judgement{fit < 0, fmt::format("the occlusion (correlation with its hollows {:.2f})", fit)};
   }
   return std::nullopt;

@@ -31,7 +31,7 @@ class Progress {
   double middle_x_, middle_y_, cosine_, sine_, length_;
 };
 
-void compute(NodeContext& node) {
+void compute_gradient(NodeContext& node) {
   const Numbers from = node.numbers("from"), to = node.numbers("to");
   const ImageInfo info = generated_info(node, int(from.size()));
   const Progress progress(info.size, node.text("shape") == "radial", node.number("angle"));
@@ -44,7 +44,7 @@ void compute(NodeContext& node) {
               }));
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_gradient(const Params& params) {
   const size_t from = std::get<Numbers>(params.at("from")).size(), to = std::get<Numbers>(params.at("to")).size();
   if (from == to) return {};
   return {fmt::format("\"to\": expected as many numbers as \"from\" has, {}; found {}", from, to)};
@@ -91,11 +91,11 @@ NodeType gradient_node() {
               generated_size_param(),
               generated_semantic_param("data")};
   t.persist = Persist::derived;
-  t.check = check;
+  t.check = check_gradient;
   t.infer = [](const Params& params, const InputForecasts&) {
     return forecast_of_generated(params, int(std::get<Numbers>(params.at("from")).size()));
   };
-  t.compute = compute;
+  t.compute = compute_gradient;
   return t;
 }
 

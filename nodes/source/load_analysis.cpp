@@ -31,7 +31,7 @@ auto naming_remedy(const Read& read) {
   }
 }
 
-void compute(NodeContext& node) {
+void compute_load_analysis(NodeContext& node) {
   node.output("index", naming_remedy([&] {
                 const std::filesystem::path path = node.text("path");
                 require_analysis(path);
@@ -74,7 +74,7 @@ NodeType load_analysis_node() {
       return Forecast{.size = exemplar_of_index_file(path)};
     });
   };
-  t.compute = compute;
+  t.compute = compute_load_analysis;
   return t;
 }
 

@@ -78,7 +78,7 @@ std::string space_of_file(NodeContext& node, const std::filesystem::path& path, 
   return stated;
 }
 
-void compute(NodeContext& node) {
+void compute_load_map(NodeContext& node) {
   ImageInfo info;
   info.semantic = *semantic_from(node.text("semantic"));
   info.normal_y = node.text("normal_y") == "down" ? NormalY::down : NormalY::up;
@@ -189,7 +189,7 @@ NodeType load_map_node() {
     const bool is_colour = std::get<std::string>(p.at("semantic")) == "base_color";
     return is_colour ? doubts_about_colour("\"path\"", std::get<std::string>(p.at("path"))) : Texts{};
   };
-  t.compute = compute;
+  t.compute = compute_load_map;
   return t;
 }
 

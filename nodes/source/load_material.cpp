@@ -75,7 +75,7 @@ bool may_be_empty(const Params& params, const RecognisedMap& m) {
   return m.map == "mask_detail" && !m.channels.empty() && !is_given(params, m);
 }
 
-void compute(NodeContext& node) {
+void compute_load_material(NodeContext& node) {
   const fs::path folder = folder_of(node.params());
   const std::string given_space = node.text("color_space") == "auto" ? "" : color_space_of(node, "color_space");
   std::vector<std::string> notes;
@@ -129,20 +129,20 @@ void compute(NodeContext& node) {
   node.output("material", material);
 }
 
-std::vector<fs::path> files_read(const Params& params) {
+std::vector<fs::path> files_read_by_load_material(const Params& params) {
   std::vector<fs::path> files = files_of_material(params);
   for (fs::path& f : color_config_files()) files.push_back(std::move(f));
   return files;
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_load_material(const Params& params) {
   std::vector<std::string> problems = color_space_problems(params, "color_space", "auto");
   for (std::string& p : problems_with_map_names(params)) problems.push_back(std::move(p));
   for (std::string& p : problems_with_interpretations(params)) problems.push_back(std::move(p));
   return problems;
 }
 
-Forecast preflight(const Params& params, const InputForecasts&) {
+Forecast preflight_load_material(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
   Forecast out{.possible_maps = Texts{}};
   std::set<std::string> troubles;
@@ -170,7 +170,7 @@ Forecast preflight(const Params& params, const InputForecasts&) {
   return out;
 }
 
-Texts doubts(const Params& params, const InputForecasts&) {
+Texts doubts_about_load_material(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
   for (const RecognisedMap& m : find_maps(params, ignored_notes).maps)
     if (m.semantic == Semantic::base_color && m.channels.empty() && m.layer.empty())
@@ -265,8 +265,8 @@ NodeType load_material_node() {
                "file's gAMA chunk that says linear; else srgb_texture in 8 and 16 bit, lin_rec709 in float files."},
   };
   t.persist = Persist::digest;
-  t.compute = compute;
-  t.files_read = files_read;
+  t.compute = compute_load_material;
+  t.files_read = files_read_by_load_material;
   t.memory_hint = [](const NodeContext& node) {
     size_t bytes = 0;
     for (const std::string& name : image_names(folder_of(node.params()))) try {
@@ -277,9 +277,9 @@ NodeType load_material_node() {
       }
     return bytes;
   };
-  t.preflight = preflight;
-  t.doubts = doubts;
-  t.check = check;
+  t.preflight = preflight_load_material;
+  t.doubts = doubts_about_load_material;
+  t.check = check_load_material;
   return t;
 }
 

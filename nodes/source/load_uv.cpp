@@ -7,7 +7,7 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_load_uv(NodeContext& node) {
   const std::string& path = node.text("path");
   const std::string& tileable = node.text("tileable");
   const UvWraps wraps{.x = tileable == "x" || tileable == "xy",
@@ -60,7 +60,7 @@ NodeType load_uv_node() {
     }
     return out;
   };
-  t.compute = compute;
+  t.compute = compute_load_uv;
   return t;
 }
 

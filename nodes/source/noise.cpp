@@ -30,7 +30,7 @@ T chosen(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<T>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-void compute(NodeContext& node) {
+void compute_noise(NodeContext& node) {
   const ImageInfo info = generated_info(node, 1);
   NoiseSpec spec;
   spec.basis = chosen<NoiseBasis>(basis_names(), node.text("basis"));
@@ -44,7 +44,7 @@ void compute(NodeContext& node) {
   node.output("image", noise_image(spec, info, node.key()));
 }
 
-std::vector<Param> params() {
+std::vector<Param> noise_params() {
   return {
       {.name = "basis",
        .type = ParamType::choice,
@@ -113,10 +113,10 @@ NodeType noise_node() {
       "between them (worley_edges), summed over octaves. Pixels are computed on demand, so a huge noise costs nothing "
       "until it is read. Values are in 0..1 and fit a 16-bit file.";
   t.outputs = {{.name = "image", .type = ValueType::image, .help = "one channel, 0..1"}};
-  t.params = params();
+  t.params = noise_params();
   t.persist = Persist::derived;
   t.infer = [](const Params& params, const InputForecasts&) { return forecast_of_generated(params, 1); };
-  t.compute = compute;
+  t.compute = compute_noise;
   return t;
 }
 

@@ -16,12 +16,12 @@ std::string_view name_of_convention(NormalY y) {
 }
 
 /// The convention judged by pixels, and on which grounds.
-struct Judgement {
+struct NormalJudgement {
   std::optional<NormalY> normal_y;
   std::string grounds;
 };
 
-Judgement judged(const Image& normal, const ImagePtr& height) {
+NormalJudgement judged(const Image& normal, const ImagePtr& height) {
   if (height) {
     const ConventionEvidence e = convention_from_height(normal, *height);
     if (e.normal_y)
@@ -34,7 +34,7 @@ Judgement judged(const Image& normal, const ImagePtr& height) {
 
 /// Judges the convention by pixels; notes the result.
 NormalY detect_convention(const Image& normal, const ImagePtr& height, std::vector<std::string>& notes) {
-  const Judgement found = judged(normal, height);
+  const NormalJudgement found = judged(normal, height);
   if (found.normal_y) {
     notes.push_back(fmt::format("normal: green points {}, {}", name_of_convention(*found.normal_y), found.grounds));
     return *found.normal_y;
@@ -48,7 +48,7 @@ NormalY detect_convention(const Image& normal, const ImagePtr& height, std::vect
 /// A name is believed, but not silently if the pixels speak against it.
 void check_named_convention(const RecognisedMap& source, const Image& normal, const ImagePtr& height,
                             std::vector<std::string>& notes) {
-  const Judgement found = judged(normal, height);
+  const NormalJudgement found = judged(normal, height);
   if (found.normal_y && *found.normal_y != *source.normal_y)
     notes.push_back(fmt::format(
         "normal: {} says that green points {}, but it seems to point {}, {}. The former is used; set "

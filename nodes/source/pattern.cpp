@@ -29,14 +29,14 @@ PatternSpec spec_of(const Params& params) {
   return s;
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_pattern(const Params& params) {
   const PatternType* type = find_pattern_type(std::get<std::string>(params.at("kind")));
   const std::string& palette = std::get<std::string>(params.at("palette"));
   if (!type || find_palette(*type, palette)) return {};
   return {fmt::format("\"palette\": {} come in {}, not in \"{}\"", type->name, palette_names(*type), palette)};
 }
 
-std::vector<Param> params() {
+std::vector<Param> pattern_params() {
   std::string palettes = "Colour scheme; empty for the kind's first. ";
   std::vector<std::string> names;
   for (const PatternType& p : pattern_types()) {
@@ -118,9 +118,9 @@ NodeType pattern_node() {
   t.outputs = {{.name = "material",
                 .type = ValueType::material,
                 .help = "base_color, normal, height, roughness, ambient_occlusion, all of one size"}};
-  t.params = params();
+  t.params = pattern_params();
   t.persist = Persist::payload;
-  t.check = check;
+  t.check = check_pattern;
   t.memory_hint = [](const NodeContext& node) { return size_t(node.size("size").area()) * 15 * sizeof(float); };
   t.infer = [](const Params& params, const InputForecasts&) {
     Forecast out{.maps = {"base_color", "normal", "height", "roughness", "ambient_occlusion"},

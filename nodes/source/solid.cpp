@@ -4,7 +4,7 @@ namespace terrazzo {
 
 namespace {
 
-void compute(NodeContext& node) {
+void compute_solid(NodeContext& node) {
   const Numbers& value = node.numbers("value");
   node.output("image", constant_image(node, generated_info(node, int(value.size())), value));
 }
@@ -35,7 +35,7 @@ NodeType solid_node() {
   t.infer = [](const Params& params, const InputForecasts&) {
     return forecast_of_generated(params, int(std::get<Numbers>(params.at("value")).size()));
   };
-  t.compute = compute;
+  t.compute = compute_solid;
   return t;
 }
 

@@ -15,16 +15,16 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct TurnedFilesTuning {
   double clear = 0.1;
   double share = 0.6;
 };
-const Tunable<Tuning> tuning(
+const Tunable<TurnedFilesTuning> turned_files_tuning(
     "turned_files",
     {
-        {&Tuning::clear, "clear", "correlation",
+        {&TurnedFilesTuning::clear, "clear", "correlation",
          "of the structures of two maps. Higher: more files are refused; lower: noise decides", "turned_files", 0, 1},
-        {&Tuning::share, "share", "of the better correlation",
+        {&TurnedFilesTuning::share, "share", "of the better correlation",
          "that the worse may have. Higher: mirrored regular patterns are decided by noise; lower: they are refused",
          "turned_files", 0, 1},
     });
@@ -45,7 +45,7 @@ struct Vote {
   std::string other;
   bool is_clear() const {
     const double best = std::max(tagged, stored);
-    return best >= tuning->clear && std::min(tagged, stored) <= tuning->share * best;
+    return best >= turned_files_tuning->clear && std::min(tagged, stored) <= turned_files_tuning->share * best;
   }
 };
 

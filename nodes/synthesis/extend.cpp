@@ -15,8 +15,8 @@ namespace terrazzo {
 
 namespace {
 
-KeptPixels placed(const UvMap& uv, Size size, std::array<int, 2> at) {
-  KeptPixels kept;
+ExistingPixels placed(const UvMap& uv, Size size, std::array<int, 2> at) {
+  ExistingPixels kept;
   kept.keep.resize(size_t(size.area()));
   kept.pixels.resize(size_t(size.area()));
   for (int y = 0; y < uv.size().height; y++)
@@ -28,7 +28,7 @@ KeptPixels placed(const UvMap& uv, Size size, std::array<int, 2> at) {
   return kept;
 }
 
-void compute(NodeContext& node) {
+void compute_extend(NodeContext& node) {
   const auto index = node.input<Index>("index");
   const auto uv = node.input<UvMap>("uv");
   SynthesisOptions options = synthesis_options(node, *index);
@@ -53,13 +53,13 @@ void require_room(const Params& params, Size kept) {
                                   room.width, room.height, describe(kept), describe(size), at[0], at[1]));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_extend(const Params& params, const InputForecasts& inputs) {
   require_same_exemplar(inputs);
   if (const std::optional<Size> kept = inputs.at("uv").front().size) require_room(params, *kept);
   return {{"uv", {.size = std::get<Size>(params.at("size")), .exemplar = inputs.at("index").front().size}}};
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_extend(const Params& params) {
   const auto& at = std::get<Numbers>(params.at("at"));
   const bool whole = at.size() == 2 && at[0] == std::floor(at[0]) && at[1] == std::floor(at[1]);
   std::vector<std::string> problems = check_synthesis_params(params);
@@ -92,10 +92,10 @@ NodeType extend_node() {
                                      .max_count = 2},
                                     tileable_param(),
                                     whole_bricks_between_kept_param()});
-  t.check = check;
+  t.check = check_extend;
   t.steps = described_synthesis_steps();
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_extend;
+  t.compute = compute_extend;
   t.memory_hint = [](const NodeContext& node) { return size_t(result_kept_memory.of(node.size("size"))); };
   t.memory_ahead = [](const Params& params, const InputForecasts& inputs) {
     return synthesis_ahead(inputs, result_kept_memory, std::get<Size>(params.at("size")));

@@ -58,13 +58,13 @@ std::vector<Keep> kept_around(const std::vector<uint8_t>& hole, Size size, bool 
 
 /// What is there: the pixels of `uv`, or the exemplar itself, outside the holes. Up to `margin` pixels from a hole they
 /// may give way.
-KeptPixels outside_holes(const UvMap* uv, const ImagePtr& holes, Size size, bool wraps, double margin) {
+ExistingPixels outside_holes(const UvMap* uv, const ImagePtr& holes, Size size, bool wraps, double margin) {
   std::vector<uint8_t> hole;
   hole.reserve(size_t(size.area()));
   for_each_strip(*nearest_at_size(holes, size), [&](const Rect& r, const float* v) {
     for (int64_t i = 0; i < r.area(); i++) hole.push_back(v[i * holes->channels()] > 0.5f);
   });
-  KeptPixels kept{{}, kept_around(hole, size, wraps, margin)};
+  ExistingPixels kept{{}, kept_around(hole, size, wraps, margin)};
   kept.pixels.reserve(hole.size());
   if (uv) {
     kept.pixels = uv->pixels();
@@ -83,7 +83,7 @@ Param wrapping_param() {
   return p;
 }
 
-void compute(NodeContext& node) {
+void compute_inpaint(NodeContext& node) {
   const auto index = node.input<Index>("index");
   const auto uv = node.optional_input<UvMap>("uv");
   const auto holes = node.input<Image>("mask");
@@ -110,7 +110,7 @@ void compute(NodeContext& node) {
   node.output("uv", filled);
 }
 
-OutputForecasts infer(const Params&, const InputForecasts& inputs) {
+OutputForecasts infer_inpaint(const Params&, const InputForecasts& inputs) {
   require_same_exemplar(inputs);
   const Forecast* uv = forecast_at(inputs, "uv");
   const std::optional<Size> exemplar = inputs.at("index").front().size, size = uv ? uv->size : exemplar;
@@ -157,8 +157,8 @@ NodeType inpaint_node() {
        wrapping_param()});
   t.check = check_synthesis_params;
   t.steps = described_synthesis_steps();
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_inpaint;
+  t.compute = compute_inpaint;
   t.memory_hint = [](const NodeContext& node) {
     const auto uv = node.optional_input<UvMap>("uv");
     return size_t(uv ? result_filled_memory.of(uv->size())

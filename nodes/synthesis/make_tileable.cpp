@@ -29,13 +29,13 @@ int border_pixels(double border, int side, bool wraps) {
 
 /// The exemplar within a result of that size. Most of the border is kept at first, so that the seam between old and new
 /// does not run straight.
-KeptPixels interior(Size exemplar, Size result, Size border) {
+ExistingPixels interior(Size exemplar, Size result, Size border) {
   const auto keep = [](int x, int side, int border) {
     const int inside = std::min(x, side - 1 - x);
     return inside >= border ? Keep::always : inside >= border / 4 ? Keep::at_first : Keep::never;
   };
   const Size shown{std::min(exemplar.width, result.width), std::min(exemplar.height, result.height)};
-  KeptPixels kept;
+  ExistingPixels kept;
   kept.keep.reserve(size_t(result.area()));
   kept.pixels.reserve(size_t(result.area()));
   for (int y = 0; y < result.height; y++)
@@ -52,13 +52,13 @@ void leave(NodeContext& node, const Index& index) {
   node.note(
       "the exemplar already tiles and stays as it is; to replace its border anyway, set \"tiles\" to \"no\" where it "
       "is analysed, in the stock graph by --set tiles=no");
-  const KeptPixels kept = interior(size, size, {0, 0});
+  const ExistingPixels kept = interior(size, size, {0, 0});
   const UvMapPtr uv = UvMap::make(size, size, kept.pixels, {true, true, true}, index.appearance()->fingerprint());
   node.output("border", new_pixels_mask(*uv, kept));
   node.output("uv", uv);
 }
 
-void compute(NodeContext& node) {
+void compute_make_tileable(NodeContext& node) {
   const auto index = node.input<Index>("index");
   if (index->appearance()->wraps()) return leave(node, *index);
   SynthesisOptions options = synthesis_options(node, *index);
@@ -99,7 +99,7 @@ void compute(NodeContext& node) {
   node.output("uv", uv);
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_make_tileable(const Params& params, const InputForecasts& inputs) {
   const std::optional<Size> exemplar = inputs.at("index").front().size;
   // One that repeats may become a little larger or smaller.
   const bool stays = std::get<std::string>(params.at("fit")) == "size";
@@ -108,7 +108,7 @@ OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
           {"border", forecast_of_image(values_facts(size, Semantic::mask))}};
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_make_tileable(const Params& params) {
   std::vector<std::string> problems = check_synthesis_params(params);
   const double border = std::get<double>(params.at("border"));
   if (border >= 0.5 && border < 1)
@@ -156,10 +156,10 @@ NodeType make_tileable_node() {
                "repeats; size keeps the exemplar's size and stretches repeats within the border.",
        .choices = {"repeats", "size"}},
   });
-  t.check = check;
+  t.check = check_make_tileable;
   t.steps = described_synthesis_steps();
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_make_tileable;
+  t.compute = compute_make_tileable;
   t.memory_hint = [](const NodeContext& node) {
     return size_t(exemplar_kept_memory.of(node.input<Index>("index")->appearance()->size()));
   };

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double farthest_origin = 1e9;
 
-std::vector<Param> params() {
+std::vector<Param> noise_by_example_params() {
   return {
       result_size_param(),
       tileable_param(),
@@ -71,7 +71,7 @@ GridSurface surface_of(const NodeContext& node) {
           .wraps_y = tileable == "y" || tileable == "xy"};
 }
 
-void compute(NodeContext& node) {
+void compute_noise_by_example(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const Numbers& origin = node.numbers("origin");
   const bool tiles = exemplar_tiles(node, *material);
@@ -84,7 +84,7 @@ void compute(NodeContext& node) {
   node.output("material", noise_by_example(*material, options, node.task()));
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_noise_by_example(const Params& params) {
   const Numbers& origin = std::get<Numbers>(params.at("origin"));
   if (std::ranges::all_of(origin, [](double v) { return v == std::floor(v); })) return {};
   return {"\"origin\": expected two whole numbers, [x, y]"};
@@ -96,14 +96,14 @@ uint64_t memory_of(Size exemplar, int channels) {
   return uint64_t(exemplar.area()) * uint64_t(channels + 1) * sizeof(float);
 }
 
-size_t memory_hint(const NodeContext& node) {
+size_t memory_of_noise_by_example(const NodeContext& node) {
   const auto material = node.input<Material>("material");
   int channels = 0;
   for (const Map& m : material->maps()) channels += m.image->channels();
   return memory_of(material->size(), channels);
 }
 
-uint64_t memory_ahead(const Params&, const InputForecasts& inputs) {
+uint64_t memory_ahead_of_noise_by_example(const Params&, const InputForecasts& inputs) {
   const Forecast& material = inputs.at("material").front();
   const std::optional<Size> size = material_size(material);
   if (!size) return 0;
@@ -112,7 +112,7 @@ uint64_t memory_ahead(const Params&, const InputForecasts& inputs) {
   return memory_of(*size, channels);
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_noise_by_example(const Params& params, const InputForecasts& inputs) {
   preflight_one_shape("material", inputs);
   return {{"material", with_facts_changed(inputs.at("material").front(), [&](const std::string&, ImageFacts& facts) {
              facts.size = std::get<Size>(params.at("size"));
@@ -137,13 +137,13 @@ NodeType noise_by_example_node() {
       "any order.";
   t.inputs = {material_port("material", "the exemplar, with all maps wanted")};
   t.outputs = {{.name = "material", .type = ValueType::material, .help = "the maps, all in the size asked for"}};
-  t.params = params();
+  t.params = noise_by_example_params();
   t.persist = Persist::derived;
-  t.check = check;
-  t.memory_hint = memory_hint;
-  t.memory_ahead = memory_ahead;
-  t.compute = compute;
-  t.infer = infer;
+  t.check = check_noise_by_example;
+  t.memory_hint = memory_of_noise_by_example;
+  t.memory_ahead = memory_ahead_of_noise_by_example;
+  t.compute = compute_noise_by_example;
+  t.infer = infer_noise_by_example;
   return t;
 }
 

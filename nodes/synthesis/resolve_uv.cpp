@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-std::vector<Port> inputs() {
+std::vector<Port> resolve_uv_inputs() {
   return {{.name = "uv", .type = ValueType::uv_map, .help = "which exemplar pixel each output pixel shows"},
           {.name = "material", .type = ValueType::material, .help = "the exemplar, with all maps wanted"},
           {.name = "kept",
@@ -27,7 +27,7 @@ std::vector<Port> inputs() {
            .optional = true}};
 }
 
-std::vector<Param> params() {
+std::vector<Param> resolve_uv_params() {
   return {{.name = "blend",
            .type = ParamType::number,
            .fallback = 0.0,
@@ -65,7 +65,7 @@ std::vector<Param> params() {
            .help = "Also takes a material that does not look like the analysed one. By default that is an error."}};
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_resolve_uv(const Params& params) {
   const double scale = std::get<double>(params.at("scale"));
   std::vector<std::string> problems;
   if (scale > 0 && scale < 1)
@@ -92,7 +92,7 @@ struct Held {
   double bytes(Size result) const { return sizeof(float) * (values + per_result_pixel * double(result.area())); }
 };
 
-size_t memory_hint(const NodeContext& node) {
+size_t memory_of_resolve_uv(const NodeContext& node) {
   const auto material = node.input<Material>("material");
   const auto uv = node.input<UvMap>("uv");
   const auto kept = node.optional_input<Material>("kept");
@@ -104,7 +104,7 @@ size_t memory_hint(const NodeContext& node) {
   return size_t(held.bytes(result) + of_kept);
 }
 
-uint64_t memory_ahead(const Params& params, const InputForecasts& inputs) {
+uint64_t memory_ahead_of_resolve_uv(const Params& params, const InputForecasts& inputs) {
   const Forecast &material = inputs.at("material").front(), &uv = inputs.at("uv").front();
   const std::optional<Size> size = material_size(material);
   if (!size) return 0;
@@ -134,7 +134,7 @@ void require_analysed(const Material& material, const UvMap& uv, const Task& tas
                           fmt::join(found->maps, ", "), found->correlation, least_likeness()));
 }
 
-void compute(NodeContext& node) {
+void compute_resolve_uv(NodeContext& node) {
   const Numbers& at = node.numbers("kept_at");
   const ResolveOptions options{.blend = node.number("blend"),
                                .join = node.number("join"),
@@ -149,7 +149,7 @@ void compute(NodeContext& node) {
   node.output("material", std::move(result));
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_resolve_uv(const Params& params, const InputForecasts& inputs) {
   const Forecast &material = inputs.at("material").front(), &uv = inputs.at("uv").front();
   preflight_one_shape("material", inputs);
   const std::optional<Size> exemplar = material_size(material);
@@ -183,16 +183,16 @@ NodeType resolve_uv_node() {
       "captures larger features, and connect the original here. A material that is not the analysed one is an error: "
       "small "
       "copies of the analysed maps go with the uv map, and maps of the same names are compared with them.";
-  t.inputs = inputs();
+  t.inputs = resolve_uv_inputs();
   t.outputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps, in the uv map's size times `scale`"}};
-  t.params = params();
+  t.params = resolve_uv_params();
   t.persist = Persist::derived;
-  t.check = check;
-  t.memory_hint = memory_hint;
-  t.memory_ahead = memory_ahead;
-  t.compute = compute;
-  t.infer = infer;
+  t.check = check_resolve_uv;
+  t.memory_hint = memory_of_resolve_uv;
+  t.memory_ahead = memory_ahead_of_resolve_uv;
+  t.compute = compute_resolve_uv;
+  t.infer = infer_resolve_uv;
   return t;
 }
 

@@ -32,7 +32,7 @@ Part part_of(const Params& params) {
                  std::get<Numbers>(params.at("origin")));
 }
 
-void compute(NodeContext& node) {
+void compute_synthesize(NodeContext& node) {
   const auto index = node.input<Index>("index");
   const auto coarse = node.optional_input<UvMap>("coarse");
   const Part part = part_of(node.params());
@@ -48,7 +48,7 @@ void compute(NodeContext& node) {
   node.output("uv", uv);
 }
 
-std::vector<std::string> check(const Params& params) {
+std::vector<std::string> check_synthesize(const Params& params) {
   std::vector<std::string> problems = check_synthesis_params(params);
   const Numbers& origin = std::get<Numbers>(params.at("origin"));
   if (origin.size() != 2 || origin[0] != int(origin[0]) || origin[1] != int(origin[1])) {
@@ -78,12 +78,12 @@ size_t memory(const NodeContext& node) {
          memory_of_coarse(part_of(node.params()), node.optional_input<UvMap>("coarse") != nullptr);
 }
 
-uint64_t memory_ahead(const Params& params, const InputForecasts& inputs) {
+uint64_t memory_ahead_of_synthesize(const Params& params, const InputForecasts& inputs) {
   const uint64_t least = synthesis_ahead(inputs, new_pixels_memory, std::get<Size>(params.at("size")));
   return least > 0 ? least + memory_of_coarse(part_of(params), wires_at(inputs, "coarse") > 0) : 0;
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_synthesize(const Params& params, const InputForecasts& inputs) {
   const Part part = part_of(params);
   const std::optional<Size> exemplar = inputs.at("index").front().size;
   const Forecast* coarse = forecast_at(inputs, "coarse");
@@ -127,12 +127,12 @@ NodeType synthesize_node() {
         .unit = "pixels",
         .min_count = 2,
         .max_count = 2}});
-  t.check = check;
+  t.check = check_synthesize;
   t.steps = described_synthesis_steps();
-  t.infer = infer;
-  t.compute = compute;
+  t.infer = infer_synthesize;
+  t.compute = compute_synthesize;
   t.memory_hint = memory;
-  t.memory_ahead = memory_ahead;
+  t.memory_ahead = memory_ahead_of_synthesize;
   return t;
 }
 

@@ -73,7 +73,7 @@ void tell_of_stretched(NodeContext& node, const std::vector<Control>& controls, 
                             describe(target), describe(result)));
 }
 
-void compute(NodeContext& node) {
+void compute_transfer(NodeContext& node) {
   const auto index = node.input<Index>("index");
   SynthesisOptions options = synthesis_options(node, *index);
   options.controls = controls_of(node);
@@ -85,7 +85,7 @@ void compute(NodeContext& node) {
   node.output("uv", uv);
 }
 
-OutputForecasts infer(const Params& params, const InputForecasts& inputs) {
+OutputForecasts infer_transfer(const Params& params, const InputForecasts& inputs) {
   const size_t controls = wires_at(inputs, "exemplar_control");
   require_pairs(controls, wires_at(inputs, "target"), std::get<Numbers>(params.at("strength")).size());
   const std::optional<Size> exemplar = inputs.at("index").front().size;
@@ -100,7 +100,7 @@ SynthesisMemory memory_of(const Params& params, int values) {
   return {new_pixels_memory.per_pixel + control_value_memory * uint64_t(values) + distances};
 }
 
-std::vector<Param> params() {
+std::vector<Param> transfer_params() {
   return {
       result_size_param(),
       tileable_param(),
@@ -165,11 +165,11 @@ NodeType transfer_node() {
                        "grey or coloured)",
                .list = true}};
   t.outputs = {uv_output()};
-  t.params = with_synthesis_params(params());
+  t.params = with_synthesis_params(transfer_params());
   t.check = check_synthesis_params;
   t.steps = described_synthesis_steps();
-  t.compute = compute;
-  t.infer = infer;
+  t.compute = compute_transfer;
+  t.infer = infer_transfer;
   t.memory_hint = [](const NodeContext& node) {
     int values = 0;
     for (const ImagePtr& target : node.list<Image>("target")) values += target->channels();

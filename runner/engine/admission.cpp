@@ -10,15 +10,15 @@ namespace {
 /// What needs no memory comes first.
 constexpr int urgency_of_values = 2;
 
-int urgency_of(Job::Kind kind) {
+int urgency_of(StageJob::Kind kind) {
   switch (kind) {
-    case Job::Kind::begin:
-    case Job::Kind::store:
+    case StageJob::Kind::begin:
+    case StageJob::Kind::store:
       return 0;
-    case Job::Kind::look_up:
+    case StageJob::Kind::look_up:
       return 1;
-    case Job::Kind::load:
-    case Job::Kind::compute:
+    case StageJob::Kind::load:
+    case StageJob::Kind::compute:
       break;
   }
   return urgency_of_values;
@@ -36,18 +36,18 @@ std::vector<double> remaining_seconds(const Plan& plan) {
 }
 
 bool Admission::Rank::operator<(const Rank& other) const {
-  const bool loads = kind == Job::Kind::load, other_loads = other.kind == Job::Kind::load;
+  const bool loads = kind == StageJob::Kind::load, other_loads = other.kind == StageJob::Kind::load;
   return std::tuple(urgency, -remaining, loads, stage, arrival) <
          std::tuple(other.urgency, -other.remaining, other_loads, other.stage, other.arrival);
 }
 
-void Admission::add(JobPtr job) {
-  if (job->kind == Job::Kind::compute) waiting_computations_++;
+void Admission::add(StageJobPtr job) {
+  if (job->kind == StageJob::Kind::compute) waiting_computations_++;
   const Rank rank = {urgency_of(job->kind), remaining_[job->stage], job->kind, job->stage, arrivals_++};
   waiting_.emplace(rank, Waiting{std::move(job)});
 }
 
-bool Admission::fits(const Job& job, uint64_t held) const {
+bool Admission::fits(const StageJob& job, uint64_t held) const {
   return (computing_ == 0 && storing_ == 0) || in_use_ + held + job.memory <= memory_;
 }
 
@@ -55,7 +55,7 @@ uint64_t Admission::lacking(uint64_t held) const {
   uint64_t wanted = in_use_ + held;
   const auto next = overdue() ? waiting_.find(refusals_.front().rank)
                               : std::find_if(waiting_.begin(), waiting_.end(), [](const auto& waiting) {
-                                  return waiting.second.job->kind == Job::Kind::compute;
+                                  return waiting.second.job->kind == StageJob::Kind::compute;
                                 });
   if (running_ < threads_ && next != waiting_.end()) wanted += next->second.job->memory;
   return wanted - std::min(wanted, memory_);
@@ -72,24 +72,24 @@ bool Admission::overdue() const {
 bool Admission::may_start(const Queue::iterator& at, uint64_t held) {
   Waiting& waiting = at->second;
   if (overdue()) return false;
-  if (waiting.job->kind == Job::Kind::load) return may_load(held);
+  if (waiting.job->kind == StageJob::Kind::load) return may_load(held);
   if (fits(*waiting.job, held)) return true;
   if (!std::exchange(waiting.refused, true)) refusals_.push_back({at->first, computations_});
   return false;
 }
 
 Admission::Queue::iterator Admission::remove(Queue::iterator at) {
-  if (at->second.job->kind == Job::Kind::compute) waiting_computations_--;
+  if (at->second.job->kind == StageJob::Kind::compute) waiting_computations_--;
   if (at->second.refused)
     std::erase_if(refusals_, [&](const Refusal& r) { return r.rank.arrival == at->first.arrival; });
   return waiting_.erase(at);
 }
 
-Admission::Queue::iterator Admission::start(Queue::iterator at, std::vector<JobPtr>& admitted) {
-  const JobPtr& job = admitted.emplace_back(at->second.job);
+Admission::Queue::iterator Admission::start(Queue::iterator at, std::vector<StageJobPtr>& admitted) {
+  const StageJobPtr& job = admitted.emplace_back(at->second.job);
   running_++;
-  if (job->kind == Job::Kind::store) storing_++;
-  if (job->kind == Job::Kind::compute) {
+  if (job->kind == StageJob::Kind::store) storing_++;
+  if (job->kind == StageJob::Kind::compute) {
     computing_++;
     computations_++;
     in_use_ += job->memory;
@@ -97,8 +97,8 @@ Admission::Queue::iterator Admission::start(Queue::iterator at, std::vector<JobP
   return remove(at);
 }
 
-std::vector<JobPtr> Admission::admit(uint64_t held) {
-  std::vector<JobPtr> admitted;
+std::vector<StageJobPtr> Admission::admit(uint64_t held) {
+  std::vector<StageJobPtr> admitted;
   while (running_ < threads_ && !waiting_.empty() && waiting_.begin()->first.urgency < urgency_of_values)
     start(waiting_.begin(), admitted);
   while (overdue() && running_ < threads_) {
@@ -111,15 +111,15 @@ std::vector<JobPtr> Admission::admit(uint64_t held) {
   return admitted;
 }
 
-void Admission::ended(const Job& job) {
+void Admission::ended(const StageJob& job) {
   running_--;
-  if (job.kind == Job::Kind::store) storing_--;
-  if (job.kind != Job::Kind::compute) return;
+  if (job.kind == StageJob::Kind::store) storing_--;
+  if (job.kind != StageJob::Kind::compute) return;
   computing_--;
   in_use_ -= job.memory;
 }
 
-void Admission::forget_if(const std::function<bool(const Job&)>& unwanted) {
+void Admission::forget_if(const std::function<bool(const StageJob&)>& unwanted) {
   for (auto at = waiting_.begin(); at != waiting_.end();) at = unwanted(*at->second.job) ? remove(at) : std::next(at);
 }
 

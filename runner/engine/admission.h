@@ -36,16 +36,16 @@ class Admission {
   Admission(std::vector<double> remaining, int threads, uint64_t memory)
       : remaining_(std::move(remaining)), threads_(threads), memory_(memory) {}
 
-  void add(JobPtr job);
+  void add(StageJobPtr job);
   /// The jobs to start now, given the bytes of values in memory.
-  std::vector<JobPtr> admit(uint64_t held);
+  std::vector<StageJobPtr> admit(uint64_t held);
   /// By how many bytes the budget is exceeded now, or would be if the next computation started.
   uint64_t lacking(uint64_t held) const;
   uint64_t in_use() const { return in_use_; }
   /// An admitted job has ended.
-  void ended(const Job& job);
+  void ended(const StageJob& job);
   /// Drops waiting jobs.
-  void forget_if(const std::function<bool(const Job&)>& unwanted);
+  void forget_if(const std::function<bool(const StageJob&)>& unwanted);
   bool idle() const { return running_ == 0 && waiting_.empty(); }
 
  private:
@@ -53,13 +53,13 @@ class Admission {
   struct Rank {
     int urgency = 0;
     double remaining = 0;
-    Job::Kind kind = Job::Kind::begin;
+    StageJob::Kind kind = StageJob::Kind::begin;
     int stage = 0;
     uint64_t arrival = 0;
     bool operator<(const Rank& other) const;
   };
   struct Waiting {
-    JobPtr job;
+    StageJobPtr job;
     bool refused = false;
   };
   using Queue = std::map<Rank, Waiting>;
@@ -69,12 +69,12 @@ class Admission {
     uint64_t computations_before = 0;
   };
 
-  bool fits(const Job& job, uint64_t held) const;
+  bool fits(const StageJob& job, uint64_t held) const;
   bool may_load(uint64_t held) const;
   bool may_start(const Queue::iterator& at, uint64_t held);
   bool overdue() const;
   Queue::iterator remove(Queue::iterator at);
-  Queue::iterator start(Queue::iterator at, std::vector<JobPtr>& admitted);
+  Queue::iterator start(Queue::iterator at, std::vector<StageJobPtr>& admitted);
 
   const std::vector<double> remaining_;
   const int threads_;

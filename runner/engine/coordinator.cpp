@@ -60,7 +60,7 @@ void Coordinator::look_up(int stage) {
   if (s.known && !is_being_made(s, *s.known, options_))
     resolved(stage);
   else
-    enqueue(Job::Kind::look_up, stage);
+    enqueue(StageJob::Kind::look_up, stage);
 }
 
 void Coordinator::resolved(int stage) {
@@ -105,7 +105,7 @@ void Coordinator::want_values(int stage) {
   if (now != ValueState::open && now != ValueState::resting) return;  // on their way, or there
   if (plan_.stages[stage].loadable()) {
     move(stage, ValueEvent::load);
-    return enqueue(Job::Kind::load, stage);
+    return enqueue(StageJob::Kind::load, stage);
   }
   move(stage, ValueEvent::compute);
   ask_sources(stage);
@@ -122,7 +122,7 @@ void Coordinator::ask_sources(int stage) {
 
 void Coordinator::start_computing(int stage) {
   move(stage, ValueEvent::inputs_held);
-  enqueue(Job::Kind::compute, stage);
+  enqueue(StageJob::Kind::compute, stage);
 }
 
 /// A stage's values have come into memory, if only for those who wait for them.
@@ -180,7 +180,7 @@ void Coordinator::drop_values(int stage) {
   move(stage, ValueEvent::let_go);
 }
 
-void Coordinator::loaded(Job& job) {
+void Coordinator::loaded(StageJob& job) {
   if (!job.values.empty()) {
     values_[job.stage] = std::move(job.values);
     held_.hold_loaded(job.stage, values_[job.stage]);
@@ -192,7 +192,7 @@ void Coordinator::loaded(Job& job) {
   ask_sources(job.stage);
 }
 
-void Coordinator::computed(Job& job) {
+void Coordinator::computed(StageJob& job) {
   Stage& s = plan_.stages[job.stage];
   outcomes_.computed(job);
   if (options_.cache && !job.made_elsewhere) enqueue_store(job);
@@ -209,13 +209,13 @@ void Coordinator::computed(Job& job) {
   values_there(job.stage, ValueEvent::computed);
 }
 
-void Coordinator::enqueue_store(const Job& job) {
+void Coordinator::enqueue_store(const StageJob& job) {
   const Stage& s = plan_.stages[job.stage];
   const bool payload = s.type().persist == Persist::payload;
   const bool known = s.known->record && s.known->record->files.empty() && s.known->must_run.empty();
   if (known && (!payload || s.known->stored)) return;
-  auto store = std::make_shared<Job>();
-  store->kind = Job::Kind::store;
+  auto store = std::make_shared<StageJob>();
+  store->kind = StageJob::Kind::store;
   store->stage = job.stage;
   if (payload) store->values = job.values;
   store->record = job.record;
@@ -223,7 +223,7 @@ void Coordinator::enqueue_store(const Job& job) {
   admission_.add(std::move(store));
 }
 
-void Coordinator::stored(Job& job) {
+void Coordinator::stored(StageJob& job) {
   if (!job.stored) return;
   Resolution& known = *plan_.stages[job.stage].known;
   known.record = std::move(job.record);
@@ -255,27 +255,27 @@ std::unique_ptr<NodeContext> Coordinator::make_context(int stage) {
                                        Task(options_.cancelled, std::move(progress)));
 }
 
-void Coordinator::enqueue(Job::Kind kind, int stage) {
-  auto job = std::make_shared<Job>();
+void Coordinator::enqueue(StageJob::Kind kind, int stage) {
+  auto job = std::make_shared<StageJob>();
   job->kind = kind;
   job->stage = stage;
-  if (kind == Job::Kind::compute) {
+  if (kind == StageJob::Kind::compute) {
     job->context = make_context(stage);
     job->memory = expected_memory(*job->context);
   }
   admission_.add(std::move(job));
 }
 
-void Coordinator::settle(const JobPtr& job) {
+void Coordinator::settle(const StageJobPtr& job) {
   if (options_.cancelled && options_.cancelled->load()) cancelled_ = true;
   if (job->resumed) return resume(job);
-  if (job->kind != Job::Kind::begin) admission_.ended(*job);
+  if (job->kind != StageJob::Kind::begin) admission_.ended(*job);
   outcomes_.ended(*job);
   if (job->cancelled) cancelled_ = true;
   if (job->failure) return failed(*job);
   if (job->cancelled) return;
   if (job->busy) {
-    if (job->kind == Job::Kind::compute) move(job->stage, ValueEvent::busy);
+    if (job->kind == StageJob::Kind::compute) move(job->stage, ValueEvent::busy);
     if (!stopping()) postponed_.push_back(job);
     return;
   }
@@ -284,9 +284,9 @@ void Coordinator::settle(const JobPtr& job) {
 }
 
 /// A stage that could not be stored has given its values all the same.
-void Coordinator::failed(const Job& job) {
+void Coordinator::failed(const StageJob& job) {
   outcomes_.failed(job);
-  if (stopping() || job.kind == Job::Kind::store) return;
+  if (stopping() || job.kind == StageJob::Kind::store) return;
   lose(job.stage);
   take_steps();
 }
@@ -314,7 +314,7 @@ void Coordinator::skip_if_lost(int stage) {
 }
 
 /// To be tried again, behind what has come in the meantime.
-void Coordinator::resume(const JobPtr& job) {
+void Coordinator::resume(const StageJobPtr& job) {
   outcomes_.add(job->span);
   job->resumed = job->busy = false;
   if (!stopping()) admission_.add(job);
@@ -341,29 +341,29 @@ void Coordinator::take_steps() {
   }
 }
 
-void Coordinator::react(Job& job) {
+void Coordinator::react(StageJob& job) {
   switch (job.kind) {
-    case Job::Kind::begin:
+    case StageJob::Kind::begin:
       return begin();
-    case Job::Kind::look_up:
+    case StageJob::Kind::look_up:
       plan_.stages[job.stage].known = std::move(job.resolution);
       return resolved(job.stage);
-    case Job::Kind::load:
+    case StageJob::Kind::load:
       return loaded(job);
-    case Job::Kind::compute:
+    case StageJob::Kind::compute:
       return computed(job);
-    case Job::Kind::store:
+    case StageJob::Kind::store:
       return stored(job);
   }
 }
 
-std::vector<JobPtr> Coordinator::admit() {
+std::vector<StageJobPtr> Coordinator::admit() {
   if (stopping())
     // What has been computed is still put into the cache, unless the user is in a hurry.
-    admission_.forget_if([&](const Job& j) { return cancelled_ || j.kind != Job::Kind::store; });
+    admission_.forget_if([&](const StageJob& j) { return cancelled_ || j.kind != StageJob::Kind::store; });
   else
     spill();
-  std::vector<JobPtr> admitted = admission_.admit(held_.bytes());
+  std::vector<StageJobPtr> admitted = admission_.admit(held_.bytes());
   most_memory_ = std::max(most_memory_, held_.bytes() + admission_.in_use());
   return admitted;
 }

@@ -25,11 +25,11 @@ class Coordinator {
 
   /// Processes a job that ended, or that no longer waits for another process. Throws std::logic_error if the stage's
   /// state does not allow it.
-  void settle(const JobPtr& job);
+  void settle(const StageJobPtr& job);
   /// The jobs to start now.
-  std::vector<JobPtr> admit();
+  std::vector<StageJobPtr> admit();
   /// The jobs that wait for another process. Settle each again, with `resumed` set, to retry it.
-  std::vector<JobPtr> take_postponed() { return std::exchange(postponed_, {}); }
+  std::vector<StageJobPtr> take_postponed() { return std::exchange(postponed_, {}); }
 
   /// No new computation starts: the run was cancelled, or a stage failed and the run is not to go on without it.
   bool stopping() const { return cancelled_ || (outcomes_.any_failed() && !options_.targets.keep_going); }
@@ -47,8 +47,8 @@ class Coordinator {
   /// Queued instead of called, as chains may be thousands of stages long.
   enum class Step : uint8_t { look_up, want_values, let_go, skip };
 
-  void react(Job& job);
-  void resume(const JobPtr& job);
+  void react(StageJob& job);
+  void resume(const StageJobPtr& job);
   void put_off(Step step, int stage) { steps_.push_back({step, stage}); }
   void take_steps();
   void begin();
@@ -61,20 +61,20 @@ class Coordinator {
   void ask_sources(int stage);
   void start_computing(int stage);
   void values_there(int stage, ValueEvent event);
-  void loaded(Job& job);
-  void computed(Job& job);
-  void enqueue_store(const Job& job);
-  void stored(Job& job);
+  void loaded(StageJob& job);
+  void computed(StageJob& job);
+  void enqueue_store(const StageJob& job);
+  void stored(StageJob& job);
   void let_go_if_unclaimed(int stage);
   void drop_values(int stage);
   bool may_be_spilled(int stage) const;
   void spill();
   void ask_for_spilled(int stage);
-  void failed(const Job& job);
+  void failed(const StageJob& job);
   void lose(int stage);
   void skip_if_lost(int stage);
   std::unique_ptr<NodeContext> make_context(int stage);
-  void enqueue(Job::Kind kind, int stage);
+  void enqueue(StageJob::Kind kind, int stage);
 
   Plan& plan_;
   const RunOptions& options_;
@@ -85,7 +85,7 @@ class Coordinator {
   std::vector<std::map<std::string, Value>> values_;  ///< by stage and output port
   std::set<int> in_memory_and_cache_;                 ///< stages whose values are held and can be loaded again
   uint64_t most_memory_ = 0;
-  std::vector<JobPtr> postponed_;
+  std::vector<StageJobPtr> postponed_;
   std::deque<std::pair<Step, int>> steps_;
   std::unordered_map<std::string_view, int> places_;
   bool cancelled_ = false;

@@ -121,7 +121,7 @@ void check_files_in_sandbox(const Stage& stage, const Sandbox* sandbox) {
   for (const fs::path& file : stage.type().files_read(stage.node->params)) sandbox->check("read", file);
 }
 
-void compute(Job& job, const Stage& stage, const RunOptions& options) {
+void compute(StageJob& job, const Stage& stage, const RunOptions& options) {
   NodeContext& context = *job.context;
   std::optional<NodeContext> again;
   if (options.checked) again.emplace(context);
@@ -160,7 +160,7 @@ void compute(Job& job, const Stage& stage, const RunOptions& options) {
   job.record = std::move(record);
 }
 
-void load(Job& job, const Stage& stage, const std::map<std::string, Digest>& names, Cache* cache) {
+void load(StageJob& job, const Stage& stage, const std::map<std::string, Digest>& names, Cache* cache) {
   for (const std::string& port : stage.used_outputs) {
     std::optional<Value> value = cache->load_value(names.at(port));
     if (!value || type_of(*value) != stage.type().find_output(port)->type) {
@@ -178,14 +178,14 @@ bool is_worth_a_lease(const Stage& stage, const Resolution& known, const RunOpti
 }
 
 /// Another process is at it.
-void leave_to_others(Job& job, const Stage& stage, const RunOptions& options) {
+void leave_to_others(StageJob& job, const Stage& stage, const RunOptions& options) {
   if (!job.waited && options.observer) options.observer->waits(stage);
   job.waited = job.busy = true;
 }
 
 /// Whether this job is to compute the stage now: nobody else is at it, or nobody can tell, or their values would have
 /// to be computed here all the same. Does not wait.
-bool claim(Job& job, const Stage& stage, const RunOptions& options) {
+bool claim(StageJob& job, const Stage& stage, const RunOptions& options) {
   if (!is_worth_a_lease(stage, *stage.known, options)) return true;
   LeaseAttempt attempt = options.cache->try_lease(stage.known->key);
   job.lease = std::move(attempt.lease);
@@ -195,14 +195,14 @@ bool claim(Job& job, const Stage& stage, const RunOptions& options) {
 }
 
 /// Looks the stage up once nobody else is at it: then its names are known, and its inputs may never be asked for.
-void look_up(Job& job, const Plan& plan, const RunOptions& options) {
+void look_up(StageJob& job, const Plan& plan, const RunOptions& options) {
   const Stage& stage = plan.stages[job.stage];
   job.resolution = resolve(plan, job.stage, options.cache, nullptr);
   if (is_being_made(stage, *job.resolution, options)) leave_to_others(job, stage, options);
 }
 
 /// Loads what another process has computed since the stage was looked up.
-bool find_elsewhere(Job& job, const Stage& stage, Cache* cache) {
+bool find_elsewhere(StageJob& job, const Stage& stage, Cache* cache) {
   if (!job.lease || stage.type().persist != Persist::payload) return false;
   std::optional<StageRecord> record = cache->find_stage(stage.known->key);
   if (!record || !is_complete(*record, stage.type())) return false;
@@ -216,7 +216,7 @@ bool find_elsewhere(Job& job, const Stage& stage, Cache* cache) {
   return true;
 }
 
-void store(Job& job, const Stage& stage, const RunOptions& options) {
+void store(StageJob& job, const Stage& stage, const RunOptions& options) {
   const Task task(options.cancelled, {});
   if (stage.type().persist == Persist::payload)
     for (const auto& [port, value] : job.values) options.cache->store_value(value, job.record->seconds, task);
@@ -239,23 +239,23 @@ std::string of_targets(const NodeContext& context, std::string message) {
   return message;
 }
 
-void perform_kind(Job& job, const Plan& plan, const RunOptions& options) {
+void perform_kind(StageJob& job, const Plan& plan, const RunOptions& options) {
   const Task pulls(options.cancelled, {});
   const WorksFor scope(pulls);
   const Stage& stage = plan.stages[job.stage];
   switch (job.kind) {
-    case Job::Kind::begin:
+    case StageJob::Kind::begin:
       break;
-    case Job::Kind::look_up:
+    case StageJob::Kind::look_up:
       look_up(job, plan, options);
       break;
-    case Job::Kind::load:
+    case StageJob::Kind::load:
       load(job, stage, stage.known->names, options.cache);
       break;
-    case Job::Kind::compute:
+    case StageJob::Kind::compute:
       if (claim(job, stage, options) && !find_elsewhere(job, stage, options.cache)) compute(job, stage, options);
       break;
-    case Job::Kind::store:
+    case StageJob::Kind::store:
       store(job, stage, options);
       break;
   }
@@ -268,7 +268,7 @@ bool is_being_made(const Stage& stage, const Resolution& known, const RunOptions
   return computes && is_worth_a_lease(stage, known, options) && options.cache->is_leased(known.key);
 }
 
-void perform(Job& job, const Plan& plan, const RunOptions& options) {
+void perform(StageJob& job, const Plan& plan, const RunOptions& options) {
   const GraphNode& node = *plan.stages[job.stage].node;
   const auto fail = [&](const std::string& about, const std::string& reason) {
     const std::string message = job.context ? of_targets(*job.context, reason) : reason;
@@ -302,7 +302,7 @@ void perform(Job& job, const Plan& plan, const RunOptions& options) {
   }
   if (job.busy) return;
   if (job.context) job.made_folders = job.context->made_folders();
-  if (job.kind == Job::Kind::store) job.lease.reset();
+  if (job.kind == StageJob::Kind::store) job.lease.reset();
   job.context.reset();  // lets go of the inputs
 }
 

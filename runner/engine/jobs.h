@@ -7,7 +7,7 @@
 namespace terrazzo {
 
 /// A piece of work for one stage, and its result. Created by the coordinator, run by `perform` on a worker.
-struct Job {
+struct StageJob {
   enum class Kind : uint8_t {
     begin,    ///< nothing to do; wakes the coordinator
     look_up,  ///< resolve the stage's key now that its inputs have names
@@ -38,12 +38,12 @@ struct Job {
   /// Of its stage.
   const Digest& key(const Plan& plan) const { return resolution ? resolution->key : plan.stages[stage].known->key; }
 };
-using JobPtr = std::shared_ptr<Job>;
+using StageJobPtr = std::shared_ptr<StageJob>;
 
 /// Whether a stage that has to run is being computed by another process, which will store its names.
 bool is_being_made(const Stage& stage, const Resolution& known, const RunOptions& options);
 
 /// Runs the job on any thread; never throws. Reads only settled parts of the plan.
-void perform(Job& job, const Plan& plan, const RunOptions& options);
+void perform(StageJob& job, const Plan& plan, const RunOptions& options);
 
 }  // namespace terrazzo

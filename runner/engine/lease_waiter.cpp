@@ -18,7 +18,7 @@ LeaseWaiter::~LeaseWaiter() {
   if (thread_.joinable()) thread_.join();
 }
 
-void LeaseWaiter::add(JobPtr job) {
+void LeaseWaiter::add(StageJobPtr job) {
   const std::lock_guard lock(mutex_);
   Entry entry;
   entry.job = std::move(job);

@@ -24,14 +24,14 @@ class LeaseWaiter {
   static constexpr std::chrono::milliseconds cancel_pause{50};
 
   /// Whether another process is still computing it. Called without locks; must not throw.
-  using Taken = std::function<bool(const Job&)>;
+  using Taken = std::function<bool(const StageJob&)>;
   /// The time span of a wait.
   struct Wait {
     Clock::time_point start, end;
     int row = 0;  ///< for timelines: the lowest number that was free when the wait began
   };
   /// Receives a job back. Called once per job, without locks, on the waiter's thread; must not throw.
-  using GiveBack = std::function<void(JobPtr, const Wait&)>;
+  using GiveBack = std::function<void(StageJobPtr, const Wait&)>;
 
   /// `cancelled` may be null; once set, all jobs are given back.
   LeaseWaiter(Taken taken, GiveBack give_back, const std::atomic<bool>* cancelled);
@@ -40,7 +40,7 @@ class LeaseWaiter {
   LeaseWaiter(const LeaseWaiter&) = delete;
   LeaseWaiter& operator=(const LeaseWaiter&) = delete;
 
-  void add(JobPtr job);
+  void add(StageJobPtr job);
   /// Polls all jobs now, as a result has been stored.
   void look_now();
   /// Gives all jobs back, now and those added later: the run is ending.
@@ -48,7 +48,7 @@ class LeaseWaiter {
 
  private:
   struct Entry {
-    JobPtr job;
+    StageJobPtr job;
     Wait wait;
     Clock::time_point due;
     Clock::duration pause;

@@ -46,7 +46,7 @@ void Outcomes::rests(int stage) {
   note(stage);
 }
 
-void Outcomes::computed(const Job& job) {
+void Outcomes::computed(const StageJob& job) {
   const Stage& s = plan_.stages[job.stage];
   StageOutcome& outcome = stages_[job.stage];
   outcome.kind = job.made_elsewhere ? StageOutcome::Kind::reused : StageOutcome::Kind::run;
@@ -64,7 +64,7 @@ void Outcomes::computed(const Job& job) {
   if (options_.history) options_.history->remember(s.node->name, s.known->ingredients, job.record->seconds);
 }
 
-void Outcomes::failed(const Job& job) {
+void Outcomes::failed(const StageJob& job) {
   if (job.blames_input.empty() || blamed_inputs_.insert(job.blames_input).second)
     failures_.push_back({job.blames_node.empty() ? plan_.stages[job.stage].node->name : job.blames_node, *job.failure});
   stages_[job.stage].kind = StageOutcome::Kind::failed;
@@ -86,7 +86,7 @@ void Outcomes::skipped(int stage, int cause) {
   if (options_.observer) options_.observer->skipped(plan_.stages[stage], outcome.because);
 }
 
-void Outcomes::ended(const Job& job) {
+void Outcomes::ended(const StageJob& job) {
   made_folders_.insert(made_folders_.end(), job.made_folders.begin(), job.made_folders.end());
   if (job.span.end > 0 && !job.busy) spans_.push_back(job.span);
 }

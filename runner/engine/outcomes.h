@@ -20,15 +20,15 @@ class Outcomes {
   /// The stage certainly will not be computed for a reader. Later calls do nothing.
   void rests(int stage);
   /// A compute job succeeded, here or in another process.
-  void computed(const Job& job);
+  void computed(const StageJob& job);
   /// A job failed. Problems of an input are recorded once, however many stages read it.
-  void failed(const Job& job);
+  void failed(const StageJob& job);
   /// The plan knows that the stage fails.
   void refused(int stage);
   /// The stage needs what the stage `cause` was to give, which has failed or is skipped itself.
   void skipped(int stage, int cause);
   /// A job ended, successfully or not.
-  void ended(const Job& job);
+  void ended(const StageJob& job);
   void add(const Span& span) { spans_.push_back(span); }
 
   bool any_failed() const { return !failures_.empty(); }

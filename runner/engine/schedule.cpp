@@ -39,7 +39,7 @@ class ThreadNumbers {
   std::map<std::thread::id, int> numbers_;
 };
 
-std::string_view span_name(Job::Kind kind) {
+std::string_view span_name(StageJob::Kind kind) {
   constexpr std::array<std::string_view, 5> names = {"begin", "look up", "load", "run", "store"};
   return names[static_cast<size_t>(kind)];
 }
@@ -58,28 +58,28 @@ class JobGraph {
   }
 
   void run() {
-    coordinate_.try_put(std::make_shared<Job>());
+    coordinate_.try_put(std::make_shared<StageJob>());
     graph_.wait_for_all();
   }
 
  private:
-  using Coordinate = flow::multifunction_node<JobPtr, std::tuple<JobPtr>>;
+  using Coordinate = flow::multifunction_node<StageJobPtr, std::tuple<StageJobPtr>>;
 
   double seconds_at(Clock::time_point t) const { return std::chrono::duration<double>(t - start_).count(); }
 
-  JobPtr work(const JobPtr& job) {
+  StageJobPtr work(const StageJobPtr& job) {
     job->span = {std::string(span_name(job->kind)), job->stage, threads_.current(), seconds_at(Clock::now()), 0};
     perform(*job, plan_, options_);
     job->span.end = seconds_at(Clock::now());
     return job;
   }
 
-  void coordinate(const JobPtr& job, Coordinate::output_ports_type& ports) {
+  void coordinate(const StageJobPtr& job, Coordinate::output_ports_type& ports) {
     try {
-      const bool stored = job->kind == Job::Kind::store;
+      const bool stored = job->kind == StageJob::Kind::store;
       coordinator_.settle(job);
-      for (JobPtr& next : coordinator_.admit()) std::get<0>(ports).try_put(next);
-      for (JobPtr& busy : coordinator_.take_postponed()) {
+      for (StageJobPtr& next : coordinator_.admit()) std::get<0>(ports).try_put(next);
+      for (StageJobPtr& busy : coordinator_.take_postponed()) {
         graph_.reserve_wait();
         waiter_.add(std::move(busy));
       }
@@ -93,7 +93,7 @@ class JobGraph {
     }
   }
 
-  void take_back(const JobPtr& job, const LeaseWaiter::Wait& wait) {
+  void take_back(const StageJobPtr& job, const LeaseWaiter::Wait& wait) {
     job->span = {"wait", job->stage, first_waiting_row + wait.row, seconds_at(wait.start), seconds_at(wait.end)};
     job->resumed = true;
     coordinate_.try_put(job);
@@ -106,11 +106,13 @@ class JobGraph {
   const Clock::time_point start_;
   ThreadNumbers threads_;
   flow::graph graph_;
-  flow::function_node<JobPtr, JobPtr> work_{graph_, flow::unlimited, [this](const JobPtr& job) { return work(job); }};
-  Coordinate coordinate_{graph_, flow::serial,
-                         [this](const JobPtr& job, Coordinate::output_ports_type& ports) { coordinate(job, ports); }};
-  LeaseWaiter waiter_{[this](const Job& job) { return options_.cache->is_leased(job.key(plan_)); },
-                      [this](const JobPtr& job, const LeaseWaiter::Wait& wait) { take_back(job, wait); },
+  flow::function_node<StageJobPtr, StageJobPtr> work_{graph_, flow::unlimited,
+                                                      [this](const StageJobPtr& job) { return work(job); }};
+  Coordinate coordinate_{graph_, flow::serial, [this](const StageJobPtr& job, Coordinate::output_ports_type& ports) {
+                           coordinate(job, ports);
+                         }};
+  LeaseWaiter waiter_{[this](const StageJob& job) { return options_.cache->is_leased(job.key(plan_)); },
+                      [this](const StageJobPtr& job, const LeaseWaiter::Wait& wait) { take_back(job, wait); },
                       options_.cancelled};
 };
 

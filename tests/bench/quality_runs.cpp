@@ -116,10 +116,15 @@ fs::path result_in(const fs::path& folder) {
 }  // namespace
 
 const std::vector<Column>& columns() {
-  static const std::vector<Column> all = {
-      {"swd", &Quality::swd, 4},       {"coherence", &Quality::coherence, 3}, {"complete", &Quality::completeness, 3},
-      {"acf", &Quality::acf, 4},       {"broken", &Quality::broken, 4},       {"verbatim", &Quality::verbatim, 3},
-      {"repeat", &Quality::repeat, 3}, {"structure", &Quality::structure, 3}, {"cooccur", &Quality::cooccurrence, 4}};
+  static const std::vector<Column> all = {{"swd", &QualityFigures::swd, 4},
+                                          {"coherence", &QualityFigures::coherence, 3},
+                                          {"complete", &QualityFigures::completeness, 3},
+                                          {"acf", &QualityFigures::acf, 4},
+                                          {"broken", &QualityFigures::broken, 4},
+                                          {"verbatim", &QualityFigures::verbatim, 3},
+                                          {"repeat", &QualityFigures::repeat, 3},
+                                          {"structure", &QualityFigures::structure, 3},
+                                          {"cooccur", &QualityFigures::cooccurrence, 4}};
   return all;
 }
 
@@ -157,7 +162,7 @@ Result synthesize(const Case& c, const Program& program, int seed, const fs::pat
   result.row["seconds"] = seconds_of_programs() - before;
   result.output = read(result_in(folder));
   ComparedPlanes planes = compared_planes(*Material::of(result.exemplar), *Material::of(result.output), {});
-  const Quality q = measure_quality(std::move(planes.exemplar), std::move(planes.output), {}, Task());
+  const QualityFigures q = measure_quality(std::move(planes.exemplar), std::move(planes.output), {}, Task());
   for (const Column& column : columns()) result.row[column.name] = q.*column.figure;
   return result;
 }

@@ -14,7 +14,7 @@ namespace terrazzo::bench {
 /// A figure, and its column in a table.
 struct Column {
   std::string name;
-  double Quality::*figure;
+  double QualityFigures::*figure;
   int decimals;
 };
 const std::vector<Column>& columns();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int sections = 16;  // that a line is divided into
 
-struct Tuning {
+struct BedJointsTuning {
   double thicker = 0.02;
   double clearly_thicker = 1.1;
   double other_joint = 0.6;
@@ -23,27 +23,27 @@ struct Tuning {
   int thicknesses = 4;
   int unlike_sections = 4;
 };
-const Tunable<Tuning> tuning(
+const Tunable<BedJointsTuning> bed_joints_tuning(
     "bed_joints",
     {
-        {&Tuning::thicker, "thicker", "share of a period",
+        {&BedJointsTuning::thicker, "thicker", "share of a period",
          "from one half of a thickness that is tried to the next. Higher: thick joints are found; lower: thin ones are "
          "measured more exactly",
          "not measured: taken over from the code before constants were listed", 0, 0.25},
-        {&Tuning::clearly_thicker, "clearly_thicker", "factor",
+        {&BedJointsTuning::clearly_thicker, "clearly_thicker", "factor",
          "by which a thicker joint must be clearer. Higher: thin joints; lower: rims of bricks belong to them",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::other_joint, "other_joint", "share of the clearest joint",
+        {&BedJointsTuning::other_joint, "other_joint", "share of the clearest joint",
          "what another of the period must have. Higher: courses of two heights are taken for one; lower: marks along "
          "courses are taken for joints",
          "not measured: taken over from the code before constants were listed", 0.05},
-        {&Tuning::least_course, "least_course", "share of a period",
+        {&BedJointsTuning::least_course, "least_course", "share of a period",
          "higher: low courses are overlooked; lower: the rims of one joint are taken for two",
          "not measured: taken over from the code before constants were listed", 0, 0.5},
-        {&Tuning::thicknesses, "thicknesses", "thicknesses",
+        {&BedJointsTuning::thicknesses, "thicknesses", "thicknesses",
          "that are tried, from that of a pixel on. Higher: thick joints are found; costs time",
          "not measured: taken over from the code before constants were listed", 1, 100},
-        {&Tuning::unlike_sections, "unlike_sections", "sections of sixteen",
+        {&BedJointsTuning::unlike_sections, "unlike_sections", "sections of sixteen",
          "of a line, which need not show the joint. Higher: broken joints are found; lower: marks that do not reach "
          "across are not",
          "not measured: three in four must", 0, 15},
@@ -92,7 +92,7 @@ double ridge(const std::vector<Line>& lines, int middle, int half_breadth) {
   if (length == 0) return 0;
   std::array<double, sections> along{};
   for (size_t s = 0; s < sections; s++) along[s] = dot(apart[s], total) / length;
-  const auto nth = along.begin() + tuning->unlike_sections;
+  const auto nth = along.begin() + bed_joints_tuning->unlike_sections;
   std::nth_element(along.begin(), nth, along.end());
   return *nth;
 }
@@ -113,12 +113,12 @@ std::vector<double> folded_ridges(const std::vector<Line>& lines, double period,
 
 /// The clearest ridges that lie a course apart.
 std::vector<double> peaks(const std::vector<double>& ridges, double period, int half_breadth) {
-  const int bins = int(ridges.size()), apart = std::max(6 * half_breadth, int(tuning->least_course * bins));
+  const int bins = int(ridges.size()), apart = std::max(6 * half_breadth, int(bed_joints_tuning->least_course * bins));
   std::vector<double> places, left = ridges;
   const double clearest = *std::ranges::max_element(ridges);
   for (;;) {
     const int top = int(std::ranges::max_element(left) - left.begin());
-    if (left[size_t(top)] < tuning->other_joint * clearest) break;
+    if (left[size_t(top)] < bed_joints_tuning->other_joint * clearest) break;
     double weights = 0, moment = 0;
     for (int k = -half_breadth - 1; k <= half_breadth + 1; k++) {
       const double w = std::max(0.0, ridges[size_t(wrap(top + k, bins))]);
@@ -140,11 +140,11 @@ BedJoints find_bed_joints(const CourseSheet& sheet, double period) {
   BedJoints out;
   double clearest = 0;
   int half_breadth = -1;
-  for (int i = 0; i < tuning->thicknesses; i++) {
-    half_breadth = std::max(half_breadth + 1, int(i * tuning->thicker * period + 0.5));
+  for (int i = 0; i < bed_joints_tuning->thicknesses; i++) {
+    half_breadth = std::max(half_breadth + 1, int(i * bed_joints_tuning->thicker * period + 0.5));
     const std::vector<double> ridges = folded_ridges(lines, period, half_breadth);
     const double clear = *std::ranges::max_element(ridges);
-    if (clear <= tuning->clearly_thicker * clearest) continue;
+    if (clear <= bed_joints_tuning->clearly_thicker * clearest) continue;
     clearest = clear;
     out = {half_breadth, peaks(ridges, period, half_breadth)};
   }

@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct CoursingTuning {
   double smallest_period = 14;
   double largest_period = 96;
   double separability_of_bricks = 1.1;
@@ -34,71 +34,71 @@ struct Tuning {
   int least_courses = 3;
   int least_inside = 3;
 };
-const Tunable<Tuning> tuning(
+const Tunable<CoursingTuning> coursing_tuning(
     "coursing",
     {
-        {&Tuning::smallest_period, "smallest_period", "pixels",
+        {&CoursingTuning::smallest_period, "smallest_period", "pixels",
          "higher: fine walls are left to seams; lower: courses whose joints are lost are laid",
          "not measured: finer joints are lost", 4},
-        {&Tuning::largest_period, "largest_period", "pixels",
+        {&CoursingTuning::largest_period, "largest_period", "pixels",
          "more is looked at where pixels are larger. Higher: joints are placed more exactly; costs time",
          "not measured: bounds the time"},
-        {&Tuning::separability_of_bricks, "separability_of_bricks", "deviations",
+        {&CoursingTuning::separability_of_bricks, "separability_of_bricks", "deviations",
          "of joints like bed joints, between them and bricks. Higher: fewer walls are laid; lower: plaster is cut into "
          "stripes",
          "coursing"},
-        {&Tuning::separability_of_boards, "separability_of_boards", "deviations",
+        {&CoursingTuning::separability_of_boards, "separability_of_boards", "deviations",
          "the same of boards, which are cut so seldom that a wrong joint costs less. Higher: fewer floors are laid; "
          "lower: boards are cut at knots",
          "not measured: the demands were measured together, not one by one"},
-        {&Tuning::most_aligned, "most_aligned", "share of the joints",
+        {&CoursingTuning::most_aligned, "most_aligned", "share of the joints",
          "that may go on in the course below. Higher: tiles are laid as bricks, and cut up; lower: walls with some "
          "joints in line are not laid",
          "not measured: the demands were measured together, not one by one"},
-        {&Tuning::separability_by_themselves, "separability_by_themselves", "deviations",
+        {&CoursingTuning::separability_by_themselves, "separability_by_themselves", "deviations",
          "of joints that were learnt, which were chosen for how they stand out. Higher: fewer walls are laid; lower: "
          "stains are taken for joints",
          "not measured: the demands were measured together, not one by one"},
-        {&Tuning::most_aligned_by_themselves, "most_aligned_by_themselves", "share of the joints",
+        {&CoursingTuning::most_aligned_by_themselves, "most_aligned_by_themselves", "share of the joints",
          "as most_aligned, of joints that were learnt",
          "not measured: the demands were measured together, not one by one"},
-        {&Tuning::separability_to_learn, "separability_to_learn", "deviations",
+        {&CoursingTuning::separability_to_learn, "separability_to_learn", "deviations",
          "of joints like bed joints, for others to be learnt. Higher: fewer walls are laid; lower: joints are learnt "
          "where there are none",
          "not measured: the demands were measured together, not one by one"},
-        {&Tuning::least_joints, "least_joints", "joints to a course",
+        {&CoursingTuning::least_joints, "least_joints", "joints to a course",
          "higher: floors of long boards are left as they are; lower: courses are laid that can hardly be cut",
          "not measured: the demands were measured together, not one by one"},
-        {&Tuning::least_jointed, "least_jointed", "share of the courses",
+        {&CoursingTuning::least_jointed, "least_jointed", "share of the courses",
          "that have a joint. Higher: floors of long boards are left as they are; lower: few courses have all the "
          "joints",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::shortest_board, "shortest_board", "course heights",
+        {&CoursingTuning::shortest_board, "shortest_board", "course heights",
          "from which on bricks count as boards. Higher: less is laid; lower: bricks with faint joints are laid",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::least_shown, "least_shown", "share of the exemplar",
+        {&CoursingTuning::least_shown, "least_shown", "share of the exemplar",
          "that whole courses must take: no result shows those that its border cuts off. Higher: less is laid; lower: "
          "results lose what was cut off",
          "course_layout"},
-        {&Tuning::least_astray, "least_astray", "joints to each brick of a lattice",
+        {&CoursingTuning::least_astray, "least_astray", "joints to each brick of a lattice",
          "that do not come again with it. Higher: lattices keep bricks whole by themselves; lower: bricks are laid "
          "that are whole already",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::least_between, "least_between", "share of the variance",
+        {&CoursingTuning::least_between, "least_between", "share of the variance",
          "that lies between bricks. Higher: bricks that differ are left to the lattice; lower: those are laid of which "
          "no one can tell two halves",
          "course_layout", 0, 1},
-        {&Tuning::clear, "clear", "deviations",
+        {&CoursingTuning::clear, "clear", "deviations",
          "from which on joints are clear, and seams look for others less far. Higher: missed joints are found; lower: "
          "boards keep no stubs of joints",
          "not measured: only near and far reaches were compared"},
-        {&Tuning::least_of_kind, "least_of_kind", "courses",
+        {&CoursingTuning::least_of_kind, "least_of_kind", "courses",
          "of each kind. Higher: less is laid; lower: one course comes all over",
          "not measured: the demands were measured together, not one by one", 1},
-        {&Tuning::least_courses, "least_courses", "courses",
+        {&CoursingTuning::least_courses, "least_courses", "courses",
          "in all. Higher: less is laid; lower: there is hardly anything to choose from",
          "not measured: the demands were measured together, not one by one", 1},
-        {&Tuning::least_inside, "least_inside", "rows",
+        {&CoursingTuning::least_inside, "least_inside", "rows",
          "of a course that belong to no joint. Higher: thin courses are not laid; lower: their joints are guessed from "
          "a row or two",
          "not measured: taken over from the code before constants were listed", 1},
@@ -110,11 +110,12 @@ struct Demands {
   double bricks, boards, most_aligned;
 };
 Demands of_joints_like_beds() {
-  return {tuning->separability_of_bricks, tuning->separability_of_boards, tuning->most_aligned};
+  return {coursing_tuning->separability_of_bricks, coursing_tuning->separability_of_boards,
+          coursing_tuning->most_aligned};
 }
 Demands of_joints_by_themselves() {
-  const double separability = tuning->separability_by_themselves;
-  return {separability, separability, tuning->most_aligned_by_themselves};
+  const double separability = coursing_tuning->separability_by_themselves;
+  return {separability, separability, coursing_tuning->most_aligned_by_themselves};
 }
 
 /// All courses of one kind of which the exemplar shows something, whole or not.
@@ -206,8 +207,8 @@ double share_between_bricks(const CourseSheet& sheet, const std::vector<Exemplar
 /// Whether bricks are whole where the lattice puts them together: if its steps are theirs, and no one can tell two
 /// halves of theirs that do not belong together. Nor are they better cut at joints of which no one is sure.
 bool lattice_keeps_whole(const CourseSheet& sheet, const Coursing& m, double step) {
-  if (joints_astray(m.courses, step, m.half_joint) >= tuning->least_astray) return false;
-  return !m.is_clear() || share_between_bricks(sheet, m.courses, m.half_joint) < tuning->least_between;
+  if (joints_astray(m.courses, step, m.half_joint) >= coursing_tuning->least_astray) return false;
+  return !m.is_clear() || share_between_bricks(sheet, m.courses, m.half_joint) < coursing_tuning->least_between;
 }
 
 /// From joint to joint, as most are: where the exemplar shows few bricks from end to end, the mean of all.
@@ -235,8 +236,8 @@ bool are_separable(const std::vector<ExemplarCourse>& courses, double separabili
     jointed += of_course > 0 ? 1 : 0;
   }
   const auto count = double(courses.size());
-  if (joints < tuning->least_joints * count || jointed < tuning->least_jointed * count) return false;
-  const bool boards = usual_brick(courses) >= tuning->shortest_board * (courses[0].end - courses[0].begin);
+  if (joints < coursing_tuning->least_joints * count || jointed < coursing_tuning->least_jointed * count) return false;
+  const bool boards = usual_brick(courses) >= coursing_tuning->shortest_board * (courses[0].end - courses[0].begin);
   return separability >= (boards ? demands.boards : demands.bricks);
 }
 
@@ -265,15 +266,16 @@ SeparableCourses whole_courses(const CourseSheet& sheet, Coursing& m, int kind, 
   HeadJoints head_joints(sheet, courses, m.half_joint);
   std::erase_if(courses, [&](const ExemplarCourse& c) {
     const CourseInside inside(c, m.half_joint);
-    return inside.begin < 0 || inside.end > sheet.breadth || inside.end - inside.begin < tuning->least_inside;
+    return inside.begin < 0 || inside.end > sheet.breadth || inside.end - inside.begin < coursing_tuning->least_inside;
   });
-  if (int(courses.size()) < tuning->least_of_kind) return {};
+  if (int(courses.size()) < coursing_tuning->least_of_kind) return {};
   const double separability = head_joints.separability();
   m.separability = kind == 0 ? separability : std::min(m.separability, separability);
   if (separability < of_joints_like_beds().boards) return {};
   std::vector<std::vector<double>> likeness = find_head_joints(courses, head_joints, task);
   if (are_separable(courses, separability, of_joints_like_beds())) return {courses, of_joints_like_beds()};
-  if (separability < tuning->separability_to_learn || !head_joints.learn_from(courses, std::move(likeness))) return {};
+  if (separability < coursing_tuning->separability_to_learn || !head_joints.learn_from(courses, std::move(likeness)))
+    return {};
   m.separability = std::min(m.separability, head_joints.separability());
   find_head_joints(courses, head_joints, task);
   if (!are_separable(courses, head_joints.separability(), of_joints_by_themselves())) return {};
@@ -283,7 +285,7 @@ SeparableCourses whole_courses(const CourseSheet& sheet, Coursing& m, int kind, 
 }  // namespace
 
 bool Coursing::is_clear() const {
-  return separability >= tuning->clear;
+  return separability >= coursing_tuning->clear;
 }
 
 Coursing find_coursing(const Appearance& appearance, const Task& task) {
@@ -295,11 +297,11 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
   const Lattice bands = appearance.lattice().level_bands(!out.axes.upright);
   if (bands.rank == 0) return {};
   out.period = std::abs(out.axes.upright ? bands.first.x() : bands.first.y());
-  while (out.period > tuning->largest_period && out.level + 1 < int(appearance.levels().size())) {
+  while (out.period > coursing_tuning->largest_period && out.level + 1 < int(appearance.levels().size())) {
     out.period /= 2;
     out.level++;
   }
-  if (out.period < tuning->smallest_period) return {};
+  if (out.period < coursing_tuning->smallest_period) return {};
   const CourseSheet sheet(appearance.levels()[size_t(out.level)], out.axes);
   const BedJoints beds = find_bed_joints(sheet, out.period);
   out.beds = beds.places;
@@ -312,8 +314,8 @@ Coursing find_coursing(const Appearance& appearance, const Task& task) {
     out.courses.insert(out.courses.end(), found.courses.begin(), found.courses.end());
     most_aligned = std::min(most_aligned, found.met.most_aligned);
   }
-  if (int(out.courses.size()) < tuning->least_courses) return {};
-  if (shown_share(out.courses, sheet.breadth) < tuning->least_shown) return {};
+  if (int(out.courses.size()) < coursing_tuning->least_courses) return {};
+  if (shown_share(out.courses, sheet.breadth) < coursing_tuning->least_shown) return {};
   // What goes on across courses would be cut up with each of them. Lattices keep tiles in line, and whole, by
   // themselves.
   if (aligned_share(out.courses, out.half_joint) > most_aligned) return {};

@@ -14,9 +14,9 @@ namespace terrazzo {
 namespace {
 
 constexpr int stagger = 7;
-constexpr int sections = 6;  // that a course is divided into across
+constexpr int column_sections = 6;  // that a course is divided into across
 
-struct Tuning {
+struct HeadJointsTuning {
   double regularised = 1e-3;
   double surely_bed = 0.6;
   double sure = 0.75;
@@ -29,43 +29,43 @@ struct Tuning {
   int most_samples = 1 << 17;
   int unlike_sections = 1;
 };
-const Tunable<Tuning> tuning(
+const Tunable<HeadJointsTuning> head_joints_tuning(
     "head_joints",
     {
-        {&Tuning::regularised, "regularised", "share of the mean variance",
+        {&HeadJointsTuning::regularised, "regularised", "share of the mean variance",
          "added to each trait. Higher: traits that vary little count for less; lower: noise in them is taken for a "
          "difference",
          "not measured: taken over from the code before constants were listed", 0.000000001},
-        {&Tuning::surely_bed, "surely_bed", "share of half a joint",
+        {&HeadJointsTuning::surely_bed, "surely_bed", "share of half a joint",
          "around its middle, of which joints are learnt. Higher: more pixels; lower: no rims of bricks",
          "not measured: taken over from the code before constants were listed", 0, 1},
-        {&Tuning::sure, "sure", "likelihood of a joint, 0..1",
+        {&HeadJointsTuning::sure, "sure", "likelihood of a joint, 0..1",
          "higher: faint joints are missed; lower: marks within bricks are taken for joints",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::unsure, "unsure", "likelihood of a joint, 0..1",
+        {&HeadJointsTuning::unsure, "unsure", "likelihood of a joint, 0..1",
          "down to which a joint goes on to its sides. Higher: two near one another are kept apart; lower: one that is "
          "worn in its middle is not taken for two",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::outstanding_deviations, "outstanding_deviations", "deviations",
+        {&HeadJointsTuning::outstanding_deviations, "outstanding_deviations", "deviations",
          "by which columns must stand out for joints to be learnt of them. Higher: only clear joints are learnt; "
          "lower: marks within bricks are, too",
          "not measured: only with and without were compared"},
-        {&Tuning::least_learnt, "least_learnt", "joints",
+        {&HeadJointsTuning::least_learnt, "least_learnt", "joints",
          "must stand out. Higher: less is learnt; lower: joints are learnt of chance",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::least_learnt_each, "least_learnt_each", "joints to a course",
+        {&HeadJointsTuning::least_learnt_each, "least_learnt_each", "joints to a course",
          "the same. Higher: less is learnt; lower: joints are learnt of chance",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::margin_of_joint, "margin_of_joint", "half breadths of a joint",
+        {&HeadJointsTuning::margin_of_joint, "margin_of_joint", "half breadths of a joint",
          "that a course loses to its bed joints on each side. Higher: worn bricks have no rim; lower: thin courses "
          "keep rows",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::margin, "margin", "share of a course",
+        {&HeadJointsTuning::margin, "margin", "share of a course",
          "that it loses at least. Higher: bed joints may be uneven; lower: thin courses keep rows",
          "not measured: taken over from the code before constants were listed", 0, 0.5},
-        {&Tuning::most_samples, "most_samples", "pixels",
+        {&HeadJointsTuning::most_samples, "most_samples", "pixels",
          "higher: joints are learnt more exactly of large exemplars; costs time", "not measured: bounds the time", 1},
-        {&Tuning::unlike_sections, "unlike_sections", "sections of six",
+        {&HeadJointsTuning::unlike_sections, "unlike_sections", "sections of six",
          "of a course across, which need not look like the joint. Higher: broken joints are found; lower: marks that "
          "do not reach across are not",
          "not measured: all but one of six", 0, 5},
@@ -116,7 +116,7 @@ double deviation_of_lesser(const std::vector<std::vector<double>>& values) {
 }
 
 /// Where there is at least so much, and most of all that is nearer than `apart`.
-std::vector<int> peaks(const std::vector<double>& values, double least, int apart) {
+std::vector<int> joint_peaks(const std::vector<double>& values, double least, int apart) {
   std::vector<int> candidates, out;
   for (int u = 0; u < int(values.size()); u++)
     if (values[size_t(u)] > least) candidates.push_back(u);
@@ -133,8 +133,8 @@ int radius_of(int half_breadth) {
 }  // namespace
 
 CourseInside::CourseInside(const ExemplarCourse& course, int half_breadth) {
-  const double margin =
-      std::max(tuning->margin_of_joint * half_breadth + 1, tuning->margin * (course.end - course.begin));
+  const double margin = std::max(head_joints_tuning->margin_of_joint * half_breadth + 1,
+                                 head_joints_tuning->margin * (course.end - course.begin));
   begin = int(std::floor(course.begin + margin));
   end = int(std::floor(course.end - margin));
 }
@@ -147,9 +147,9 @@ class HeadJoints::Samples {
         bricks(trait_count(sheet)),
         sheet_(sheet),
         radius_(radius_of(half_breadth)),
-        surely_(int(tuning->surely_bed * half_breadth + 0.5)),
+        surely_(int(head_joints_tuning->surely_bed * half_breadth + 0.5)),
         surely_not_(2 * half_breadth + 2),
-        step_(std::max(1, int(int64_t{sheet.length} * sheet.breadth / tuning->most_samples))) {}
+        step_(std::max(1, int(int64_t{sheet.length} * sheet.breadth / head_joints_tuning->most_samples))) {}
 
   /// Those of these rows that a pattern has which shows every column.
   void add_rows(int begin, int end, Moments<>& to) {
@@ -185,7 +185,7 @@ class HeadJoints::Samples {
 
 HeadJoints::HeadJoints(const CourseSheet& sheet, const std::vector<ExemplarCourse>& courses, int half_breadth)
     : sheet_(sheet), half_breadth_(half_breadth) {
-  const double surely = tuning->surely_bed;
+  const double surely = head_joints_tuning->surely_bed;
   Samples samples(sheet, half_breadth);
   for (const ExemplarCourse& c : courses) {
     for (const double bed : {c.begin, c.end}) {
@@ -207,7 +207,7 @@ void HeadJoints::separate(const Samples& samples) {
   MatrixXd spread = joints.covariance_matrix() + bricks.covariance_matrix();
   const double variance = spread.trace() / double(apart.size());
   if (!(variance > 0)) return;
-  spread.diagonal().array() += tuning->regularised * variance;
+  spread.diagonal().array() += head_joints_tuning->regularised * variance;
   weights_ = solve_positive_definite(spread, apart);
   const double squared = weights_.dot(apart);
   if (!(squared > 0)) return;
@@ -220,7 +220,7 @@ void HeadJoints::separate(const Samples& samples) {
 std::vector<double> HeadJoints::likeness(const ExemplarCourse& course) const {
   const CourseInside inside(course, half_breadth_);
   const int height = inside.end - inside.begin;
-  using Sections = std::array<double, sections>;
+  using Sections = std::array<double, column_sections>;
   std::vector<Sections> columns(size_t(sheet_.length));
   const auto of = [&](int u, int v) {
     const Traits f = traits_of(sheet_, u, v, radius_of(half_breadth_));
@@ -229,18 +229,18 @@ std::vector<double> HeadJoints::likeness(const ExemplarCourse& course) const {
     return sum;
   };
   for (int u = 0; u < sheet_.length; u++)
-    for (int s = 0; s < sections; s++) {
-      const int first = inside.begin + s * height / sections;
-      const int end = std::max(first + 1, inside.begin + (s + 1) * height / sections);
+    for (int s = 0; s < column_sections; s++) {
+      const int first = inside.begin + s * height / column_sections;
+      const int end = std::max(first + 1, inside.begin + (s + 1) * height / column_sections);
       for (int v = first; v < end; v++) columns[size_t(u)][size_t(s)] += of(u, v) / (end - first);
     }
   std::vector<double> out(size_t(sheet_.length), 0.0);
-  const int reach = half_breadth_ / 2, unlike_sections = tuning->unlike_sections;
+  const int reach = half_breadth_ / 2, unlike_sections = head_joints_tuning->unlike_sections;
   for (int u = 0; u < sheet_.length; u++) {
     const int begin = std::max(0, u - reach), end = std::min(sheet_.length, u + reach + 1);
     Sections mean{};
     for (int k = begin; k < end; k++)
-      for (size_t s = 0; s < sections; s++) mean[s] += columns[size_t(k)][s] / (end - begin);
+      for (size_t s = 0; s < column_sections; s++) mean[s] += columns[size_t(k)][s] / (end - begin);
     std::ranges::nth_element(mean, mean.begin() + unlike_sections);
     out[size_t(u)] = mean[size_t(unlike_sections)];
   }
@@ -252,14 +252,16 @@ bool HeadJoints::learn_from(const std::vector<ExemplarCourse>& courses, std::vec
     const double usual = percentile(columns, 0.5);
     for (double& column : columns) column -= usual;
   }
-  const double least = tuning->outstanding_deviations * deviation_of_lesser(likeness);
+  const double least = head_joints_tuning->outstanding_deviations * deviation_of_lesser(likeness);
   std::vector<std::vector<int>> joints;
   double found = 0;
   for (const std::vector<double>& columns : likeness) {
-    joints.push_back(peaks(columns, least, 2 * half_breadth_ + 2));
+    joints.push_back(joint_peaks(columns, least, 2 * half_breadth_ + 2));
     found += double(joints.back().size());
   }
-  if (found < std::max(tuning->least_learnt, tuning->least_learnt_each * double(courses.size()))) return false;
+  if (found <
+      std::max(head_joints_tuning->least_learnt, head_joints_tuning->least_learnt_each * double(courses.size())))
+    return false;
 
   Samples samples(sheet_, half_breadth_);
   for (size_t i = 0; i < courses.size(); i++) samples.add_columns(CourseInside(courses[i], half_breadth_), joints[i]);
@@ -270,7 +272,7 @@ bool HeadJoints::learn_from(const std::vector<ExemplarCourse>& courses, std::vec
 std::vector<double> sure_joints(const ExemplarCourse& course) {
   std::vector<double> out;
   const size_t length = course.joint.size();
-  const auto sure = float(tuning->sure), unsure = float(tuning->unsure);
+  const auto sure = float(head_joints_tuning->sure), unsure = float(head_joints_tuning->unsure);
   for (size_t u = 0; u < length; u++) {
     const size_t begin = u;
     float most = 0;

@@ -15,7 +15,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct FindElementsTuning {
   int most_side = 256;
   int scales = 3;
   int components = 3;
@@ -24,21 +24,22 @@ struct Tuning {
   double unsure = 2;
   double sure = 6;
 };
-const Tunable<Tuning> tuning(
+const Tunable<FindElementsTuning> find_elements_tuning(
     "find_elements",
     {
-        {&Tuning::most_side, "most_side", "pixels",
+        {&FindElementsTuning::most_side, "most_side", "pixels",
          "the longest side that is looked at. Higher: narrow joints of large exemplars are found; costs time",
          "elements", 32, 4096},
-        {&Tuning::scales, "scales", "scales", "widths of joints that are tried, each twice the one before. Costs time",
-         "elements", 1, 6},
-        {&Tuning::components, "components", "components", "principal components that are looked at. Costs time",
-         "elements", 1, 16},
-        {&Tuning::clues, "clues", "signed components",
+        {&FindElementsTuning::scales, "scales", "scales",
+         "widths of joints that are tried, each twice the one before. Costs time", "elements", 1, 6},
+        {&FindElementsTuning::components, "components", "components",
+         "principal components that are looked at. Costs time", "elements", 1, 16},
+        {&FindElementsTuning::clues, "clues", "signed components",
          "that are tried at the finest scale, those best at coarser ones. Costs time", "elements", 1, 64},
-        {&Tuning::rounds, "rounds", "rounds", "of learning what joints look like. Costs time", "elements", 0, 8},
-        {&Tuning::unsure, "unsure", "quality", "that noise, grass and sand come to", "elements"},
-        {&Tuning::sure, "sure", "quality", "from which on it is certain", "elements", 0.1},
+        {&FindElementsTuning::rounds, "rounds", "rounds", "of learning what joints look like. Costs time", "elements",
+         0, 8},
+        {&FindElementsTuning::unsure, "unsure", "quality", "that noise, grass and sand come to", "elements"},
+        {&FindElementsTuning::sure, "sure", "quality", "from which on it is certain", "elements", 0.1},
     });
 
 constexpr double line_width = 1;  // of line_responses, in pixels of its scale
@@ -126,7 +127,7 @@ std::vector<Clue> clues_of(int channels) {
 Found best_partition(const Planes& picture, const Task& task) {
   std::vector<Planes> responses;
   Planes level = picture;
-  for (int s = 0; s < tuning->scales && std::min(level.size.width, level.size.height) >= 16; s++) {
+  for (int s = 0; s < find_elements_tuning->scales && std::min(level.size.width, level.size.height) >= 16; s++) {
     task.check();
     responses.push_back(line_responses(level, task));
     level = halved(level);
@@ -137,7 +138,7 @@ Found best_partition(const Planes& picture, const Task& task) {
   for (size_t s = responses.size(); s-- > 0;) {
     if (s == 0 && responses.size() > 1) {
       std::ranges::stable_sort(clues, std::greater<>(), &Clue::quality);
-      clues.resize(std::min(clues.size(), size_t(tuning->clues)));
+      clues.resize(std::min(clues.size(), size_t(find_elements_tuning->clues)));
     }
     for (Clue& clue : clues) {
       task.check();
@@ -147,7 +148,7 @@ Found best_partition(const Planes& picture, const Task& task) {
       clue.quality = std::max(clue.quality, consider(along(r, direction), r, s, best));
     }
   }
-  for (int round = 0; round < tuning->rounds && best.quality > 0; round++) {
+  for (int round = 0; round < find_elements_tuning->rounds && best.quality > 0; round++) {
     task.check();
     const Planes& r = responses[best.scale];
     const double before = best.quality;
@@ -187,15 +188,17 @@ std::vector<uint16_t> at_size(const Found& found, const std::vector<uint8_t>& he
 ElementsPtr find_elements(const Features& features, const Task& task) {
   const Planes exemplar = weighted_planes(features, task);
   Planes picture = exemplar;
-  while (std::max(picture.size.width, picture.size.height) > tuning->most_side) picture = halved(picture);
-  const Found found = best_partition(leading_planes(picture, tuning->components, task), task);
+  while (std::max(picture.size.width, picture.size.height) > find_elements_tuning->most_side) picture = halved(picture);
+  const Found found = best_partition(leading_planes(picture, find_elements_tuning->components, task), task);
   if (found.quality <= 0) return nullptr;
   auto out = std::make_shared<Elements>();
   out->size = exemplar.size;
   const std::vector<uint8_t> relief = relief_at_size(found, exemplar.size, exemplar.wraps);
   out->at = at_size(found, relief, exemplar.size, exemplar.wraps);
   out->count = found.partition.regions.count;
-  out->certainty = std::clamp((found.quality - tuning->unsure) / (tuning->sure - tuning->unsure), 0.0, 1.0);
+  out->certainty = std::clamp(
+      (found.quality - find_elements_tuning->unsure) / (find_elements_tuning->sure - find_elements_tuning->unsure), 0.0,
+      1.0);
   return out;
 }
 

@@ -11,21 +11,21 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct LineResponsesTuning {
   double centre = 1.0;
   double surround = 3.5;
 };
-const Tunable<Tuning> tuning("line_responses",
-                             {
-                                 {&Tuning::centre, "centre", "pixels",
-                                  "deviation of the Gaussian over the line. Higher: noise and fine cracks count for "
-                                  "less; lower: narrow joints are told",
-                                  "elements", 0.3, 8},
-                                 {&Tuning::surround, "surround", "pixels",
-                                  "deviation of the Gaussian over what lies around it. Higher: wide joints are lines "
-                                  "too; lower: shading across a stone is none",
-                                  "elements", 0.5, 32},
-                             });
+const Tunable<LineResponsesTuning> line_responses_tuning(
+    "line_responses", {
+                          {&LineResponsesTuning::centre, "centre", "pixels",
+                           "deviation of the Gaussian over the line. Higher: noise and fine cracks count for "
+                           "less; lower: narrow joints are told",
+                           "elements", 0.3, 8},
+                          {&LineResponsesTuning::surround, "surround", "pixels",
+                           "deviation of the Gaussian over what lies around it. Higher: wide joints are lines "
+                           "too; lower: shading across a stone is none",
+                           "elements", 0.5, 32},
+                      });
 
 /// The strength of edges at a pixel, over all channels.
 float edge_strength(const Planes& p, int x, int y) {
@@ -42,8 +42,8 @@ float edge_strength(const Planes& p, int x, int y) {
 }  // namespace
 
 Planes line_responses(const Planes& image, const Task& task) {
-  const Planes centre = box_blurred(image, tuning->centre, task);
-  const Planes surround = box_blurred(image, tuning->surround, task);
+  const Planes centre = box_blurred(image, line_responses_tuning->centre, task);
+  const Planes surround = box_blurred(image, line_responses_tuning->surround, task);
   const int n = image.channels;
   Planes out = Planes::zeros(image.size, n + 1, image.wraps);
   tbb::parallel_for(0, image.size.height, [&](int y) {

@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct PartitionTuning {
   double smallest = 4;
   double of_large = 0.45;
   double large = 0.35;
@@ -23,34 +23,34 @@ struct Tuning {
   int fewest = 5;
   double largest = 0.4;
 };
-const Tunable<Tuning> tuning(
+const Tunable<PartitionTuning> partition_tuning(
     "partition",
     {
-        {&Tuning::smallest, "smallest", "widths of a line",
+        {&PartitionTuning::smallest, "smallest", "widths of a line",
          "side of the smallest element. Higher: chips and pebbles belong to their neighbours; lower: crumbs in joints "
          "are elements",
          "elements", 1, 64},
-        {&Tuning::of_large, "of_large", "of the step from lines given up to lines kept",
+        {&PartitionTuning::of_large, "of_large", "of the step from lines given up to lines kept",
          "how high a line must be between two that are large. Higher: stones that touch are one; lower: large stones "
          "are cut along veins",
          "elements", 0, 1},
-        {&Tuning::large, "large", "of the median area", "from which on an element is large. See of_large", "elements",
-         0.01, 100},
-        {&Tuning::crumb, "crumb", "of the median area", "below which a region is a crumb in a joint. See smallest",
-         "elements", 0, 1},
-        {&Tuning::weak, "weak", "of the step from lines given up to lines kept",
+        {&PartitionTuning::large, "large", "of the median area", "from which on an element is large. See of_large",
+         "elements", 0.01, 100},
+        {&PartitionTuning::crumb, "crumb", "of the median area",
+         "below which a region is a crumb in a joint. See smallest", "elements", 0, 1},
+        {&PartitionTuning::weak, "weak", "of the step from lines given up to lines kept",
          "below which a line's pixel is weak. Higher: fewer exemplars have elements; lower: rock and soil have some",
          "elements", 0, 1},
-        {&Tuning::thin, "thin", "widths of a line",
+        {&PartitionTuning::thin, "thin", "widths of a line",
          "to the border at most, in a region that is a joint rather than an element. Higher: narrow slates are none; "
          "lower: wide joints are elements",
          "elements", 0.5, 32},
-        {&Tuning::compact_enough, "compact_enough", "1 for a square",
+        {&PartitionTuning::compact_enough, "compact_enough", "1 for a square",
          "from which on shapes count no more. Higher: long boards are less sure; lower: networks pass for elements",
          "elements", 0.01, 1},
-        {&Tuning::fewest, "fewest", "elements", "in an exemplar that has any",
+        {&PartitionTuning::fewest, "fewest", "elements", "in an exemplar that has any",
          "not measured: fewer are no choice for a synthesis", 1},
-        {&Tuning::largest, "largest", "of the exemplar", "that the largest element may take up",
+        {&PartitionTuning::largest, "largest", "of the exemplar", "that the largest element may take up",
          "not measured: what is left has too few others", 0, 1},
     });
 
@@ -151,7 +151,7 @@ void judge_shapes(Partition& p, const std::vector<uint8_t>& border, Size size, b
     s.outline += border[i];
     s.deepest = std::max(s.deepest, distance[i]);
   }
-  const double deep = tuning->thin * line, all = double(border.size());
+  const double deep = partition_tuning->thin * line, all = double(border.size());
   for (const Shape& s : shapes) {
     p.compact += s.area / all * std::min(1.0, 16 * s.area / std::max(1.0, s.outline * s.outline));
     p.largest = std::max(p.largest, s.area / all);
@@ -188,28 +188,29 @@ double spanning_share(const Regions& regions, Size size) {
 }  // namespace
 
 double Partition::quality() const {
-  if (regions.count < tuning->fewest || regions.count > most_elements) return 0;
-  const double shapes = std::max(0.0, 1 - 2 * thin) * std::min(1.0, compact / tuning->compact_enough);
-  return contrast * shapes * (1 - spanning) * std::max(0.0, 1 - 3 * weak) * (largest > tuning->largest ? 0.3 : 1);
+  if (regions.count < partition_tuning->fewest || regions.count > most_elements) return 0;
+  const double shapes = std::max(0.0, 1 - 2 * thin) * std::min(1.0, compact / partition_tuning->compact_enough);
+  return contrast * shapes * (1 - spanning) * std::max(0.0, 1 - 3 * weak) *
+         (largest > partition_tuning->largest ? 0.3 : 1);
 }
 
 Partition partitioned(const std::vector<uint8_t>& relief, Size size, bool wraps, double line) {
   const Regions basins = catchment_basins(relief, size, wraps);
   const std::vector<RegionBorder> borders = region_borders(basins, relief, size, wraps);
   const double divide = dividing_height(borders);
-  JoiningRule rule{divide, divide, 0, int64_t(tuning->smallest * line * tuning->smallest * line)};
+  JoiningRule rule{divide, divide, 0, int64_t(partition_tuning->smallest * line * partition_tuning->smallest * line)};
   Partition p{.regions = joined(basins, borders, rule)};
   const Lines first = lines_of(basins, borders, p.regions, relief, size, wraps);
-  rule.least_of_large = std::min(divide, first.at(tuning->of_large));
+  rule.least_of_large = std::min(divide, first.at(partition_tuning->of_large));
   const auto median = double(median_area(p.regions));
-  rule.large = int64_t(tuning->large * median);
-  rule.smallest = std::max(rule.smallest, int64_t(tuning->crumb * median));
+  rule.large = int64_t(partition_tuning->large * median);
+  rule.smallest = std::max(rule.smallest, int64_t(partition_tuning->crumb * median));
   p.regions = joined(basins, borders, rule);
   const Lines lines = lines_of(basins, borders, p.regions, relief, size, wraps);
   p.contrast = (lines.kept.mean() - lines.given_up.mean()) /
                std::sqrt((lines.kept.variance() + lines.given_up.variance()) / 2 + 1);
   const std::vector<uint8_t> border = border_pixels(p.regions.at, size, wraps);
-  p.weak = weak_share(relief, border, size, wraps, line, lines.at(tuning->weak));
+  p.weak = weak_share(relief, border, size, wraps, line, lines.at(partition_tuning->weak));
   judge_shapes(p, border, size, wraps, line);
   p.spanning = spanning_share(p.regions, size);
   return p;

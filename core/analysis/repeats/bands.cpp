@@ -11,7 +11,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct BandsTuning {
   double least_of_one = 0.25;
   double expected_deviation = 0.5;
   double expected_counts = 2;
@@ -31,75 +31,76 @@ struct Tuning {
   int most_repeats = 24;
   int slants = 192;
 };
-const Tunable<Tuning> tuning(
+const Tunable<BandsTuning> bands_tuning(
     "bands",
     {
-        {&Tuning::least_of_one, "least_of_one", "correlation",
+        {&BandsTuning::least_of_one, "least_of_one", "correlation",
          "by how much lines that come again only once must be more alike. Higher: longer periods need more proof; "
          "lower: an exemplar may show two periods only, and chance ones are taken",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::expected_deviation, "expected_deviation", "share of the mean",
+        {&BandsTuning::expected_deviation, "expected_deviation", "share of the mean",
          "how much repeats are expected to vary. Higher: few repeats count for less; lower: longer periods of few "
          "repeats win",
          "not measured: only with and without were compared"},
-        {&Tuning::expected_counts, "expected_counts", "repeats",
+        {&BandsTuning::expected_counts, "expected_counts", "repeats",
          "for how many repeats expected_deviation counts. Higher: few repeats count for less; lower: those that happen "
          "to agree win, with wrong, longer periods",
          "regularity"},
-        {&Tuning::deviations, "deviations", "deviations",
+        {&BandsTuning::deviations, "deviations", "deviations",
          "what nearly all of many repeats exceed. Higher: uneven courses are less certain; lower: chance is taken for "
          "courses",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::deviations_of_few, "deviations_of_few", "deviations times repeats",
+        {&BandsTuning::deviations_of_few, "deviations_of_few", "deviations times repeats",
          "the same, in addition, divided by their number. Higher: few repeats are less certain; lower: chance is taken "
          "for courses",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::often, "often", "periods",
+        {&BandsTuning::often, "often", "periods",
          "how many there must be for certainty to rise by what lines have in common. Higher: fewer exemplars profit; "
          "lower: chance does",
          "not measured: what comes again so often is no chance"},
-        {&Tuning::often_counts, "often_counts", "factor",
+        {&BandsTuning::often_counts, "often_counts", "factor",
          "what such certainty is of that of all lines. Higher: thin joints are surer; lower: they are too little of "
          "all there is",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::multiple, "multiple", "periods found before",
+        {&BandsTuning::multiple, "multiple", "periods found before",
          "from which on a longer one must be clearly better. Higher: multiples win more easily; lower: small "
          "corrections must be clear, too",
          "not measured: half-way to the next multiple"},
-        {&Tuning::clearly_better, "clearly_better", "factor",
+        {&BandsTuning::clearly_better, "clearly_better", "factor",
          "by which a multiple must be better. Higher: courses of several kinds are taken for one; lower: multiples of "
          "the true period win",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::better, "better", "correlation",
+        {&BandsTuning::better, "better", "correlation",
          "by which any period must be better. Higher: the shortest of alike periods wins; lower: their noise decides",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::least_rise, "least_rise", "pixels per pixel",
+        {&BandsTuning::least_rise, "least_rise", "pixels per pixel",
          "of lines that are not level. Higher: slightly slanted stripes are not looked for; lower: level ones are "
          "found aslant",
          "not measured: what rises less is looked for among level bands"},
-        {&Tuning::near_best, "near_best", "share of a period",
+        {&BandsTuning::near_best, "near_best", "share of a period",
          "within which the most certain one is looked for. Higher: coarse steps do no harm; costs time. Lower: less "
          "time",
          "not measured: taken over from the code before constants were listed", 0, 0.5},
-        {&Tuning::least_turned, "least_turned", "correlation",
+        {&BandsTuning::least_turned, "least_turned", "correlation",
          "of orientations, by which every second band must differ from its neighbours. Higher: mirrored columns are "
          "taken for one another; lower: chance doubles periods",
          "regularity"},
-        {&Tuning::seen, "seen", "periods",
+        {&BandsTuning::seen, "seen", "periods",
          "how many of the longest one the exemplar must show. Higher: long periods are surer; lower: longer ones are "
          "looked for",
          "not measured: taken over from the code before constants were listed", 1},
-        {&Tuning::step, "step", "pixels",
+        {&BandsTuning::step, "step", "pixels",
          "between the periods that are tried. Higher: less time; lower: narrow peaks are not missed",
          "not measured: periods are looked for more finely near the best", 0.001},
-        {&Tuning::fine_step, "fine_step", "pixels",
+        {&BandsTuning::fine_step, "fine_step", "pixels",
          "the same near the best one. Higher: less time; lower: a period is known more exactly",
          "not measured: taken over from the code before constants were listed", 0.0001},
-        {&Tuning::most_repeats, "most_repeats", "repeats",
+        {&BandsTuning::most_repeats, "most_repeats", "repeats",
          "higher: more repeats are averaged; costs time. Lower: those far off, where a period that is not quite right "
          "has drifted, have no say",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::slants, "slants", "slants from level to diagonal", "higher: thin stripes are not missed; costs time",
+        {&BandsTuning::slants, "slants", "slants from level to diagonal",
+         "higher: thin stripes are not missed; costs time",
          "not measured: the best is looked for more finely in any case", 1},
     });
 
@@ -114,15 +115,15 @@ struct LineRepeats {
   /// The same for choosing among periods: few repeats that happen to agree say less than many that nearly do. The more
   /// alike they are, the less it is chance.
   double evidence() const {
-    const double expected = tuning->expected_deviation * mean, chance = 1 - alike * alike;
-    const double counts = tuning->expected_counts;
+    const double expected = bands_tuning->expected_deviation * mean, chance = 1 - alike * alike;
+    const double counts = bands_tuning->expected_counts;
     return exceeded((count * variance + counts * chance * expected * expected) / (count + counts));
   }
 
  private:
   double exceeded(double of_variance) const {
-    if (count == 0 || (count == 1 && mean < tuning->least_of_one)) return -1;
-    return mean - (tuning->deviations + tuning->deviations_of_few / count) * std::sqrt(of_variance);
+    if (count == 0 || (count == 1 && mean < bands_tuning->least_of_one)) return -1;
+    return mean - (bands_tuning->deviations + bands_tuning->deviations_of_few / count) * std::sqrt(of_variance);
   }
 };
 
@@ -163,7 +164,7 @@ class LineCorrelation {
   /// How far lines a period apart are more alike than lines half a period apart.
   LineRepeats repeats(double period) const {
     Moments<1> exceed, alike;
-    for (double d = period; d < size() - 1 && exceed.count() < tuning->most_repeats; d += period) {
+    for (double d = period; d < size() - 1 && exceed.count() < bands_tuning->most_repeats; d += period) {
       exceed.add(at(d) - at(d - period / 2));
       alike.add(at(d) / std::max(1e-12, at(0)));
     }
@@ -173,7 +174,7 @@ class LineCorrelation {
   /// Of what lines a period apart have in common; what nearly all exceed.
   double alike(double period) const {
     Moments<1> alike;
-    for (double d = period; d < size() - 1 && alike.count() < tuning->most_repeats; d += period)
+    for (double d = period; d < size() - 1 && alike.count() < bands_tuning->most_repeats; d += period)
       alike.add(std::max({at(d - 1), at(d), at(std::min(size() - 1.0, d + 1))}) / std::max(1e-12, at(0)));
     return std::clamp(alike.mean() - std::sqrt(alike.variance()), 0.0, 1.0);
   }
@@ -187,8 +188,9 @@ Bands bands_that_rise(const Correlation& r, bool courses, double rise) {
   const LineCorrelation lines(r, courses, rise);
   double best = 0, evidence = 0;
   const auto consider = [&](double period) {
-    const double needed = best > 0 && period > tuning->multiple * best ? tuning->clearly_better * evidence : evidence;
-    if (const double e = lines.repeats(period).evidence(); e > needed + tuning->better) {
+    const double needed =
+        best > 0 && period > bands_tuning->multiple * best ? bands_tuning->clearly_better * evidence : evidence;
+    if (const double e = lines.repeats(period).evidence(); e > needed + bands_tuning->better) {
       best = period;
       evidence = e;
     }
@@ -197,11 +199,11 @@ Bands bands_that_rise(const Correlation& r, bool courses, double rise) {
     const int length = courses ? r.exemplar().height : r.exemplar().width;
     for (int n = int(length / shortest_repeat()); n >= 2; n--) consider(double(length) / n);
   } else {
-    for (double period = shortest_repeat(); period <= lines.size() / tuning->seen; period += tuning->step)
+    for (double period = shortest_repeat(); period <= lines.size() / bands_tuning->seen; period += bands_tuning->step)
       consider(period);
     LineRepeats most = best > 0 ? lines.repeats(best) : LineRepeats{};
-    const double last = best * (1 + tuning->near_best);
-    for (double period = best * (1 - tuning->near_best); period < last; period += tuning->fine_step)
+    const double last = best * (1 + bands_tuning->near_best);
+    for (double period = best * (1 - bands_tuning->near_best); period < last; period += bands_tuning->fine_step)
       if (const LineRepeats n = lines.repeats(period); n.count == most.count && n.certainty() > most.certainty()) {
         most = n;
         best = period;
@@ -212,8 +214,8 @@ Bands bands_that_rise(const Correlation& r, bool courses, double rise) {
   const LineRepeats found = lines.repeats(best);
   double certainty = found.certainty();
   // Thin joints are little of all there is, but what comes again so often is no chance.
-  if (lines.size() >= (r.wraps() ? 2 : 1) * tuning->often * best)
-    certainty = std::max(certainty, tuning->often_counts * distinct(certainty));
+  if (lines.size() >= (r.wraps() ? 2 : 1) * bands_tuning->often * best)
+    certainty = std::max(certainty, bands_tuning->often_counts * distinct(certainty));
   return {{1, courses ? Vector2d{0, best} : Vector2d{best, 0}, {}, std::min(1.0, certainty)},
           distinct(found.evidence()),
           lines.alike(best)};
@@ -229,11 +231,11 @@ struct Slant {
 /// That of lines which differ most: along stripes.
 Slant slant_of_stripes(const Correlation& r) {
   Slant best;
-  const int slants = tuning->slants;
+  const int slants = bands_tuning->slants;
   for (const bool courses : {true, false})
     for (int step = -slants; step <= slants; step++) {
       const double rise = double(step) / slants;
-      if (std::abs(rise) < tuning->least_rise) continue;
+      if (std::abs(rise) < bands_tuning->least_rise) continue;
       if (const double differ = line_correlation(r, courses, rise, 0); differ > best.differ)
         best = {courses, rise, differ};
     }
@@ -254,7 +256,7 @@ Lattice with_turned_bands(const Correlation& r, const Lattice& bands) {
   const LineCorrelation lines(r, bands.first.y() != 0, 0);
   const double twice = 2 * bands.first.sum();
   Lattice out = bands;
-  if (lines.repeats(twice).certainty() >= tuning->least_turned) out.first *= 2;
+  if (lines.repeats(twice).certainty() >= bands_tuning->least_turned) out.first *= 2;
   return out;
 }
 

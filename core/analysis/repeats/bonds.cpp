@@ -14,28 +14,28 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct BondsTuning {
   double averaged = 0.6;
   double least_distinct = 0.15;
   double most_off = 0.1;
   double fewest_cells = 6;
   double most_bands = 4;
 };
-const Tunable<Tuning> tuning(
+const Tunable<BondsTuning> bonds_tuning(
     "bonds",
     {
-        {&Tuning::averaged, "averaged", "share of a band",
+        {&BondsTuning::averaged, "averaged", "share of a band",
          "over whose breadth differences are averaged. Higher: grain cancels; lower: joints of the next band have no "
          "say",
          "not measured: most of a band, but little of the next", 0, 10},
-        {&Tuning::least_distinct, "least_distinct", "distinctness",
+        {&BondsTuning::least_distinct, "least_distinct", "distinctness",
          "higher: fewer bonds are found; lower: bricks of all widths get a bond that they do not have", "bonds"},
-        {&Tuning::most_off, "most_off", "share of a band",
+        {&BondsTuning::most_off, "most_off", "share of a band",
          "by which a step may be off a whole number of bands. Higher: more bonds are found; lower: less chance",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::fewest_cells, "fewest_cells", "cells of the exemplar",
+        {&BondsTuning::fewest_cells, "fewest_cells", "cells of the exemplar",
          "higher: less chance; lower: long bricks get their bond", "not measured: fewer cells are alike by chance"},
-        {&Tuning::most_bands, "most_bands", "bands",
+        {&BondsTuning::most_bands, "most_bands", "bands",
          "over which a step may lead. Higher: bonds of many courses are found; lower: less chance",
          "not measured: steps over more bands are alike by chance"},
     });
@@ -44,7 +44,7 @@ const Tunable<Tuning> tuning(
 /// and cancels out.
 Planes joints_across(const Planes& in, const Lattice& bands) {
   const bool courses = bands.first.y() != 0;
-  const int reach = int(tuning->averaged / 2 * (courses ? bands.first.y() : bands.first.x()));
+  const int reach = int(bonds_tuning->averaged / 2 * (courses ? bands.first.y() : bands.first.x()));
   Planes out = Planes::zeros(in.size, 1, in.wraps);
   tbb::parallel_for(0, in.size.height, [&](int y) {
     std::vector<float> sum(size_t(in.channels));
@@ -68,16 +68,17 @@ Planes joints_across(const Planes& in, const Lattice& bands) {
 
 Lattice bond_of(const Planes& planes, const Lattice& bands, const Task& task) {
   const Cell cell = best_cell(correlate(joints_across(planes, bands), {}, task), {});
-  if (cell.lattice.rank != 2 || cell.distinct < tuning->least_distinct) return bands;
+  if (cell.lattice.rank != 2 || cell.distinct < bonds_tuning->least_distinct) return bands;
   const double breadth = bands.first.sum();
   Lattice out = cell.lattice;
   for (Vector2d* v : {&out.first, &out.second}) {
     double& across = bands.first.y() != 0 ? v->y() : v->x();
     const double steps = std::floor(across / breadth + 0.5);
-    if (std::abs(across / breadth - steps) > tuning->most_off || std::abs(steps) > tuning->most_bands) return bands;
+    if (std::abs(across / breadth - steps) > bonds_tuning->most_off || std::abs(steps) > bonds_tuning->most_bands)
+      return bands;
     across = steps * breadth;
   }
-  return out.cell_area() * tuning->fewest_cells <= double(planes.size.area()) && out.is_valid() ? out : bands;
+  return out.cell_area() * bonds_tuning->fewest_cells <= double(planes.size.area()) && out.is_valid() ? out : bands;
 }
 
 }  // namespace terrazzo

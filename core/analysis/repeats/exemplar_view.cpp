@@ -9,17 +9,17 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct ExemplarViewTuning {
   int most_side = 256;
   int smallest_side = 16;
 };
-const Tunable<Tuning> tuning(
+const Tunable<ExemplarViewTuning> exemplar_view_tuning(
     "exemplar_view",
     {
-        {&Tuning::most_side, "most_side", "pixels",
+        {&ExemplarViewTuning::most_side, "most_side", "pixels",
          "the longest side that is looked at. Higher: fine weaves of large exemplars are found; costs time",
          "not measured: periods are found to a fraction of a pixel"},
-        {&Tuning::smallest_side, "smallest_side", "pixels",
+        {&ExemplarViewTuning::smallest_side, "smallest_side", "pixels",
          "the shortest side that is looked at. Higher: tiny exemplars have no lattice; lower: chance has more room",
          "not measured: less has no room for repeats", 8},
     });
@@ -41,7 +41,7 @@ void halve(ExemplarView& view) {
 }  // namespace
 
 bool ExemplarView::empty() const {
-  return std::min(planes.size.width, planes.size.height) < tuning->smallest_side;
+  return std::min(planes.size.width, planes.size.height) < exemplar_view_tuning->smallest_side;
 }
 
 ExemplarView view_of(const Planes& exemplar, const std::vector<uint8_t>& allowed, const Rect& part) {
@@ -52,7 +52,8 @@ ExemplarView view_of(const Planes& exemplar, const std::vector<uint8_t>& allowed
     if (std::ranges::all_of(view.counts.values, [](float v) { return v == 1; })) view.counts = {};
   }
   view.planes = cropped(exemplar, view.seen);
-  while (!view.empty() && std::max(view.planes.size.width, view.planes.size.height) > tuning->most_side) halve(view);
+  while (!view.empty() && std::max(view.planes.size.width, view.planes.size.height) > exemplar_view_tuning->most_side)
+    halve(view);
   return view;
 }
 

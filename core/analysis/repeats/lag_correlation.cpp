@@ -8,40 +8,41 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct LagCorrelationTuning {
   double shortest_repeat = 4;
   double least_overlap = 0.16;
   double grain = 0.8;
   double coarse = 10;
   double least_coarse = 2;
 };
-const Tunable<Tuning> tuning(
+const Tunable<LagCorrelationTuning> lag_correlation_tuning(
     "lag_correlation",
     {
-        {&Tuning::shortest_repeat, "shortest_repeat", "pixels",
+        {&LagCorrelationTuning::shortest_repeat, "shortest_repeat", "pixels",
          "higher: fine weaves are taken for grain; lower: grain is taken for a weave",
          "not measured: what repeats after fewer is grain", 2},
-        {&Tuning::least_overlap, "least_overlap", "share of the exemplar",
+        {&LagCorrelationTuning::least_overlap, "least_overlap", "share of the exemplar",
          "what of it must lie on itself at a lag. Higher: lags are surer; lower: long repeats are found",
          "not measured: taken over from the code before constants were listed", 0, 1},
-        {&Tuning::grain, "grain", "pixels",
+        {&LagCorrelationTuning::grain, "grain", "pixels",
          "deviation of a light blur. Higher: noise drowns less of what repeats; lower: thin joints stay",
          "not measured: taken over from the code before constants were listed", 0, 64},
-        {&Tuning::coarse, "coarse", "parts of the shorter side",
+        {&LagCorrelationTuning::coarse, "coarse", "parts of the shorter side",
          "the deviation of what does not count as a detail. Higher: large cells are taken away, too; lower: gradients "
          "drown the repeats",
          "not measured: taken over from the code before constants were listed", 1},
-        {&Tuning::least_coarse, "least_coarse", "pixels",
+        {&LagCorrelationTuning::least_coarse, "least_coarse", "pixels",
          "the same of tiny exemplars. Higher: more of them counts as details; lower: less",
          "not measured: taken over from the code before constants were listed", 0, 1000},
     });
 
 /// Details only: what varies slowly would drown the repeats.
 Planes without_gradients(const Planes& in, const Task& task) {
-  Planes out = blurred(in, tuning->grain, Beyond::mirrored, task);
-  const Planes coarse =
-      blurred(out, std::max(tuning->least_coarse, std::min(in.size.width, in.size.height) / tuning->coarse),
-              Beyond::mirrored, task);
+  Planes out = blurred(in, lag_correlation_tuning->grain, Beyond::mirrored, task);
+  const Planes coarse = blurred(out,
+                                std::max(lag_correlation_tuning->least_coarse,
+                                         std::min(in.size.width, in.size.height) / lag_correlation_tuning->coarse),
+                                Beyond::mirrored, task);
   for (size_t i = 0; i < out.values.size(); i++) out.values[i] -= coarse.values[i];
   return out;
 }
@@ -68,7 +69,7 @@ std::vector<double> around_borders(const Correlogram& r, Size size) {
 }  // namespace
 
 double shortest_repeat() {
-  return tuning->shortest_repeat;
+  return lag_correlation_tuning->shortest_repeat;
 }
 
 Correlation::Correlation(std::vector<double> values, Size lags, Size exemplar, bool wraps)
@@ -76,7 +77,7 @@ Correlation::Correlation(std::vector<double> values, Size lags, Size exemplar, b
       lags_(lags),
       exemplar_(exemplar),
       wraps_(wraps),
-      least_overlap_(tuning->least_overlap * double(exemplar.area())) {}
+      least_overlap_(lag_correlation_tuning->least_overlap * double(exemplar.area())) {}
 
 Correlation correlate(const Planes& planes, const std::vector<float>& counts, const Task& task) {
   Planes details = without_gradients(planes, task);
@@ -117,7 +118,7 @@ namespace {
 /// with the same times the cosine and the sine of twice the edge's angle.
 template <typename Visit>
 void for_gradients(const Planes& in, const Task& task, Visit visit) {
-  const Planes values = blurred(in, tuning->grain, Beyond::mirrored, task);
+  const Planes values = blurred(in, lag_correlation_tuning->grain, Beyond::mirrored, task);
   for (int y = 0; y < in.size.height; y++) {
     task.check();
     for (int x = 0; x < in.size.width; x++) {

@@ -9,25 +9,25 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct NearPeaksTuning {
   double least_peak = 0.02;
   double strong = 0.5;
   int most_peaks = 44;
   int strongest = 5;
 };
-const Tunable<Tuning> tuning(
+const Tunable<NearPeaksTuning> near_peaks_tuning(
     "near_peaks",
     {
-        {&Tuning::least_peak, "least_peak", "correlation",
+        {&NearPeaksTuning::least_peak, "least_peak", "correlation",
          "higher: faint repeats are not seen; lower: noise counts, too, and costs time",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::strong, "strong", "share of a strong peak",
+        {&NearPeaksTuning::strong, "strong", "share of a strong peak",
          "what others must reach. Higher: less time; lower: cells whose peaks are faint are tried",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::most_peaks, "most_peaks", "peaks",
+        {&NearPeaksTuning::most_peaks, "most_peaks", "peaks",
          "the nearest, of which all pairs are tried. Higher: cells are not missed; costs time, with its square",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::strongest, "strongest", "peaks",
+        {&NearPeaksTuning::strongest, "strongest", "peaks",
          "that may be chance: the next says what is strong. Higher: more peaks are tried; lower: few may decide",
          "not measured: taken over from the code before constants were listed"},
     });
@@ -40,7 +40,7 @@ std::vector<Vector2d> near_peaks(const Correlation& r) {
     double value;
   };
   std::vector<Peak> peaks;
-  const double shortest = shortest_repeat(), least_peak = tuning->least_peak;
+  const double shortest = shortest_repeat(), least_peak = near_peaks_tuning->least_peak;
   for (int y = 0; y < r.lags().height - 3; y++)
     for (int x = y == 0 ? 1 : 4 - r.lags().width; x < r.lags().width - 3; x++) {
       if (x * x + y * y < shortest * shortest || !r.covers(x, y)) continue;
@@ -53,16 +53,16 @@ std::vector<Vector2d> near_peaks(const Correlation& r) {
       peaks.push_back({at, value});
     }
   if (peaks.empty()) return {};
-  const size_t rank = std::min(size_t(tuning->strongest), peaks.size() - 1);
+  const size_t rank = std::min(size_t(near_peaks_tuning->strongest), peaks.size() - 1);
   std::nth_element(peaks.begin(), peaks.begin() + ptrdiff_t(rank), peaks.end(),
                    [](const Peak& a, const Peak& b) { return a.value > b.value; });
-  const double least = tuning->strong * peaks[rank].value;
+  const double least = near_peaks_tuning->strong * peaks[rank].value;
   std::vector<Vector2d> out;
   for (const Peak& p : peaks)
     if (p.value >= least) out.push_back(p.at);
   const auto nearness = [](const Vector2d& v) { return std::tuple(v.squaredNorm(), v.y(), v.x()); };
   std::ranges::sort(out, {}, nearness);
-  out.resize(std::min(out.size(), size_t(tuning->most_peaks)));
+  out.resize(std::min(out.size(), size_t(near_peaks_tuning->most_peaks)));
   return out;
 }
 

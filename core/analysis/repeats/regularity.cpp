@@ -15,7 +15,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct RegularityTuning {
   double smallest_cell = 7.5;
   double least_distinct = 0.15;
   double few_cells = 6.5;
@@ -27,48 +27,48 @@ struct Tuning {
   int quick_side = 128;
   int most_quick_side = 512;
 };
-const Tunable<Tuning> tuning("regularity",
-                             {
-                                 {&Tuning::smallest_cell, "smallest_cell", "pixels",
-                                  "finer cells are put together two by two. Higher: coarse levels keep more pieces "
-                                  "apart; lower: they see nothing of such cells and mix them",
-                                  "not measured: taken over from the code before constants were listed"},
-                                 {&Tuning::least_distinct, "least_distinct", "distinctness",
-                                  "from which on cells say more than the bands they lie in. Higher: courses without a "
-                                  "bond; lower: bonds by chance",
-                                  "not measured: taken over from the code before constants were listed"},
-                                 {&Tuning::few_cells, "few_cells", "cells of the exemplar",
-                                  "up to which they must be alike by more. Higher: fewer parts that were repeated to "
-                                  "make it tile count as cells; lower: large cells are found",
-                                  "regularity"},
-                                 {&Tuning::least_alike_of_few, "least_alike_of_few", "correlation",
-                                  "of so few cells. Higher: plates, tiles and bricks of few cells have no lattice; "
-                                  "lower: grass and ground, of which 260 textures reach 0.58, are laid out in squares",
-                                  "regularity"},
-                                 {&Tuning::least_sure_stripes, "least_sure_stripes", "certainty",
-                                  "of stripes aslant. Higher: fewer are found; lower: those that are only a part of "
-                                  "what is shown, as of a door, are taken for all",
-                                  "not measured: taken over from the code before constants were listed"},
-                                 {&Tuning::least_turned, "least_turned", "share of the correlation",
-                                  "of orientations that turned cells lack. Higher: they are taken for one another; "
-                                  "lower: threads of a weave are told apart by chance",
-                                  "regularity", 0, 1},
-                                 {&Tuning::quick_share, "quick_share", "of the certainty asked for",
-                                  "that something must correlate by at half the size. Higher: less is searched for "
-                                  "a lattice; lower: no lattice is missed",
-                                  "wrap_detection", 0, 1},
-                                 {&Tuning::quick_lag, "quick_lag", "pixels at half the size",
-                                  "from which on repeats count there. Higher: grain counts for less; lower: cells that "
-                                  "come only twice are seen",
-                                  "not measured: of fine cells several lie that far apart", 1, 1000},
-                                 {&Tuning::quick_side, "quick_side", "pixels",
-                                  "the least side that is looked at quickly",
-                                  "not measured: smaller exemplars take no time", 16, 100000},
-                                 {&Tuning::most_quick_side, "most_quick_side", "pixels",
-                                  "the longest side that is looked at quickly. Higher: time and memory grow; lower: "
-                                  "fine weaves of large exemplars are grain",
-                                  "not measured: twice what the search itself looks at", 16, 100000},
-                             });
+const Tunable<RegularityTuning> regularity_tuning(
+    "regularity",
+    {
+        {&RegularityTuning::smallest_cell, "smallest_cell", "pixels",
+         "finer cells are put together two by two. Higher: coarse levels keep more pieces "
+         "apart; lower: they see nothing of such cells and mix them",
+         "not measured: taken over from the code before constants were listed"},
+        {&RegularityTuning::least_distinct, "least_distinct", "distinctness",
+         "from which on cells say more than the bands they lie in. Higher: courses without a "
+         "bond; lower: bonds by chance",
+         "not measured: taken over from the code before constants were listed"},
+        {&RegularityTuning::few_cells, "few_cells", "cells of the exemplar",
+         "up to which they must be alike by more. Higher: fewer parts that were repeated to "
+         "make it tile count as cells; lower: large cells are found",
+         "regularity"},
+        {&RegularityTuning::least_alike_of_few, "least_alike_of_few", "correlation",
+         "of so few cells. Higher: plates, tiles and bricks of few cells have no lattice; "
+         "lower: grass and ground, of which 260 textures reach 0.58, are laid out in squares",
+         "regularity"},
+        {&RegularityTuning::least_sure_stripes, "least_sure_stripes", "certainty",
+         "of stripes aslant. Higher: fewer are found; lower: those that are only a part of "
+         "what is shown, as of a door, are taken for all",
+         "not measured: taken over from the code before constants were listed"},
+        {&RegularityTuning::least_turned, "least_turned", "share of the correlation",
+         "of orientations that turned cells lack. Higher: they are taken for one another; "
+         "lower: threads of a weave are told apart by chance",
+         "regularity", 0, 1},
+        {&RegularityTuning::quick_share, "quick_share", "of the certainty asked for",
+         "that something must correlate by at half the size. Higher: less is searched for "
+         "a lattice; lower: no lattice is missed",
+         "wrap_detection", 0, 1},
+        {&RegularityTuning::quick_lag, "quick_lag", "pixels at half the size",
+         "from which on repeats count there. Higher: grain counts for less; lower: cells that "
+         "come only twice are seen",
+         "not measured: of fine cells several lie that far apart", 1, 1000},
+        {&RegularityTuning::quick_side, "quick_side", "pixels", "the least side that is looked at quickly",
+         "not measured: smaller exemplars take no time", 16, 100000},
+        {&RegularityTuning::most_quick_side, "most_quick_side", "pixels",
+         "the longest side that is looked at quickly. Higher: time and memory grow; lower: "
+         "fine weaves of large exemplars are grain",
+         "not measured: twice what the search itself looks at", 16, 100000},
+    });
 
 Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
   Lattice out = l;
@@ -82,9 +82,10 @@ Lattice two_by_two(const Lattice& l, Size exemplar, bool wraps) {
 }
 
 bool is_sure(const Cell& cell, Size exemplar, double least_certainty) {
-  const bool few = cell.lattice.cell_area() * tuning->few_cells > double(exemplar.area());
-  return cell.distinct >= tuning->least_distinct &&
-         cell.lattice.certainty >= (few ? std::max(least_certainty, tuning->least_alike_of_few) : least_certainty);
+  const bool few = cell.lattice.cell_area() * regularity_tuning->few_cells > double(exemplar.area());
+  return cell.distinct >= regularity_tuning->least_distinct &&
+         cell.lattice.certainty >=
+             (few ? std::max(least_certainty, regularity_tuning->least_alike_of_few) : least_certainty);
 }
 
 struct Found {
@@ -112,7 +113,7 @@ Found searched(const Correlation& values, const Correlation& joints, double leas
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
   for (const Correlation* r : {&values, &joints})
     if (const Bands b = stripes_of(*r);
-        b.lattice.certainty >= tuning->least_sure_stripes && b.distinct > bands.distinct)
+        b.lattice.certainty >= regularity_tuning->least_sure_stripes && b.distinct > bands.distinct)
       bands = b;
   if (bands.lattice.rank > 0) return {bands.lattice, bands.alike};
   return {{0, {}, {}, std::min(cell.distinct, cell.lattice.certainty)}, 0};
@@ -134,7 +135,7 @@ Lattice told_by_orientation(const Lattice& lattice, const std::vector<const Exem
   for (const ExemplarView* v : views) all.push_back(correlate(orientations(v->planes, task), v->counts.values, task));
   const Correlation turned = pooled(all);
   return lattice.rank == 1 ? with_turned_bands(turned, lattice)
-                           : without_false_repeats(turned, lattice, tuning->least_turned);
+                           : without_false_repeats(turned, lattice, regularity_tuning->least_turned);
 }
 
 }  // namespace
@@ -170,18 +171,20 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
   for (Vector2d* v : {&best.first, &best.second}) *v *= largest.scale;
   const Size size{largest.seen.width, largest.seen.height};
   best = best.fitted(size, wraps, wraps);
-  if (best.rank == 2 && best.cell_area() < tuning->smallest_cell * tuning->smallest_cell)
+  if (best.rank == 2 && best.cell_area() < regularity_tuning->smallest_cell * regularity_tuning->smallest_cell)
     best = two_by_two(best, size, wraps);
   return {best, too_few};
 }
 
 bool may_have_lattice(const Features& features, double least_certainty, const Task& task) {
-  if (std::min(features.size().width, features.size().height) < tuning->quick_side || !allowed_pixels(features).empty())
+  if (std::min(features.size().width, features.size().height) < regularity_tuning->quick_side ||
+      !allowed_pixels(features).empty())
     return true;
   Planes seen = halved(weighted_planes(features, task));
-  while (std::max(seen.size.width, seen.size.height) > tuning->most_quick_side) seen = halved(seen);
+  while (std::max(seen.size.width, seen.size.height) > regularity_tuning->most_quick_side) seen = halved(seen);
   for (const Planes& planes : {seen, outlines(seen, task)})
-    if (highest_from(correlate(planes, {}, task), tuning->quick_lag) >= tuning->quick_share * least_certainty)
+    if (highest_from(correlate(planes, {}, task), regularity_tuning->quick_lag) >=
+        regularity_tuning->quick_share * least_certainty)
       return true;
   return false;
 }

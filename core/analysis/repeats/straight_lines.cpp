@@ -12,31 +12,31 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct StraightLinesTuning {
   double least_crossing = 0.1;
   double least_parallel = 0.4;
   double same_lines = 0.7;
   double other_lines = 0.3;
   int most_repeats = 8;
 };
-const Tunable<Tuning> tuning(
+const Tunable<StraightLinesTuning> straight_lines_tuning(
     "straight_lines",
     {
-        {&Tuning::least_crossing, "least_crossing", "share of the variance",
+        {&StraightLinesTuning::least_crossing, "least_crossing", "share of the variance",
          "what must differ from line to line along both axes. Higher: fewer tiles are seen; lower: layers of rock are "
          "taken for them",
          "not measured: layers of rock have up to a tenth, along one axis"},
-        {&Tuning::least_parallel, "least_parallel", "share of the variance",
+        {&StraightLinesTuning::least_parallel, "least_parallel", "share of the variance",
          "the same along one axis only. Higher: fewer boards are seen; lower: layers of rock are taken for them",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::same_lines, "same_lines", "correlation",
+        {&StraightLinesTuning::same_lines, "same_lines", "correlation",
          "of lines that repeat. Higher: the lines of an exemplar are taken to differ; lower: different ones are taken "
          "to repeat",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::other_lines, "other_lines", "correlation",
+        {&StraightLinesTuning::other_lines, "other_lines", "correlation",
          "up to which lines deny bands found otherwise. Higher: they deny more; lower: wrong bands stay",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::most_repeats, "most_repeats", "lines in an exemplar",
+        {&StraightLinesTuning::most_repeats, "most_repeats", "lines in an exemplar",
          "higher: narrower lines are found to repeat; lower: less chance",
          "not measured: taken over from the code before constants were listed"},
     });
@@ -82,10 +82,10 @@ Lines lines_of(const Planes& plane, bool rows) {
   Lines out = shares_of(plane, rows);
   const std::vector<double>& profile = out.profile;
   const double count = out.period;
-  for (int n = 2; n <= tuning->most_repeats; n++) {
+  for (int n = 2; n <= straight_lines_tuning->most_repeats; n++) {
     double least = 1;
     for (int k = 1; k < n; k++) least = std::min(least, correlation_around(profile, k * count / n));
-    if (least >= tuning->same_lines) out.period = count / n;
+    if (least >= straight_lines_tuning->same_lines) out.period = count / n;
   }
   return out;
 }
@@ -95,19 +95,23 @@ Lines lines_of(const Planes& plane, bool rows) {
 Lattice lattice_of_lines(const Planes& outlines, const Lattice& found) {
   const Lines rows = lines_of(outlines, true), columns = lines_of(outlines, false);
   const Vector2d down{0, rows.period}, right{columns.period, 0};
-  const bool courses = rows.share >= tuning->least_parallel;
+  const bool courses = rows.share >= straight_lines_tuning->least_parallel;
   const double both = std::min(rows.share, columns.share);
-  if (found.rank < 2 && both >= std::max(tuning->least_crossing, found.certainty)) return {2, right, down, both};
+  if (found.rank < 2 && both >= std::max(straight_lines_tuning->least_crossing, found.certainty))
+    return {2, right, down, both};
   const Lines& lines = courses ? rows : columns;
-  if (lines.share < tuning->least_parallel || found.rank > 1) return {};
+  if (lines.share < straight_lines_tuning->least_parallel || found.rank > 1) return {};
   // Bands found otherwise stay, unless lines deny them.
   const double period = courses ? found.first.y() : found.first.x();
-  if (found.rank == 1 && (period == 0 || correlation_around(lines.profile, period) > tuning->other_lines)) return {};
+  if (found.rank == 1 &&
+      (period == 0 || correlation_around(lines.profile, period) > straight_lines_tuning->other_lines))
+    return {};
   return {1, courses ? down : right, {}, lines.share};
 }
 
 bool lines_cross(const Planes& outlines) {
-  return std::min(shares_of(outlines, true).share, shares_of(outlines, false).share) >= tuning->least_crossing;
+  return std::min(shares_of(outlines, true).share, shares_of(outlines, false).share) >=
+         straight_lines_tuning->least_crossing;
 }
 
 }  // namespace terrazzo

@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct StreaksTuning {
   double most_lost = 0.15;
   double least_counted = 0.02;
   double surest_courses = 0.8;
@@ -20,29 +20,29 @@ struct Tuning {
   double fewest_courses = 3;
   int longest_step = 8;
 };
-const Tunable<Tuning> tuning(
+const Tunable<StreaksTuning> streaks_tuning(
     "streaks",
-    {{&Tuning::most_lost, "most_lost", "share of what the same loses across",
+    {{&StreaksTuning::most_lost, "most_lost", "share of what the same loses across",
       "of the variance that goes when streaks are shortened. Higher: bricks and boards count as streaks, and lose "
       "their ends; lower: grain with a few knots is cut by upright seams",
       "streaks", 0, 1},
-     {&Tuning::least_counted, "least_counted", "share of the variance lost",
+     {&StreaksTuning::least_counted, "least_counted", "share of the variance lost",
       "in a part of the exemplar, from which on it has a say. Higher: streaks may end in faint features; lower: noise "
       "in plain parts hides them",
       "streaks", 0, 1},
-     {&Tuning::surest_courses, "surest_courses", "certainty",
+     {&StreaksTuning::surest_courses, "surest_courses", "certainty",
       "of courses or columns whose streaks are shortened. Higher: boards are cut by upright seams; lower: pipes that "
       "lie at uneven distances end anywhere",
       "streaks", 0, 1},
-     {&Tuning::least_sure, "least_sure", "certainty",
+     {&StreaksTuning::least_sure, "least_sure", "certainty",
       "of courses or columns of streaks that are more than chance. Higher: boards end anywhere; lower: brushed metal "
       "repeats",
       "streaks", 0, 1},
-     {&Tuning::fewest_courses, "fewest_courses", "courses",
+     {&StreaksTuning::fewest_courses, "fewest_courses", "courses",
       "that an exemplar must hold for those that are less sure to be more than chance. Higher: pipes and boards change "
       "their distances; lower: grain repeats",
       "streaks", 1},
-     {&Tuning::longest_step, "longest_step", "pixels",
+     {&StreaksTuning::longest_step, "longest_step", "pixels",
       "that count as one. Higher: streaks end one by one; lower: several end side by side", "streaks", 1,
       longest_streak_step}});
 
@@ -86,11 +86,11 @@ class LossByPart {
 /// Whether runs of so many pixels can be shown as one along x, or along y, at little loss.
 std::array<bool, 2> can_shorten(const Planes& planes, int run) {
   const LossByPart x(planes, run, true), y(planes, run, false);
-  const double least = tuning->least_counted * (x.mean() + y.mean());
+  const double least = streaks_tuning->least_counted * (x.mean() + y.mean());
   std::array<bool, 2> can{least > 0, least > 0};
   for (size_t part = 0; part < size_t(parts_a_side * parts_a_side); part++) {
-    can[0] &= x.of(part) + least <= tuning->most_lost * (y.of(part) + least);
-    can[1] &= y.of(part) + least <= tuning->most_lost * (x.of(part) + least);
+    can[0] &= x.of(part) + least <= streaks_tuning->most_lost * (y.of(part) + least);
+    can[1] &= y.of(part) + least <= streaks_tuning->most_lost * (x.of(part) + least);
   }
   return can;
 }
@@ -104,7 +104,7 @@ Streaks find_streaks(const Features& features, Vector2d across, const Task& task
     return appearance_levels({side / run, side / run}) >= least_levels && (!features.wraps() || side % run == 0);
   };
   Streaks found;
-  for (int run = 2; run <= tuning->longest_step; run *= 2) {
+  for (int run = 2; run <= streaks_tuning->longest_step; run *= 2) {
     task.check();
     const std::array<bool, 2> can = can_shorten(planes, run);
     const bool x = can[0] && across.x() == 0 && found.x * 2 == run && leaves_enough(size.width, run);
@@ -123,8 +123,8 @@ bool is_chance(const Lattice& lattice, const Streaks& streaks, const Features& f
   const bool across_x = streaks.y > 1;
   const bool along = across_x ? lattice.first.y() != 0 : lattice.first.x() != 0;
   const double side = across_x ? features.size().width : features.size().height;
-  return along || lattice.certainty < tuning->least_sure ||
-         (!features.wraps() && lattice.first.norm() * tuning->fewest_courses > side);
+  return along || lattice.certainty < streaks_tuning->least_sure ||
+         (!features.wraps() && lattice.first.norm() * streaks_tuning->fewest_courses > side);
 }
 
 }  // namespace
@@ -133,7 +133,7 @@ Repeats with_streaks(const Features& features, const Task& task) {
   Repeats repeats = features.repeats();
   const Lattice lattice = repeats.lattice;
   if (features.mask() || features.elements() || lattice.rank == 2 || !repeats.parts.empty()) return repeats;
-  const bool sure = lattice.rank == 0 || lattice.certainty >= tuning->surest_courses;
+  const bool sure = lattice.rank == 0 || lattice.certainty >= streaks_tuning->surest_courses;
   const Streaks found = find_streaks(features, lattice.rank == 1 && sure ? lattice.first : Vector2d{0, 0}, task);
   if (!found.any()) return repeats;
   if (!sure) {

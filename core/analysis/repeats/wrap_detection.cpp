@@ -19,7 +19,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct WrapDetectionTuning {
   double beside_seam = 1.5;
   double inside = 1.35;
   double slack = 1.25;
@@ -34,49 +34,49 @@ struct Tuning {
   double most_alike = 0.9;
   int steps = 512;
 };
-const Tunable<Tuning> tuning(
+const Tunable<WrapDetectionTuning> wrap_detection_tuning(
     "wrap_detection",
     {
-        {&Tuning::beside_seam, "beside_seam", "steps beside it",
+        {&WrapDetectionTuning::beside_seam, "beside_seam", "steps beside it",
          "what the step across the seam may be. Higher: rough joints along borders go on; lower: parts cut out are "
          "seen",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::inside, "inside", "mean steps inside",
+        {&WrapDetectionTuning::inside, "inside", "mean steps inside",
          "what the step across the seam may be. Higher: parts cut out are taken to wrap; lower: exemplars that wrap "
          "are not",
          "wrap_detection"},
-        {&Tuning::slack, "slack", "misfits inside",
+        {&WrapDetectionTuning::slack, "slack", "misfits inside",
          "what windows across the seam may have. Higher: parts cut out are taken to wrap; lower: exemplars that wrap "
          "are not",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::least_certainty, "least_certainty", "certainty",
+        {&WrapDetectionTuning::least_certainty, "least_certainty", "certainty",
          "of a lattice that may deny it. Higher: only drawn patterns are denied; lower: cells that are none deny it",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::most_excess, "most_excess", "share of a side",
+        {&WrapDetectionTuning::most_excess, "most_excess", "share of a side",
          "by which cells may come out uneven. Higher: less is denied; lower: imprecise lattices deny what wraps",
          "not measured: taken over from the code before constants were listed"},
-        {&Tuning::quick_slack, "quick_slack", "of the distance",
+        {&WrapDetectionTuning::quick_slack, "quick_slack", "of the distance",
          "by which a quick search may miss the nearest window. Higher: it takes less time but decides less",
          "wrap_detection", 0, 10},
-        {&Tuning::window, "window", "pixels a side",
+        {&WrapDetectionTuning::window, "window", "pixels a side",
          "of the windows that are compared. Higher: larger features must fit; lower: less is unusual",
          "not measured: taken over from the code before constants were listed", 1},
-        {&Tuning::samples, "samples", "windows", "along a seam or a line. Higher: their mean is surer; costs time",
-         "not measured: bounds the time", 1},
-        {&Tuning::lines, "lines", "lines inside",
+        {&WrapDetectionTuning::samples, "samples", "windows",
+         "along a seam or a line. Higher: their mean is surer; costs time", "not measured: bounds the time", 1},
+        {&WrapDetectionTuning::lines, "lines", "lines inside",
          "across which windows may be as unusual. Higher: joints inside are not missed; costs time", "wrap_detection",
          1},
-        {&Tuning::enough_lines, "enough_lines", "lines",
+        {&WrapDetectionTuning::enough_lines, "enough_lines", "lines",
          "of those, so many must be. Higher: parts cut out are seen; lower: what wraps along a joint is",
          "wrap_detection"},
-        {&Tuning::least_seen, "least_seen", "share of a border",
+        {&WrapDetectionTuning::least_seen, "least_seen", "share of a border",
          "that a mask must leave. Higher: less is told of masked exemplars; lower: chance decides",
          "not measured: as many lines as are enough", 0, 1},
-        {&Tuning::most_alike, "most_alike", "of the difference of any two lines",
+        {&WrapDetectionTuning::most_alike, "most_alike", "of the difference of any two lines",
          "which neighbours may have to tell anything. Higher: noise is taken to wrap; lower: fine grain that wraps is "
          "not",
          "not measured: white noise comes to 1 within a few hundredths", 0, 1},
-        {&Tuning::steps, "steps", "steps inside", "whose mean is taken. Higher: surer; costs time",
+        {&WrapDetectionTuning::steps, "steps", "steps inside", "whose mean is taken. Higher: surer; costs time",
          "not measured: bounds the time", 1},
     });
 
@@ -126,7 +126,7 @@ class WindowSearch {
 
  private:
   static constexpr int places = 3000;
-  const int side = tuning->window;
+  const int side = wrap_detection_tuning->window;
   std::vector<float> window(int x, int y) const { return read_padded(map_, {x, y, side, side}, Outside::wrap); }
   const Image& map_;
   std::vector<std::array<int, 2>> places_;
@@ -213,13 +213,14 @@ bool has_joint_along_border(const SeenMap& map) {
 /// Whether values go on from one border to the other about as they do from pixel to pixel beside them.
 bool goes_on(const SeenMap& map, bool rows) {
   return step_at(map, rows, 0).distance <=
-         tuning->beside_seam * std::max(step_at(map, rows, -1).distance, step_at(map, rows, 1).distance);
+         wrap_detection_tuning->beside_seam * std::max(step_at(map, rows, -1).distance, step_at(map, rows, 1).distance);
 }
 
 /// Whether values change across the seam about as much as they do from line to line inside. Of gravel that was cut out
 /// anywhere, windows fit as well as any others, but no pixel fits its neighbour.
 bool steps_alike(const SeenMap& map, bool rows, const Task& task) {
-  const int lines = rows ? map.image->height() : map.image->width(), apart = std::max(1, lines / tuning->steps);
+  const int lines = rows ? map.image->height() : map.image->width(),
+            apart = std::max(1, lines / wrap_detection_tuning->steps);
   double sum = 0, most_inside = 0;
   int steps = 0;
   for (int i = 0; i + 1 < lines; i += apart) {
@@ -230,7 +231,8 @@ bool steps_alike(const SeenMap& map, bool rows, const Task& task) {
     sum += step.distance;
     most_inside = std::max(most_inside, step.distance);
   }
-  return step_at(map, rows, 0).distance <= std::max(most_inside, tuning->inside * sum / std::max(1, steps));
+  return step_at(map, rows, 0).distance <=
+         std::max(most_inside, wrap_detection_tuning->inside * sum / std::max(1, steps));
 }
 
 /// How much less than windows inside those across a line look like the rest of their map, as a mean of all maps: 1 is
@@ -245,7 +247,7 @@ class Fit {
       Mean mean;
       for (int i = 0; i < samples; i++) {
         const int x = inside(map.image->width(), {12, 0, i}), y = inside(map.image->height(), {12, 1, i});
-        if (map.counts_all(x, y, tuning->window)) mean.add(search.nearest(x, y, 0));
+        if (map.counts_all(x, y, wrap_detection_tuning->window)) mean.add(search.nearest(x, y, 0));
       }
       if (mean.count == 0) return;
       inside_.push_back(std::max(mean.value(), std::numeric_limits<double>::min()));
@@ -258,7 +260,7 @@ class Fit {
   double across_seam(bool rows) const { return across(rows, std::nullopt, 0); }
   /// Whether it is at least so much across a line. Few come near it, and a quick search tells which.
   bool reaches_across_line(bool rows, double place, double least) const {
-    return across(rows, place, tuning->quick_slack) >= least && across(rows, place, 0) >= least;
+    return across(rows, place, wrap_detection_tuning->quick_slack) >= least && across(rows, place, 0) >= least;
   }
 
  private:
@@ -268,7 +270,7 @@ class Fit {
     void add(double v) { sum += v, count++; }
     double value() const { return sum / count; }
   };
-  static int at(double place, int extent) { return int(place * (extent - tuning->window)); }
+  static int at(double place, int extent) { return int(place * (extent - wrap_detection_tuning->window)); }
   static int inside(int extent, std::array<int, 3> sample) {
     return at(unit_double(random_bits(sample[0], sample[1], sample[2])), extent);
   }
@@ -277,12 +279,13 @@ class Fit {
     double out = 0;
     for (size_t m = 0; m < maps_.size(); m++) {
       const int width = maps_[m].image->width(), height = maps_[m].image->height(), breadth = rows ? height : width;
-      const int first = line ? at(*line, breadth) : breadth - tuning->window / 2;
+      const int first = line ? at(*line, breadth) : breadth - wrap_detection_tuning->window / 2;
       Mean mean;
       for (int i = 0; i < samples; i++) {
         const int along = inside(rows ? width : height, {13, rows ? 1 : 0, i});
         const int x = rows ? along : first, y = rows ? first : along;
-        if (maps_[m].counts_all(x, y, tuning->window)) mean.add(searches_[m]->nearest(x, y, slack) / inside_[m]);
+        if (maps_[m].counts_all(x, y, wrap_detection_tuning->window))
+          mean.add(searches_[m]->nearest(x, y, slack) / inside_[m]);
       }
       if (mean.count > 0) out += mean.value();
     }
@@ -292,13 +295,13 @@ class Fit {
   const std::vector<SeenMap>& maps_;
   std::vector<std::unique_ptr<WindowSearch>> searches_;
   std::vector<double> inside_;
-  const int samples = tuning->samples;
+  const int samples = wrap_detection_tuning->samples;
 };
 
 /// Whether there are lines inside across which windows look as little like the rest as across the seam: joints are such
 /// lines.
 bool lines_fit_as_little(const Fit& fit, bool rows, double seam, const Task& task) {
-  const int lines = tuning->lines, enough = tuning->enough_lines;
+  const int lines = wrap_detection_tuning->lines, enough = wrap_detection_tuning->enough_lines;
   int found = 0;
   for (int i = 0; i < lines && found < enough && found + lines - i >= enough; i++) {
     task.check();
@@ -312,7 +315,7 @@ bool lines_fit_as_little(const Fit& fit, bool rows, double seam, const Task& tas
 bool borders_fit(const std::vector<SeenMap>& maps, const Task& task) {
   const auto all = [&](auto&& holds) { return std::ranges::all_of(maps, holds); };
   const auto see_enough = [&](bool rows) {
-    return all([&](const SeenMap& map) { return step_at(map, rows, 0).seen >= tuning->least_seen; });
+    return all([&](const SeenMap& map) { return step_at(map, rows, 0).seen >= wrap_detection_tuning->least_seen; });
   };
   if (!see_enough(true) || !see_enough(false)) return false;
   // What a joint along the border shows across the seam may come nowhere else: it is then judged by itself. Rarely
@@ -330,8 +333,8 @@ bool borders_fit(const std::vector<SeenMap>& maps, const Task& task) {
   if (!fit.can_tell()) return false;
   const auto windows_fit = [&](bool rows) {
     const double seam = fit.across_seam(rows);
-    return seam <= tuning->slack || (all([&](const SeenMap& map) { return goes_on(map, rows); }) &&
-                                     (has_joint() || lines_fit_as_little(fit, rows, seam, task)));
+    return seam <= wrap_detection_tuning->slack || (all([&](const SeenMap& map) { return goes_on(map, rows); }) &&
+                                                    (has_joint() || lines_fit_as_little(fit, rows, seam, task)));
   };
   return windows_fit(true) && windows_fit(false);
 }
@@ -341,7 +344,7 @@ std::vector<SeenMap> seen_maps(const Material& material, const ImagePtr& mask, c
   std::vector<SeenMap> out;
   for (const Map& map : material.maps()) {
     const Size size = map.image->size();
-    if (std::min(size.width, size.height) < 2 * tuning->window) return {};
+    if (std::min(size.width, size.height) < 2 * wrap_detection_tuning->window) return {};
     out.push_back({materialized(map.image, task)});
     SeenMap& seen = out.back();
     if (!mask) continue;
@@ -357,24 +360,24 @@ std::vector<SeenMap> seen_maps(const Material& material, const ImagePtr& mask, c
 bool neighbours_are_alike(const SeenMap& map, bool rows) {
   const auto lines = uint32_t(rows ? map.image->height() : map.image->width());
   double neighbours = 0, any_two = 0;
-  for (int i = 0; i < tuning->samples; i++) {
+  for (int i = 0; i < wrap_detection_tuning->samples; i++) {
     const uint64_t r = random_bits(14, rows ? 1 : 0, i);
     const int at = int(below(uint32_t(r), lines - 1)) + 1, other = int(below(uint32_t(r >> 32), lines));
     neighbours += step_at(map, rows, at).distance;
     any_two += step_between(line_of(map, rows, at), line_of(map, rows, other)).distance;
   }
-  return neighbours <= tuning->most_alike * any_two;
+  return neighbours <= wrap_detection_tuning->most_alike * any_two;
 }
 
 /// Whether the exemplar's cells, found without regard to its borders, come out uneven around it: an odd number of
 /// chequered tiles has borders that go on smoothly, and yet like meets like there.
 bool cells_deny(const Material& material, const ImagePtr& mask, const Task& task) {
   const FeaturesPtr features = weighted_features(material, weights_of_chosen(material, {}), false, mask);
-  if (!may_have_lattice(*features, tuning->least_certainty, task)) return false;
-  const Lattice lattice = find_lattice(*features, tuning->least_certainty, task).lattice;
+  if (!may_have_lattice(*features, wrap_detection_tuning->least_certainty, task)) return false;
+  const Lattice lattice = find_lattice(*features, wrap_detection_tuning->least_certainty, task).lattice;
   const Size size = material.size();
-  return lattice.rank == 2 && !(lattice.fits(size, true, false, tuning->most_excess * size.width) &&
-                                lattice.fits(size, false, true, tuning->most_excess * size.height));
+  return lattice.rank == 2 && !(lattice.fits(size, true, false, wrap_detection_tuning->most_excess * size.width) &&
+                                lattice.fits(size, false, true, wrap_detection_tuning->most_excess * size.height));
 }
 
 }  // namespace

@@ -22,22 +22,22 @@ constexpr int radius = 2;
 constexpr int side = 2 * radius + 1;
 constexpr int window = side * side;
 
-struct Tuning {
+struct AppearanceSpaceTuning {
   double clipped = 5;
   int most_samples = 12000;
   int smallest_side = 16;
 };
-const Tunable<Tuning> tuning(
+const Tunable<AppearanceSpaceTuning> appearance_space_tuning(
     "appearance_space",
     {
-        {&Tuning::clipped, "clipped", "deviations",
+        {&AppearanceSpaceTuning::clipped, "clipped", "deviations",
          "of the first component, beyond which vectors are clipped. Higher: outliers differ from one another; lower: "
          "the usual is stored more finely",
          "not measured: taken over from the code before constants were listed", 1},
-        {&Tuning::most_samples, "most_samples", "pixels",
+        {&AppearanceSpaceTuning::most_samples, "most_samples", "pixels",
          "of which components are learnt. Higher: rare features have a say; costs time",
          "not measured: bounds the time", 100},
-        {&Tuning::smallest_side, "smallest_side", "pixels",
+        {&AppearanceSpaceTuning::smallest_side, "smallest_side", "pixels",
          "of the coarsest level, and of exemplars. Higher: coarse levels hold enough to choose from; lower: large "
          "features stay whole, where levels have too little texture left to tell one place from another",
          "initialize", 8},
@@ -78,7 +78,7 @@ std::vector<float> samples_of(const Planes& planes, const std::vector<uint8_t>& 
   for (size_t i = 0; i < usable.size(); i++)
     if (usable[i]) places.push_back(i);
   const size_t area = usable.empty() ? size_t(planes.size.area()) : places.size();
-  const size_t count = std::min(area, size_t(tuning->most_samples));
+  const size_t count = std::min(area, size_t(appearance_space_tuning->most_samples));
   std::vector<float> samples(count * n);
   tbb::parallel_for(size_t{0}, count, [&](size_t s) {
     // One sample from each of `count` equal stretches of pixels, at a random place within it.
@@ -96,7 +96,7 @@ double integer_scale(const std::vector<float>& projected, double deviation) {
   float largest = 1e-12f;
   for (const float v : projected) largest = std::max(largest, std::abs(v));
   const double fitting = appearance_limit / double(largest);
-  return deviation > 0 ? std::max(fitting, appearance_limit / (tuning->clipped * deviation)) : fitting;
+  return deviation > 0 ? std::max(fitting, appearance_limit / (appearance_space_tuning->clipped * deviation)) : fitting;
 }
 
 /// What the level's basis makes of every pixel's neighbourhood of n numbers.
@@ -176,14 +176,14 @@ Repeats repeats_shown(const Features& features) {
 
 int appearance_levels(Size exemplar) {
   int count = 1;
-  for (int side_length = std::min(exemplar.width, exemplar.height); side_length >= 2 * tuning->smallest_side;
-       side_length = (side_length + 1) / 2)
+  for (int side_length = std::min(exemplar.width, exemplar.height);
+       side_length >= 2 * appearance_space_tuning->smallest_side; side_length = (side_length + 1) / 2)
     count++;
   return count;
 }
 
 void require_analysable(Size exemplar) {
-  const int smallest_side = tuning->smallest_side;
+  const int smallest_side = appearance_space_tuning->smallest_side;
   if (std::min(exemplar.width, exemplar.height) < smallest_side || std::max(exemplar.width, exemplar.height) > 65536)
     throw Error(fmt::format("the exemplar has {} pixels; it needs at least {} and at most 65536 a side",
                             describe(exemplar), smallest_side));

@@ -15,19 +15,19 @@ namespace {
 
 constexpr int64_t chunk = 4096;  // what one thread sums by itself; chunks are then added in order
 
-struct Tuning {
+struct ClustersTuning {
   int most_samples = 262144;
   int seed_candidates = 4;
 };
-const Tunable<Tuning> tuning("clusters",
-                             {
-                                 {&Tuning::most_samples, "most_samples", "pixels",
-                                  "of which centres are learnt. Higher: small clusters are found; costs time",
-                                  "not measured: taken over from the code before constants were listed", 1},
-                                 {&Tuning::seed_candidates, "seed_candidates", "pixels",
-                                  "that are tried for each seed. Higher: better seeds; costs time",
-                                  "not measured: taken over from the code before constants were listed", 1},
-                             });
+const Tunable<ClustersTuning> clusters_tuning(
+    "clusters", {
+                    {&ClustersTuning::most_samples, "most_samples", "pixels",
+                     "of which centres are learnt. Higher: small clusters are found; costs time",
+                     "not measured: taken over from the code before constants were listed", 1},
+                    {&ClustersTuning::seed_candidates, "seed_candidates", "pixels",
+                     "that are tried for each seed. Higher: better seeds; costs time",
+                     "not measured: taken over from the code before constants were listed", 1},
+                });
 
 int64_t chunks_of(int64_t count) {
   return (count + chunk - 1) / chunk;
@@ -75,7 +75,7 @@ Nearest nearest_centre(const float* point, const std::vector<double>& centres, i
 
 /// A part of the pixels, one out of each stretch of equal length.
 std::vector<float> samples_of(const Planes& planes, uint64_t seed) {
-  const int64_t pixels = planes.size.area(), most_samples = tuning->most_samples;
+  const int64_t pixels = planes.size.area(), most_samples = clusters_tuning->most_samples;
   if (pixels <= most_samples) return planes.values;
   const int n = planes.channels;
   std::vector<float> out(size_t(most_samples) * n);
@@ -105,7 +105,7 @@ class Learner {
       if (!(total > 0)) break;  // every sample is a seed's equal
       int64_t best = 0;
       double least = INFINITY;
-      for (int t = 0; t < tuning->seed_candidates; t++) {
+      for (int t = 0; t < clusters_tuning->seed_candidates; t++) {
         const int64_t candidate = drawn(nearest, unit_double(random_bits(options.seed, 2, k, t)) * total);
         const float* point = sample(candidate);
         const double left = ordered_sum(count_, [&](int64_t i) {

@@ -15,16 +15,16 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct FeatureDistanceTuning {
   int specks = 200;
 };
-const Tunable<Tuning> tuning("feature_distance",
-                             {
-                                 {&Tuning::specks, "specks", "parts of the pixels",
-                                  "of which one may have stronger edges than what counts as the strongest. Higher: "
-                                  "single specks set the scale; lower: faint edges count as strong ones",
-                                  "not measured: single specks must not set the scale", 2},
-                             });
+const Tunable<FeatureDistanceTuning> feature_distance_tuning(
+    "feature_distance", {
+                            {&FeatureDistanceTuning::specks, "specks", "parts of the pixels",
+                             "of which one may have stronger edges than what counts as the strongest. Higher: "
+                             "single specks set the scale; lower: faint edges count as strong ones",
+                             "not measured: single specks must not set the scale", 2},
+                        });
 
 struct Gradient {
   float x, y;
@@ -123,7 +123,7 @@ Edges find_edges(const Material& material, const EdgeOptions& options, const Tas
     if (!allowed[i]) edges.strength[i] = 0;
   // Relative to nearly the strongest.
   std::vector<float> sorted = edges.strength;
-  const size_t strong = sorted.size() - 1 - sorted.size() / size_t(tuning->specks);
+  const size_t strong = sorted.size() - 1 - sorted.size() / size_t(feature_distance_tuning->specks);
   std::nth_element(sorted.begin(), sorted.begin() + ptrdiff_t(strong), sorted.end());
   const float unit = std::max(sorted[strong], 1e-6f);
   for (float& v : edges.strength) v = std::min(1.0f, v / unit);

@@ -13,7 +13,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct KCoherenceTuning {
   int exhaustive_area = 1600;
   int rounds = 4;
   int searched_side = 128;
@@ -24,37 +24,37 @@ struct Tuning {
   int away = 20;
   int tries = 8;
 };
-const Tunable<Tuning> tuning(
+const Tunable<KCoherenceTuning> k_coherence_tuning(
     "k_coherence", {
-                       {&Tuning::exhaustive_area, "exhaustive_area", "pixels of a level",
+                       {&KCoherenceTuning::exhaustive_area, "exhaustive_area", "pixels of a level",
                         "up to which all places are compared. Higher: the most similar are found for certain; costs "
                         "time, with its square",
                         "not measured: bounds the time"},
-                       {&Tuning::rounds, "rounds", "rounds",
+                       {&KCoherenceTuning::rounds, "rounds", "rounds",
                         "of the search. Higher: more similar pixels are found; costs time", "k_coherence", 0, 14},
-                       {&Tuning::searched_side, "searched_side", "pixels",
+                       {&KCoherenceTuning::searched_side, "searched_side", "pixels",
                         "of a level, within which one with a coarser one looks for new places. Higher: it looks "
                         "farther, where its parent has done that; lower: less time",
                         "not measured: taken over from the code before constants were listed"},
-                       {&Tuning::apart, "apart", "pixels in x or y",
+                       {&KCoherenceTuning::apart, "apart", "pixels in x or y",
                         "between members of a set. Higher: more different candidates; lower: more similar ones",
                         "not measured: taken over from the code before constants were listed"},
-                       {&Tuning::finest_searched, "finest_searched", "level",
+                       {&KCoherenceTuning::finest_searched, "finest_searched", "level",
                         "lower: the finest level has similar pixels, too, which brings nothing, as only seams still "
                         "move there; costs time and memory. Higher: seams of regular exemplars break",
                         "k_coherence"},
-                       {&Tuning::tile_side, "tile_side", "pixels",
+                       {&KCoherenceTuning::tile_side, "tile_side", "pixels",
                         "that one thread goes through in order. Higher: what neighbours found gets farther; lower: "
                         "more threads have work",
                         "not measured: taken over from the code before constants were listed", 1},
-                       {&Tuning::least_away, "least_away", "pixels in x or y",
+                       {&KCoherenceTuning::least_away, "least_away", "pixels in x or y",
                         "of a pixel, within which all is too similar to be of use. Higher: more different candidates; "
                         "lower: tiny exemplars have more",
                         "not measured: taken over from the code before constants were listed"},
-                       {&Tuning::away, "away", "parts of the shorter side",
+                       {&KCoherenceTuning::away, "away", "parts of the shorter side",
                         "the same. Higher: nearer candidates; lower: more different ones",
                         "not measured: taken over from the code before constants were listed", 1},
-                       {&Tuning::tries, "tries", "random places for each member",
+                       {&KCoherenceTuning::tries, "tries", "random places for each member",
                         "that a set is begun with. Higher: sets are full; costs time",
                         "not measured: taken over from the code before constants were listed"},
                    });
@@ -104,8 +104,9 @@ class LevelSearch {
         phase_(phase),
         period_x_(wraps ? level.size.width : no_period),
         period_y_(wraps ? level.size.height : no_period),
-        away_(std::max(tuning->least_away, std::min(level.size.width, level.size.height) / tuning->away)),
-        apart_(tuning->apart) {}
+        away_(std::max(k_coherence_tuning->least_away,
+                       std::min(level.size.width, level.size.height) / k_coherence_tuning->away)),
+        apart_(k_coherence_tuning->apart) {}
 
   Size size() const { return level_.size(); }
   std::array<int, 2> place(uint64_t bits) const { return level_.place(bits); }
@@ -204,7 +205,7 @@ void start(const LevelSearch& level, Sets& sets, Sets& parent, const Task& task)
       const auto offer = [&](const std::array<int, 2>& place) { level.offer(set, x, y, place[0], place[1]); };
       if (has_parent)
         for (const Found& f : parent.at(x / 2, y / 2)) offer(level.settled(x, y, 2 * f.x + (x & 1), 2 * f.y + (y & 1)));
-      for (int k = 0; k < tuning->tries * sets.per_pixel && !(has_parent && is_full(set)); k++) {
+      for (int k = 0; k < k_coherence_tuning->tries * sets.per_pixel && !(has_parent && is_full(set)); k++) {
         const auto [u, v] = level.place(random_bits(1, x, y, k));
         offer(level.settled(x, y, u, v));
       }
@@ -242,7 +243,7 @@ void improve_tile(const LevelSearch& level, Sets& sets, const Rect& tile, int ro
 /// One round over all tiles, those of one colour of a chequerboard after those of the other: a tile's neighbours stand
 /// still while it is gone through.
 void improve(const LevelSearch& level, Sets& sets, int round, int widest, const Task& task) {
-  const int tile_side = tuning->tile_side;
+  const int tile_side = k_coherence_tuning->tile_side;
   const int columns = (sets.size.width + tile_side - 1) / tile_side,
             rows = (sets.size.height + tile_side - 1) / tile_side;
   for (int colour = 0; colour < 2; colour++)
@@ -274,17 +275,18 @@ IndexPtr make_index(const AppearancePtr& appearance, int per_pixel, const Task& 
   const std::vector<AppearanceLevel>& levels = appearance->levels();
   std::vector<SimilarSets> out(levels.size());
   Sets parent;
-  for (int l = int(levels.size()) - 1; l >= std::min(tuning->finest_searched, int(levels.size()) - 1); l--) {
+  for (int l = int(levels.size()) - 1; l >= std::min(k_coherence_tuning->finest_searched, int(levels.size()) - 1);
+       l--) {
     const LevelSearch level(levels[l], appearance->wraps(),
                             PartPhases(appearance->repeats(), levels[l].size, l, {appearance->levels().front().size}));
     Sets sets(level.size(), per_pixel);
-    if (level.size().area() <= tuning->exhaustive_area) {
+    if (level.size().area() <= k_coherence_tuning->exhaustive_area) {
       search_all(level, sets, task);
     } else {
       start(level, sets, parent, task);
       const int longest = std::max(sets.size.width, sets.size.height);
-      const int widest = parent.found.empty() ? longest : std::min(longest, tuning->searched_side);
-      for (int round = 0; round < tuning->rounds; round++) improve(level, sets, round, widest, task);
+      const int widest = parent.found.empty() ? longest : std::min(longest, k_coherence_tuning->searched_side);
+      for (int round = 0; round < k_coherence_tuning->rounds; round++) improve(level, sets, round, widest, task);
     }
     out[l] = packed(sets);
     parent = std::move(sets);

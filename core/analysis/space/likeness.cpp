@@ -11,17 +11,17 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct LikenessTuning {
   double least = 0.6;
   int fewest_cells = 64;
 };
-const Tunable<Tuning> tuning(
+const Tunable<LikenessTuning> likeness_tuning(
     "likeness", {
-                    {&Tuning::least, "least", "correlation",
+                    {&LikenessTuning::least, "least", "correlation",
                      "from which on a material is the analysed one. Higher: a repainted map passes for another; lower: "
                      "other materials pass",
                      "likeness"},
-                    {&Tuning::fewest_cells, "fewest_cells", "cells",
+                    {&LikenessTuning::fewest_cells, "fewest_cells", "cells",
                      "that tell materials apart. Higher: small exemplars are not compared; lower: some correlate by "
                      "chance",
                      "not measured: 64 cells correlate by chance with a standard deviation of 1/8", 4},
@@ -101,7 +101,7 @@ Fingerprint fingerprint_of(const Features& features, const Planes& channels) {
 }
 
 std::optional<Likeness> likeness(const Fingerprint& analysed, const Material& material, const Task& task) {
-  if (analysed.cells.area() < tuning->fewest_cells) return {};
+  if (analysed.cells.area() < likeness_tuning->fewest_cells) return {};
   Likeness best;
   for (const Map& map : material.maps()) {
     int channels = 0;
@@ -116,14 +116,14 @@ std::optional<Likeness> likeness(const Fingerprint& analysed, const Material& ma
           std::max(best.correlation, std::abs(correlation(details(c.means.data(), 1, analysed.cells),
                                                           details(&cells[c.channel], channels, analysed.cells))));
     }
-    if (best.correlation >= tuning->least) break;
+    if (best.correlation >= likeness_tuning->least) break;
   }
   if (best.maps.empty()) return {};
   return best;
 }
 
 double least_likeness() {
-  return tuning->least;
+  return likeness_tuning->least;
 }
 
 }  // namespace terrazzo

@@ -10,16 +10,16 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct MaskPyramidTuning {
   double least_part = 0.25;
 };
-const Tunable<Tuning> tuning("mask_pyramid",
-                             {
-                                 {&Tuning::least_part, "least_part", "share of what the mask allows",
-                                  "that must be left at coarse levels for what lies near its border to be left out. "
-                                  "Higher: all of it is used; lower: what is masked shows less",
-                                  "not measured: taken over from the code before constants were listed", 0, 1},
-                             });
+const Tunable<MaskPyramidTuning> mask_pyramid_tuning(
+    "mask_pyramid", {
+                        {&MaskPyramidTuning::least_part, "least_part", "share of what the mask allows",
+                         "that must be left at coarse levels for what lies near its border to be left out. "
+                         "Higher: all of it is used; lower: what is masked shows less",
+                         "not measured: taken over from the code before constants were listed", 0, 1},
+                    });
 
 using Pixels = std::vector<uint8_t>;
 
@@ -76,9 +76,8 @@ std::vector<uint8_t> usable_pixels(const std::vector<uint8_t>& allowed, Size fin
       any[at] = counts[at] > 0;
       whole[at] = counts[at] == std::min(block, finest.width - x * block) * std::min(block, finest.height - y * block);
     }
-  const auto enough = [least = tuning->least_part * double(std::count(any.begin(), any.end(), 1))](const Pixels& p) {
-    return double(std::count(p.begin(), p.end(), 1)) >= least;
-  };
+  const auto enough = [least = mask_pyramid_tuning->least_part * double(std::count(any.begin(), any.end(), 1))](
+                          const Pixels& p) { return double(std::count(p.begin(), p.end(), 1)) >= least; };
   Pixels inner = eroded(whole, size, wraps);
   if (enough(inner)) return inner;
   return enough(whole) ? whole : any;

@@ -7,16 +7,16 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct PaddedLevelTuning {
   int coarse_side = 64;
 };
-const Tunable<Tuning> tuning("padded_level",
-                             {
-                                 {&Tuning::coarse_side, "coarse_side", "pixels",
-                                  "of a level, up to which places keep off the border by one pixel, not two. Higher: "
-                                  "more places; lower: windows see less of what is mirrored beyond the border",
-                                  "not measured: taken over from the code before constants were listed"},
-                             });
+const Tunable<PaddedLevelTuning> padded_level_tuning(
+    "padded_level", {
+                        {&PaddedLevelTuning::coarse_side, "coarse_side", "pixels",
+                         "of a level, up to which places keep off the border by one pixel, not two. Higher: "
+                         "more places; lower: windows see less of what is mirrored beyond the border",
+                         "not measured: taken over from the code before constants were listed"},
+                    });
 
 /// The coordinate that one beyond the border shows.
 int mirrored(int i, int length) {
@@ -29,9 +29,9 @@ int mirrored(int i, int length) {
 PaddedLevel::PaddedLevel(const AppearanceLevel& level, bool wraps)
     : size_(level.size),
       wraps_(wraps),
-      keep_off_(wraps                                                                  ? 0
-                : std::min(level.size.width, level.size.height) <= tuning->coarse_side ? 1
-                                                                                       : 2),
+      keep_off_(wraps                                                                               ? 0
+                : std::min(level.size.width, level.size.height) <= padded_level_tuning->coarse_side ? 1
+                                                                                                    : 2),
       masked_(!level.usable.empty()),
       stride_(level.size.width + 2 * margin) {
   vectors_.reserve(size_t(stride_) * (size_.height + 2 * margin));

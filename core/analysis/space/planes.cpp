@@ -15,17 +15,16 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct PlanesTuning {
   double least_deviation = 0.02;
 };
-const Tunable<Tuning> tuning("planes",
-                             {
-                                 {&Tuning::least_deviation, "least_deviation", "of the range of values",
-                                  "to which maps that hardly vary are scaled. Higher: faint maps count for less; "
-                                  "lower: their noise counts as much as the structure of others",
-                                  "not measured: less is quantisation noise of an 8-bit map rather than structure",
-                                  0.000001},
-                             });
+const Tunable<PlanesTuning> planes_tuning(
+    "planes", {
+                  {&PlanesTuning::least_deviation, "least_deviation", "of the range of values",
+                   "to which maps that hardly vary are scaled. Higher: faint maps count for less; "
+                   "lower: their noise counts as much as the structure of others",
+                   "not measured: less is quantisation noise of an 8-bit map rather than structure", 0.000001},
+              });
 
 /// Of the pixels that count; `allowed` empty: of all.
 Moments<> moments(const Image& image, const std::vector<uint8_t>& allowed) {
@@ -46,7 +45,7 @@ void add_image(const Image& image, const std::vector<double>& weights, const std
   double variance = 0;
   for (int c = 0; c < channels; c++)
     if (weights[c] > 0) variance += m.variance(c);
-  const double unit = 1.0 / std::max(std::sqrt(variance), tuning->least_deviation);
+  const double unit = 1.0 / std::max(std::sqrt(variance), planes_tuning->least_deviation);
   const VectorXd mean = m.mean_vector();
   for_each_strip(image, [&](const Rect& r, const float* v) {
     for (int y = 0; y < r.height; y++)

@@ -10,7 +10,7 @@ namespace terrazzo {
 namespace {
 
 /// From values to ranks, stretched so that the least is 0 and the greatest 1.
-Curve equalizing_curve(const Distribution& d, bool inverted) {
+PiecewiseLinear equalizing_curve(const Distribution& d, bool inverted) {
   std::vector<double> values, ranks;
   const double low = d.ranks().front(), high = d.ranks().back();
   for (size_t i = 0; i < d.atoms().size(); i++) {
@@ -27,7 +27,8 @@ ImagePtr progression_of(const Features& features, double deviation, bool inverte
   const Planes planes = box_blurred(weighted_planes(features, task), deviation, task);
   const ImageInfo info{.size = features.size(), .channels = 1, .semantic = Semantic::guidance, .depth = Depth::u16};
   std::vector<float> values = leading_component(planes, task);
-  const Curve curve = equalizing_curve(Distribution::of(*Image::from_floats(info, values), task).front(), inverted);
+  const PiecewiseLinear curve =
+      equalizing_curve(Distribution::of(*Image::from_floats(info, values), task).front(), inverted);
   const int width = info.size.width;
   tbb::parallel_for(0, info.size.height, [&](int y) {
     for (int x = 0; x < width; x++) {

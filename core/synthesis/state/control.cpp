@@ -21,7 +21,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct ControlTuning {
   double values_factor = 8;
   double feature_side = 1.0 / 16;
   double extreme_ranks = 0.05;
@@ -29,29 +29,30 @@ struct Tuning {
   int gray_bin_bits = 4;
   int color_bin_bits = 2;
 };
-const Tunable<Tuning> tuning(
+const Tunable<ControlTuning> control_tuning(
     "control",
     {
-        {&Tuning::values_factor, "values_factor", "cost of a wrong label",
+        {&ControlTuning::values_factor, "values_factor", "cost of a wrong label",
          "higher: the largest difference of values costs more, and the picture shows more clearly; lower: features "
          "stay "
          "whole",
          "not measured: the parameter `strength` scales it"},
-        {&Tuning::feature_side, "feature_side", "exemplar sides",
+        {&ControlTuning::feature_side, "feature_side", "exemplar sides",
          "higher: values may differ as they do in larger features, which stay whole; lower: the picture shows more "
          "clearly",
          "control", 0, 1},
-        {&Tuning::extreme_ranks, "extreme_ranks", "share of the exemplar's pixels",
+        {&ControlTuning::extreme_ranks, "extreme_ranks", "share of the exemplar's pixels",
          "higher: more of the darkest and of the lightest values count as one, so that enough pixels show them; lower: "
          "the picture keeps its contrast",
          "control", 0, 0.5},
-        {&Tuning::least_demand, "least_demand", "share of an even use",
+        {&ControlTuning::least_demand, "least_demand", "share of an even use",
          "higher: pixels whose values the target does not want stay cheap, for transitions; lower: they are avoided",
          "not measured: above 0, as transitions need such pixels"},
-        {&Tuning::gray_bin_bits, "gray_bin_bits", "bits, 1..8",
+        {&ControlTuning::gray_bin_bits, "gray_bin_bits", "bits, 1..8",
          "higher: demand is counted by finer grey values; lower: bins hold enough pixels to serve it",
          "not measured: 16 bins of a 256-pixel exemplar hold some thousand pixels each", 1, 8},
-        {&Tuning::color_bin_bits, "color_bin_bits", "bits per channel, 1..8", "the same for each channel of colours",
+        {&ControlTuning::color_bin_bits, "color_bin_bits", "bits per channel, 1..8",
+         "the same for each channel of colours",
          "not measured: 64 bins of a 256-pixel exemplar hold some thousand pixels each", 1, 8},
     });
 
@@ -61,7 +62,7 @@ constexpr double most_weight = 1e9;  // keeps sums of weighted squares within 64
 constexpr int deviation_windows = 512,
               distance_pairs = 1024;  // sample sizes: the means they give vary by a few per cent
 
-using Plane = std::vector<float>;
+using PlaneValues = std::vector<float>;
 
 /// The control's plain numbers at another size.
 ImagePtr values_at_size(const ImagePtr& image, Size size, const Task& task) {
@@ -102,7 +103,7 @@ void put_values(const Control& control, ControlPlanes& exemplar, ControlPlanes& 
   const ImagePtr wants = values_at_size(control.target, target.size, task);
   const std::vector<Distribution> own = Distribution::of(*has, task), wanted = Distribution::of(*wants, task);
   std::vector<ByteScale> scales;
-  std::vector<Curve> curves;
+  std::vector<PiecewiseLinear> curves;
   for (size_t c = 0; c < own.size(); c++) {
     double low = own[c].min(), high = own[c].max();
     if (control.match == Control::Match::none) {
@@ -110,13 +111,14 @@ void put_values(const Control& control, ControlPlanes& exemplar, ControlPlanes& 
       high = std::max<double>(high, wanted[c].max());
     }
     const bool by_rank = control.match == Control::Match::histogram;
-    scales.push_back({low, std::max(high, low + least_range), by_rank ? own[c].quantile(tuning->extreme_ranks) : low,
-                      by_rank ? own[c].quantile(1 - tuning->extreme_ranks) : high});
+    scales.push_back({low, std::max(high, low + least_range),
+                      by_rank ? own[c].quantile(control_tuning->extreme_ranks) : low,
+                      by_rank ? own[c].quantile(1 - control_tuning->extreme_ranks) : high});
     if (by_rank)
       curves.push_back(matching_curve(wanted[c], own[c]));
     else if (control.match == Control::Match::range)
-      curves.push_back(
-          Curve({wanted[c].min(), std::max<double>(wanted[c].max(), wanted[c].min() + least_range)}, {low, high}));
+      curves.push_back(PiecewiseLinear(
+          {wanted[c].min(), std::max<double>(wanted[c].max(), wanted[c].min() + least_range)}, {low, high}));
   }
   put(*has, exemplar, first, [&](const float* in, uint8_t* out) {
     for (size_t c = 0; c < scales.size(); c++) out[c] = scales[c](in[c]);
@@ -156,7 +158,7 @@ ControlPlanes halved(const ControlPlanes& in) {
 /// How much the channels [first, end) vary within a feature: their mean deviation in windows of its size.
 double deviation_within_features(const ControlPlanes& planes, int first, int end) {
   const Size size = planes.size;
-  const int reach = std::max(1, int(std::max(size.width, size.height) * tuning->feature_side / 2));
+  const int reach = std::max(1, int(std::max(size.width, size.height) * control_tuning->feature_side / 2));
   double total = 0;
   for (int i = 0; i < deviation_windows; i++) {
     const int x = int(below(uint32_t(random_bits(33, i)), uint32_t(size.width)));
@@ -239,7 +241,7 @@ LevelControl::LevelControl(const ControlPyramid& pyramid, int level, const Padde
   for (const ControlPyramid::Part& part : pyramid.parts()) {
     // Two labels differ in two channels.
     const double whole = 255.0 * 255 * (part.labels ? 2 : part.count);
-    const double factor = part.strength * typical * (part.labels ? 1 : tuning->values_factor) / whole;
+    const double factor = part.strength * typical * (part.labels ? 1 : control_tuning->values_factor) / whole;
     const double weight = std::min(factor * (1 << weight_bits), most_weight);
     const int end = part.first + part.count;
     // Without slack the few places that have the wanted value all around them would be shown over and over.
@@ -247,7 +249,7 @@ LevelControl::LevelControl(const ControlPyramid& pyramid, int level, const Padde
         part.labels ? 0
                     : deviation_within_features(exemplar_, part.first, end) / std::sqrt(std::max(1.0, part.strength));
     parts_.push_back({part.first, end, uint64_t(std::floor(weight + 0.5)), part.labels, int(slack),
-                      part.count == 1 ? tuning->gray_bin_bits : tuning->color_bin_bits});
+                      part.count == 1 ? control_tuning->gray_bin_bits : control_tuning->color_bin_bits});
     influence_ = std::max(influence_, std::min(1.0, part.strength));
   }
 }
@@ -282,7 +284,7 @@ std::vector<double> LevelControl::demand(const std::vector<uint8_t>& usable) con
     if (!is_usable(i)) continue;
     const Counts& bin = bins.at(key(exemplar_.at(int64_t(i))));
     const double ratio = wants > 0 ? double(bin.wants) / double(wants) * double(has) / double(bin.has) : 1.0;
-    demand[i] = 1 + influence_ * (std::max(tuning->least_demand, ratio) - 1);
+    demand[i] = 1 + influence_ * (std::max(control_tuning->least_demand, ratio) - 1);
   }
   return demand;
 }

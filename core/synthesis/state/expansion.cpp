@@ -12,18 +12,18 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct ExpansionTuning {
   double edge = appearance_limit / 5.0;
   double seen_on_edges = 0.1;
 };
-const Tunable<Tuning> tuning(
+const Tunable<ExpansionTuning> expansion_tuning(
     "expansion",
     {
-        {&Tuning::edge, "edge", "appearance units",
+        {&ExpansionTuning::edge, "edge", "appearance units",
          "how much a joint differs from what lies beside it: about a deviation of the first component. Lower: weaker "
          "edges hide seams too, within bricks; higher: only strong joints attract seams",
          "seams", 0.001},
-        {&Tuning::seen_on_edges, "seen_on_edges", "share of a mismatch",
+        {&ExpansionTuning::seen_on_edges, "seen_on_edges", "share of a mismatch",
          "higher: seams along joints must fit as well; lower: seams keep to joints, but in grids of alike tiles they "
          "run anywhere along them",
          "seams", 0, 1},
@@ -41,8 +41,8 @@ ExpansionGround::ExpansionGround(Field& f, const CorrectionLevel& l, int b, bool
       block(b),
       along_edges(edges_hide),
       node(f.pixels.size(), untouched),
-      edge_(float(tuning->edge)),
-      seen_on_edges_(float(tuning->seen_on_edges)) {
+      edge_(float(expansion_tuning->edge)),
+      seen_on_edges_(float(expansion_tuning->seen_on_edges)) {
   if (along_edges) find_edges();
 }
 

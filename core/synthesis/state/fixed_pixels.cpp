@@ -6,7 +6,7 @@
 
 namespace terrazzo {
 
-LatticeGaps KeptPixels::gaps(Size output) const {
+LatticeGaps ExistingPixels::gaps(Size output) const {
   if (empty()) return {};
   const Rect kept = bounds(output, [&](size_t i) { return keep[i] == Keep::always; });
   if (kept.area() == 0) return {};
@@ -14,7 +14,7 @@ LatticeGaps KeptPixels::gaps(Size output) const {
           {double(kept.bottom()), double(output.height - kept.height)}};
 }
 
-FixedPixels::FixedPixels(const KeptPixels& kept, Size output, int level, Size exemplar) {
+FixedPixels::FixedPixels(const ExistingPixels& kept, Size output, int level, Size exemplar) {
   if (kept.empty()) return;
   const int block = 1 << level, middle = block / 2;
   const Size size{(output.width + block - 1) / block, (output.height + block - 1) / block};

@@ -14,7 +14,7 @@ namespace terrazzo {
 enum class Keep : uint8_t { never, at_first, always };
 
 /// Output pixels that are there already.
-struct KeptPixels {
+struct ExistingPixels {
   std::vector<ExemplarPixel> pixels{};  ///< what each output pixel shows; arbitrary where `keep` is `never`
   std::vector<Keep> keep{};             ///< of each output pixel; both are empty if none is kept
   bool empty() const { return keep.empty(); }
@@ -28,7 +28,7 @@ class FixedPixels {
   /// Nothing is fixed.
   FixedPixels() = default;
   /// `output`: the finest level's size; `exemplar`: the exemplar's at `level`, 0 = the finest.
-  FixedPixels(const KeptPixels& kept, Size output, int level, Size exemplar);
+  FixedPixels(const ExistingPixels& kept, Size output, int level, Size exemplar);
 
   bool any() const { return !fixed_.empty(); }
   bool at(size_t pixel) const { return !fixed_.empty() && fixed_[pixel]; }

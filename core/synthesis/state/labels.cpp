@@ -18,11 +18,11 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct LabelsTuning {
   double around_core = 1.5;
 };
-const Tunable<Tuning> tuning(
-    "labels", {{&Tuning::around_core, "around_core", "leeways",
+const Tunable<LabelsTuning> labels_tuning(
+    "labels", {{&LabelsTuning::around_core, "around_core", "leeways",
                 "how far from a disc of the leeway's radius that fits into an area the area still has leeway. Higher: "
                 "sharper corners may become round; lower: borders keep to their line near corners",
                 "not measured: the corners of a square are 1.41 away", 0, 1000}});
@@ -99,7 +99,7 @@ void require_comparable(const Image& exemplar, const Image& target) {
 /// that no disc of that radius fits.
 std::vector<uint8_t> movable_border(const std::vector<uint8_t>& is_label, Size size, double leeway) {
   const auto beyond = int64_t(leeway * leeway),
-             around = int64_t(tuning->around_core * tuning->around_core * leeway * leeway);
+             around = int64_t(labels_tuning->around_core * labels_tuning->around_core * leeway * leeway);
   const auto all_where = [&](const auto& test) {
     std::vector<uint8_t> out(is_label.size());
     for (size_t i = 0; i < out.size(); i++) out[i] = test(i);

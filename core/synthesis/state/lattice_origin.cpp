@@ -10,13 +10,14 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct LatticeOriginTuning {
   int grain = 8;
 };
-const Tunable<Tuning> tuning("lattice_origin", {{&Tuning::grain, "grain", "pixels",
-                                                 "of which a lattice's start is a multiple. Higher: coarse levels are "
-                                                 "in phase to the pixel; lower: more seeds differ",
-                                                 "regularity", 1, 1024}});
+const Tunable<LatticeOriginTuning> lattice_origin_tuning(
+    "lattice_origin", {{&LatticeOriginTuning::grain, "grain", "pixels",
+                        "of which a lattice's start is a multiple. Higher: coarse levels are "
+                        "in phase to the pixel; lower: more seeds differ",
+                        "regularity", 1, 1024}});
 
 constexpr int bins = 64;
 
@@ -81,12 +82,12 @@ class PhaseVotes {
 Vector2d random_lattice_origin(const Lattice& lattice, uint64_t bits) {
   if (lattice.rank == 0) return {};
   constexpr uint32_t range = 4096;
-  const int grain = tuning->grain;
+  const int grain = lattice_origin_tuning->grain;
   return {double(below(uint32_t(bits), range / uint32_t(grain)) * uint32_t(grain)),
           double(below(uint32_t(bits >> 32), range / uint32_t(grain)) * uint32_t(grain))};
 }
 
-Vector2d lattice_origin(const Lattice& lattice, const KeptPixels& kept, Size size) {
+Vector2d lattice_origin(const Lattice& lattice, const ExistingPixels& kept, Size size) {
   if (lattice.rank == 0) return {};
   const bool some_stay = std::ranges::find(kept.keep, Keep::always) != kept.keep.end();
   PhaseVotes votes(lattice);

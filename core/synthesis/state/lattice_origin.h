@@ -12,6 +12,6 @@ Vector2d random_lattice_origin(const Lattice& lattice, uint64_t bits);
 
 /// The one that most of the kept pixels are in phase with, for a result of that size. Of pixels that always stay, or of
 /// all that are kept if none does.
-Vector2d lattice_origin(const Lattice& lattice, const KeptPixels& kept, Size size);
+Vector2d lattice_origin(const Lattice& lattice, const ExistingPixels& kept, Size size);
 
 }  // namespace terrazzo

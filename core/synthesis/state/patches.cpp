@@ -14,23 +14,23 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct PatchesTuning {
   int near = 20;
   int random_places = 16;
   int rim_stride = 2;
   int near_stride = 2;
 };
-const Tunable<Tuning> tuning(
+const Tunable<PatchesTuning> patches_tuning(
     "patches", {
-                   {&Tuning::near, "near", "pixels from a window's middle",
+                   {&PatchesTuning::near, "near", "pixels from a window's middle",
                     "higher: what is repaired repeats less; lower: more places may fit, and fewer windows stay broken",
                     "graphcut_repair", Patches::half + 1, 1000},
-                   {&Tuning::random_places, "random_places", "candidates for a window",
+                   {&PatchesTuning::random_places, "random_places", "candidates for a window",
                     "higher: a better patch is found now and then; costs time", "graphcut_repair"},
-                   {&Tuning::rim_stride, "rim_stride", "pixels of the rim",
+                   {&PatchesTuning::rim_stride, "rim_stride", "pixels of the rim",
                     "higher: fewer of the rim's pixels propose candidates, which saves time; lower: more candidates",
                     "not measured: neighbours in one piece propose the same candidates", 1, 1000},
-                   {&Tuning::near_stride, "near_stride", "pixels in x and y",
+                   {&PatchesTuning::near_stride, "near_stride", "pixels in x and y",
                     "higher: fewer pixels are searched for repeats, which saves time; lower: smaller repeats are found",
                     "not measured: only repeats less than two pixels wide are missed", 1, 1000},
                });
@@ -52,7 +52,7 @@ Patches::Patches(ExpansionGround& ground, const UsagePenalty& usage, uint64_t se
     : ground_(ground), usage_(usage), seed_(seed), rim_(scattered_rim()), expansion_(ground) {}
 
 int Patches::near() {
-  return tuning->near;
+  return patches_tuning->near;
 }
 
 /// The window's pixels around its core, each far from the one before, so that sums soon exceed their limit.
@@ -111,7 +111,7 @@ int64_t Patches::index(int x, int y) const {
 void Patches::collect_places(int x, int y) {
   const CorrectionLevel& level = ground_.level;
   places_.clear();
-  for (size_t i = 0; i < rim_.size(); i += size_t(tuning->rim_stride)) {
+  for (size_t i = 0; i < rim_.size(); i += size_t(patches_tuning->rim_stride)) {
     const Offset& o = rim_[i];
     const ExemplarPixel p = pixel(x + o.x, y + o.y);
     add_place(x, y, p.x - o.x, p.y - o.y);
@@ -121,7 +121,7 @@ void Patches::collect_places(int x, int y) {
       add_place(x, y, q.x - o.x, q.y - o.y);
     }
   }
-  for (int k = 0; k < tuning->random_places; k++) {
+  for (int k = 0; k < patches_tuning->random_places; k++) {
     auto [u, v] = level.exemplar.place(random_bits(seed_, level.level, x, y, k));
     level.phase.snap(x, y, u, v);
     add_place(x, y, u, v);
@@ -150,7 +150,7 @@ int64_t Patches::misfit_at(uint32_t place, int64_t limit) const {
 
 /// Whether the core would repeat what shows near the window already, other than what continues into the window.
 bool Patches::shows_near(int x, int y, uint32_t place) const {
-  const int near = this->near(), stride = tuning->near_stride;
+  const int near = this->near(), stride = patches_tuning->near_stride;
   for (int dy = -near; dy <= near; dy += stride)
     for (int dx = -near; dx <= near; dx += stride) {
       if (std::max(std::abs(dx), std::abs(dy)) <= half) continue;

@@ -10,26 +10,26 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct PieceLimitsTuning {
   double large = 0.119;
   double fragment = 0.3;
   double large_on_lattice = 0.055;
   double fragment_on_lattice = 0.1;
   double most_coherence = 3;
 };
-const Tunable<Tuning> tuning(
+const Tunable<PieceLimitsTuning> piece_limits_tuning(
     "piece_limits",
     {
-        {&Tuning::large, "large", "share of the exemplar's area",
+        {&PieceLimitsTuning::large, "large", "share of the exemplar's area",
          "higher: larger pieces, fewer seams, less broken; lower: less is copied verbatim", "piece_limits"},
-        {&Tuning::fragment, "fragment", "share of large",
+        {&PieceLimitsTuning::fragment, "fragment", "share of large",
          "higher: more small pieces give way to their neighbours; lower: small pieces stay and more seams with them",
          "piece_limits"},
-        {&Tuning::large_on_lattice, "large_on_lattice", "share of the exemplar's area",
+        {&PieceLimitsTuning::large_on_lattice, "large_on_lattice", "share of the exemplar's area",
          "the same with a lattice, where less is out of phase and pieces grow more readily", "piece_limits"},
-        {&Tuning::fragment_on_lattice, "fragment_on_lattice", "share of large_on_lattice", "the same with a lattice",
-         "piece_limits"},
-        {&Tuning::most_coherence, "most_coherence", "factor",
+        {&PieceLimitsTuning::fragment_on_lattice, "fragment_on_lattice", "share of large_on_lattice",
+         "the same with a lattice", "piece_limits"},
+        {&PieceLimitsTuning::most_coherence, "most_coherence", "factor",
          "higher: the largest pieces stop growing for certain; lower: on lattices they go on growing", "piece_limits",
          0, 1000},
     });
@@ -37,14 +37,14 @@ const Tunable<Tuning> tuning(
 }  // namespace
 
 PieceLimits PieceLimits::of(bool regular) {
-  return regular ? PieceLimits{tuning->large_on_lattice, tuning->fragment_on_lattice}
-                 : PieceLimits{tuning->large, tuning->fragment};
+  return regular ? PieceLimits{piece_limits_tuning->large_on_lattice, piece_limits_tuning->fragment_on_lattice}
+                 : PieceLimits{piece_limits_tuning->large, piece_limits_tuning->fragment};
 }
 
 std::vector<uint32_t> piece_coherence(const Field& field, const CorrectionLevel& level, double coherence,
                                       const PieceLimits& limits) {
   const Pieces pieces(field, 1, level.window.closed_x, level.window.closed_y);
-  const double most_coherence = tuning->most_coherence;
+  const double most_coherence = piece_limits_tuning->most_coherence;
   const double large = limits.large * double(level.exemplar.size().area());
   std::vector<uint32_t> factors(field.pixels.size());
   for (size_t i = 0; i < factors.size(); i++) {

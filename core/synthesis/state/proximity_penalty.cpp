@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct ProximityPenaltyTuning {
   double most_excess = 2;
   double most_counts = double(1 << 24);
   int blocks_per_side = 8;
@@ -21,28 +21,28 @@ struct Tuning {
   int cells_per_side = 16;
   int smallest_cell = 2;
 };
-const Tunable<Tuning> tuning(
+const Tunable<ProximityPenaltyTuning> proximity_penalty_tuning(
     "proximity_penalty",
     {
-        {&Tuning::most_excess, "most_excess", "repeats near by",
+        {&ProximityPenaltyTuning::most_excess, "most_excess", "repeats near by",
          "higher: cells that repeat many times near by cost still more; lower: they are no worse than a few repeats",
          "not measured: keeps factors in the range of other terms"},
-        {&Tuning::most_counts, "most_counts", "counters of two bytes",
+        {&ProximityPenaltyTuning::most_counts, "most_counts", "counters of two bytes",
          "higher: larger planes are counted too; costs memory and time", "not measured: 32 MiB"},
-        {&Tuning::blocks_per_side, "blocks_per_side", "blocks along the exemplar's shorter side",
+        {&ProximityPenaltyTuning::blocks_per_side, "blocks_per_side", "blocks along the exemplar's shorter side",
          "higher: a finer map of what is near, whose reaches are shorter; costs time and memory",
          "not measured: reaches were measured in eighths of the exemplar's side", 1},
-        {&Tuning::far_reach, "far_reach", "blocks to each side",
+        {&ProximityPenaltyTuning::far_reach, "far_reach", "blocks to each side",
          "higher: repeats must be farther apart, which drives them to one distance just beyond; lower: they come "
          "nearer",
          "proximity_penalty", 0, 100},
-        {&Tuning::near_reach, "near_reach", "blocks to each side",
+        {&ProximityPenaltyTuning::near_reach, "near_reach", "blocks to each side",
          "within it repeats count twice. Higher: more of them do; lower: repeats come side by side",
          "proximity_penalty", 0, 100},
-        {&Tuning::cells_per_side, "cells_per_side", "cells along the exemplar's longer side",
+        {&ProximityPenaltyTuning::cells_per_side, "cells_per_side", "cells along the exemplar's longer side",
          "higher: use is counted by smaller features; costs time. Lower: copies of parts of cells are not noticed",
          "not measured: chosen to be about as large as small features", 1},
-        {&Tuning::smallest_cell, "smallest_cell", "pixels",
+        {&ProximityPenaltyTuning::smallest_cell, "smallest_cell", "pixels",
          "the least side of a cell. Higher: less time at coarse levels; lower: smaller features count there",
          "not measured: counts of single pixels would be mostly noise", 1},
     });
@@ -51,14 +51,14 @@ constexpr size_t cells_at_once = 16;  // compared together, which vectorizes
 constexpr uint32_t most = std::numeric_limits<uint16_t>::max();
 
 int block_side(Size exemplar) {
-  return std::max(1, std::min(exemplar.width, exemplar.height) / tuning->blocks_per_side);
+  return std::max(1, std::min(exemplar.width, exemplar.height) / proximity_penalty_tuning->blocks_per_side);
 }
 
 }  // namespace
 
 ExemplarCells::ExemplarCells(Size exemplar) : columns(size_t(exemplar.width)), row_starts(size_t(exemplar.height)) {
   const int longer = std::max(exemplar.width, exemplar.height);
-  const int side = std::max(tuning->smallest_cell, longer / tuning->cells_per_side);
+  const int side = std::max(proximity_penalty_tuning->smallest_cell, longer / proximity_penalty_tuning->cells_per_side);
   const int across = (exemplar.width + side - 1) / side, down = (exemplar.height + side - 1) / side;
   for (int x = 0; x < exemplar.width; x++) columns[x] = uint32_t(x / side);
   for (int y = 0; y < exemplar.height; y++) row_starts[y] = uint32_t(y / side * across);
@@ -77,13 +77,13 @@ ProximityPenalty::ProximityPenalty(Size exemplar, std::vector<double> areas, dou
 
 bool ProximityPenalty::is_worth_it(Size exemplar, const ExemplarCells& cells, const Plane& plane) {
   const double side = block_side(exemplar);
-  return double(plane.size.area()) / (side * side) * double(cells.count) <= tuning->most_counts;
+  return double(plane.size.area()) / (side * side) * double(cells.count) <= proximity_penalty_tuning->most_counts;
 }
 
 void ProximityPenalty::count(const Field& field, const ExemplarCells& cells) {
   count_shown(field, cells);
   factors_.assign(shown_.size(), unit_factor);
-  for (const int reach : {tuning->far_reach, tuning->near_reach}) {
+  for (const int reach : {proximity_penalty_tuning->far_reach, proximity_penalty_tuning->near_reach}) {
     sum_around(reach);
     raise_factors(reach);
   }
@@ -137,7 +137,7 @@ void ProximityPenalty::raise_factors(int reach) {
   const double looked_at = double(2 * reach + 1) * side_, area = double(exemplar_.area());
   const double times = std::max(1.0, looked_at * looked_at / area);
   std::vector<double> once(cells_);
-  const double most_excess = tuning->most_excess;
+  const double most_excess = proximity_penalty_tuning->most_excess;
   Counts whole_once(
       cells_);  // the same rounded down: most counts do not exceed it, and a vector of them is tested at once
   for (size_t c = 0; c < cells_; c++) {

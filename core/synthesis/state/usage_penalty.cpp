@@ -8,28 +8,28 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct UsagePenaltyTuning {
   double most_excess = 4;
   double gain = 0.3;
   double most_step = 1;
   double least_price = 0.25;
   double most_price = 4;
 };
-const Tunable<Tuning> tuning(
+const Tunable<UsagePenaltyTuning> usage_penalty_tuning(
     "usage_penalty",
     {
-        {&Tuning::most_excess, "most_excess", "uses too many",
+        {&UsagePenaltyTuning::most_excess, "most_excess", "uses too many",
          "higher: cells used many times too often cost still more; lower: they are no worse than a few times",
          "not measured: keeps factors in the range of other terms", 0, 1000},
-        {&Tuning::gain, "gain", "price per excess",
+        {&UsagePenaltyTuning::gain, "gain", "price per excess",
          "the integral gain. Higher: rare features come back sooner, but use oscillates; lower: they stay rare",
          "usage_penalty"},
-        {&Tuning::most_step, "most_step", "uses too many",
+        {&UsagePenaltyTuning::most_step, "most_step", "uses too many",
          "higher: one count raises the price of over-used cells more, and use oscillates; lower: they stay over-used",
          "not measured: as large as the fall of a cell that is not used at all"},
-        {&Tuning::least_price, "least_price", "factor",
+        {&UsagePenaltyTuning::least_price, "least_price", "factor",
          "lower: cells that fit badly are forced in; higher: rare features are lost", "usage_penalty", 0, 1},
-        {&Tuning::most_price, "most_price", "factor",
+        {&UsagePenaltyTuning::most_price, "most_price", "factor",
          "higher: popular cells are avoided at any cost; lower: they stay over-used", "usage_penalty", 1, 1000},
     });
 
@@ -93,15 +93,16 @@ void UsagePenalty::count(std::span<const ExemplarPixel> pixels, const FixedPixel
     // Where less is wanted than the cell holds, a few whole pieces are better than bits of everything: to show all of
     // it once is not too much, and to leave it out hardly too little.
     const double used = double(use[i]), once = std::max(expected, areas_[i]);
-    const double excess =
-        used > once ? std::min(tuning->most_excess, used / once - 1) : std::min(0.0, (used - expected) / once);
+    const double excess = used > once ? std::min(usage_penalty_tuning->most_excess, used / once - 1)
+                                      : std::min(0.0, (used - expected) / once);
     // Under-used cells become cheaper as over-used ones become more expensive, but only down to a limit: an even use is
     // not worth broken features.
     double factor = std::max(least_factor_, 1.0 + weight_ * excess);
     if (!prices_.empty()) {
-      const double raised = prices_[i] * (1 + tuning->gain * std::min(tuning->most_step, excess));
-      prices_[i] = std::clamp(raised, tuning->least_price, tuning->most_price);
-      factor = std::max(tuning->least_price, factor * prices_[i]);
+      const double raised =
+          prices_[i] * (1 + usage_penalty_tuning->gain * std::min(usage_penalty_tuning->most_step, excess));
+      prices_[i] = std::clamp(raised, usage_penalty_tuning->least_price, usage_penalty_tuning->most_price);
+      factor = std::max(usage_penalty_tuning->least_price, factor * prices_[i]);
     }
     factors_[i] = uint32_t(unit_factor * factor);
   }

@@ -15,26 +15,26 @@ namespace {
 
 constexpr int reach = WindowCoherence::reach, side = WindowCoherence::side;
 
-struct Tuning {
+struct WindowCoherenceTuning {
   double usual_share = 0.95;
   double sampled_windows = 1024;
   double alike = 0.8;
   double unlike = 1.2;
 };
-const Tunable<Tuning> tuning(
+const Tunable<WindowCoherenceTuning> window_coherence_tuning(
     "window_coherence",
     {
-        {&Tuning::usual_share, "usual_share", "share of the exemplar's windows",
+        {&WindowCoherenceTuning::usual_share, "usual_share", "share of the exemplar's windows",
          "higher: only windows unlike nearly all of the exemplar are repaired; lower: more are, at the cost of rare "
          "features",
          "not measured: the share by which the figure `broken` is defined", 0, 1},
-        {&Tuning::sampled_windows, "sampled_windows", "windows of the exemplar",
+        {&WindowCoherenceTuning::sampled_windows, "sampled_windows", "windows of the exemplar",
          "higher: the usual distance is known more exactly; costs time",
          "not measured: about fifty of them lie beyond usual_share", 1},
-        {&Tuning::alike, "alike", "usual distances",
+        {&WindowCoherenceTuning::alike, "alike", "usual distances",
          "up to it a window is coherent. Higher: less is repaired; lower: more windows count as slightly incoherent",
          "not measured: symmetric to unlike", 0, 1},
-        {&Tuning::unlike, "unlike", "usual distances",
+        {&WindowCoherenceTuning::unlike, "unlike", "usual distances",
          "from it on a window is fully incoherent. Higher: repairs also weigh how unlike windows are; lower: they "
          "count "
          "windows",
@@ -122,7 +122,7 @@ int64_t own_distance(const CorrectionLevel& level, int u, int v) {
 
 double usual_distance(const CorrectionLevel& level) {
   const Size size = level.exemplar.size();
-  const int step = std::max(1, int(std::sqrt(double(size.area()) / tuning->sampled_windows)));
+  const int step = std::max(1, int(std::sqrt(double(size.area()) / window_coherence_tuning->sampled_windows)));
   const int columns = (size.width - 2 * reach + step - 1) / step, rows = (size.height - 2 * reach + step - 1) / step;
   if (columns <= 0 || rows <= 0) return 0;
   std::vector<int64_t> distances(size_t(columns) * rows);
@@ -132,7 +132,8 @@ double usual_distance(const CorrectionLevel& level) {
   });
   std::erase(distances, no_distance);
   if (distances.empty()) return 0;
-  const size_t rank = std::min(distances.size() - 1, size_t(tuning->usual_share * double(distances.size())));
+  const size_t rank =
+      std::min(distances.size() - 1, size_t(window_coherence_tuning->usual_share * double(distances.size())));
   const auto usual = distances.begin() + ptrdiff_t(rank);
   std::nth_element(distances.begin(), usual, distances.end());
   return double(*usual);
@@ -149,7 +150,7 @@ int32_t WindowCoherence::incoherence(const Window& shown) const {
   for (int i = 1; i < side * side && continuous; i++)
     continuous = shown[i].x == first.x + i % side && shown[i].y == first.y + i / side;
   if (continuous) return 0;
-  const double alike = tuning->alike, unlike = tuning->unlike;
+  const double alike = window_coherence_tuning->alike, unlike = window_coherence_tuning->unlike;
   const auto enough = int64_t(usual_ * alike * alike), limit = int64_t(usual_ * unlike * unlike);
   NearestWindow nearest(level_, shown, limit);
   nearest.consider_continued(enough);

@@ -13,20 +13,20 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct AlignmentTuning {
   int smallest_piece = 4;
   int sweeps = 2;
   int worthwhile = 61;
 };
-const Tunable<Tuning> tuning(
+const Tunable<AlignmentTuning> alignment_tuning(
     "alignment",
     {
-        {&Tuning::smallest_piece, "smallest_piece", "pixels of the level",
+        {&AlignmentTuning::smallest_piece, "smallest_piece", "pixels of the level",
          "higher: less time; smaller pieces are left to correction. Lower: small pieces fit better when it begins",
          "not measured: smaller pieces are left to correction"},
-        {&Tuning::sweeps, "sweeps", "rounds over all pieces",
+        {&AlignmentTuning::sweeps, "sweeps", "rounds over all pieces",
          "higher: pieces follow neighbours that moved after them; costs time", "alignment"},
-        {&Tuning::worthwhile, "worthwhile", "64ths of the mismatch",
+        {&AlignmentTuning::worthwhile, "worthwhile", "64ths of the mismatch",
          "what a move must lower it to. Higher: pieces move for small gains; lower: they stay in place",
          "not measured: a move must be worth the change; above 64 pieces would move for losses", 0, 64},
     });
@@ -51,7 +51,7 @@ class PieceAligner {
   }
 
   void align() {
-    for (int sweep = 0; sweep < tuning->sweeps; sweep++)
+    for (int sweep = 0; sweep < alignment_tuning->sweeps; sweep++)
       for (int round = 0; round < rounds(); round++)
         tbb::parallel_for(round_begin_[round], round_begin_[round + 1], [&](int i) {
           task_.check();
@@ -63,7 +63,7 @@ class PieceAligner {
 
  private:
   bool can_move(int piece) const {
-    return pieces_.area(piece) * block_ * block_ >= tuning->smallest_piece && !ground_.is_fixed(piece);
+    return pieces_.area(piece) * block_ * block_ >= alignment_tuning->smallest_piece && !ground_.is_fixed(piece);
   }
 
   /// The borders of the pieces that can move. They do not change: a move changes what pixels show, not their pieces.
@@ -144,7 +144,7 @@ class PieceAligner {
   bool move(int piece) {
     const PieceSeams seams = seams_of(piece);
     const int64_t stay =
-        cost(piece, seams, 0, 0, std::numeric_limits<int64_t>::max()) * tuning->worthwhile / worthwhile_unit;
+        cost(piece, seams, 0, 0, std::numeric_limits<int64_t>::max()) * alignment_tuning->worthwhile / worthwhile_unit;
     const int across = 2 * reach_ + 1, moves = across * across;
     const auto cost_of = [&](int m, int64_t limit) {
       return cost(piece, seams, m % across - reach_, m / across - reach_, limit);

@@ -16,17 +16,17 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct CoherenceRepairTuning {
   double incoherent = 0.5;
   double worthwhile = 0.5;
 };
-const Tunable<Tuning> tuning(
+const Tunable<CoherenceRepairTuning> coherence_repair_tuning(
     "coherence_repair",
     {
-        {&Tuning::incoherent, "incoherent", "incoherence, 0..1",
+        {&CoherenceRepairTuning::incoherent, "incoherent", "incoherence, 0..1",
          "higher: only windows unlike anything are repaired; lower: more are, which costs time and rare features",
          "coherence_repair", 0, 1},
-        {&Tuning::worthwhile, "worthwhile", "incoherent windows",
+        {&CoherenceRepairTuning::worthwhile, "worthwhile", "incoherent windows",
          "how much a repair must lower the sum around it. Higher: rare features survive; lower: less is left broken",
          "not measured: half a window, the least that counts as incoherent", 0, 1000},
     });
@@ -163,7 +163,7 @@ class Repairer {
         surroundings_(ground.field, ground.level.window, window_coherence, incoherence) {}
 
   void repair(int x, int y) {
-    int64_t least = surroundings_.read(x, y) - fixed_point(tuning->worthwhile);
+    int64_t least = surroundings_.read(x, y) - fixed_point(coherence_repair_tuning->worthwhile);
     if (least <= 0) return;
     save(before_);
     best_ = before_;
@@ -218,7 +218,7 @@ void repair_incoherent(Field& field, const CorrectionLevel& level, UsagePenalty&
   tbb::enumerable_thread_specific<Repairer> repairers(
       [&] { return Repairer(ground, usage, window_coherence, values, tries, seed); });
   const Size size = field.size;
-  const int64_t incoherent = fixed_point(tuning->incoherent);
+  const int64_t incoherent = fixed_point(coherence_repair_tuning->incoherent);
   tbb::parallel_for(0, size.height, [&](int y) {
     task.check();
     for (int x = 0; x < size.width; x++) values[size_t(y) * size.width + x] = repairers.local().incoherence(x, y);

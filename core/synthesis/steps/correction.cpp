@@ -13,11 +13,11 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct CorrectionTuning {
   double repeat_penalty = 0.25;
 };
-const Tunable<Tuning> tuning(
-    "correction", {{&Tuning::repeat_penalty, "repeat_penalty", "factor per repeat",
+const Tunable<CorrectionTuning> correction_tuning(
+    "correction", {{&CorrectionTuning::repeat_penalty, "repeat_penalty", "factor per repeat",
                     "higher: stones and leaves are not filled by one small patch over and over; lower: exemplars with "
                     "fine, regular texture keep it",
                     "correction", 0, 1000}});
@@ -39,7 +39,7 @@ void require_room(const CorrectionPass& pass) {
 void correct(Field& field, const CorrectionLevel& level, const CorrectionPass& pass, UsagePenalty& usage,
              const Task& task) {
   require_room(pass);
-  const CorrectionInputs inputs{field, level, pass, usage, uint32_t(tuning->repeat_penalty * unit_factor)};
+  const CorrectionInputs inputs{field, level, pass, usage, uint32_t(correction_tuning->repeat_penalty * unit_factor)};
   std::vector<ExemplarPixel> next;
   for (int sub = 0; sub < sub_passes; sub++) {
     usage.recount(field, level.fixed);

@@ -16,7 +16,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct CourseLayoutTuning {
   double most_difference = 4;
   double shortest_run = 0.9;
   double least_step_back = 6;
@@ -27,39 +27,39 @@ struct Tuning {
   int most_columns = 6144;
   int most_off = 2;
 };
-const Tunable<Tuning> tuning(
+const Tunable<CourseLayoutTuning> course_layout_tuning(
     "course_layout",
     {
-        {&Tuning::most_difference, "most_difference", "mean differences",
+        {&CourseLayoutTuning::most_difference, "most_difference", "mean differences",
          "the limit of what a column may cost by its look. Higher: single features count fully; lower: they do not "
          "outweigh the rest of a brick",
          "not measured: beyond it columns have nothing in common", 0, 1000},
-        {&Tuning::shortest_run, "shortest_run", "course heights",
+        {&CourseLayoutTuning::shortest_run, "shortest_run", "course heights",
          "higher: only long bricks are taken from the exemplar; lower: slivers are, too",
          "not measured: what is shorter is no brick", 0, 1000},
-        {&Tuning::least_step_back, "least_step_back", "course heights",
+        {&CourseLayoutTuning::least_step_back, "least_step_back", "course heights",
          "how far a course must go back in the exemplar to show it again. Higher: fewer repeats side by side; lower: "
          "short exemplars offer more",
          "not measured: chosen as about two bricks", 0, 1000},
-        {&Tuning::gap, "gap", "mean differences times course heights",
+        {&CourseLayoutTuning::gap, "gap", "mean differences times course heights",
          "the cost of a joint that is missing, or twice as wide. Higher: joints keep their width; lower: cuts are "
          "freer",
          "course_layout", 0, 1000},
-        {&Tuning::most_staying, "most_staying", "share of a run's blocks",
+        {&CourseLayoutTuning::most_staying, "most_staying", "share of a run's blocks",
          "so many must agree on an offset for the run to keep it. Higher: runs are centred in their course more often; "
          "lower: more stays as it was",
          "not measured: below it the blocks agree by chance", 0, 1},
-        {&Tuning::most_out_of_phase, "most_out_of_phase", "phase penalty",
+        {&CourseLayoutTuning::most_out_of_phase, "most_out_of_phase", "phase penalty",
          "how far from the lattice runs may begin. Higher: more places fit; lower: bricks keep to the lattice",
          "not measured: 2 is as far as the lattice is uncertain"},
-        {&Tuning::most_risen, "most_risen", "rows of the field",
+        {&CourseLayoutTuning::most_risen, "most_risen", "rows of the field",
          "by how much courses of a result that wraps may miss themselves. Higher: more is laid; lower: no steps at the "
          "border",
          "not measured: a step of less than a row is not seen"},
-        {&Tuning::most_columns, "most_columns", "columns of the exemplar",
+        {&CourseLayoutTuning::most_columns, "most_columns", "columns of the exemplar",
          "tried for one course. Higher: large exemplars are used fully; costs time and memory",
          "not measured: bounds time and memory", 1, no_cut / 2 - 1},
-        {&Tuning::most_off, "most_off", "pixels of the coursing's level",
+        {&CourseLayoutTuning::most_off, "most_off", "pixels of the coursing's level",
          "how far out of place blocks may be to stay. Higher: more stays, and bed joints may jog; lower: courses are "
          "level",
          "not measured: chosen as about the uncertainty of bed joints"},
@@ -83,17 +83,17 @@ class CourseLayout {
         prices_(result_, source_, coursing, columns_, height_) {
     const int step = result_.step();
     fit_.step = step;
-    fit_.shortest = std::max(1, int(tuning->shortest_run * height_ / step));
-    fit_.least_step_back = int(tuning->least_step_back * height_);
+    fit_.shortest = std::max(1, int(course_layout_tuning->shortest_run * height_ / step));
+    fit_.least_step_back = int(course_layout_tuning->least_step_back * height_);
     fit_.per_difference = cost_per_difference(columns_, coursing);
-    fit_.most_difference = int32_t(tuning->most_difference * cost_unit);
-    fit_.per_gap = int32_t(tuning->gap * cost_unit * height_ / step / (2 * coursing.half_joint + 1));
+    fit_.most_difference = int32_t(course_layout_tuning->most_difference * cost_unit);
+    fit_.per_gap = int32_t(course_layout_tuning->gap * cost_unit * height_ / step / (2 * coursing.half_joint + 1));
     fit_.closed = result_.closed_along();
   }
 
   /// Courses within reach of each other's prices are laid one after the other, the others at the same time.
   bool lay() {
-    if (result_.closed_along() && std::abs(result_.risen()) > tuning->most_risen) return false;
+    if (result_.closed_along() && std::abs(result_.risen()) > course_layout_tuning->most_risen) return false;
     const int count = int(result_.all.size()), apart = 2 * prices_.reach() + 1;
     // Around a result that wraps the last courses are within reach of the first ones.
     const int together = result_.closed_across() ? count - count % apart : count;
@@ -162,7 +162,7 @@ class CourseLayout {
     size_t columns = 0, count = 0;
     for (; count < out.size(); count++) {
       columns += columns_[size_t(out[count])].looks.size();
-      if (count > 0 && columns > size_t(tuning->most_columns)) break;
+      if (count > 0 && columns > size_t(course_layout_tuning->most_columns)) break;
     }
     out.resize(count);
     std::ranges::sort(out);
@@ -180,7 +180,7 @@ class CourseLayout {
     out.least_shift = -3 * result_.length() * result_.step();  // fitting_runs() looks up to three times around
     for (int shift = out.least_shift; shift < int(out.columns->looks.size()); shift++) {
       const auto [u, v] = coursing_.axes.at(shift * scale, int(std::floor(across + 0.5)));
-      out.in_phase.push_back(phase_.penalty(u, v, x, y) <= tuning->most_out_of_phase);
+      out.in_phase.push_back(phase_.penalty(u, v, x, y) <= course_layout_tuning->most_out_of_phase);
     }
     return out;
   }
@@ -208,12 +208,12 @@ class CourseLayout {
       const int u = result_.axes().along(p.x, p.y), v = result_.axes().along(p.y, p.x);
       const Offset o{u - a, v - row};
       if (std::abs(o.along - centred.along) < result_.step() * scale &&
-          std::abs(o.across - centred.across) <= tuning->most_off * scale)
+          std::abs(o.across - centred.across) <= course_layout_tuning->most_off * scale)
         votes[o]++;
       blocks++;
     });
     Offset best = centred;
-    int most = int(tuning->most_staying * blocks);
+    int most = int(course_layout_tuning->most_staying * blocks);
     for (const auto& [offset, n] : votes)
       if (n > most) {
         most = n;

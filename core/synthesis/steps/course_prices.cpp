@@ -9,7 +9,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct CoursePricesTuning {
   double near = 3;
   double repeat_penalty = 1;
   double own = 1;
@@ -23,43 +23,43 @@ struct Tuning {
   double aligned_reach = 0.7;
   int close_periods = 1;
 };
-const Tunable<Tuning> tuning(
+const Tunable<CoursePricesTuning> course_prices_tuning(
     "course_prices",
     {
-        {&Tuning::near, "near", "course heights",
+        {&CoursePricesTuning::near, "near", "course heights",
          "how far along adjacent courses repeats count. Higher: bricks repeat farther apart; lower: bricks fit better",
          "not measured: chosen as about the length of a brick", 0, 100},
-        {&Tuning::repeat_penalty, "repeat_penalty", "mean differences per column",
+        {&CoursePricesTuning::repeat_penalty, "repeat_penalty", "mean differences per column",
          "higher: the same brick seldom lies near itself; lower: bricks fit better",
          "not measured: as much as a column that is no better than any", 0, 1000},
-        {&Tuning::own, "own", "mean differences per column",
+        {&CoursePricesTuning::own, "own", "mean differences per column",
          "higher: what a course shows already stays; lower: courses choose anew", "course_layout", 0, 1000},
-        {&Tuning::continued, "continued", "mean differences per column",
+        {&CoursePricesTuning::continued, "continued", "mean differences per column",
          "higher: courses continue their neighbours, in larger copies; lower: bricks mix more and break more",
          "course_layout", 0, 1000},
-        {&Tuning::neighbour_distance, "neighbour_distance", "course heights",
+        {&CoursePricesTuning::neighbour_distance, "neighbour_distance", "course heights",
          "how far from the middle of a course its neighbours are read. Near 1: their middles; lower: their near sides",
          "not measured: well within the neighbour, past its bed joint"},
-        {&Tuning::middle_tolerance, "middle_tolerance", "course heights",
+        {&CoursePricesTuning::middle_tolerance, "middle_tolerance", "course heights",
          "how far off the middle of an exemplar's course still counts as continued. Higher: more does; lower: only "
          "what "
          "is level",
          "not measured: at one half courses would be confused"},
-        {&Tuning::even, "even", "mean differences per column",
+        {&CoursePricesTuning::even, "even", "mean differences per column",
          "higher: all bricks show equally often, and rare ones come back; lower: bricks fit better", "course_layout", 0,
          1000},
-        {&Tuning::most_excess, "most_excess", "uses too many",
+        {&CoursePricesTuning::most_excess, "most_excess", "uses too many",
          "higher: columns used many times too often cost still more; lower: they are no worse than a few times",
          "not measured: keeps prices in the range of other terms", 0, 1000},
-        {&Tuning::use_reach, "use_reach", "course heights",
+        {&CoursePricesTuning::use_reach, "use_reach", "course heights",
          "to each side, over which use is averaged. Higher: whole bricks count alike; lower: single columns do",
          "not measured: half a course height in all, less than a brick", 0, 100},
-        {&Tuning::aligned, "aligned", "mean differences times course heights",
+        {&CoursePricesTuning::aligned, "aligned", "mean differences times course heights",
          "what a cut right above or below another one costs. Higher: cuts are scattered; lower: bricks fit better",
          "course_layout", 0, 1000},
-        {&Tuning::aligned_reach, "aligned_reach", "course heights", "as far as that counts, less and less",
+        {&CoursePricesTuning::aligned_reach, "aligned_reach", "course heights", "as far as that counts, less and less",
          "not measured: less than a brick", 0, 100},
-        {&Tuning::close_periods, "close_periods", "periods of the coursing",
+        {&CoursePricesTuning::close_periods, "close_periods", "periods of the coursing",
          "how many away courses count as adjacent. Higher: repeats are farther apart; costs time, as fewer courses are "
          "laid at once",
          "not measured: the nearest course of the same kind to each side", 0, 100},
@@ -89,10 +89,10 @@ CoursePrices::CoursePrices(const ResultCourses& result, const BlockSource& sourc
       coursing_(coursing),
       columns_(columns),
       height_(height / result.step()),
-      near_(int(tuning->near * height_)) {}
+      near_(int(course_prices_tuning->near * height_)) {}
 
 int CoursePrices::reach() const {
-  return tuning->close_periods * int(coursing_.beds.size());
+  return course_prices_tuning->close_periods * int(coursing_.beds.size());
 }
 
 void CoursePrices::count_use() {
@@ -116,7 +116,7 @@ void CoursePrices::count_use() {
   for (size_t c = 0; c < use_.size(); c++) {
     const ExemplarCourse& course = coursing_.courses[c];
     const float usual = float(shown[kind_of(c)] / there[kind_of(c)]);
-    use_[c] = smoothed(use_[c], std::max(1, int((course.end - course.begin) * tuning->use_reach)), usual);
+    use_[c] = smoothed(use_[c], std::max(1, int((course.end - course.begin) * course_prices_tuning->use_reach)), usual);
   }
 }
 
@@ -132,7 +132,7 @@ CoursePriceList CoursePrices::of(int at, const std::vector<int>& tried) const {
 /// Keeps cuts from standing one above the other, as where a board ends at the exemplar's border in every course.
 std::vector<int32_t> CoursePrices::cuts(int at) const {
   const int count = int(result_.all.size());
-  const double reach = std::max(1.0, tuning->aligned_reach * height_);
+  const double reach = std::max(1.0, course_prices_tuning->aligned_reach * height_);
   std::vector<int32_t> prices(size_t(result_.length()), 0);
   for (const int d : {-1, 1}) {
     const int other = result_.closed_across() ? wrap(at + d, count) : at + d;
@@ -142,7 +142,7 @@ std::vector<int32_t> CoursePrices::cuts(int at) const {
       for (int x = int(std::ceil(run.begin - reach)); x <= int(run.begin + reach); x++) {
         if (!result_.closed_along() && (x < 0 || x >= result_.length())) continue;
         const double near = 1 - std::abs(x - run.begin) / (reach + 1);
-        prices[size_t(wrap(x, result_.length()))] += cost(tuning->aligned * height_ * near);
+        prices[size_t(wrap(x, result_.length()))] += cost(course_prices_tuning->aligned * height_ * near);
       }
     }
   }
@@ -152,7 +152,7 @@ std::vector<int32_t> CoursePrices::cuts(int at) const {
 /// Penalises columns shown nearby in adjacent courses.
 void CoursePrices::add_repeats(int at, const std::vector<int>& tried, std::vector<ColumnPrice>& prices) const {
   const int count = int(result_.all.size()), step = result_.step();
-  const int32_t price = cost(tuning->repeat_penalty);
+  const int32_t price = cost(course_prices_tuning->repeat_penalty);
   for (int d = -reach(); d <= reach(); d++) {
     const int other = result_.closed_across() ? wrap(at + d, count) : at + d;
     if (other < 0 || other >= count || other == at) continue;
@@ -175,15 +175,15 @@ void CoursePrices::add_continued(const ResultCourse& course, const std::vector<i
                                  std::vector<ColumnPrice>& prices) const {
   const int scale = result_.scale();
   for (int d = -1; d <= 1; d++) {
-    const double away = d * (course.end - course.begin) * tuning->neighbour_distance;
-    const int32_t price = -cost(d == 0 ? tuning->own : tuning->continued);
+    const double away = d * (course.end - course.begin) * course_prices_tuning->neighbour_distance;
+    const int32_t price = -cost(d == 0 ? course_prices_tuning->own : course_prices_tuning->continued);
     for (int x = 0; x < result_.length(); x++) {
       const ExemplarPixel* p = result_.shown(x * result_.blocks(), int(std::floor(course.middle() + away)));
       if (!p) continue;
       const double across = (coursing_.axes.across(p->x, p->y) - away * source_.block) / scale;
       for (size_t c = 0; c < tried.size(); c++) {
         const ExemplarCourse& e = coursing_.courses[size_t(tried[c])];
-        if (std::abs(across - (e.begin + e.end) / 2) < (e.end - e.begin) * tuning->middle_tolerance)
+        if (std::abs(across - (e.begin + e.end) / 2) < (e.end - e.begin) * course_prices_tuning->middle_tolerance)
           prices.push_back({int(c), coursing_.axes.along(p->x, p->y) / scale, x, x + 1, price});
       }
     }
@@ -192,7 +192,7 @@ void CoursePrices::add_continued(const ResultCourse& course, const std::vector<i
 
 /// Penalises columns that show more often than others, and favours those that show less.
 void CoursePrices::add_use(const std::vector<int>& tried, std::vector<ColumnPrice>& prices) const {
-  const double even = tuning->even, most_excess = tuning->most_excess;
+  const double even = course_prices_tuning->even, most_excess = course_prices_tuning->most_excess;
   for (size_t c = 0; c < tried.size(); c++)
     for (size_t u = 0; u < use_[size_t(tried[c])].size(); u++) {
       const double excess = double(use_[size_t(tried[c])][u]) - 1;

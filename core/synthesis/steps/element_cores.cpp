@@ -9,19 +9,19 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct ElementCoresTuning {
   double least_shown = 0.3;
   double rim = 1;
 };
-const Tunable<Tuning> tuning("element_cores",
-                             {{&Tuning::least_shown, "least_shown", "of an element",
-                               "that the field must show for it to be completed. Higher: some elements stay put "
-                               "together from several; lower: those that hardly show push others away",
-                               "element_cores", 0, 1},
-                              {&Tuning::rim, "rim", "blocks",
-                               "from the middle of its joint that an element does not take. Higher: corners stay torn; "
-                               "lower: thin joints break",
-                               "element_cores", 0, 100}});
+const Tunable<ElementCoresTuning> element_cores_tuning(
+    "element_cores", {{&ElementCoresTuning::least_shown, "least_shown", "of an element",
+                       "that the field must show for it to be completed. Higher: some elements stay put "
+                       "together from several; lower: those that hardly show push others away",
+                       "element_cores", 0, 1},
+                      {&ElementCoresTuning::rim, "rim", "blocks",
+                       "from the middle of its joint that an element does not take. Higher: corners stay torn; "
+                       "lower: thin joints break",
+                       "element_cores", 0, 100}});
 
 }  // namespace
 
@@ -32,7 +32,8 @@ void complete_elements(Field& field, int block, const CorrectionLevel& level, co
   for (const auto& of_element : places.shown())
     for (const ShownElement& s : of_element) {
       const ElementShape& shape = shapes[s.placed.element];
-      if (!shape.unusable && double(s.blocks) >= tuning->least_shown * double(shape.area)) shown.push_back(s);
+      if (!shape.unusable && double(s.blocks) >= element_cores_tuning->least_shown * double(shape.area))
+        shown.push_back(s);
     }
   std::ranges::stable_sort(shown, [](const ShownElement& a, const ShownElement& b) { return a.blocks > b.blocks; });
   std::vector<uint8_t> taken(field.pixels.size());
@@ -41,7 +42,7 @@ void complete_elements(Field& field, int block, const CorrectionLevel& level, co
     const int left = shapes.column_of(s.placed), top = shapes.row_of(s.placed);
     for (int y = shape.box.y; y < shape.box.bottom(); y++)
       for (int x = shape.box.x; x < shape.box.right(); x++) {
-        if (double(shape.depth(x, y)) < tuning->rim) continue;
+        if (double(shape.depth(x, y)) < element_cores_tuning->rim) continue;
         const int64_t at = pixel_index(field.size, left + x, top + y, level.window.closed_x, level.window.closed_y);
         if (at < 0 || taken[size_t(at)]) continue;
         taken[size_t(at)] = 1;

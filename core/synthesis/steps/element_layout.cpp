@@ -15,27 +15,27 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct ElementLayoutTuning {
   double least_shown = 0.4;
   double least_shown_at_border = 0.15;
   double least_kept = 0.03;
   int in_phase = 2;
   int fewest = 4;
 };
-const Tunable<Tuning> tuning(
+const Tunable<ElementLayoutTuning> element_layout_tuning(
     "element_layout",
     {
-        {&Tuning::least_shown, "least_shown", "of an element",
+        {&ElementLayoutTuning::least_shown, "least_shown", "of an element",
          "that the field must show for it to stay. Higher: more is laid anew; lower: what stays fits less",
          "element_layout", 0, 1},
-        {&Tuning::least_shown_at_border, "least_shown_at_border", "of an element",
+        {&ElementLayoutTuning::least_shown_at_border, "least_shown_at_border", "of an element",
          "the same where the result's border cuts it", "not measured: chosen by eye", 0, 1},
-        {&Tuning::least_kept, "least_kept", "of an element",
+        {&ElementLayoutTuning::least_kept, "least_kept", "of an element",
          "that must be kept for all of it to be shown. Higher: more is cut where kept pixels end; lower: crumbs count",
          "not measured: chosen by eye", 0, 1},
-        {&Tuning::in_phase, "in_phase", "pixels", "within which an element keeps to the lattice",
+        {&ElementLayoutTuning::in_phase, "in_phase", "pixels", "within which an element keeps to the lattice",
          "not measured: seams jog by less", 0, 64},
-        {&Tuning::fewest, "fewest", "elements",
+        {&ElementLayoutTuning::fewest, "fewest", "elements",
          "that an exemplar must have whole. Higher: large tiles keep to their lattice; lower: they come back and back",
          "not measured: fewer are no choice", 1},
     });
@@ -76,7 +76,7 @@ class ElementLayout {
   /// Whether an element that is partly kept goes on beyond that.
   bool is_continued(const ShownElement& s) const {
     const ElementShape& shape = shapes_[s.placed.element];
-    return !shape.unusable && s.kept > 0 && double(s.kept) >= tuning->least_kept * double(shape.area);
+    return !shape.unusable && s.kept > 0 && double(s.kept) >= element_layout_tuning->least_kept * double(shape.area);
   }
 
   /// The kept blocks that show none of the elements that go on.
@@ -98,7 +98,7 @@ class ElementLayout {
     const int x = shapes_.column_of(p) * block_, y = shapes_.row_of(p) * block_;
     int u = x + p.shift_x, v = y + p.shift_y;
     level_.phase.snap(x, y, u, v);
-    return std::max(std::abs(u - x - p.shift_x), std::abs(v - y - p.shift_y)) <= tuning->in_phase;
+    return std::max(std::abs(u - x - p.shift_x), std::abs(v - y - p.shift_y)) <= element_layout_tuning->in_phase;
   }
 
   /// Whether the field shows an element for the most part.
@@ -108,7 +108,8 @@ class ElementLayout {
     const int x = shapes_.column_of(s.placed) + shape.box.x, y = shapes_.row_of(s.placed) + shape.box.y;
     const bool inside_x = level_.window.closed_x || (x >= 0 && x + shape.box.width <= field_.size.width);
     const bool inside_y = level_.window.closed_y || (y >= 0 && y + shape.box.height <= field_.size.height);
-    const double least = inside_x && inside_y ? tuning->least_shown : tuning->least_shown_at_border;
+    const double least =
+        inside_x && inside_y ? element_layout_tuning->least_shown : element_layout_tuning->least_shown_at_border;
     return double(s.blocks) >= least * double(shape.area);
   }
 
@@ -140,7 +141,7 @@ class ElementLayout {
 
 bool has_elements(const Appearance& appearance) {
   const ElementsPtr& e = appearance.elements();
-  return e && whole_elements(*e, appearance.wraps()) >= tuning->fewest;
+  return e && whole_elements(*e, appearance.wraps()) >= element_layout_tuning->fewest;
 }
 
 void lay_elements(Field& field, int block, const CorrectionLevel& level, const Appearance& appearance,

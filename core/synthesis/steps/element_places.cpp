@@ -10,17 +10,17 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct ElementPlacesTuning {
   double bent = 0.5;
   int same_place = 4;
 };
-const Tunable<Tuning> tuning(
+const Tunable<ElementPlacesTuning> element_places_tuning(
     "element_places",
     {
-        {&Tuning::bent, "bent", "inner radii",
+        {&ElementPlacesTuning::bent, "bent", "inner radii",
          "likewise, of large ones. Higher: one that comes twice in part is one; lower: one that is bent is two",
          "element_layout", 0, 2},
-        {&Tuning::same_place, "same_place", "pixels", "within which an element is in one place",
+        {&ElementPlacesTuning::same_place, "same_place", "pixels", "within which an element is in one place",
          "not measured: seams jog by less", 0, 64},
     });
 
@@ -80,7 +80,7 @@ std::vector<std::vector<ShownElement>> ElementPlaces::shown() const {
 /// An element of a kept result that was bent to meet its neighbours is still in one place.
 const ShownElement* ElementPlaces::find(const std::vector<ShownElement>& places, const PlacedElement& at) const {
   const double deep = level_.fixed.any() ? double(shapes_[at.element].inner_radius) * block_ : 0;
-  const int reach = std::max(tuning->same_place, int(tuning->bent * deep));
+  const int reach = std::max(element_places_tuning->same_place, int(element_places_tuning->bent * deep));
   const auto found = std::ranges::find_if(places, [&](const ShownElement& s) {
     return std::abs(s.placed.shift_x - at.shift_x) <= reach && std::abs(s.placed.shift_y - at.shift_y) <= reach;
   });

@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct ElementShapesTuning {
   double margin = 0.4;
   double ragged = 2.5;
   double surest_courses = 0.4;
@@ -20,30 +20,29 @@ struct Tuning {
   int outline = 40;
   int across = 3;
 };
-const Tunable<Tuning> tuning("element_shapes",
-                             {
-                                 {&Tuning::margin, "margin", "typical sides",
-                                  "around an element within which its neighbours matter to it. Higher: wider gaps are "
-                                  "closed; costs time and memory",
-                                  "element_layout", 0.01, 4},
-                                 {&Tuning::ragged, "ragged", "times the median",
-                                  "of the area in squared inner radii, from which on an element is several that were "
-                                  "not parted. Higher: rows of stones come back as one; lower: long ones are lost",
-                                  "element_layout", 1, 100},
-                                 {&Tuning::samples, "samples", "blocks of an element",
-                                  "that are compared when places for it are tried. Costs time", "element_layout", 1,
-                                  100000},
-                                 {&Tuning::outline, "outline", "blocks of its outline", "that are compared likewise",
-                                  "element_layout", 4, 100000},
-                                 {&Tuning::surest_courses, "surest_courses", "certainty",
-                                  "of straight courses, in which distances across count more. Higher: stones meet at "
-                                  "slanting corners; lower: those of rough courses are cut upright",
-                                  "element_layout", 0, 1},
-                                 {&Tuning::across, "across", "times",
-                                  "that distances across courses count against those along them. Higher: neighbours in "
-                                  "a course meet in upright joints; costs time and memory",
-                                  "element_layout", 1, 16},
-                             });
+const Tunable<ElementShapesTuning> element_shapes_tuning(
+    "element_shapes", {
+                          {&ElementShapesTuning::margin, "margin", "typical sides",
+                           "around an element within which its neighbours matter to it. Higher: wider gaps are "
+                           "closed; costs time and memory",
+                           "element_layout", 0.01, 4},
+                          {&ElementShapesTuning::ragged, "ragged", "times the median",
+                           "of the area in squared inner radii, from which on an element is several that were "
+                           "not parted. Higher: rows of stones come back as one; lower: long ones are lost",
+                           "element_layout", 1, 100},
+                          {&ElementShapesTuning::samples, "samples", "blocks of an element",
+                           "that are compared when places for it are tried. Costs time", "element_layout", 1, 100000},
+                          {&ElementShapesTuning::outline, "outline", "blocks of its outline",
+                           "that are compared likewise", "element_layout", 4, 100000},
+                          {&ElementShapesTuning::surest_courses, "surest_courses", "certainty",
+                           "of straight courses, in which distances across count more. Higher: stones meet at "
+                           "slanting corners; lower: those of rough courses are cut upright",
+                           "element_layout", 0, 1},
+                          {&ElementShapesTuning::across, "across", "times",
+                           "that distances across courses count against those along them. Higher: neighbours in "
+                           "a course meet in upright joints; costs time and memory",
+                           "element_layout", 1, 16},
+                      });
 
 /// The exemplar's regions, one per block.
 struct Grid {
@@ -124,7 +123,7 @@ void measure(const Grid& grid, int element, int margin, const Extent& e, Size ti
           grid.region(x + shape.box.x + shape.centre_x, y + shape.box.y + shape.centre_y) == element;
   shape.depths = stretched_depths(inside, {shape.box.width, shape.box.height}, times);
   for (const float d : shape.depths) shape.inner_radius = std::max(shape.inner_radius, d);
-  const int step = std::max(1, int(std::sqrt(double(shape.area) / tuning->samples)));
+  const int step = std::max(1, int(std::sqrt(double(shape.area) / element_shapes_tuning->samples)));
   for (int y = step / 2; y < shape.box.height; y += step)
     for (int x = step / 2; x < shape.box.width; x += step)
       if (const float d = shape.depths[size_t(y) * size_t(shape.box.width) + size_t(x)]; d > 0)
@@ -134,7 +133,7 @@ void measure(const Grid& grid, int element, int margin, const Extent& e, Size ti
     for (int x = 0; x < shape.box.width; x++)
       if (const float d = shape.depths[size_t(y) * size_t(shape.box.width) + size_t(x)]; std::abs(d) < 1)
         outline.push_back({int16_t(x + shape.box.x), int16_t(y + shape.box.y), d});
-  const size_t every = std::max<size_t>(1, outline.size() / size_t(tuning->outline));
+  const size_t every = std::max<size_t>(1, outline.size() / size_t(element_shapes_tuning->outline));
   for (size_t i = 0; i < outline.size(); i += every) shape.outline.push_back(outline[i]);
 }
 
@@ -150,7 +149,7 @@ void leave_out_ragged(std::vector<ElementShape>& shapes) {
   if (all.empty()) return;
   const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
   std::nth_element(all.begin(), middle, all.end());
-  const double most = tuning->ragged * *middle;
+  const double most = element_shapes_tuning->ragged * *middle;
   for (ElementShape& s : shapes) s.unusable |= raggedness(s) > most;
 }
 
@@ -167,9 +166,9 @@ double ElementShape::depth_between(double x, double y) const {
 ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps,
                              const Lattice* courses) {
   Size times{1, 1};
-  const bool in_courses = courses && courses->rank == 1 && courses->certainty >= tuning->surest_courses;
-  if (in_courses && courses->first.x() == 0) times.height = tuning->across;
-  if (in_courses && courses->first.y() == 0) times.width = tuning->across;
+  const bool in_courses = courses && courses->rank == 1 && courses->certainty >= element_shapes_tuning->surest_courses;
+  if (in_courses && courses->first.x() == 0) times.height = element_shapes_tuning->across;
+  if (in_courses && courses->first.y() == 0) times.width = element_shapes_tuning->across;
   ElementShapes out{.block = block,
                     .size = {(elements.size.width + block - 1) / block, (elements.size.height + block - 1) / block},
                     .wraps = wraps,
@@ -187,7 +186,7 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
   double squares = 0;
   for (const ElementShape& s : out.all) squares += double(s.area) * double(s.area);
   out.typical_side = std::sqrt(squares / double(out.size.area()));
-  const int margin = std::max(2, int(tuning->margin * out.typical_side));
+  const int margin = std::max(2, int(element_shapes_tuning->margin * out.typical_side));
   tbb::parallel_for(0, elements.count, [&](int e) {
     // Blocks may miss the smallest regions.
     if (out.all[size_t(e)].area == 0)

@@ -9,19 +9,19 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct ElementWarpTuning {
   double core = 0.4;
   double unseen = 0.75;
   double widest = 1.6;
 };
-const Tunable<Tuning> tuning(
+const Tunable<ElementWarpTuning> element_warp_tuning(
     "element_warp", {
-                        {&Tuning::core, "core", "of the way to the outline",
+                        {&ElementWarpTuning::core, "core", "of the way to the outline",
                          "that stays as it is. Higher: the rim is squeezed more; lower: all of an element is resampled",
                          "element_layout", 0, 0.95},
-                        {&Tuning::unseen, "unseen", "blocks",
+                        {&ElementWarpTuning::unseen, "unseen", "blocks",
                          "by which neighbours may miss each other without being moved", "element_layout", 0, 100},
-                        {&Tuning::widest, "widest", "times the way to the outline",
+                        {&ElementWarpTuning::widest, "widest", "times the way to the outline",
                          "that an element is stretched at most. Higher: gaps are filled with stones rather than joint",
                          "element_layout", 1, 10},
                     });
@@ -90,7 +90,7 @@ ElementWarp::ElementWarp(const ElementShapes& shapes, const ElementPacking& pack
     }
     const bool leaves =
         !packing.find(column + nearest(along.x * (ray.border + 1)), row + nearest(along.y * (ray.border + 1)));
-    ray.border = leaves ? ray.outline : std::min(ray.border, tuning->widest * ray.outline);
+    ray.border = leaves ? ray.outline : std::min(ray.border, element_warp_tuning->widest * ray.outline);
     rays_.push_back(ray);
   }
 }
@@ -105,8 +105,8 @@ ElementWarp::At ElementWarp::operator()(At at) const {
   const double s = std::abs(at.x) + std::abs(at.y);
   if (rays_.empty() || s <= 0) return at;
   const Ray r = ray(angle_of(at.x, at.y));
-  if (std::abs(r.outline - r.border) < tuning->unseen) return at;
-  const double core = tuning->core * std::min(r.outline, r.border);
+  if (std::abs(r.outline - r.border) < element_warp_tuning->unseen) return at;
+  const double core = element_warp_tuning->core * std::min(r.outline, r.border);
   if (s <= core) return at;
   const double to =
       s < r.border ? core + (s - core) * (r.outline - core) / (r.border - core) : r.outline + s - r.border;

@@ -12,29 +12,29 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct ExemplarCoursesTuning {
   double cut_joint = 0.5;
   double cut_brick = 6;
   double surely_brick = 0.5;
   double surely_joint = 0.9;
   double brick_cut_spacing = 0.25;
 };
-const Tunable<Tuning> tuning(
+const Tunable<ExemplarCoursesTuning> exemplar_courses_tuning(
     "exemplar_courses",
     {
-        {&Tuning::cut_joint, "cut_joint", "mean differences times course heights",
+        {&ExemplarCoursesTuning::cut_joint, "cut_joint", "mean differences times course heights",
          "the cost of cutting a course in a joint. Higher: longer runs of the exemplar; lower: bricks mix more freely",
          "course_layout", 0, 1000},
-        {&Tuning::cut_brick, "cut_brick", "mean differences times course heights",
+        {&ExemplarCoursesTuning::cut_brick, "cut_brick", "mean differences times course heights",
          "the same in a brick. Higher: bricks stay whole; lower: figures improve, but bricks in two colours come back",
          "course_layout", 0, 1000},
-        {&Tuning::surely_brick, "surely_brick", "likelihood of a joint, 0..1",
+        {&ExemplarCoursesTuning::surely_brick, "surely_brick", "likelihood of a joint, 0..1",
          "higher: faint joints are cut like bricks; lower: cuts go through bricks that look like joints",
          "not measured: even odds", 0, 0.7},
-        {&Tuning::surely_joint, "surely_joint", "likelihood of a joint, 0..1",
+        {&ExemplarCoursesTuning::surely_joint, "surely_joint", "likelihood of a joint, 0..1",
          "higher: only clear joints are cut at the price of a joint; lower: doubtful ones are too",
          "not measured: between it and surely_brick prices change gradually", 0.75, 1},
-        {&Tuning::brick_cut_spacing, "brick_cut_spacing", "course heights",
+        {&ExemplarCoursesTuning::brick_cut_spacing, "brick_cut_spacing", "course heights",
          "higher: fewer columns of bricks can be cut, which saves time; lower: cuts find a better column",
          "not measured: bounds the time", 0, 1000},
     });
@@ -55,7 +55,7 @@ bool shows(const BlockSource& source, const Coursing& coursing, int along, int a
 /// Joints can be cut in or near their middle; bricks at some columns, at a higher cost.
 std::vector<CourseColumns::Cut> cuts_of(const ExemplarCourse& course, double height) {
   constexpr int far = CourseColumns::farthest_off_middle;
-  const Tuning t = *tuning;
+  const ExemplarCoursesTuning t = *exemplar_courses_tuning;
   const int length = int(course.joint.size());
   const int spacing = std::max(1, int((course.end - course.begin) * t.brick_cut_spacing));
   std::map<int, CourseColumns::Cut> out;

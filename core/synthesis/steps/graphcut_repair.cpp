@@ -11,20 +11,20 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct GraphcutRepairTuning {
   int worse = 1;
   int worse_where_fine = 3;
   int fine_level = 1;
 };
-const Tunable<Tuning> tuning(
+const Tunable<GraphcutRepairTuning> graphcut_repair_tuning(
     "graphcut_repair",
     {
-        {&Tuning::worse, "worse", "average mismatches",
+        {&GraphcutRepairTuning::worse, "worse", "average mismatches",
          "how visible seams must be. Higher: fewer windows are repaired, which saves time; lower: more seams close",
          "not measured: the average divides windows by whether repairing is worth the time", 0, 1000},
-        {&Tuning::worse_where_fine, "worse_where_fine", "average mismatches",
+        {&GraphcutRepairTuning::worse_where_fine, "worse_where_fine", "average mismatches",
          "the same at fine levels, which have many windows", "not measured: bounds the time of fine levels", 0, 1000},
-        {&Tuning::fine_level, "fine_level", "level",
+        {&GraphcutRepairTuning::fine_level, "fine_level", "level",
          "the coarsest level that counts as fine. Higher: less time; lower: more seams close at fine levels",
          "not measured: bounds the time of fine levels"},
     });
@@ -53,9 +53,11 @@ std::vector<int> worst_windows(const ExpansionGround& ground) {
   int64_t total = 0;
   for (const int32_t v : values) total += v;
   const int64_t average = total * (2 * Patches::core + 1) * (2 * Patches::core + 1) / size.area();
-  return worst_first(core_sums(values, size, ground.level.window),
-                     average * (ground.level.level <= tuning->fine_level ? tuning->worse_where_fine : tuning->worse),
-                     size);
+  return worst_first(
+      core_sums(values, size, ground.level.window),
+      average * (ground.level.level <= graphcut_repair_tuning->fine_level ? graphcut_repair_tuning->worse_where_fine
+                                                                          : graphcut_repair_tuning->worse),
+      size);
 }
 
 }  // namespace

@@ -13,30 +13,30 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct InitializeTuning {
   int blocks_per_side = 4;
   int smallest_block = 4;
   int steered_draws = 16;
   int free_draws = 4;
   int near_blocks = 3;
 };
-const Tunable<Tuning> tuning(
+const Tunable<InitializeTuning> initialize_tuning(
     "initialize",
     {
-        {&Tuning::blocks_per_side, "blocks_per_side", "blocks along the exemplar's shorter side",
+        {&InitializeTuning::blocks_per_side, "blocks_per_side", "blocks along the exemplar's shorter side",
          "higher: smaller blocks mix more, and large features are cut; lower: large features stay whole and repeat",
          "not measured: chosen so that a block holds large features as wholes", 1},
-        {&Tuning::smallest_block, "smallest_block", "pixels of the coarsest level",
+        {&InitializeTuning::smallest_block, "smallest_block", "pixels of the coarsest level",
          "the least side of a block. Higher: tiny exemplars keep their features; lower: they mix more",
          "not measured: only exemplars below 16 pixels at the coarsest level reach it", 1},
-        {&Tuning::steered_draws, "steered_draws", "random blocks",
+        {&InitializeTuning::steered_draws, "steered_draws", "random blocks",
          "under a mask or controls. Higher: the layout follows them more closely; lower: it varies more",
          "not measured: the passes that follow choose again"},
-        {&Tuning::free_draws, "free_draws", "random blocks",
+        {&InitializeTuning::free_draws, "free_draws", "random blocks",
          "without them. Higher: less repeats near by, more at one distance just beyond; lower: blocks repeat side by "
          "side",
          "proximity_penalty"},
-        {&Tuning::near_blocks, "near_blocks", "blocks",
+        {&InitializeTuning::near_blocks, "near_blocks", "blocks",
          "how far repeats count. Higher: they are pushed farther away; lower: they come nearer",
          "not measured: three quarters of the exemplar's side", 0, 100},
     });
@@ -88,7 +88,8 @@ class BlockPlacing {
   using Start = std::array<int, 2>;  // the exemplar position of a block's first pixel
 
   static int block_side(Size exemplar) {
-    return std::max(tuning->smallest_block, std::min(exemplar.width, exemplar.height) / tuning->blocks_per_side);
+    return std::max(initialize_tuning->smallest_block,
+                    std::min(exemplar.width, exemplar.height) / initialize_tuning->blocks_per_side);
   }
 
   bool steered() const { return control_ || exemplar_.masked(); }
@@ -101,7 +102,7 @@ class BlockPlacing {
     Start best = start(column, row, bits);
     if (!steered() && phase_.active()) return best;  // cells of a lattice are meant to repeat
     double least = misfit(column, row, best);
-    const int draws = steered() ? tuning->steered_draws : tuning->free_draws;
+    const int draws = steered() ? initialize_tuning->steered_draws : initialize_tuning->free_draws;
     for (int draw = 1; draw < draws && least > 0; draw++) {
       const Start other = start(column, row, random_bits(bits, draw));
       const double misfit = this->misfit(column, row, other);
@@ -139,7 +140,7 @@ class BlockPlacing {
 
   /// How many of a block's pixels the blocks placed so far show near by, weighted by nearness.
   double shown_near(int column, int row, const Start& start) const {
-    const int near_blocks = tuning->near_blocks;
+    const int near_blocks = initialize_tuning->near_blocks;
     double sum = 0;
     for (int down = -near_blocks; down <= near_blocks; down++)
       for (int across = -near_blocks; across <= near_blocks; across++) {

@@ -18,7 +18,7 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct PieceRelocationTuning {
   double repeated = 0.05;
   double worthwhile = 0.9;
   int smallest_piece = 16;
@@ -27,26 +27,26 @@ struct Tuning {
   int random_places = 256;
   int usage_samples = 16;
 };
-const Tunable<Tuning> tuning(
+const Tunable<PieceRelocationTuning> piece_relocation_tuning(
     "piece_relocation",
     {
-        {&Tuning::repeated, "repeated", "share of a piece",
+        {&PieceRelocationTuning::repeated, "repeated", "share of a piece",
          "so much of a piece may show near by already. Higher: more places may fit; lower: less repeats",
          "piece_relocation", 0, 1},
-        {&Tuning::worthwhile, "worthwhile", "share of the misfit",
+        {&PieceRelocationTuning::worthwhile, "worthwhile", "share of the misfit",
          "what a move must lower it to. Higher: pieces move for small gains; lower: they stay in place",
          "not measured: a move must be worth the change"},
-        {&Tuning::smallest_piece, "smallest_piece", "blocks",
+        {&PieceRelocationTuning::smallest_piece, "smallest_piece", "blocks",
          "higher: less time; smaller pieces are left to correction. Lower: small pieces find better places",
          "not measured: smaller pieces are left to correction"},
-        {&Tuning::near, "near", "blocks", "higher: repeats must be farther apart; lower: more places may fit",
-         "piece_relocation", 0, 1000},
-        {&Tuning::voting_seams, "voting_seams", "seam pixels", "higher: more of a seam proposes candidates; costs time",
-         "not measured: bounds the time of large pieces"},
-        {&Tuning::random_places, "random_places", "candidates for a piece",
+        {&PieceRelocationTuning::near, "near", "blocks",
+         "higher: repeats must be farther apart; lower: more places may fit", "piece_relocation", 0, 1000},
+        {&PieceRelocationTuning::voting_seams, "voting_seams", "seam pixels",
+         "higher: more of a seam proposes candidates; costs time", "not measured: bounds the time of large pieces"},
+        {&PieceRelocationTuning::random_places, "random_places", "candidates for a piece",
          "higher: better places are found, which are used more often; costs time. Lower: use stays even",
          "piece_relocation"},
-        {&Tuning::usage_samples, "usage_samples", "pixels of a piece",
+        {&PieceRelocationTuning::usage_samples, "usage_samples", "pixels of a piece",
          "higher: usage is known more exactly; costs time", "not measured: bounds the time of each candidate", 1},
     });
 
@@ -94,7 +94,7 @@ class Relocator {
     find_seams(piece);
     const Outline outline(field_, pieces_.members(piece));
     propose_moves(outline);
-    int64_t least = int64_t(double(cost(piece, {}, no_limit)) * tuning->worthwhile);
+    int64_t least = int64_t(double(cost(piece, {}, no_limit)) * piece_relocation_tuning->worthwhile);
     Move best;
     for (const auto& [packed, votes] : moves_.by_votes()) {
       const Move move = Move::unpacked(packed);
@@ -151,12 +151,12 @@ class Relocator {
 
   void propose_moves(const Outline& o) {
     moves_.clear();
-    for (size_t i = 0; i < std::min(seams_.size(), size_t(tuning->voting_seams)); i++) {
+    for (size_t i = 0; i < std::min(seams_.size(), size_t(piece_relocation_tuning->voting_seams)); i++) {
       const PieceSeam& s = seams_[i];
       propose_similar(o, s.inside, s.inside.x, s.inside.y);
       propose_similar(o, s.beyond, s.inside.x + s.dx, s.inside.y + s.dy);
     }
-    for (int k = 0; k < tuning->random_places; k++) {
+    for (int k = 0; k < piece_relocation_tuning->random_places; k++) {
       const auto [u, v] = level_.exemplar.place(random_bits(seed_, level_.level, o.first, k));
       propose(o, {u - o.at_first.x, v - o.at_first.y});
     }
@@ -191,7 +191,7 @@ class Relocator {
   double usage_factor(int piece, const Move& m) const {
     if (!usage_.active()) return 1;
     const std::span<const int> members = pieces_.members(piece);
-    const size_t step = std::max<size_t>(1, members.size() / size_t(tuning->usage_samples));
+    const size_t step = std::max<size_t>(1, members.size() / size_t(piece_relocation_tuning->usage_samples));
     const Size e = level_.exemplar.size();
     uint64_t sum = 0, count = 0;
     for (size_t i = step / 2; i < members.size(); i += step, count++) {
@@ -208,7 +208,8 @@ class Relocator {
   }
 
   bool shows_near(int piece, const Outline& o, const Move& m) const {
-    const int most = int(tuning->repeated * pieces_.area(piece)), around = tuning->near * block_;
+    const int most = int(piece_relocation_tuning->repeated * pieces_.area(piece)),
+              around = piece_relocation_tuning->near * block_;
     int shown = 0;
     for (int v = o.low.y - around; v <= o.high.y + around; v += block_)
       for (int u = o.low.x - around; u <= o.high.x + around; u += block_) {
@@ -244,14 +245,15 @@ void relocate_pieces(Field& field, int block, const CorrectionLevel& level, cons
       [&] { return Relocator(field, block, level, ground, usage, seed); });
   std::vector<int> order;
   for (int piece = 0; piece < pieces.count(); piece++)
-    if (pieces.area(piece) >= tuning->smallest_piece && !ground.is_fixed(piece)) order.push_back(piece);
+    if (pieces.area(piece) >= piece_relocation_tuning->smallest_piece && !ground.is_fixed(piece))
+      order.push_back(piece);
   std::vector<double> misfits(size_t(pieces.count()), 0.0);
   tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
     task.check();
     misfits[size_t(order[i])] = relocators.local().misfit(order[i]);
   });
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return misfits[a] > misfits[b]; });
-  Rounds rounds(field, level.window, tuning->near / 3 + 1);
+  Rounds rounds(field, level.window, piece_relocation_tuning->near / 3 + 1);
   for (const int piece : order)
     rounds.add(piece, relocators.local().pixels_within(Outline(field, pieces.members(piece))));
   for (const std::vector<int>& round : rounds.all())

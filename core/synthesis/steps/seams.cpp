@@ -15,24 +15,24 @@ namespace terrazzo {
 
 namespace {
 
-struct Tuning {
+struct SeamsTuning {
   double fair_pressure = appearance_limit / 55.0;
   double most_pressure = 3;
   int smallest_piece = 2;
   int sweeps = 1;
 };
-const Tunable<Tuning> tuning(
+const Tunable<SeamsTuning> seams_tuning(
     "seams",
     {
-        {&Tuning::fair_pressure, "fair_pressure", "appearance units per pixel",
+        {&SeamsTuning::fair_pressure, "fair_pressure", "appearance units per pixel",
          "the cost of a pixel in a piece of a fair size. Higher: large pieces give way; lower: they swallow small ones",
          "seams", 0, 10000},
-        {&Tuning::most_pressure, "most_pressure", "fair pressures",
+        {&SeamsTuning::most_pressure, "most_pressure", "fair pressures",
          "higher: the largest pieces give way still more; lower: from some size on they grow", "seams", 0, 1000},
-        {&Tuning::smallest_piece, "smallest_piece", "pixels of the field",
+        {&SeamsTuning::smallest_piece, "smallest_piece", "pixels of the field",
          "higher: less time, as smaller pieces only give way; lower: single pixels may spread",
          "not measured: single pixels are errors rather than pieces"},
-        {&Tuning::sweeps, "sweeps", "rounds over all pieces",
+        {&SeamsTuning::sweeps, "sweeps", "rounds over all pieces",
          "higher: seams follow those that moved after them; costs time", "seams"},
     });
 
@@ -102,8 +102,8 @@ std::vector<int32_t> pressures(const Pieces& pieces, double fair, const FixedPix
   for (int piece = 0; piece < pieces.count(); piece++) {
     const bool kept =
         fixed.any() && std::ranges::any_of(pieces.members(piece), [&](int i) { return fixed.at(size_t(i)); });
-    out[size_t(piece)] = int32_t(tuning->fair_pressure * mismatch_unit *
-                                 (kept ? 1 : std::min(tuning->most_pressure, pieces.area(piece) / fair)));
+    out[size_t(piece)] = int32_t(seams_tuning->fair_pressure * mismatch_unit *
+                                 (kept ? 1 : std::min(seams_tuning->most_pressure, pieces.area(piece) / fair)));
   }
   return out;
 }
@@ -115,7 +115,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pieces.area(a) > pieces.area(b); });
   Rounds rounds(field, level.window, moves.reach);
   for (const int piece : order)
-    if (pieces.area(piece) >= tuning->smallest_piece) rounds.add(piece, pieces.members(piece));
+    if (pieces.area(piece) >= seams_tuning->smallest_piece) rounds.add(piece, pieces.members(piece));
   const Field before = field;
   const std::vector<int32_t> pressure = pressures(pieces, moves.fair_piece, level.fixed);
   ExpansionGround ground(field, level, moves.block, true);
@@ -133,7 +133,7 @@ void sweep(Field& field, const CorrectionLevel& level, const SeamMoves& moves, c
 }  // namespace
 
 void move_seams(Field& field, const CorrectionLevel& level, const SeamMoves& moves, const Task& task) {
-  for (int i = 0; i < tuning->sweeps; i++) sweep(field, level, moves, task);
+  for (int i = 0; i < seams_tuning->sweeps; i++) sweep(field, level, moves, task);
 }
 
 }  // namespace terrazzo

@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/file/scratch_file.h"
-#include "core/image/kept_pixels.h"
+#include "core/image/pixel_buffer.h"
 
 using namespace terrazzo;
 
@@ -263,8 +263,8 @@ TEST_CASE("computed images can be pulled by strips, from several threads") {
 
 TEST_CASE("images whose pixels have to be kept take no more memory than they may, and leave nothing behind") {
   const Size size{64, 600};
-  const uint64_t limit = KeptPixels::memory_limit(), in_use = KeptPixels::memory_in_use();
-  KeptPixels::set_memory_limit(in_use + uint64_t(size.area()) * sizeof(float));
+  const uint64_t limit = PixelBuffer::memory_limit(), in_use = PixelBuffer::memory_in_use();
+  PixelBuffer::set_memory_limit(in_use + uint64_t(size.area()) * sizeof(float));
   uint64_t most_in_use = 0, most_on_disk = 0;
   {
     Tangle tangle(size, 400, 12, 3);
@@ -272,22 +272,22 @@ TEST_CASE("images whose pixels have to be kept take no more memory than they may
     tangle.images.clear();
     Pixels pulled;
     for_each_strip(*last, [&](const Rect& r, const float* p) {
-      most_in_use = std::max(most_in_use, KeptPixels::memory_in_use());
+      most_in_use = std::max(most_in_use, PixelBuffer::memory_in_use());
       most_on_disk = std::max(most_on_disk, ScratchFile::shared().size());
       pulled.insert(pulled.end(), p, p + r.area());
     });
     CHECK(pulled == tangle.expected);
   }
-  CHECK(most_in_use <= KeptPixels::memory_limit());
+  CHECK(most_in_use <= PixelBuffer::memory_limit());
   CHECK(most_on_disk > 0);
   CHECK(most_on_disk < 30 * uint64_t(size.area()) * sizeof(float));  // of 400 images
-  CHECK(KeptPixels::memory_in_use() == in_use);
+  CHECK(PixelBuffer::memory_in_use() == in_use);
   CHECK(ScratchFile::shared().size() == 0);
-  KeptPixels::set_memory_limit(limit);
+  PixelBuffer::set_memory_limit(limit);
 }
 
 TEST_CASE("a chain keeps the pixels of a few images only, and lets go of those that it is past") {
-  const uint64_t in_use = KeptPixels::memory_in_use();
+  const uint64_t in_use = PixelBuffer::memory_in_use();
   const Size size{64, 64};
   uint64_t most = 0;
   ImagePtr image = ramp(size);
@@ -296,7 +296,7 @@ TEST_CASE("a chain keeps the pixels of a few images only, and lets go of those t
     image = counted({.sources = {image},
                      .compute =
                          [&most](auto in, const Rect& region, float* out) {
-                           most = std::max(most, KeptPixels::memory_in_use());
+                           most = std::max(most, PixelBuffer::memory_in_use());
                            in[0].read(region, out);
                          }},
                     size)

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "core/image/kept_pixels.h"
+#include "core/image/pixel_buffer.h"
 #include "core/image/resample.h"
 
 using namespace terrazzo;
@@ -35,20 +35,20 @@ std::string error_of(const Act& act) {
 }  // namespace
 
 TEST_CASE("a budget limits pixels, bytes and what is kept, and lets go of that again") {
-  const uint64_t usual = KeptPixels::memory_limit();
+  const uint64_t usual = PixelBuffer::memory_limit();
   const Size large{8000, 8000};
   CHECK(error_of([&] { require_pixels_fit("a.png", large, 3); }).empty());
   {
     const Budget budget(64 * mib);
     CHECK(memory_budget() == 64 * mib);
-    CHECK(KeptPixels::memory_limit() == 8 * mib);
+    CHECK(PixelBuffer::memory_limit() == 8 * mib);
     CHECK(error_of([] { require_pixels_fit("a.png", {4096, 4096}, 3); }).empty());
     CHECK(error_of([&] { require_pixels_fit("a.png", large, 3); }) ==
           "cannot read a.png: its header says 8000x8000, 64000000 pixels; with --memory 64M at most 59652323 are read. "
           "Scale it down first, or allow it with --max-pixels 64000000");
     CHECK_FALSE(PixelRoom::has(17 * mib));
   }
-  CHECK(KeptPixels::memory_limit() == usual);
+  CHECK(PixelBuffer::memory_limit() == usual);
   CHECK_FALSE(memory_budget_is_set());
 }
 

@@ -19,17 +19,17 @@ MaterialPtr material(const Planes& planes) {
   return Material::of(Image::from_floats(info, planes.values));
 }
 
-Quality measured(const Planes& exemplar, const Planes& output) {
+QualityFigures measured(const Planes& exemplar, const Planes& output) {
   ComparedPlanes planes = compared_planes(*material(exemplar), *material(output), {});
   return measure_quality(std::move(planes.exemplar), std::move(planes.output), {}, Task());
 }
 
 /// Outputs of known worth for a 64x64 exemplar of bricks.
-const std::map<std::string, Quality>& calibration() {
-  static const std::map<std::string, Quality> all = [] {
+const std::map<std::string, QualityFigures>& calibration() {
+  static const std::map<std::string, QualityFigures> all = [] {
     const Size size{96, 96};
     const Planes exemplar = bricks({64, 64}, 1), sample = bricks(size, 5);
-    return std::map<std::string, Quality>{
+    return std::map<std::string, QualityFigures>{
         {"tiling", measured(exemplar, tiled(exemplar, size))},
         {"sample", measured(exemplar, sample)},
         {"blocks", measured(exemplar, random_blocks(exemplar, size, 16, 3))},
@@ -42,7 +42,7 @@ const std::map<std::string, Quality>& calibration() {
 }
 
 /// Whether every output of a group has a clearly (10 %) lower figure than every output of the next group.
-void check_order(double Quality::*figure, const std::vector<std::vector<std::string>>& groups) {
+void check_order(double QualityFigures::*figure, const std::vector<std::vector<std::string>>& groups) {
   for (size_t g = 0; g + 1 < groups.size(); g++)
     for (const std::string& a : groups[g])
       for (const std::string& b : groups[g + 1]) {
@@ -55,7 +55,7 @@ void check_order(double Quality::*figure, const std::vector<std::vector<std::str
 
 TEST_CASE("a thing compared with itself has no distance, though not all of its patches are looked at") {
   const Planes image = bricks({160, 170}, 1);
-  const Quality q = measured(image, image);
+  const QualityFigures q = measured(image, image);
   CHECK(q.swd == 0);
   CHECK(q.coherence == 0);
   CHECK(q.completeness == 0);
@@ -64,22 +64,22 @@ TEST_CASE("a thing compared with itself has no distance, though not all of its p
 }
 
 TEST_CASE("distances of distributions rise from tiling over a new sample to spoilt outputs") {
-  check_order(&Quality::swd, {{"tiling"}, {"sample", "blocks"}, {"shuffled"}, {"different", "blur"}});
-  check_order(&Quality::cooccurrence, {{"tiling"}, {"sample", "blocks"}, {"shuffled"}, {"different", "blur"}});
+  check_order(&QualityFigures::swd, {{"tiling"}, {"sample", "blocks"}, {"shuffled"}, {"different", "blur"}});
+  check_order(&QualityFigures::cooccurrence, {{"tiling"}, {"sample", "blocks"}, {"shuffled"}, {"different", "blur"}});
 }
 
 TEST_CASE("patch similarity tells whole features from cut, smeared and foreign ones") {
-  check_order(&Quality::coherence, {{"tiling"}, {"sample"}, {"blocks"}, {"blur", "shuffled"}, {"different"}});
-  check_order(&Quality::completeness, {{"tiling"}, {"sample"}, {"blocks"}, {"blur", "shuffled"}, {"different"}});
-  check_order(&Quality::broken, {{"tiling"}, {"sample"}, {"blocks"}, {"blur", "shuffled", "different"}});
+  check_order(&QualityFigures::coherence, {{"tiling"}, {"sample"}, {"blocks"}, {"blur", "shuffled"}, {"different"}});
+  check_order(&QualityFigures::completeness, {{"tiling"}, {"sample"}, {"blocks"}, {"blur", "shuffled"}, {"different"}});
+  check_order(&QualityFigures::broken, {{"tiling"}, {"sample"}, {"blocks"}, {"blur", "shuffled", "different"}});
 }
 
 TEST_CASE("autocorrelation tells whether courses were kept") {
-  check_order(&Quality::acf, {{"tiling"}, {"sample"}, {"blocks", "blur"}, {"shuffled"}, {"different"}});
+  check_order(&QualityFigures::acf, {{"tiling"}, {"sample"}, {"blocks", "blur"}, {"shuffled"}, {"different"}});
 }
 
 TEST_CASE("structure tells whole courses from cut, smeared and foreign ones") {
-  check_order(&Quality::structure, {{"tiling"}, {"sample"}, {"blocks"}, {"blur", "shuffled", "different"}});
+  check_order(&QualityFigures::structure, {{"tiling"}, {"sample"}, {"blocks"}, {"blur", "shuffled", "different"}});
 }
 
 TEST_CASE("windows of structure are as large as elements that are known, else as the texture's correlation") {
@@ -95,7 +95,7 @@ TEST_CASE("windows of structure are as large as elements that are known, else as
 }
 
 TEST_CASE("copies and repeats are found in a tiling and not in a new sample") {
-  check_order(&Quality::verbatim, {{"shuffled"}, {"blocks"}, {"sample"}, {"tiling"}});
+  check_order(&QualityFigures::verbatim, {{"shuffled"}, {"blocks"}, {"sample"}, {"tiling"}});
   CHECK(calibration().at("tiling").verbatim > 0.4);
   CHECK(calibration().at("tiling").repeat > 0.03);
   for (const char* other : {"sample", "blocks", "blur", "shuffled"}) CHECK(calibration().at(other).repeat < 0.01);
@@ -103,7 +103,7 @@ TEST_CASE("copies and repeats are found in a tiling and not in a new sample") {
 
 TEST_CASE("an exemplar compared with itself has no faults") {
   const Planes exemplar = spots({64, 64}, 1);
-  const Quality q = measured(exemplar, exemplar);
+  const QualityFigures q = measured(exemplar, exemplar);
   CHECK(q.coherence == 0);
   CHECK(q.completeness == 0);
   CHECK(q.broken == 0);
@@ -114,7 +114,7 @@ TEST_CASE("an exemplar compared with itself has no faults") {
 }
 
 TEST_CASE("figures agree with an independent implementation in NumPy and SciPy") {
-  const Quality sample = calibration().at("sample"), blocks = calibration().at("blocks");
+  const QualityFigures sample = calibration().at("sample"), blocks = calibration().at("blocks");
   CHECK(sample.swd == doctest::Approx(0.1215).epsilon(0.06));
   CHECK(sample.coherence == doctest::Approx(1.120).epsilon(0.02));
   CHECK(sample.completeness == doctest::Approx(0.924).epsilon(0.02));
@@ -131,7 +131,7 @@ TEST_CASE("figures do not depend on the number of threads") {
   const Planes exemplar = bricks({40, 48}, 1), output = random_blocks(exemplar, {70, 50}, 9, 1);
   const auto run = [&](int threads) {
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const Quality q = measured(exemplar, output);
+    const QualityFigures q = measured(exemplar, output);
     return std::vector<double>{q.swd,       q.cooccurrence, q.coherence, q.completeness, q.broken,
                                q.structure, q.acf,          q.verbatim,  q.repeat};
   };
@@ -139,7 +139,7 @@ TEST_CASE("figures do not depend on the number of threads") {
 }
 
 TEST_CASE("the smallest images can be measured") {
-  const Quality q = measured(bricks({16, 16}, 1), bricks({16, 30}, 2));
+  const QualityFigures q = measured(bricks({16, 16}, 1), bricks({16, 30}, 2));
   CHECK(q.swd > 0);
   CHECK(q.swd < 1);
 }

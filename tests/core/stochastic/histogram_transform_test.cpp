@@ -56,14 +56,15 @@ TEST_CASE("one value stays that value") {
   const HistogramTransform transform(distribution_of({4, 4}, [](int) { return 0.3f; }));
   CHECK(transform.to_gaussian(0.3f) == 0);
   for (const double g : {-9.0, 0.0, 1.5, 9.0}) CHECK(float(transform.to_value(g)) == 0.3f);
-  const Curve one = restoring_curve(distribution_of({4, 4}, [](int i) { return float(i); }),
-                                    distribution_of({4, 4}, [](int) { return 0.3f; }));
+  const PiecewiseLinear one = restoring_curve(distribution_of({4, 4}, [](int i) { return float(i); }),
+                                              distribution_of({4, 4}, [](int) { return 0.3f; }));
   for (const double v : {-1.0, 3.0, 99.0}) CHECK(float(one(v)) == 0.3f);
 }
 
 TEST_CASE("a curve that restores a histogram gives each value as often as it is wanted") {
   const Distribution from = distribution_of({256, 256}, [](int i) { return float(random(1, i) + random(2, i)); });
-  const Curve to_two = restoring_curve(from, distribution_of({10, 10}, [](int i) { return i < 80 ? -1.f : 3.f; }));
+  const PiecewiseLinear to_two =
+      restoring_curve(from, distribution_of({10, 10}, [](int i) { return i < 80 ? -1.f : 3.f; }));
   int low = 0, between = 0;
   for (int i = 0; i < 65536; i++) {
     const double v = to_two(float(random(1, i) + random(2, i)));
@@ -76,7 +77,8 @@ TEST_CASE("a curve that restores a histogram gives each value as often as it is 
 
 TEST_CASE("a value that most pixels have stays what it is, however near the others are") {
   const auto mostly = [](int i) { return i % 4 != 0 ? 0.25f : float(random(3, i)); };
-  const Curve same = restoring_curve(distribution_of({256, 256}, mostly), distribution_of({256, 256}, mostly));
+  const PiecewiseLinear same =
+      restoring_curve(distribution_of({256, 256}, mostly), distribution_of({256, 256}, mostly));
   CHECK(same(0.25f) == 0.25f);
   for (const double v : {0.1, 0.5, 0.9}) CHECK(same(v) == doctest::Approx(v).epsilon(0.02));
   CHECK(same(-1) == doctest::Approx(0).epsilon(0.001));

@@ -13,28 +13,28 @@ namespace {
 
 constexpr uint64_t plenty = 1000;
 
-JobPtr job(Job::Kind kind, int stage, uint64_t memory = 0) {
-  auto j = std::make_shared<Job>();
+StageJobPtr job(StageJob::Kind kind, int stage, uint64_t memory = 0) {
+  auto j = std::make_shared<StageJob>();
   j->kind = kind;
   j->stage = stage;
   j->memory = memory;
   return j;
 }
-JobPtr compute(int stage, uint64_t memory = 0) {
-  return job(Job::Kind::compute, stage, memory);
+StageJobPtr compute(int stage, uint64_t memory = 0) {
+  return job(StageJob::Kind::compute, stage, memory);
 }
 
 /// "run 3, load 1": what was admitted, in that order.
-std::string shown(const std::vector<JobPtr>& jobs) {
+std::string shown(const std::vector<StageJobPtr>& jobs) {
   constexpr std::array<const char*, 5> names = {"begin", "look up", "load", "run", "store"};
   std::string out;
-  for (const JobPtr& j : jobs)
+  for (const StageJobPtr& j : jobs)
     out += fmt::format("{}{} {}", out.empty() ? "" : ", ", names[static_cast<size_t>(j->kind)], j->stage);
   return out;
 }
 
-void end(Admission& admission, const std::vector<JobPtr>& jobs) {
-  for (const JobPtr& j : jobs) admission.ended(*j);
+void end(Admission& admission, const std::vector<StageJobPtr>& jobs) {
+  for (const StageJobPtr& j : jobs) admission.ended(*j);
 }
 
 }  // namespace
@@ -42,11 +42,11 @@ void end(Admission& admission, const std::vector<JobPtr>& jobs) {
 TEST_CASE("stores come first, then look-ups, then what has the longest path before it, in the document's order") {
   Admission a({5, 9, 9, 2, 9}, 10, plenty);
   for (const int stage : {3, 4, 0, 2, 1}) a.add(compute(stage));
-  a.add(job(Job::Kind::load, 1));
-  a.add(job(Job::Kind::load, 0));
-  a.add(job(Job::Kind::look_up, 3));
-  a.add(job(Job::Kind::look_up, 1));
-  a.add(job(Job::Kind::store, 3));
+  a.add(job(StageJob::Kind::load, 1));
+  a.add(job(StageJob::Kind::load, 0));
+  a.add(job(StageJob::Kind::look_up, 3));
+  a.add(job(StageJob::Kind::look_up, 1));
+  a.add(job(StageJob::Kind::store, 3));
   CHECK(shown(a.admit(0)) == "store 3, look up 1, look up 3, run 1, run 2, run 4, load 1, run 0, load 0, run 3");
   CHECK(shown(a.admit(0)).empty());
 }
@@ -54,7 +54,7 @@ TEST_CASE("stores come first, then look-ups, then what has the longest path befo
 TEST_CASE("no more jobs run than there are threads") {
   Admission a({1, 1, 1, 1}, 2, plenty);
   for (int i = 0; i < 4; i++) a.add(compute(i));
-  std::vector<JobPtr> running = a.admit(0);
+  std::vector<StageJobPtr> running = a.admit(0);
   CHECK(shown(running) == "run 0, run 1");
   CHECK(a.admit(0).empty());
   a.ended(*running[1]);
@@ -77,7 +77,7 @@ TEST_CASE("computations keep within the budget together with the values in memor
   for (const Case& c : cases) {
     Admission a({1, 1, 1}, 8, plenty);
     for (size_t i = 0; i < c.wanted.size(); i++) a.add(compute(int(i), c.wanted[i]));
-    std::vector<JobPtr> running = a.admit(c.held);
+    std::vector<StageJobPtr> running = a.admit(c.held);
     CHECK(shown(running) == c.admitted);
     while (!running.empty()) {
       end(a, running);
@@ -89,8 +89,8 @@ TEST_CASE("computations keep within the budget together with the values in memor
 
 TEST_CASE("what does not fit waits for what is being stored, which might free memory") {
   Admission a({1, 1, 1}, 8, plenty);
-  a.add(job(Job::Kind::store, 2));
-  const std::vector<JobPtr> store = a.admit(500);
+  a.add(job(StageJob::Kind::store, 2));
+  const std::vector<StageJobPtr> store = a.admit(500);
   a.add(compute(0, 600));
   CHECK(a.admit(500).empty());
   end(a, store);
@@ -105,11 +105,11 @@ TEST_CASE("what lacks is what running jobs, values and the next computation take
   a.add(compute(0, 300));
   CHECK(a.lacking(700) == 0);
   CHECK(a.lacking(701) == 1);
-  const std::vector<JobPtr> first = a.admit(650);
+  const std::vector<StageJobPtr> first = a.admit(650);
   CHECK(shown(first) == "run 0");
   CHECK(a.in_use() == 300);
   CHECK(a.lacking(300) == 100);
-  a.add(job(Job::Kind::look_up, 0));
+  a.add(job(StageJob::Kind::look_up, 0));
   CHECK(shown(a.admit(650)) == "look up 0");
   CHECK(a.lacking(300) == 0);  // no thread is free for the next
   CHECK(a.lacking(701) == 1);
@@ -119,7 +119,7 @@ TEST_CASE("a computation that has waited long enough is the next") {
   Admission a(std::vector<double>(20, 1), 4, plenty);
   a.add(compute(19, 900));
   a.add(compute(0, 500));
-  const JobPtr long_one = a.admit(0).front();
+  const StageJobPtr long_one = a.admit(0).front();
   for (int i = 1; i <= 8; i++) {
     a.add(compute(i));
     end(a, a.admit(0));
@@ -131,10 +131,10 @@ TEST_CASE("a computation that has waited long enough is the next") {
 TEST_CASE("stores and look-ups wait for no memory") {
   Admission a({1, 1, 1}, 8, plenty);
   a.add(compute(0, 5000));
-  const std::vector<JobPtr> running = a.admit(5000);
+  const std::vector<StageJobPtr> running = a.admit(5000);
   REQUIRE(running.size() == 1);
-  a.add(job(Job::Kind::store, 1));
-  a.add(job(Job::Kind::look_up, 2));
+  a.add(job(StageJob::Kind::store, 1));
+  a.add(job(StageJob::Kind::look_up, 2));
   CHECK(shown(a.admit(5000)) == "store 1, look up 2");
 }
 
@@ -142,10 +142,10 @@ namespace {
 
 /// Ends the running jobs one by one, the oldest first; small jobs (each of `small` bytes) come as fast as they start.
 /// Returns the order in which jobs started.
-std::vector<int> run_with_small_ones(Admission& admission, std::vector<JobPtr> running, int first, int last,
+std::vector<int> run_with_small_ones(Admission& admission, std::vector<StageJobPtr> running, int first, int last,
                                      uint64_t small) {
   std::vector<int> order;
-  for (const JobPtr& j : running) order.push_back(j->stage);
+  for (const StageJobPtr& j : running) order.push_back(j->stage);
   int next = first;
   bool small_one_waits = false;
   for (;;) {
@@ -153,7 +153,7 @@ std::vector<int> run_with_small_ones(Admission& admission, std::vector<JobPtr> r
       admission.add(compute(next++, small));
       small_one_waits = true;
     }
-    for (const JobPtr& j : admission.admit(0)) {
+    for (const StageJobPtr& j : admission.admit(0)) {
       running.push_back(j);
       order.push_back(j->stage);
       if (j->stage == next - 1) small_one_waits = false;
@@ -174,7 +174,7 @@ TEST_CASE("small jobs pass a large one eight times and not once more, though the
     remaining[30] = rank_of_large;
     Admission a(remaining, 3, plenty);
     a.add(compute(0, 500));
-    const std::vector<JobPtr> running = a.admit(0);
+    const std::vector<StageJobPtr> running = a.admit(0);
     a.add(compute(30, 700));
     const std::vector<int> order = run_with_small_ones(a, running, 1, 20, 400);
     REQUIRE(order.size() == 22);
@@ -187,7 +187,7 @@ TEST_CASE("small jobs pass a large one eight times and not once more, though the
 TEST_CASE("of several large jobs that have been passed over, the one that has waited longest comes first") {
   Admission a(std::vector<double>(40, 1), 3, plenty);
   a.add(compute(0, 300));
-  const std::vector<JobPtr> running = a.admit(0);
+  const std::vector<StageJobPtr> running = a.admit(0);
   a.add(compute(30, 900));
   CHECK(a.admit(0).empty());
   a.add(compute(20, 900));  // stands before it in the document
@@ -198,7 +198,7 @@ TEST_CASE("of several large jobs that have been passed over, the one that has wa
 TEST_CASE("a large job that has got its turn is not waited for any more") {
   Admission a(std::vector<double>(40, 1), 3, plenty);
   a.add(compute(0, 300));
-  std::vector<JobPtr> running = a.admit(0);
+  std::vector<StageJobPtr> running = a.admit(0);
   a.add(compute(30, 900));
   CHECK(a.admit(0).empty());
   end(a, running);
@@ -212,12 +212,12 @@ TEST_CASE("a large job that has got its turn is not waited for any more") {
 
 TEST_CASE("nothing is loaded while the budget is used up, unless there is nothing else to do") {
   Admission a({1, 2, 1}, 4, plenty);
-  a.add(job(Job::Kind::load, 1));
+  a.add(job(StageJob::Kind::load, 1));
   a.add(compute(0, 10));
-  const std::vector<JobPtr> first = a.admit(plenty);
+  const std::vector<StageJobPtr> first = a.admit(plenty);
   CHECK(shown(first) == "run 0");
   CHECK(a.admit(plenty).empty());
-  a.add(job(Job::Kind::load, 2));
+  a.add(job(StageJob::Kind::load, 2));
   end(a, first);
   CHECK(shown(a.admit(plenty)) == "load 1");
   CHECK(shown(a.admit(plenty - 1)) == "load 2");
@@ -226,17 +226,17 @@ TEST_CASE("nothing is loaded while the budget is used up, unless there is nothin
 TEST_CASE("a load does not pass a large job that has been passed over often enough") {
   Admission a(std::vector<double>(20, 1), 4, plenty);
   a.add(compute(0, 500));
-  const JobPtr long_one = a.admit(0).front();
+  const StageJobPtr long_one = a.admit(0).front();
   a.add(compute(15, 700));
   CHECK(a.admit(0).empty());
   for (int i = 1; i <= 8; i++) {
     a.add(compute(i));
-    const std::vector<JobPtr> small = a.admit(0);
+    const std::vector<StageJobPtr> small = a.admit(0);
     REQUIRE(shown(small) == fmt::format("run {}", i));
     end(a, small);
   }
-  a.add(job(Job::Kind::load, 9));
-  a.add(job(Job::Kind::look_up, 10));
+  a.add(job(StageJob::Kind::load, 9));
+  a.add(job(StageJob::Kind::look_up, 10));
   CHECK(shown(a.admit(0)) == "look up 10");
   a.ended(*long_one);
   CHECK(shown(a.admit(0)) == "run 15, load 9");
@@ -245,7 +245,7 @@ TEST_CASE("a load does not pass a large job that has been passed over often enou
 TEST_CASE("jobs that are forgotten do not come, and hold nobody up") {
   Admission a(std::vector<double>(20, 1), 2, plenty);
   a.add(compute(0, 500));
-  const std::vector<JobPtr> running = a.admit(0);
+  const std::vector<StageJobPtr> running = a.admit(0);
   a.add(compute(15, 700));
   CHECK(a.admit(0).empty());
   for (int i = 1; i <= 8; i++) {
@@ -253,11 +253,11 @@ TEST_CASE("jobs that are forgotten do not come, and hold nobody up") {
     end(a, a.admit(0));
   }
   a.add(compute(9));
-  a.add(job(Job::Kind::store, 0));
+  a.add(job(StageJob::Kind::store, 0));
   CHECK(shown(a.admit(0)) == "store 0");
-  a.ended(*job(Job::Kind::store, 0));
+  a.ended(*job(StageJob::Kind::store, 0));
   CHECK(a.admit(0).empty());
-  a.forget_if([](const Job& j) { return j.stage == 15; });
+  a.forget_if([](const StageJob& j) { return j.stage == 15; });
   CHECK(shown(a.admit(0)) == "run 9");
 }
 

@@ -11,7 +11,7 @@ TEST_CASE("after a failure only what has been computed is stored, and nobody wai
   add(c.graph, "other", c.t.number, {{"value", 2.0}});
   Table run(c.graph, keeping({"c", "aside", "other"}, &c.cache));
   CHECK(run.running() == "run a, run aside, run other");
-  run.fail(Job::Kind::compute, "a");
+  run.fail(StageJob::Kind::compute, "a");
   CHECK(run.coordinator().stopping());
   CHECK(run.at("a") == "nameless computing");
   run.compute("aside", 1);
@@ -32,13 +32,13 @@ TEST_CASE("looking up and loading can fail, too") {
   set(c.graph, "a", "value", 7.0);
   Table run(c.graph, keeping({"c"}, &c.cache));
   run.compute("a", 7);
-  run.fail(Job::Kind::look_up, "b");
+  run.fail(StageJob::Kind::look_up, "b");
   CHECK(run.at("b") == "looking_up open");
   CHECK(run.running() == "store a");
 
   set(c.graph, "a", "value", 2.0);
   Table again(c.graph, keeping({"c"}, &c.cache));
-  again.fail(Job::Kind::load, "c");
+  again.fail(StageJob::Kind::load, "c");
   CHECK(again.at("c") == "named loading");
   CHECK(again.running().empty());
 }
@@ -50,7 +50,7 @@ TEST_CASE("what came after a failure, back from another process, is not tried ag
   add(g, "second", t.number, {{"value", 2.0}});
   Table run(g, keeping({"first", "second"}));
   run.find_busy("first");
-  run.fail(Job::Kind::compute, "second");
+  run.fail(StageJob::Kind::compute, "second");
   run.resume();
   CHECK(run.running().empty());
 }
@@ -78,13 +78,13 @@ TEST_CASE("nothing starts once the run is cancelled, not even a store") {
 
 TEST_CASE("a job that no stage can be waiting for is a fault that names stage, state and event") {
   struct Case {
-    Job::Kind kind;
+    StageJob::Kind kind;
     const char* node;
     const char* message;
   };
   const std::vector<Case> cases = {
-      {Job::Kind::load, "a", "stage \"a\" (name nameless, values computing) cannot take the event read"},
-      {Job::Kind::compute, "c", "stage \"c\" (name unknown, values open) cannot take the event computed"},
+      {StageJob::Kind::load, "a", "stage \"a\" (name nameless, values computing) cannot take the event read"},
+      {StageJob::Kind::compute, "c", "stage \"c\" (name unknown, values open) cannot take the event computed"},
   };
   for (const Case& c : cases) {
     FakeTypes t;

@@ -56,12 +56,12 @@ class Driver {
         coordinator_(plan_, options, 1 + dice.roll(4), uint64_t(dice.roll(40))) {}
 
   void run() {
-    tell(std::make_shared<Job>());
+    tell(std::make_shared<StageJob>());
     while (!running_.empty() || !postponed_.empty()) {
       const bool resumes = running_.empty() || (!postponed_.empty() && dice_.roll(3) == 0);
-      std::vector<JobPtr>& from = resumes ? postponed_ : running_;
+      std::vector<StageJobPtr>& from = resumes ? postponed_ : running_;
       const auto at = from.begin() + dice_.roll(int(from.size()));
-      const JobPtr job = *at;
+      const StageJobPtr job = *at;
       from.erase(at);
       if (resumes)
         job->resumed = true;
@@ -75,25 +75,25 @@ class Driver {
   const Plan& plan() const { return plan_; }
 
  private:
-  void work(Job& job) {
-    if ((job.kind == Job::Kind::compute || job.kind == Job::Kind::look_up) && dice_.roll(4) == 0) {
+  void work(StageJob& job) {
+    if ((job.kind == StageJob::Kind::compute || job.kind == StageJob::Kind::look_up) && dice_.roll(4) == 0) {
       seen_.busy++;
       job.busy = true;
       return;
     }
-    if (job.kind == Job::Kind::load && dice_.roll(3) == 0) {
+    if (job.kind == StageJob::Kind::load && dice_.roll(3) == 0) {
       seen_.unreadable++;
       return;
     }
-    seen_.loads += job.kind == Job::Kind::load;
-    seen_.runs += job.kind == Job::Kind::compute;
+    seen_.loads += job.kind == StageJob::Kind::load;
+    seen_.runs += job.kind == StageJob::Kind::compute;
     perform(job, plan_, options_);
     REQUIRE_FALSE(job.failure);
   }
-  void tell(const JobPtr& job) {
+  void tell(const StageJobPtr& job) {
     coordinator_.settle(job);
-    for (JobPtr& j : coordinator_.admit()) running_.push_back(std::move(j));
-    for (JobPtr& j : coordinator_.take_postponed()) postponed_.push_back(std::move(j));
+    for (StageJobPtr& j : coordinator_.admit()) running_.push_back(std::move(j));
+    for (StageJobPtr& j : coordinator_.take_postponed()) postponed_.push_back(std::move(j));
   }
 
   const RunOptions& options_;
@@ -101,7 +101,7 @@ class Driver {
   Seen& seen_;
   Plan plan_;
   Coordinator coordinator_;
-  std::vector<JobPtr> running_, postponed_;
+  std::vector<StageJobPtr> running_, postponed_;
 };
 
 void check_end(Driver& driver, const Graph& g, const FakeTypes& t) {

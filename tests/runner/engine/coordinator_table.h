@@ -19,7 +19,7 @@ class Table {
       : options_(std::move(given)),
         plan_(make_plan(graph, options_.cache, options_.targets)),
         coordinator_(plan_, options_, threads, memory) {
-    go(std::make_shared<Job>());
+    go(std::make_shared<StageJob>());
   }
 
   int place(const std::string& node) const {
@@ -37,7 +37,7 @@ class Table {
   std::string running() const {
     constexpr std::array<const char*, 5> names = {"begin", "look up", "load", "run", "store"};
     std::string out;
-    for (const JobPtr& j : running_)
+    for (const StageJobPtr& j : running_)
       out += fmt::format("{}{} {}", out.empty() ? "" : ", ", names[size_t(j->kind)],
                          plan_.stages[size_t(j->stage)].node->name);
     return out;
@@ -45,12 +45,12 @@ class Table {
 
   /// Ends jobs as they would end if all goes well.
   void look_up(const std::string& node) {
-    const JobPtr job = take(Job::Kind::look_up, node);
+    const StageJobPtr job = take(StageJob::Kind::look_up, node);
     job->resolution = resolve(plan_, job->stage, options_.cache, nullptr);
     go(job);
   }
   void compute(const std::string& node, double value, Size size = {1, 1}) {
-    const JobPtr job = take(Job::Kind::compute, node);
+    const StageJobPtr job = take(StageJob::Kind::compute, node);
     const NodeType& type = *plan_.stages[size_t(job->stage)].node->type;
     for (const Port& p : type.outputs) job->values[p.name] = image(value, size);
     job->record.emplace();
@@ -59,43 +59,43 @@ class Table {
     go(job);
   }
   void load(const std::string& node, double value) {
-    const JobPtr job = take(Job::Kind::load, node);
+    const StageJobPtr job = take(StageJob::Kind::load, node);
     job->values["out"] = image(value, {1, 1});
     go(job);
   }
   void store(const std::string& node, bool stored = true) {
-    const JobPtr job = take(Job::Kind::store, node);
+    const StageJobPtr job = take(StageJob::Kind::store, node);
     job->stored = stored;
     go(job);
   }
   /// And if it does not.
-  void load_in_vain(const std::string& node) { go(take(Job::Kind::load, node)); }
-  void fail(Job::Kind kind, const std::string& node) {
-    const JobPtr job = take(kind, node);
+  void load_in_vain(const std::string& node) { go(take(StageJob::Kind::load, node)); }
+  void fail(StageJob::Kind kind, const std::string& node) {
+    const StageJobPtr job = take(kind, node);
     job->failure = node + " failed";
     go(job);
   }
   void stop(const std::string& node) {
-    const JobPtr job = take(Job::Kind::compute, node);
+    const StageJobPtr job = take(StageJob::Kind::compute, node);
     job->cancelled = true;
     go(job);
   }
   void find_busy(const std::string& node) {
-    const JobPtr job = take(Job::Kind::compute, node);
+    const StageJobPtr job = take(StageJob::Kind::compute, node);
     job->busy = job->waited = true;
     go(job);
   }
   void resume() {
     REQUIRE_FALSE(postponed_.empty());
-    const JobPtr job = postponed_.front();
+    const StageJobPtr job = postponed_.front();
     postponed_.erase(postponed_.begin());
     job->resumed = true;
     job->span = {"wait", job->stage, 1000, 1, 2};
     go(job);
   }
   /// A job that nobody has asked for.
-  void intrude(Job::Kind kind, const std::string& node) {
-    auto job = std::make_shared<Job>();
+  void intrude(StageJob::Kind kind, const std::string& node) {
+    auto job = std::make_shared<StageJob>();
     job->kind = kind;
     job->stage = place(node);
     job->values["out"] = number_image(1);
@@ -112,25 +112,25 @@ class Table {
   static ImagePtr image(double value, Size size) {
     return make_image(size, 1, [&](int, int, int) { return float(value); });
   }
-  JobPtr take(Job::Kind kind, const std::string& node) {
+  StageJobPtr take(StageJob::Kind kind, const std::string& node) {
     const auto job = std::find_if(running_.begin(), running_.end(),
-                                  [&](const JobPtr& j) { return j->kind == kind && j->stage == place(node); });
+                                  [&](const StageJobPtr& j) { return j->kind == kind && j->stage == place(node); });
     REQUIRE_MESSAGE(job != running_.end(), node << " is not among: " << running());
-    const JobPtr taken = *job;
+    const StageJobPtr taken = *job;
     taken->span = {"work", taken->stage, 0, 1, 2};
     running_.erase(job);
     return taken;
   }
-  void go(const JobPtr& job) {
+  void go(const StageJobPtr& job) {
     coordinator_.settle(job);
-    for (JobPtr& j : coordinator_.admit()) running_.push_back(std::move(j));
-    for (JobPtr& j : coordinator_.take_postponed()) postponed_.push_back(std::move(j));
+    for (StageJobPtr& j : coordinator_.admit()) running_.push_back(std::move(j));
+    for (StageJobPtr& j : coordinator_.take_postponed()) postponed_.push_back(std::move(j));
   }
 
   RunOptions options_;
   Plan plan_;
   Coordinator coordinator_;
-  std::vector<JobPtr> running_, postponed_;
+  std::vector<StageJobPtr> running_, postponed_;
 };
 
 /// a -> b -> c, all stored as payload but a, of which only the digest is.

@@ -21,11 +21,11 @@ struct Waiting {
 
   Waiting() {
     waiter.emplace(
-        [this](const Job&) {
+        [this](const StageJob&) {
           looks++;
           return taken.load();
         },
-        [this](const JobPtr& job, const LeaseWaiter::Wait& wait) {
+        [this](const StageJobPtr& job, const LeaseWaiter::Wait& wait) {
           const std::lock_guard lock(mutex);
           back.emplace_back(job->stage, wait);
           changed.notify_all();
@@ -33,7 +33,7 @@ struct Waiting {
         &cancelled);
   }
   void add(int stage) {
-    auto job = std::make_shared<Job>();
+    auto job = std::make_shared<StageJob>();
     job->stage = stage;
     waiter->add(std::move(job));
   }

@@ -16,8 +16,8 @@ using namespace terrazzo::test;
 
 namespace {
 
-KeptPixels identity(Size size, bool (*keep)(int, int)) {
-  KeptPixels kept;
+ExistingPixels identity(Size size, bool (*keep)(int, int)) {
+  ExistingPixels kept;
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) {
       kept.pixels.push_back({uint16_t(x), uint16_t(y)});
@@ -33,7 +33,7 @@ bool outside_hole(int x, int y) {
 }  // namespace
 
 TEST_CASE("a pixel of a level is fixed if all pixels below it are kept, at the place in the middle of theirs") {
-  const KeptPixels kept = identity({13, 10}, [](int x, int y) { return x != 5 || y != 3; });
+  const ExistingPixels kept = identity({13, 10}, [](int x, int y) { return x != 5 || y != 3; });
   const FixedPixels fixed(kept, {13, 10}, 2, {4, 3});
   Field field{{4, 3}, std::vector<ExemplarPixel>(12, {99, 99})};
   fixed.apply(field, PlaneWindow::all_of({field.size}));
@@ -46,7 +46,7 @@ TEST_CASE("a pixel of a level is fixed if all pixels below it are kept, at the p
 }
 
 TEST_CASE("what is kept at first begins as it is, and is not fixed") {
-  KeptPixels kept = identity({16, 4}, [](int x, int) { return x < 4; });
+  ExistingPixels kept = identity({16, 4}, [](int x, int) { return x < 4; });
   for (int y = 0; y < 4; y++)
     for (int x = 4; x < 11; x++) kept.keep[size_t(y) * 16 + x] = Keep::at_first;
   const FixedPixels fixed(kept, {16, 4}, 2, {4, 1});
@@ -57,14 +57,14 @@ TEST_CASE("what is kept at first begins as it is, and is not fixed") {
 }
 
 TEST_CASE("a lattice may bend around the border, between the pixels that always stay") {
-  KeptPixels kept = identity({20, 12}, [](int x, int y) { return x >= 3 && x < 15 && y >= 2 && y < 12; });
+  ExistingPixels kept = identity({20, 12}, [](int x, int y) { return x >= 3 && x < 15 && y >= 2 && y < 12; });
   kept.keep[0] = Keep::at_first;
   const LatticeGaps gaps = kept.gaps({20, 12});
   CHECK(gaps.x.begin == 15);
   CHECK(gaps.x.length == 8);
   CHECK(gaps.y.begin == 12);
   CHECK(gaps.y.length == 2);
-  CHECK(KeptPixels{}.gaps({20, 12}).x.length == 0);
+  CHECK(ExistingPixels{}.gaps({20, 12}).x.length == 0);
 }
 
 TEST_CASE("nothing kept, nothing fixed") {
@@ -120,7 +120,7 @@ TEST_CASE("where no whole number of courses fits, the new ones follow those that
 
 TEST_CASE("evenness counts free pixels only") {
   Field field{{32, 32}, std::vector<ExemplarPixel>(32 * 32, {0, 0})};
-  const KeptPixels kept = identity(field.size, [](int x, int) { return x < 16; });
+  const ExistingPixels kept = identity(field.size, [](int x, int) { return x < 16; });
   UsagePenalty all({32, 32}, 1, 0.5), free({32, 32}, 1, 0.5);
   for (int y = 0; y < 32; y++)
     for (int x = 16; x < 32; x++) field.at(x, y) = {uint16_t(x * 2 - 32), uint16_t(y)};

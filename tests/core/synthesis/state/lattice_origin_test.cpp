@@ -14,8 +14,8 @@ namespace {
 constexpr Size size{120, 90};
 
 /// Kept pixels that show the exemplar, which repeats, from a start on; some of them something else.
-KeptPixels shown_from(const Lattice& lattice, const Vector2d& start, int other_every) {
-  KeptPixels kept;
+ExistingPixels shown_from(const Lattice& lattice, const Vector2d& start, int other_every) {
+  ExistingPixels kept;
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) {
       // Other cells of the lattice at other places.

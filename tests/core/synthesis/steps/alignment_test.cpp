@@ -101,7 +101,7 @@ TEST_CASE("beyond their reach pieces stay apart, and what fits stays where it is
 TEST_CASE("a piece with fixed pixels stays; its neighbour comes to it") {
   const PaddedLevel exemplar = noise(false);
   Field field = shifted(1, 2);
-  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
+  ExistingPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   kept.keep[0] = Keep::always;
   const Field wanted = shifted(0, 0);
   align_pieces(field, 1, test::level_of(exemplar, FixedPixels(kept, field.size, 0, side)), 2, Task());
@@ -114,7 +114,7 @@ TEST_CASE("no piece leaves an exemplar that does not tile") {
   Field field{{16, 8}, {}};
   for (int y = 0; y < 8; y++)
     for (int x = 0; x < 16; x++) field.pixels.push_back({uint16_t(24 + x - (x < 8 ? 0 : 1)), uint16_t(9 + y)});
-  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
+  ExistingPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   kept.keep[0] = Keep::always;
   align_pieces(field, 1, test::level_of(exemplar, FixedPixels(kept, field.size, 0, side)), 2, Task());
   CHECK(Pieces(field).count() == 2);

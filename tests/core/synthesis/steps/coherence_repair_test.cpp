@@ -62,7 +62,7 @@ TEST_CASE("what is like the exemplar stays, whether it shows seams or not") {
 TEST_CASE("reworking leaves fixed pixels alone") {
   const PaddedLevel exemplar = test::slopes(exemplar_size);
   Field field = test::with_wrong_place(field_size, wrong, {12, 47});
-  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
+  ExistingPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++) kept.keep[size_t(y) * field_size.width + x] = Keep::always;
   rework(field, test::level_of(exemplar, field_size, false, FixedPixels(kept, field_size, 0, exemplar_size)));

@@ -55,7 +55,7 @@ TEST_CASE("a tile that lacks a corner gets it, but for its joint") {
 }
 
 TEST_CASE("kept pixels of a torn tile stay") {
-  KeptPixels kept;
+  ExistingPixels kept;
   kept.pixels = torn().pixels;
   kept.keep.assign(kept.pixels.size(), Keep::never);
   kept.keep[size_t(25) * blocks + 25] = Keep::always;

@@ -63,7 +63,7 @@ TEST_CASE("a result without seams stays as it is") {
 TEST_CASE("fixed pixels stay, whatever they show") {
   const PaddedLevel exemplar = noise();
   Field field = test::with_wrong_place(field_size, wrong, {4, 5});
-  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
+  ExistingPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   for (int y = wrong.y; y < wrong.bottom(); y++)
     for (int x = wrong.x; x < wrong.right(); x++) kept.keep[size_t(y) * field_size.width + x] = Keep::always;
   mend(field, test::level_of(exemplar, field_size, false, FixedPixels(kept, field_size, 0, exemplar_size)));

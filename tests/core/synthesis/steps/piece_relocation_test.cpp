@@ -68,7 +68,7 @@ const UsagePenalty& all_alike() {
 void refill_hole(Field& field, const UsagePenalty& usage) {
   const PaddedLevel exemplar = exemplar_seen_twice();
   const std::vector<ExemplarPixel> similar = other_halves();
-  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size(), Keep::always)};
+  ExistingPixels kept{field.pixels, std::vector<Keep>(field.pixels.size(), Keep::always)};
   for (int y = 0; y < 24; y++)
     for (int x = 0; x < 24; x++) kept.keep[size_t(y) * 24 + x] = in_hole(x, y) ? Keep::never : Keep::always;
   relocate_pieces(field, 1, level_of(exemplar, similar, {kept, field.size, 0, side}), usage, 1, Task());

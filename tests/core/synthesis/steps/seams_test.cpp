@@ -64,7 +64,7 @@ TEST_CASE("a seam stays where nothing better is in reach, and fixed pixels stay 
   CHECK(best.pixels == before.pixels);
 
   Field field = meeting_at(9);
-  KeptPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
+  ExistingPixels kept{field.pixels, std::vector<Keep>(field.pixels.size())};
   for (int y = 0; y < field.size.height; y++) kept.keep[size_t(y) * field.size.width + 9] = Keep::always;
   const Field fixed = field;
   move_seams(field, test::level_of(exemplar, FixedPixels(kept, field.size, 0, side)), {.reach = 8}, Task());

@@ -1,4 +1,4 @@
-#include "core/image/kept_pixels.h"
+#include "core/image/pixel_buffer.h"
 
 #include <algorithm>
 #include <atomic>
@@ -17,7 +17,7 @@ std::atomic<uint64_t> limit{usual_limit};
 
 }  // namespace
 
-KeptPixels::KeptPixels(Size size, int channels)
+PixelBuffer::PixelBuffer(Size size, int channels)
     : row_(size_t(size.width) * channels), height_(size.height), channels_(channels) {
   const bool fits = in_use.fetch_add(bytes()) + bytes() <= limit;
   if (!fits) in_file_ = ScratchFile::shared().take(bytes());
@@ -33,14 +33,14 @@ KeptPixels::KeptPixels(Size size, int channels)
   }
 }
 
-KeptPixels::~KeptPixels() {
+PixelBuffer::~PixelBuffer() {
   if (in_file_)
     ScratchFile::shared().give_back(*in_file_, bytes());
   else
     in_use -= bytes();
 }
 
-void KeptPixels::write_rows(int y, int rows, const float* pixels) {
+void PixelBuffer::write_rows(int y, int rows, const float* pixels) {
   const size_t first = size_t(y) * row_, count = size_t(rows) * row_;
   if (in_file_)
     ScratchFile::shared().write(*in_file_ + first * sizeof(float), pixels, count * sizeof(float));
@@ -48,7 +48,7 @@ void KeptPixels::write_rows(int y, int rows, const float* pixels) {
     std::copy_n(pixels, count, &in_memory_[first]);
 }
 
-void KeptPixels::read(const Rect& region, float* out) const {
+void PixelBuffer::read(const Rect& region, float* out) const {
   const size_t values = size_t(region.width) * channels_;
   const bool whole_rows = values == row_;
   const int reads = whole_rows ? 1 : region.height;
@@ -62,15 +62,15 @@ void KeptPixels::read(const Rect& region, float* out) const {
   }
 }
 
-uint64_t KeptPixels::memory_in_use() {
+uint64_t PixelBuffer::memory_in_use() {
   return in_use;
 }
 
-uint64_t KeptPixels::memory_limit() {
+uint64_t PixelBuffer::memory_limit() {
   return limit;
 }
 
-void KeptPixels::set_memory_limit(uint64_t bytes) {
+void PixelBuffer::set_memory_limit(uint64_t bytes) {
   limit = bytes;
 }
 

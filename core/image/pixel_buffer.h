@@ -11,12 +11,12 @@ namespace terrazzo {
 /// All pixels of an image, written row by row: in memory as long as there is little of it in use for such pixels, else
 /// in a scratch file; and in memory again if there is no room on disk. Thread-safe for different rows, and for reading
 /// once all are written.
-class KeptPixels {
+class PixelBuffer {
  public:
-  KeptPixels(Size size, int channels);
-  ~KeptPixels();
-  KeptPixels(const KeptPixels&) = delete;
-  KeptPixels& operator=(const KeptPixels&) = delete;
+  PixelBuffer(Size size, int channels);
+  ~PixelBuffer();
+  PixelBuffer(const PixelBuffer&) = delete;
+  PixelBuffer& operator=(const PixelBuffer&) = delete;
 
   /// Where row `y` and those below it lie, to be written to; null if they lie in the file.
   float* rows_in_memory(int y) { return in_memory_.empty() ? nullptr : &in_memory_[size_t(y) * row_]; }
