@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 examples/packages.sh
-[ -f build/build.ninja ] || cmake --preset release -DTERRAZZO_TESTS=OFF
+[ -f build/build.ninja ] || cmake --preset release -DTERRAZZO_TESTS=OFF -DTERRAZZO_PYTHON=OFF
 cmake --build build --target terrazzo_program
 
 out=out/quickstart
