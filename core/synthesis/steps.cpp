@@ -26,7 +26,7 @@ namespace {
 constexpr int seam_level = finest_whole_level;
 
 /// At which levels steps run, and how strongly.
-struct StepsTuning {
+struct StepTuning {
   double coherence_between_kept = 0.75;
   double coherence_where_steered = 0.85;
   double landmark_coherence = 0.7;
@@ -54,70 +54,70 @@ struct StepsTuning {
   int seam_reach_around_clear_bricks = 2;
   int left_out = 0;
 };
-const Tunable<StepsTuning> steps_tuning(
+const Tunable<StepTuning> step_tuning(
     "steps",
     {
-        {&StepsTuning::coherence_between_kept, "coherence_between_kept", "factor",
+        {&StepTuning::coherence_between_kept, "coherence_between_kept", "factor",
          "lower: pixels between kept ones hold together more, as their pieces are not limited; higher: more variety",
          "piece_limits", 0, 100},
-        {&StepsTuning::coherence_where_steered, "coherence_where_steered", "factor",
+        {&StepTuning::coherence_where_steered, "coherence_where_steered", "factor",
          "lower: larger pieces under controls; higher: the target is followed more closely", "piece_limits", 0, 100},
-        {&StepsTuning::landmark_coherence, "landmark_coherence", "factor",
+        {&StepTuning::landmark_coherence, "landmark_coherence", "factor",
          "lower: rare features stay whole at the coarsest levels; higher: more variety",
          "not measured: chosen while features at the coarsest levels were looked at", 0, 100},
-        {&StepsTuning::stay_along_courses, "stay_along_courses", "appearance units per pixel",
+        {&StepTuning::stay_along_courses, "stay_along_courses", "appearance units per pixel",
          "higher: seams stay nearer; lower: they go half a brick for a joint", "seams", 0, 10000},
-        {&StepsTuning::stay_to_the_pixel, "stay_to_the_pixel", "appearance units per pixel",
+        {&StepTuning::stay_to_the_pixel, "stay_to_the_pixel", "appearance units per pixel",
          "higher: seams stay; lower: they wander at the finest level", "seams", 0, 10000},
-        {&StepsTuning::stay_by_joint, "stay_by_joint", "appearance units per pixel",
+        {&StepTuning::stay_by_joint, "stay_by_joint", "appearance units per pixel",
          "as stay_along_courses, where cells tell how near the next joint is", "seams", 0, 10000},
-        {&StepsTuning::stay_around_bricks, "stay_around_bricks", "appearance units per pixel",
+        {&StepTuning::stay_around_bricks, "stay_around_bricks", "appearance units per pixel",
          "lower: seams find the joints that bricks were cut beside; higher: they keep to the cut",
          "not measured: only a price of 2 was compared", 0, 10000},
-        {&StepsTuning::landmark_levels, "landmark_levels", "levels",
+        {&StepTuning::landmark_levels, "landmark_levels", "levels",
          "more: rare features are placed evenly; fewer: fewer of them are broken for it", "usage_penalty"},
-        {&StepsTuning::finest_insistent, "finest_insistent", "level",
+        {&StepTuning::finest_insistent, "finest_insistent", "level",
          "lower: the use of exemplars under 64 pixels is evened out where few passes follow, and crumbs stay",
          "small_exemplars"},
-        {&StepsTuning::most_levels_of_small, "most_levels_of_small", "levels",
+        {&StepTuning::most_levels_of_small, "most_levels_of_small", "levels",
          "of exemplars whose use is evened out less; 3 are those under 128 pixels. Higher: fewer crumbs, more repeats",
          "small_exemplars"},
-        {&StepsTuning::finest_even, "finest_even", "level",
+        {&StepTuning::finest_even, "finest_even", "level",
          "lower: evenness counts at finer levels too, and breaks features",
          "not measured: taken over from the code before constants were listed"},
-        {&StepsTuning::finest_limited, "finest_limited", "level",
+        {&StepTuning::finest_limited, "finest_limited", "level",
          "lower: pieces are limited at finer levels, where they hardly grow; costs time",
          "not measured: pieces hardly grow at finer levels"},
-        {&StepsTuning::finest_repaired, "finest_repaired", "level",
+        {&StepTuning::finest_repaired, "finest_repaired", "level",
          "lower: finer levels are repaired too, which brings nothing; costs time", "graphcut_repair"},
-        {&StepsTuning::coarsest_repaired, "coarsest_repaired", "level",
+        {&StepTuning::coarsest_repaired, "coarsest_repaired", "level",
          "higher: coarser levels too, where it brings nothing",
          "not measured: the levels in use were measured together, not one by one"},
-        {&StepsTuning::finest_incoherent, "finest_incoherent", "level",
+        {&StepTuning::finest_incoherent, "finest_incoherent", "level",
          "lower: finer levels too, where it costs most and brings nothing", "coherence_repair", finest_whole_level},
-        {&StepsTuning::coarsest_incoherent, "coarsest_incoherent", "level",
+        {&StepTuning::coarsest_incoherent, "coarsest_incoherent", "level",
          "higher: coarser levels too, whose windows are all unlike one another", "coherence_repair"},
-        {&StepsTuning::first_repair, "first_repair", "passes left", "higher: seams are repaired earlier",
+        {&StepTuning::first_repair, "first_repair", "passes left", "higher: seams are repaired earlier",
          "not measured: only more repairs were compared"},
-        {&StepsTuning::last_repair, "last_repair", "passes left", "lower: fewer passes smooth what was repaired last",
+        {&StepTuning::last_repair, "last_repair", "passes left", "lower: fewer passes smooth what was repaired last",
          "not measured: only more repairs were compared"},
-        {&StepsTuning::alignment_reach, "alignment_reach", "pixels",
+        {&StepTuning::alignment_reach, "alignment_reach", "pixels",
          "higher: pieces find places farther off; upsampling is uncertain by about one pixel",
          "not measured: upsampling is uncertain by about one pixel", 0, 64},
-        {&StepsTuning::seam_reach_along_courses, "seam_reach_along_courses", "pixels",
+        {&StepTuning::seam_reach_along_courses, "seam_reach_along_courses", "pixels",
          "higher: joints of longer bricks are found; costs time", "seams", 0, 1000},
-        {&StepsTuning::seam_reach_to_the_pixel, "seam_reach_to_the_pixel", "pixels",
+        {&StepTuning::seam_reach_to_the_pixel, "seam_reach_to_the_pixel", "pixels",
          "higher: the finest level looks for other joints, not for where two meet; costs time", "seams", 0, 1000},
-        {&StepsTuning::nearest_joint, "nearest_joint", "pixels", "the least reach where cells are small",
+        {&StepTuning::nearest_joint, "nearest_joint", "pixels", "the least reach where cells are small",
          "not measured: chosen with the prices, not varied alone", 1, 1000},
-        {&StepsTuning::farthest_joint, "farthest_joint", "pixels",
+        {&StepTuning::farthest_joint, "farthest_joint", "pixels",
          "the greatest reach where cells are large; costs time",
          "not measured: chosen with the prices, not varied alone", 1, 1000},
-        {&StepsTuning::seam_reach_around_bricks, "seam_reach_around_bricks", "pixels",
+        {&StepTuning::seam_reach_around_bricks, "seam_reach_around_bricks", "pixels",
          "higher: joints that were missed are found; lower: boards keep no stubs of joints", "course_layout", 0, 1000},
-        {&StepsTuning::seam_reach_around_clear_bricks, "seam_reach_around_clear_bricks", "pixels",
+        {&StepTuning::seam_reach_around_clear_bricks, "seam_reach_around_clear_bricks", "pixels",
          "the same where joints are clear, beside half a joint's breadth", "course_layout", 0, 1000},
-        {&StepsTuning::left_out, "left_out", "row of the table of steps, from 1",
+        {&StepTuning::left_out, "left_out", "row of the table of steps, from 1",
          "this one does not run, to see what it brings and costs; 0: all run", "What each step brings"},
     });
 
@@ -133,7 +133,7 @@ bool always(const LevelFacts&) {
 
 /// Measured on lattices this breaks more and makes nothing more like the exemplar.
 bool insists_on_evenness(const LevelFacts& f) {
-  return f.places_landmarks() && f.level >= steps_tuning->finest_insistent && f.counts_use() && !f.regular &&
+  return f.places_landmarks() && f.level >= step_tuning->finest_insistent && f.counts_use() && !f.regular &&
          !f.steered && !f.kept;
 }
 
@@ -174,19 +174,19 @@ bool lays_courses(const LevelFacts& f) {
 }
 
 bool repairs_seams(const LevelFacts& f) {
-  const int finest = f.kept ? finest_whole_level : steps_tuning->finest_repaired;
-  return !is_draft(f) && f.level >= finest && f.level <= steps_tuning->coarsest_repaired && !f.steered;
+  const int finest = f.kept ? finest_whole_level : step_tuning->finest_repaired;
+  return !is_draft(f) && f.level >= finest && f.level <= step_tuning->coarsest_repaired && !f.steered;
 }
 
 /// Between kept pixels nothing is said about whole pieces; single ones hold together more instead. Nor where a target
 /// says what goes where: limited pieces fall apart into ever the same scrap that misses nothing of it.
 bool limits_pieces(const LevelFacts& f) {
-  return f.level >= steps_tuning->finest_limited && !f.kept && !f.steered;
+  return f.level >= step_tuning->finest_limited && !f.kept && !f.steered;
 }
 
 /// Measured on lattices this brings next to nothing.
 bool repairs_incoherent(const LevelFacts& f) {
-  return f.level >= steps_tuning->finest_incoherent && f.level <= steps_tuning->coarsest_incoherent && !f.regular &&
+  return f.level >= step_tuning->finest_incoherent && f.level <= step_tuning->coarsest_incoherent && !f.regular &&
          !f.steered && !is_draft(f);
 }
 
@@ -234,7 +234,7 @@ void relocate(StepContext& c) {
 }
 
 void align(StepContext& c) {
-  if (c.level.phase.resolves_cells()) align_pieces(c.field, 2, c.level, steps_tuning->alignment_reach, c.shared.task);
+  if (c.level.phase.resolves_cells()) align_pieces(c.field, 2, c.level, step_tuning->alignment_reach, c.shared.task);
 }
 
 /// Around whole bricks seams look for joints that bricks were cut beside. The clearer those are, the less far: boards
@@ -244,10 +244,10 @@ void lay_whole_bricks(StepContext& c) {
   const Coursing coursing = find_coursing(appearance, c.shared.task);
   const LatticePhase phase(c.shared.lattice, 0, c.shared.surface());
   if (!lay_courses(c.field, 2, c.level, appearance, coursing, phase, c.shared.task)) return;
-  const int clear = steps_tuning->seam_reach_around_clear_bricks + (coursing.half_joint << coursing.level);
-  const int reach = steps_tuning->seam_reach_around_bricks;
+  const int clear = step_tuning->seam_reach_around_clear_bricks + (coursing.half_joint << coursing.level);
+  const int reach = step_tuning->seam_reach_around_bricks;
   c.seams = SeamMoves{.reach = coursing.is_clear() ? std::min(reach, clear) : reach,
-                      .stay = steps_tuning->stay_around_bricks,
+                      .stay = step_tuning->stay_around_bricks,
                       .block = 2};
 }
 
@@ -262,7 +262,7 @@ void complete(StepContext& c) {
 /// At the finest level seams only look for the pixel at which joints meet; before that they look for joints, half a
 /// brick away. Courses do not tell how long bricks are.
 SeamMoves seams_to_joints(const StepContext& c) {
-  const StepsTuning& t = *steps_tuning;
+  const StepTuning& t = *step_tuning;
   SeamMoves moves{.reach = t.seam_reach_along_courses, .stay = t.stay_along_courses, .block = 2};
   if (c.facts.level < seam_level) {
     moves.reach = t.seam_reach_to_the_pixel;
@@ -283,7 +283,7 @@ void move_to_joints(StepContext& c) {
 void repair(StepContext& c) {
   const int left = c.effort.passes - c.pass;
   // Without a lattice the second time breaks more than it mends.
-  if (left == steps_tuning->first_repair || (left == steps_tuning->last_repair && (c.facts.regular || c.facts.kept)))
+  if (left == step_tuning->first_repair || (left == step_tuning->last_repair && (c.facts.regular || c.facts.kept)))
     repair_seams(c.field, c.level, c.usage, c.bits(Purpose::graphcut_repair), c.shared.task);
 }
 
@@ -348,16 +348,16 @@ const Step all_steps[] = {
 }  // namespace
 
 bool LevelFacts::places_landmarks() const {
-  return levels - 1 - level < steps_tuning->landmark_levels;
+  return levels - 1 - level < step_tuning->landmark_levels;
 }
 
 bool LevelFacts::small() const {
-  return levels <= steps_tuning->most_levels_of_small;
+  return levels <= step_tuning->most_levels_of_small;
 }
 
 /// Of small exemplars the level after the coarsest is among the last: what breaks there for an even use stays broken.
 bool LevelFacts::counts_use() const {
-  return level >= steps_tuning->finest_even && (!small() || level != levels - 2);
+  return level >= step_tuning->finest_even && (!small() || level != levels - 2);
 }
 
 /// Like courses, where only seams still move. Controls say what goes where.
@@ -370,9 +370,9 @@ bool LevelFacts::completes_elements() const {
 }
 
 double coherence_of(const LevelFacts& f, double coherence) {
-  if (f.kept) return coherence * steps_tuning->coherence_between_kept;
-  if (f.steered) return coherence * steps_tuning->coherence_where_steered;
-  return limits_pieces(f) && f.places_landmarks() ? coherence * steps_tuning->landmark_coherence : coherence;
+  if (f.kept) return coherence * step_tuning->coherence_between_kept;
+  if (f.steered) return coherence * step_tuning->coherence_where_steered;
+  return limits_pieces(f) && f.places_landmarks() ? coherence * step_tuning->landmark_coherence : coherence;
 }
 
 void watch_steps(StepWatcher watch) {
@@ -389,8 +389,7 @@ std::span<const Step> synthesis_steps() {
 
 void run_steps(Phase phase, StepContext& context, const std::function<void()>& after_each) {
   for (const Step& step : all_steps) {
-    if (step.phase != phase || !step.applies(context.facts) || &step - all_steps + 1 == steps_tuning->left_out)
-      continue;
+    if (step.phase != phase || !step.applies(context.facts) || &step - all_steps + 1 == step_tuning->left_out) continue;
     const std::clock_t start = std::clock();
     step.run(context);
     if (watcher) watcher(step, context.facts, double(std::clock() - start) / CLOCKS_PER_SEC);

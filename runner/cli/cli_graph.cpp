@@ -1,13 +1,12 @@
 #include "runner/cli/cli_graph.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/file/file_io.h"
+#include "core/file/temporary_folder.h"
 #include "graphs/document/pack.h"
 #include "graphs/document/read_document.h"
 #include "graphs/document/reference.h"
@@ -16,21 +15,6 @@
 namespace terrazzo {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-/// A folder that goes with the last one who knows it.
-std::shared_ptr<const fs::path> passing_folder() {
-  std::string name = (fs::temp_directory_path() / "terrazzo-pack-XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw_system_error("create", name, errno);
-  return {new fs::path(name), [](const fs::path* folder) {
-            std::error_code failure;
-            fs::remove_all(*folder, failure);
-            delete folder;
-          }};
-}
-
-}  // namespace
 
 void GraphFlags::open_pack(const std::optional<fs::path>& cache) {
   if (!is_pack(graph)) {
@@ -41,8 +25,8 @@ void GraphFlags::open_pack(const std::optional<fs::path>& cache) {
     pack = unpacked(graph, fs::absolute(*cache) / "packs");
     return;
   }
-  if (!passing) passing = passing_folder();
-  pack = unpacked(graph, *passing);
+  if (!passing) passing = std::make_shared<TemporaryFolder>(fs::temp_directory_path(), "pack");
+  pack = unpacked(graph, passing->path());
 }
 
 void GraphFlags::open_pack() {

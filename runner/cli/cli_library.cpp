@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
+#include "core/file/temporary_folder.h"
 #include "core/image/image_file.h"
 #include "core/picture/contact_sheet.h"
 #include "graphs/document/problem.h"
@@ -42,28 +43,6 @@ struct LibraryFlags {
   Library open() const { return folder.empty() ? Library() : Library({fs::absolute(folder).lexically_normal()}); }
 };
 
-/// A folder for files on their way into the library, on its file system.
-class WorkFolder {
- public:
-  explicit WorkFolder(const fs::path& library) {
-    std::error_code failure;
-    fs::create_directories(library, failure);
-    if (failure) throw_system_error("create", library, failure.value());
-    path_ = temporary_beside(library / "new");
-    if (!fs::create_directory(path_, failure)) throw_system_error("create", path_, failure.value());
-  }
-  ~WorkFolder() {
-    std::error_code failure;
-    fs::remove_all(path_, failure);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 int add(const LibraryFlags& flags) {
   flags.limits.apply();
   const Library library = flags.open();
@@ -71,7 +50,7 @@ int add(const LibraryFlags& flags) {
   as_usage([&] { require_library_name(name); });
   if (!flags.force && library.contains(name))
     throw UsageError(fmt::format("{} is in the library {}; --force replaces it", name, library.folder().string()));
-  const WorkFolder work(library.folder());
+  const TemporaryFolder work(library.folder(), "new");  // on the library's file system
   const CancelOnSignal signals;
   RunResult result;
   std::optional<LibraryEntry> entry;

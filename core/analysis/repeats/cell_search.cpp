@@ -13,7 +13,7 @@ namespace terrazzo {
 
 namespace {
 
-struct CellSearchTuning {
+struct CellTuning {
   double least_slant = 0.4;
   double longest = 6;
   double same_point = 2;
@@ -34,72 +34,72 @@ struct CellSearchTuning {
   int fewest_around = 4;
   int most_around = 12;
 };
-const Tunable<CellSearchTuning> cell_search_tuning(
+const Tunable<CellTuning> cell_tuning(
     "cell_search",
     {
-        {&CellSearchTuning::least_slant, "least_slant", "sine",
+        {&CellTuning::least_slant, "least_slant", "sine",
          "of the angle between two peaks that may span a cell. Higher: fewer pairs are tried; lower: flat ones that "
          "noise spans are",
          "not measured: the shortest vectors of a lattice are never flatter than 0.86", 0.01, 1},
-        {&CellSearchTuning::longest, "longest", "shorter sides",
+        {&CellTuning::longest, "longest", "shorter sides",
          "what the longer side of a cell may have, around an exemplar that tiles. Higher: bands are taken for cells; "
          "lower: long boards are not found",
          "not measured: taken over from the code before constants were listed", 1},
-        {&CellSearchTuning::same_point, "same_point", "pixels",
+        {&CellTuning::same_point, "same_point", "pixels",
          "within which points are the same around an exemplar that tiles. Higher: imprecise lattices count none twice; "
          "lower: fine cells have more points",
          "not measured: taken over from the code before constants were listed"},
-        {&CellSearchTuning::good_enough, "good_enough", "share of the best score",
+        {&CellTuning::good_enough, "good_enough", "share of the best score",
          "what a lattice must reach. Higher: the most distinct one wins; lower: denser ones that are less distinct win",
          "not measured: taken over from the code before constants were listed", 0, 1},
-        {&CellSearchTuning::same_area, "same_area", "factor",
+        {&CellTuning::same_area, "same_area", "factor",
          "up to which cells are of one size. Higher: larger ones that are more alike win; lower: the smallest wins",
          "not measured: taken over from the code before constants were listed"},
-        {&CellSearchTuning::least_gap, "least_gap", "share of the correlation",
+        {&CellTuning::least_gap, "least_gap", "share of the correlation",
          "by which it must be lower on points that are others. Higher: denser lattices win; lower: cells that differ a "
          "little are kept apart",
          "not measured: taken over from the code before constants were listed"},
-        {&CellSearchTuning::least_errors, "least_errors", "standard errors",
+        {&CellTuning::least_errors, "least_errors", "standard errors",
          "the same. Higher: denser lattices win; lower: chance decides",
          "not measured: hundreds of lattices are compared with one another"},
-        {&CellSearchTuning::least_errors_of_parts, "least_errors_of_parts", "standard errors",
+        {&CellTuning::least_errors_of_parts, "least_errors_of_parts", "standard errors",
          "the same where multiples of one lattice are compared with it. Higher: chequered tiles become one; lower: "
          "alike ones are kept apart",
          "not measured: taken over from the code before constants were listed"},
-        {&CellSearchTuning::least_deviation, "least_deviation", "share of the correlation",
+        {&CellTuning::least_deviation, "least_deviation", "share of the correlation",
          "of points, for that comparison. Higher: few points say less; lower: those that happen to agree decide",
          "not measured: deviations of few points say little", 0.000001},
-        {&CellSearchTuning::least_gain, "least_gain", "share of the correlation",
+        {&CellTuning::least_gain, "least_gain", "share of the correlation",
          "by which a larger multiple must lift it. Higher: the smallest multiple wins; lower: patterns of several "
          "tiles come out whole",
          "not measured: taken over from the code before constants were listed"},
-        {&CellSearchTuning::few_points, "few_points", "points",
+        {&CellTuning::few_points, "few_points", "points",
          "whose share a lattice loses of its score. Higher: few points say less; lower: large cells are found",
          "not measured: few points may stand out by chance"},
-        {&CellSearchTuning::least_alike_of_drawn, "least_alike_of_drawn", "correlation",
+        {&CellTuning::least_alike_of_drawn, "least_alike_of_drawn", "correlation",
          "higher: fewer drawn patterns are rounded to whole pixels; lower: photographs are, too", "regularity", 0, 1},
-        {&CellSearchTuning::no_difference, "no_difference", "correlation",
+        {&CellTuning::no_difference, "no_difference", "correlation",
          "what rounding may take of it. Higher: more is rounded; lower: steps that are no whole pixels stay",
          "not measured: taken over from the code before constants were listed"},
-        {&CellSearchTuning::near_whole, "near_whole", "pixels",
+        {&CellTuning::near_whole, "near_whole", "pixels",
          "what a step may be off whole ones to be rounded. Higher: drawn patterns come out exact; lower: photographs "
          "keep their steps",
          "regularity", 0, 0.5},
-        {&CellSearchTuning::on_point, "on_point", "steps",
+        {&CellTuning::on_point, "on_point", "steps",
          "within which a point is another lattice's, too. Higher: imprecise lattices share points; lower: those near "
          "by tell them apart",
          "not measured: taken over from the code before constants were listed"},
-        {&CellSearchTuning::farthest, "farthest", "steps from the origin",
+        {&CellTuning::farthest, "farthest", "steps from the origin",
          "at which a lattice is judged. Higher: chance lattices fail; lower: those that are a little off do not",
          "not measured: taken over from the code before constants were listed", 1, 100},
-        {&CellSearchTuning::most_cells, "most_cells", "cells",
+        {&CellTuning::most_cells, "most_cells", "cells",
          "of multiples that are compared with a lattice. Higher: larger patterns of tiles are found; costs time",
          "not measured: taken over from the code before constants were listed"},
-        {&CellSearchTuning::fewest_around, "fewest_around", "cells of an exemplar that tiles",
+        {&CellTuning::fewest_around, "fewest_around", "cells of an exemplar that tiles",
          "of which all lattices are tried. Higher: fewer are; lower: exemplars made to tile that hold parts of "
          "themselves twice are taken for regular",
          "not measured: exemplars that were made to tile often hold two or three parts"},
-        {&CellSearchTuning::most_around, "most_around", "cells of an exemplar that tiles",
+        {&CellTuning::most_around, "most_around", "cells of an exemplar that tiles",
          "the same. Higher: large cells are not missed; costs time", "not measured: of more cells more peaks are seen",
          0, 1000},
     });
@@ -120,8 +120,8 @@ void reduce(Vector2d& a, Vector2d& b) {
 /// an exemplar that tiles, one.
 std::vector<Vector2d> points_of(const Correlation& r, Vector2d a, Vector2d b) {
   std::vector<Vector2d> points;
-  const double same_point = cell_search_tuning->same_point;
-  const int farthest = cell_search_tuning->farthest;
+  const double same_point = cell_tuning->same_point;
+  const int farthest = cell_tuning->farthest;
   const double w = r.exemplar().width, h = r.exemplar().height;
   const auto same = [&](Vector2d p, Vector2d q) {
     const double x = std::abs(p.x() - q.x()), y = std::abs(p.y() - q.y());
@@ -206,7 +206,7 @@ Candidate judged(const Correlation& r, Vector2d a, Vector2d b, double hopeless) 
   if (r.wraps() ? c.points.size() < 2 : c.points.size() < 3 || off_a < 2 || off_b < 2) return c;
   c.on = moments(c.points);
   const auto count = double(c.on.count());
-  const double few = 1 - cell_search_tuning->few_points / count;
+  const double few = 1 - cell_tuning->few_points / count;
   const double low = c.on.mean() - deviation(c.on) * (1 + 1 / std::sqrt(count));
   if (low * few <= hopeless) return c;
   c.around = around_points(r, c.points, a.norm());
@@ -220,12 +220,12 @@ bool is_worse(const Candidate& c, const Candidate& than, double errors) {
   if (c.on.mean() >= than.on.mean()) return false;
   std::vector<Point> own;
   for (const Point& p : c.points)
-    if (!than.has(p.at, cell_search_tuning->on_point)) own.push_back(p);
+    if (!than.has(p.at, cell_tuning->on_point)) own.push_back(p);
   if (own.size() < 2) return false;
   const Moments<1> on = moments(own), &other = than.on;
-  if (on.mean() >= other.mean() * (1 - cell_search_tuning->least_gap)) return false;
+  if (on.mean() >= other.mean() * (1 - cell_tuning->least_gap)) return false;
   const auto a = double(on.count()), b = double(other.count());
-  const double least = cell_search_tuning->least_deviation * other.mean();
+  const double least = cell_tuning->least_deviation * other.mean();
   const double variance = std::max(least * least, (a * on.variance() + b * other.variance()) / (a + b - 2));
   return other.mean() - on.mean() > errors * std::sqrt(variance * (1 / a + 1 / b));
 }
@@ -269,14 +269,12 @@ Lattice rounded_if_drawn(const Correlation& r, const Lattice& l) {
   Lattice whole = l;
   for (Vector2d* v : {&whole.first, &whole.second}) {
     const Vector2d rounded = (v->array() + 0.5).floor();
-    if ((rounded - *v).lpNorm<Eigen::Infinity>() > cell_search_tuning->near_whole) return l;
+    if ((rounded - *v).lpNorm<Eigen::Infinity>() > cell_tuning->near_whole) return l;
     *v = rounded;
   }
   const double alike = whole.is_valid() ? on_points(r, whole) : 0;
-  return alike >= cell_search_tuning->least_alike_of_drawn &&
-                 alike >= on_points(r, l) - cell_search_tuning->no_difference
-             ? whole
-             : l;
+  return alike >= cell_tuning->least_alike_of_drawn && alike >= on_points(r, l) - cell_tuning->no_difference ? whole
+                                                                                                             : l;
 }
 
 class CellSearch {
@@ -284,7 +282,7 @@ class CellSearch {
   explicit CellSearch(const Correlation& r) : r_(r) {}
 
   void add(Vector2d a, Vector2d b) {
-    if (std::abs(cross(a, b)) < cell_search_tuning->least_slant * std::sqrt(a.squaredNorm() * b.squaredNorm())) return;
+    if (std::abs(cross(a, b)) < cell_tuning->least_slant * std::sqrt(a.squaredNorm() * b.squaredNorm())) return;
     reduce(a, b);
     if (!fit(a, b)) return;
     const double area = std::abs(cross(a, b));
@@ -292,7 +290,7 @@ class CellSearch {
           return std::abs(c.area() - area) < 0.1 * area && c.has(a, 0.02) && c.has(b, 0.02);
         }))
       return;
-    Candidate c = judged(r_, a, b, cell_search_tuning->good_enough * highest_);
+    Candidate c = judged(r_, a, b, cell_tuning->good_enough * highest_);
     if (c.score <= 0) return;
     highest_ = std::max(highest_, c.score);
     candidates_.push_back(std::move(c));
@@ -300,7 +298,7 @@ class CellSearch {
 
   /// The densest that does not do worse than any other; null if there is none.
   const Candidate* best() {
-    const double least = cell_search_tuning->good_enough * highest_;
+    const double least = cell_tuning->good_enough * highest_;
     candidates_.erase(
         std::remove_if(candidates_.begin(), candidates_.end(), [&](const Candidate& c) { return c.score < least; }),
         candidates_.end());
@@ -308,7 +306,7 @@ class CellSearch {
                      [](const Candidate& a, const Candidate& b) { return a.area() < b.area(); });
     const Candidate* best = nullptr;
     for (const Candidate& c : candidates_) {
-      if (best && c.area() > cell_search_tuning->same_area * best->area()) break;
+      if (best && c.area() > cell_tuning->same_area * best->area()) break;
       if ((!best || c.on.mean() > best->on.mean()) &&
           std::none_of(candidates_.begin(), candidates_.end(),
                        [&](const Candidate& other) { return is_worse(c, other, errors_against(other)); }))
@@ -320,8 +318,7 @@ class CellSearch {
  private:
   /// Of many lattices of few points some have high ones by chance; around an exemplar that tiles not many fit.
   double errors_against(const Candidate& c) const {
-    return r_.wraps() ? cell_search_tuning->least_errors
-                      : cell_search_tuning->least_errors * (1 + 1.0 / double(c.on.count()));
+    return r_.wraps() ? cell_tuning->least_errors : cell_tuning->least_errors * (1 + 1.0 / double(c.on.count()));
   }
 
   /// Fits both vectors to peaks near them. An exemplar that tiles holds whole steps; false if it is far from that.
@@ -330,7 +327,7 @@ class CellSearch {
       refine(r_, a, b, 2);
       return true;
     }
-    if (b.squaredNorm() > cell_search_tuning->longest * cell_search_tuning->longest * a.squaredNorm()) return false;
+    if (b.squaredNorm() > cell_tuning->longest * cell_tuning->longest * a.squaredNorm()) return false;
     const Lattice whole = Lattice{2, a, b, 0}.fitted(r_.exemplar(), true, true);
     const auto close = [](const Vector2d& p, const Vector2d& q) { return (p - q).lpNorm<Eigen::Infinity>() < 1; };
     if (!close(whole.first, a) || !close(whole.second, b)) return false;
@@ -355,7 +352,7 @@ Cell best_cell(const Correlation& r, const std::vector<Lattice>& further) {
   for (const Lattice& l : further) search.add(l.first, l.second);
   // Of few cells few peaks are seen; all the lattices can be tried. (Not those of two or three cells: exemplars that
   // were made to tile often hold parts of themselves twice.)
-  for (int cells = cell_search_tuning->fewest_around; r.wraps() && cells <= cell_search_tuning->most_around; cells++)
+  for (int cells = cell_tuning->fewest_around; r.wraps() && cells <= cell_tuning->most_around; cells++)
     for (int across = 1; across <= cells; across++) {
       if (cells % across != 0) continue;
       const int down = cells / across;
@@ -381,17 +378,16 @@ Lattice without_false_repeats(const Correlation& r, const Lattice& lattice, doub
   const Candidate all = judged(r, a, b, -2);
   Lattice best = lattice;
   double largest = least_gap;
-  for (int cells = 2; cells <= cell_search_tuning->most_cells; cells++)
+  for (int cells = 2; cells <= cell_tuning->most_cells; cells++)
     for (int p = 1; p <= cells; p++) {
       if (cells % p != 0) continue;
       // Every sublattice of that many cells has a basis p * a, q * a + rows * b (Hermite normal form).
       for (int q = 0; q < p; q++) {
         const Candidate c = judged(r, p * a, q * a + cells / p * b, -2);
-        if (c.on.count() < 3 || c.on.mean() <= 0 || !is_worse(all, c, cell_search_tuning->least_errors_of_parts))
-          continue;
+        if (c.on.count() < 3 || c.on.mean() <= 0 || !is_worse(all, c, cell_tuning->least_errors_of_parts)) continue;
         // Of the correlation on the sublattice's points, what the others lack.
         const double gap = (1 - all.on.mean() / c.on.mean()) * cells / (cells - 1);
-        if (gap <= largest + cell_search_tuning->least_gain) continue;
+        if (gap <= largest + cell_tuning->least_gain) continue;
         largest = gap;
         best.first = c.a;
         best.second = c.b;

@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-struct ElementPackingTuning {
+struct PackTuning {
   double least_clear = 0.7;
   double soft = 0.12;
   double tolerance = 0.04;
@@ -33,53 +33,50 @@ struct ElementPackingTuning {
   int settling = 4;
   int rounds = 7;
 };
-const Tunable<ElementPackingTuning> element_packing_tuning(
+const Tunable<PackTuning> pack_tuning(
     "element_packing",
     {
-        {&ElementPackingTuning::least_clear, "least_clear", "of an element",
+        {&PackTuning::least_clear, "least_clear", "of an element",
          "that no other covers, or it goes. Higher: stones stay whole; lower: fewer go", "element_layout", 0, 1},
-        {&ElementPackingTuning::soft, "soft", "typical sides",
+        {&PackTuning::soft, "soft", "typical sides",
          "of overlap at which it costs its full price. Higher: more is squeezed", "element_layout", 0.001, 4},
-        {&ElementPackingTuning::tolerance, "tolerance", "typical sides", "of a gap that is no hole yet",
-         "element_layout", 0, 4},
-        {&ElementPackingTuning::hole, "hole", "typical sides",
-         "the least radius of holes. Lower: smaller ones are filled, too", "element_layout", 0.001, 4},
-        {&ElementPackingTuning::farthest_filled, "farthest_filled", "typical sides",
+        {&PackTuning::tolerance, "tolerance", "typical sides", "of a gap that is no hole yet", "element_layout", 0, 4},
+        {&PackTuning::hole, "hole", "typical sides", "the least radius of holes. Lower: smaller ones are filled, too",
+         "element_layout", 0.001, 4},
+        {&PackTuning::farthest_filled, "farthest_filled", "typical sides",
          "up to which holes are told by their size. Costs time and memory", "not measured: larger ones are rare", 0.1,
          100},
-        {&ElementPackingTuning::overlap, "overlap", "times the gain of as much hole",
+        {&PackTuning::overlap, "overlap", "times the gain of as much hole",
          "what it costs to cover others. Higher: gaps stay; lower: elements are squeezed", "element_layout", 0, 100},
-        {&ElementPackingTuning::least_overlap, "least_overlap", "times the gain of as much hole",
+        {&PackTuning::least_overlap, "least_overlap", "times the gain of as much hole",
          "the same where nothing else fits", "element_layout", 0, 100},
-        {&ElementPackingTuning::least_gain, "least_gain", "of an element's area",
+        {&PackTuning::least_gain, "least_gain", "of an element's area",
          "what an element must fill, less what it covers. Higher: gaps stay; lower: elements are squeezed",
          "element_layout", 0, 1},
-        {&ElementPackingTuning::last_gain, "last_gain", "of an element's area",
+        {&PackTuning::last_gain, "last_gain", "of an element's area",
          "the same where nothing else fits. Higher: neighbours close gaps; lower: stones that others cover are torn",
          "element_layout", -10, 1},
-        {&ElementPackingTuning::seen_around, "seen_around", "of an element's area",
+        {&PackTuning::seen_around, "seen_around", "of an element's area",
          "the price of one of the same right beside it. Higher: less repeats; lower: what is there fits better",
          "element_layout", 0, 100},
-        {&ElementPackingTuning::around, "around", "typical sides", "as far as that counts", "element_layout", 0.1, 100},
-        {&ElementPackingTuning::used, "used", "of an element's area",
+        {&PackTuning::around, "around", "typical sides", "as far as that counts", "element_layout", 0.1, 100},
+        {&PackTuning::used, "used", "of an element's area",
          "the price of being used twice as often as others. Higher: all elements come about as often", "element_layout",
          0, 100},
-        {&ElementPackingTuning::step, "step", "typical sides",
-         "between places that are tried. Lower: better fits; costs time", "element_layout", 0.01, 4},
-        {&ElementPackingTuning::contact, "contact", "of an element's area",
+        {&PackTuning::step, "step", "typical sides", "between places that are tried. Lower: better fits; costs time",
+         "element_layout", 0.01, 4},
+        {&PackTuning::contact, "contact", "of an element's area",
          "what it is worth to end where all neighbours begin. Higher: neighbours meet; lower: holes are filled",
          "element_layout", 0, 100},
-        {&ElementPackingTuning::contact_within, "contact_within", "typical sides",
+        {&PackTuning::contact_within, "contact_within", "typical sides",
          "by which they may miss each other. Higher: near misses count as well", "element_layout", 0.001, 4},
-        {&ElementPackingTuning::farthest_moved, "farthest_moved", "typical sides",
+        {&PackTuning::farthest_moved, "farthest_moved", "typical sides",
          "that an element moves at a time to meet its neighbours", "element_layout", 0, 4},
-        {&ElementPackingTuning::worth_moving, "worth_moving", "of an element's area",
+        {&PackTuning::worth_moving, "worth_moving", "of an element's area",
          "by which it must fit better elsewhere. Higher: elements stay; lower: they creep for nothing",
          "not measured: chosen by eye", 0, 1},
-        {&ElementPackingTuning::settling, "settling", "rounds", "of moving elements. Costs time", "element_layout", 0,
-         100},
-        {&ElementPackingTuning::rounds, "rounds", "rounds", "of taking away and filling. Costs time", "element_layout",
-         1, 100},
+        {&PackTuning::settling, "settling", "rounds", "of moving elements. Costs time", "element_layout", 0, 100},
+        {&PackTuning::rounds, "rounds", "rounds", "of taking away and filling. Costs time", "element_layout", 1, 100},
     });
 
 constexpr float farthest = 1e6f;  // of what is kept, where nothing is
@@ -88,11 +85,6 @@ constexpr float farthest = 1e6f;  // of what is kept, where nothing is
 
 ElementPacking::ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y)
     : shapes_(shapes), size_(size), closed_x_(closed_x), closed_y_(closed_y) {}
-
-void ElementPacking::keep_to(const Lattice& lattice, const PartPhases& phase) {
-  lattice_ = lattice;
-  phase_ = &phase;
-}
 
 void ElementPacking::keep_off(const std::vector<uint8_t>& blocks) {
   kept_depth_ = signed_distances(blocks, size_, closed_x_ && closed_y_, farthest);
@@ -153,13 +145,13 @@ void ElementPacking::measure_clear() {
 
 /// The most covered first, and none of its neighbours along with it: they are seen more once it is gone.
 void ElementPacking::take_away_covered(const Task& task) {
-  for (int round = 0; round < element_packing_tuning->rounds; round++) {
+  for (int round = 0; round < pack_tuning->rounds; round++) {
     task.check();
     paint_all();
     measure_clear();
     std::vector<size_t> covered;
     for (size_t i = 0; i < placed_.size(); i++)
-      if (!placed_[i].stays && placed_[i].clear < element_packing_tuning->least_clear) covered.push_back(i);
+      if (!placed_[i].stays && placed_[i].clear < pack_tuning->least_clear) covered.push_back(i);
     if (covered.empty()) return;
     std::ranges::stable_sort(covered, {}, [&](size_t i) { return placed_[i].clear; });
     std::vector<uint8_t> stays(placed_.size(), 0), goes(placed_.size(), 0);
@@ -179,12 +171,12 @@ void ElementPacking::take_away_covered(const Task& task) {
 }
 
 bool ElementPacking::is_filled(const Place& p) const {
-  return double(p.depth.blocks()) > -element_packing_tuning->tolerance * shapes_.typical_side;
+  return double(p.depth.blocks()) > -pack_tuning->tolerance * shapes_.typical_side;
 }
 
 /// Of some rows. Larger surfaces have no room for the distances of all.
 void ElementPacking::add_holes(int top, int bottom, std::vector<Hole>& out) const {
-  const int halo = int(element_packing_tuning->farthest_filled * shapes_.typical_side) + 1;
+  const int halo = int(pack_tuning->farthest_filled * shapes_.typical_side) + 1;
   const int left = closed_x_ ? -halo : 0, right = size_.width + (closed_x_ ? halo : 0);
   const int above = closed_y_ ? top - halo : std::max(0, top - halo);
   const int below = closed_y_ ? bottom + halo : std::min(size_.height, bottom + halo);
@@ -193,7 +185,7 @@ void ElementPacking::add_holes(int top, int bottom, std::vector<Hole>& out) cons
   for (int y = above; y < below; y++)
     for (int x = left; x < right; x++) filled.push_back(is_filled(places_[size_t(index(x, y))]));
   const std::vector<int64_t> distance = squared_distances(filled, {right - left, below - above}, false);
-  const double least = std::max(1.0, element_packing_tuning->hole * shapes_.typical_side);
+  const double least = std::max(1.0, pack_tuning->hole * shapes_.typical_side);
   for (int y = top; y < bottom; y++)
     for (int x = 0; x < size_.width; x++) {
       const int64_t d = distance[size_t(y - above) * size_t(right - left) + size_t(x - left)];
@@ -216,7 +208,7 @@ std::vector<ElementPacking::Hole> ElementPacking::holes() const {
 
 /// How often an element is seen around a place, the nearer the more.
 double ElementPacking::seen_around(int element, int column, int row) const {
-  const double reach = element_packing_tuning->around * shapes_.typical_side;
+  const double reach = pack_tuning->around * shapes_.typical_side;
   double sum = 0;
   for (const size_t i : of_element_[size_t(element)]) {
     int x = std::abs(shapes_.column_of(placed_[i]) - column), y = std::abs(shapes_.row_of(placed_[i]) - row);
@@ -228,13 +220,13 @@ double ElementPacking::seen_around(int element, int column, int row) const {
 }
 
 double ElementPacking::Fit::value() const {
-  return gain + element_packing_tuning->contact * contact;
+  return gain + pack_tuning->contact * contact;
 }
 
 /// Its centre at a place; `but`: as if that placed element were not there.
 ElementPacking::Fit ElementPacking::fit(const ElementShape& shape, int column, int row, double overlap, int but) const {
   Fit out;
-  const double soft = element_packing_tuning->soft * shapes_.typical_side;
+  const double soft = pack_tuning->soft * shapes_.typical_side;
   for (const ElementSample& s : shape.samples) {
     const int64_t i = index(column + s.x, row + s.y);
     if (i < 0) continue;
@@ -242,7 +234,7 @@ ElementPacking::Fit ElementPacking::fit(const ElementShape& shape, int column, i
     out.gain += there < 0 ? 1 : -overlap * std::min(1.0, double(std::min(there, s.depth)) / soft);
   }
   out.gain /= double(shape.samples.size());
-  const double within = std::max(1.0, element_packing_tuning->contact_within * shapes_.typical_side);
+  const double within = std::max(1.0, pack_tuning->contact_within * shapes_.typical_side);
   int inside = 0;
   for (const ElementSample& s : shape.outline) {
     const int64_t i = index(column + s.x, row + s.y);
@@ -263,13 +255,13 @@ std::vector<std::pair<int, int>> ElementPacking::moves(int reach) const {
 }
 
 int ElementPacking::step() const {
-  return std::max(1, int(element_packing_tuning->step * shapes_.typical_side));
+  return std::max(1, int(pack_tuning->step * shapes_.typical_side));
 }
 
 /// Calls visit(column, row) with places for an element's centre around a hole.
 template <typename Visit>
 void ElementPacking::for_places(const ElementShape& shape, const Hole& hole, Visit visit) const {
-  const int off = int(element_packing_tuning->step * 4 * shapes_.typical_side);
+  const int off = int(pack_tuning->step * 4 * shapes_.typical_side);
   const auto [moves_x, moves_y] = moving();
   const int across = moves_x ? std::max(0, shape.box.width / 2 - off) : 0;
   const int down = moves_y ? std::max(0, shape.box.height / 2 - off) : 0;
@@ -307,10 +299,10 @@ bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
     const ElementShape& shape = shapes_[e];
     if (shape.unusable || shape.samples.empty()) continue;
     const double often = std::max(0.0, double(of_element_[size_t(e)].size()) / std::max(1.0, usual) - 1);
-    const double price = element_packing_tuning->seen_around * seen_around(e, hole.column, hole.row) +
-                         element_packing_tuning->used * often * often;
+    const double price =
+        pack_tuning->seen_around * seen_around(e, hole.column, hole.row) + pack_tuning->used * often * often;
     const auto weight = double(shape.area);
-    const double most = 1 + element_packing_tuning->contact - price;
+    const double most = 1 + pack_tuning->contact - price;
     if (most <= 0 || most * weight <= best.value) continue;
     for_places(shape, hole, [&](int column, int row) {
       const Fit f = fit(shape, column, row, terms.overlap);
@@ -342,20 +334,19 @@ bool ElementPacking::fill(const Hole& hole, const Terms& terms) {
 /// Elements move to where they meet their neighbours, all at once, half the way each, for those move as well.
 void ElementPacking::settle(const Task& task) {
   if (moves(1).empty()) return;
-  const int farthest = std::max(1, int(element_packing_tuning->farthest_moved * shapes_.typical_side));
-  for (int round = 0; round < element_packing_tuning->settling; round++) {
+  const double overlap = pack_tuning->overlap;
+  const int farthest = std::max(1, int(pack_tuning->farthest_moved * shapes_.typical_side));
+  for (int round = 0; round < pack_tuning->settling; round++) {
     task.check();
     std::vector<PlacedElement> moved = placed_;
     for (size_t i = 0; i < placed_.size(); i++) {
       if (placed_[i].stays) continue;
       const ElementShape& shape = shapes_[placed_[i].element];
       const int column = shapes_.column_of(placed_[i]), row = shapes_.row_of(placed_[i]);
-      const auto value = [&](int x, int y) {
-        return fit(shape, column + x, row + y, element_packing_tuning->overlap, int(i)).value();
-      };
+      const auto value = [&](int x, int y) { return fit(shape, column + x, row + y, overlap, int(i)).value(); };
       int x = 0, y = 0;
       double best = value(0, 0);
-      const double least = best + element_packing_tuning->worth_moving;
+      const double least = best + pack_tuning->worth_moving;
       for (int reach = farthest; reach > 0; reach /= 2)
         for (const auto& [dx, dy] : moves(reach))
           if (const double v = value(x + dx, y + dy); v > best) {
@@ -373,7 +364,7 @@ void ElementPacking::settle(const Task& task) {
 }
 
 int ElementPacking::fill_holes(const Terms& terms, const Task& task) {
-  const int off = std::max(1, int(element_packing_tuning->hole * 2 * shapes_.typical_side));
+  const int off = std::max(1, int(pack_tuning->hole * 2 * shapes_.typical_side));
   std::vector<uint8_t> tried(places_.size(), 0);
   int filled = 0;
   for (const Hole& h : holes()) {
@@ -390,19 +381,18 @@ int ElementPacking::fill_holes(const Terms& terms, const Task& task) {
 
 void ElementPacking::pack(std::vector<PlacedElement> placed, const Task& task) {
   placed_ = std::move(placed);
-  for (int round = 0; round < element_packing_tuning->rounds; round++) {
+  for (int round = 0; round < pack_tuning->rounds; round++) {
     take_away_covered(task);
     // What is left is filled with what disturbs least.
     const double part = std::max(0.0, 1 - round / 3.0);
-    const Terms terms{part * element_packing_tuning->least_gain,
-                      element_packing_tuning->least_overlap +
-                          part * (element_packing_tuning->overlap - element_packing_tuning->least_overlap)};
+    const Terms terms{part * pack_tuning->least_gain,
+                      pack_tuning->least_overlap + part * (pack_tuning->overlap - pack_tuning->least_overlap)};
     if (fill_holes(terms, task) == 0 && part == 0) break;
     settle(task);
   }
   take_away_covered(task);
-  fill_holes({phase_ ? -1 : element_packing_tuning->last_gain, element_packing_tuning->least_overlap},
-             task);  // courses are squeezed along them
+  // Courses are squeezed along them.
+  fill_holes({phase_ ? -1 : pack_tuning->last_gain, pack_tuning->least_overlap}, task);
 }
 
 }  // namespace terrazzo

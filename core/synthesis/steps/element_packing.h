@@ -20,7 +20,10 @@ class ElementPacking {
   ElementPacking(const ElementShapes& shapes, Size size, bool closed_x, bool closed_y);
 
   /// Elements come where they are in phase with a lattice only. Borrows `phase`.
-  void keep_to(const Lattice& lattice, const PartPhases& phase);
+  void keep_to(const Lattice& lattice, const PartPhases& phase) {
+    lattice_ = lattice;
+    phase_ = &phase;
+  }
 
   /// Of each block of the result whether something is kept there that belongs to none of the elements.
   void keep_off(const std::vector<uint8_t>& blocks);
