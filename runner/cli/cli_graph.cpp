@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/file/file_io.h"
-#include "core/file/temporary_folder.h"
+#include "core/file/private_folder.h"
 #include "graphs/document/pack.h"
 #include "graphs/document/read_document.h"
 #include "graphs/document/reference.h"
@@ -25,7 +25,7 @@ void GraphFlags::open_pack(const std::optional<fs::path>& cache) {
     pack = unpacked(graph, fs::absolute(*cache) / "packs");
     return;
   }
-  if (!passing) passing = std::make_shared<TemporaryFolder>(fs::temp_directory_path(), "pack");
+  if (!passing) passing = std::make_shared<PrivateFolder>(fs::temp_directory_path(), "pack");
   pack = unpacked(graph, passing->path());
 }
 

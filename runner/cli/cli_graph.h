@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/file/temporary_folder.h"
+#include "core/file/private_folder.h"
 #include "graphs/document/load.h"
 #include "runner/cli/written_files.h"
 
@@ -21,7 +21,7 @@ struct GraphFlags {
   std::string graph;
   std::vector<std::string> set, presets, settings;
   std::filesystem::path pack{};                      ///< where it is unpacked, if it is one
-  std::shared_ptr<const TemporaryFolder> passing{};  ///< of a pack that no cache keeps
+  std::shared_ptr<const PrivateFolder> passing{};  ///< of a pack that no cache keeps
 
   /// Before a load: unpacks a pack into the cache, or, without one, into a folder that goes with these flags. Throws
   /// Error and FileError.

@@ -11,7 +11,7 @@
 #include "core/base/text.h"
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
-#include "core/file/temporary_folder.h"
+#include "core/file/private_folder.h"
 #include "core/image/image_file.h"
 #include "core/picture/contact_sheet.h"
 #include "graphs/document/problem.h"
@@ -50,7 +50,7 @@ int add(const LibraryFlags& flags) {
   as_usage([&] { require_library_name(name); });
   if (!flags.force && library.contains(name))
     throw UsageError(fmt::format("{} is in the library {}; --force replaces it", name, library.folder().string()));
-  const TemporaryFolder work(library.folder(), "new");  // on the library's file system
+  const PrivateFolder work(library.folder(), "new");  // on the library's file system
   const CancelOnSignal signals;
   RunResult result;
   std::optional<LibraryEntry> entry;

@@ -1,4 +1,4 @@
-#include "core/file/temporary_folder.h"
+#include "core/file/private_folder.h"
 
 #include <filesystem>
 
@@ -14,12 +14,12 @@ TEST_CASE("a temporary folder is the user's alone, and goes with all that is in 
   const fs::path parent = fs::temp_directory_path() / "terrazzo temporary folder test/new";
   fs::path one;
   {
-    const TemporaryFolder a(parent, "a"), b(parent, "a");
+    const PrivateFolder a(parent, "a"), b(parent, "a");
     one = a.path();
     CHECK(a.path() != b.path());
     CHECK((fs::status(one).permissions() & fs::perms::all) == fs::perms::owner_all);
     test::write_text(one / "file", "text");
-    CHECK_THROWS_AS(TemporaryFolder(one / "file", "a"), Error);
+    CHECK_THROWS_AS(PrivateFolder(one / "file", "a"), Error);
   }
   CHECK(!fs::exists(one));
   CHECK(fs::is_empty(parent));

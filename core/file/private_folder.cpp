@@ -1,4 +1,4 @@
-#include "core/file/temporary_folder.h"
+#include "core/file/private_folder.h"
 
 #include <cerrno>
 
@@ -11,7 +11,7 @@ namespace terrazzo {
 
 namespace fs = std::filesystem;
 
-TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& stem) {
+PrivateFolder::PrivateFolder(const fs::path& parent, const std::string& stem) {
   std::error_code failure;
   fs::create_directories(parent, failure);
   if (failure) throw_system_error("create", parent, failure.value());
@@ -19,7 +19,7 @@ TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& stem
   if (::mkdir(path_.c_str(), S_IRWXU) != 0) throw_system_error("create", path_, errno);
 }
 
-TemporaryFolder::~TemporaryFolder() {
+PrivateFolder::~PrivateFolder() {
   std::error_code failure;
   fs::remove_all(path_, failure);
 }
