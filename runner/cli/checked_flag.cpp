@@ -4,8 +4,6 @@
 #include <cstdlib>
 #include <string_view>
 
-#include <CLI/CLI.hpp>
-
 namespace terrazzo {
 
 namespace {
@@ -26,14 +24,14 @@ bool CheckedFlag::holds(const std::string& cache) const {
   return yes || (is_usual() && !no && cache.empty());
 }
 
-void add_checked_flag(CLI::App& command, CheckedFlag& flag) {
-  CLI::Option* yes = command.add_flag(
-      "--checked", flag.yes,
+void add_checked_flag(Command& command, CheckedFlag& flag) {
+  command.add_flag(
+      "--checked", &flag.yes,
       "Run every node twice and watch what it reads: one that is not deterministic, or reads files or variables of the "
       "environment that its key does not cover, fails. Uses one thread and no cache");
   if (is_for_debugging)
-    command.add_flag("--no-checked", flag.no, "Do not, as this program, which is built for debugging, does otherwise")
-        ->excludes(yes);
+    command.add_flag("--no-checked", &flag.no, "Do not, as this program, which is built for debugging, does otherwise")
+        .not_with("--checked");
 }
 
 bool may_be_checked(int argc, const char* const* argv) {

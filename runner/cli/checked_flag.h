@@ -2,9 +2,7 @@
 
 #include <string>
 
-namespace CLI {
-class App;
-}
+#include "runner/cli/command.h"
 
 namespace terrazzo {
 
@@ -17,7 +15,7 @@ struct CheckedFlag {
   bool holds(const std::string& cache) const;
 };
 
-void add_checked_flag(CLI::App& command, CheckedFlag& flag);
+void add_checked_flag(Command& command, CheckedFlag& flag);
 
 /// Whether the command line may lead to a checked run, before it is read.
 bool may_be_checked(int argc, const char* const* argv);

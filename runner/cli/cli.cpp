@@ -5,7 +5,6 @@
 #include <iostream>
 #include <sstream>
 
-#include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -52,69 +51,41 @@ ProgressMode mode_of(int argc, const char* const* argv) {
   return ProgressMode::plain;
 }
 
-/// The innermost command that has been named.
-const CLI::App* named_command(const CLI::App* app) {
-  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
-  return app;
-}
-
-std::string full_name(const CLI::App* app) {
-  return app->get_parent() ? full_name(app->get_parent()) + " " + app->get_name() : app->get_name();
-}
-
-std::vector<std::string> option_names(const CLI::App* app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* o : app->get_options()) {
-    for (const std::string& n : o->get_lnames()) names.push_back("--" + n);
-    for (const std::string& n : o->get_snames()) names.push_back("-" + n);
-  }
-  return names;
-}
-
-std::vector<std::string> command_names(const CLI::App* app) {
-  std::vector<std::string> names;
-  for (const CLI::App* sub : app->get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(sub->get_name());
-  return names;
-}
-
 /// An optional value cannot be distinguished from the next argument.
-std::string direction_hint(const CLI::App* command, const std::string& arg) {
+std::string direction_hint(const Command& command, const std::string& arg) {
   const bool direction = arg == "x" || arg == "y" || arg == "xy";
-  return direction && command->get_option_no_throw("--tileable") ? fmt::format("; did you mean --tileable={}?", arg)
-                                                                 : "";
+  return direction && command.find_option("--tileable") ? fmt::format("; did you mean --tileable={}?", arg) : "";
 }
 
-std::string hint_for_option(const CLI::App* command, const std::string& arg) {
-  const std::string set = set_hint(*command, arg);
-  return set.empty() ? suggestion(arg.substr(0, arg.find('=')), option_names(command)) : set;
+std::string hint_for_option(const Command& command, const std::string& arg) {
+  const std::string set = set_hint(command, arg);
+  return set.empty() ? suggestion(arg.substr(0, arg.find('=')), command.option_names()) : set;
 }
 
-/// Arguments that nothing takes, each with the nearest thing that exists; empty if there are none. What follows an
+/// Words that nothing takes, each with the nearest thing that exists; empty if there are none. What follows an
 /// unknown command would be that command's; what follows an unknown option may be its value, or be left over because
 /// its value has been taken for an argument.
-std::string unknown_arguments(const CLI::App* command) {
+std::string unknown_words(const ParsedWords& parsed) {
+  const std::vector<std::string> commands = parsed.command->command_names();
   std::string out;
   bool is_after_option = false;
-  for (const std::string& arg : command->remaining()) {
-    if (!arg.starts_with("-") && is_after_option) continue;
-    is_after_option |= arg.starts_with("-");
-    const std::vector<std::string> commands = command_names(command);
+  for (const std::string& word : parsed.unknown) {
+    if (!word.starts_with("-") && is_after_option) continue;
+    is_after_option |= word.starts_with("-");
     const std::string line =
-        arg.starts_with("-") ? fmt::format("unknown option {}{}", arg, hint_for_option(command, arg))
-        : commands.empty()   ? fmt::format("unexpected argument {}{}", arg, direction_hint(command, arg))
-                             : fmt::format("unknown command {}{}", arg, suggestion(arg, commands));
+        word.starts_with("-") ? fmt::format("unknown option {}{}", word, hint_for_option(*parsed.command, word))
+        : commands.empty()    ? fmt::format("unexpected argument {}{}", word, direction_hint(*parsed.command, word))
+                              : fmt::format("unknown command {}{}", word, suggestion(word, commands));
     out += (out.empty() ? "" : "\n") + line;
-    if (!arg.starts_with("-") && !commands.empty()) break;
+    if (!word.starts_with("-") && !commands.empty()) break;
   }
   return out;
 }
 
-int usage_error(const CLI::App& app, ProgressMode mode, const std::string& what) {
-  const CLI::App* command = named_command(&app);
-  const std::string unknown = unknown_arguments(command);
-  write_error(mode, std::cerr, UsageError(unknown.empty() ? what : unknown));
-  if (mode != ProgressMode::json) say("`{} --help` says what it takes.\n", full_name(command));
+int usage_error(const ParsedWords& parsed, ProgressMode mode) {
+  const std::string unknown = unknown_words(parsed);
+  write_error(mode, std::cerr, UsageError(unknown.empty() ? parsed.text : unknown));
+  if (mode != ProgressMode::json) say("`{} --help` says what it takes.\n", parsed.command->path);
   return exit_usage;
 }
 
@@ -194,97 +165,86 @@ namespace {
 int obey(int argc, const char* const* argv, ProgressMode mode);
 
 /// What `--help` behind the words says.
-int help_on(const CLI::App& app, const std::vector<std::string>& words, ProgressMode mode) {
-  const CLI::App* command = &app;
+int help_on(const Command& program, const std::vector<std::string>& words, ProgressMode mode) {
+  const Command* command = &program;
   std::vector<const char*> argv = {"terrazzo"};
   for (const std::string& word : words) {
-    const std::vector<std::string> known = command_names(command);
-    if (std::find(known.begin(), known.end(), word) == known.end())
-      throw UsageError(fmt::format("unknown command {}{}", word, suggestion(word, known)));
-    command = command->get_subcommand(word);
+    const auto next = std::ranges::find_if(command->commands, [&](const Command& c) { return c.name() == word; });
+    if (next == command->commands.end())
+      throw UsageError(fmt::format("unknown command {}{}", word, suggestion(word, command->command_names())));
+    command = &*next;
     argv.push_back(word.c_str());
   }
   argv.push_back("--help");
   return obey(int(argv.size()), argv.data(), mode);
 }
 
-void add_help_command(CLI::App& app, Chosen& chosen, ProgressMode mode) {
-  CLI::App* help = app.add_subcommand("help", "Describes a command, like its --help");
+void add_help_command(Command& program, ProgressMode mode) {
+  Command& help = program.add_command("help", "Describes a command, like its --help");
   const auto words = std::make_shared<std::vector<std::string>>();
-  help->add_option("COMMAND", *words, "The command; all are listed if none is given")->type_name("");
-  help->footer("Example:\n  terrazzo help synth");
-  help->callback([&app, &chosen, words, mode] { chosen = [&app, words, mode] { return help_on(app, *words, mode); }; });
+  help.add_option("COMMAND", words.get(), "The command; all are listed if none is given").takes("");
+  help.footer = "Example:\n  terrazzo help synth";
+  help.run = [&program, words, mode] { return help_on(program, *words, mode); };
 }
 
 /// Help on what does not exist helps nobody.
-bool names_unknown_command(const CLI::App& command) {
-  const std::vector<std::string> rest = command.remaining();
-  return !command_names(&command).empty() &&
-         std::ranges::any_of(rest, [](const std::string& word) { return !word.starts_with('-'); });
+bool names_unknown_command(const ParsedWords& parsed) {
+  return !parsed.command->commands.empty() &&
+         std::ranges::any_of(parsed.unknown, [](const std::string& word) { return !word.starts_with('-'); });
 }
 
 /// Help, or the version; if the command works on a graph and one is named, first what that graph offers.
-int show_help(const CLI::App& app, const CLI::Success& asked, ProgressMode mode) {
-  if (names_unknown_command(*named_command(&app))) return usage_error(app, mode, asked.what());
-  try {
-    const bool is_help = dynamic_cast<const CLI::CallForVersion*>(&asked) == nullptr;
-    const std::string about_graph = is_help ? help_on_graph(*named_command(&app)) : "";
-    std::ostringstream help;
-    const int code = app.exit(asked, help, help);
-    answer("{}{}", about_graph.empty() ? "" : about_graph + "\n", help.str());
-    return code;
-  } catch (const Error& e) {
-    write_error(mode, std::cerr, e);
-    return exit_usage;
-  }
+int show_help(const ParsedWords& parsed, ProgressMode mode) {
+  if (names_unknown_command(parsed)) return usage_error(parsed, mode);
+  const bool is_help = parsed.request == ParsedWords::Request::help;
+  const std::string about_graph = is_help ? help_on_graph(*parsed.command) : "";
+  answer("{}{}", about_graph.empty() ? "" : about_graph + "\n", parsed.text);
+  return exit_done;
 }
 
 /// Throws UsageError for a path that is written as on Windows: a file called "scans\\brick" is never meant.
-void check_paths(const CLI::App& command) {
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string type = option->get_type_name();
-    if (!type.starts_with("FILE") && !type.starts_with("DIR") && !type.starts_with("PATH")) continue;
-    for (const std::string& path : option->results()) {
+void check_paths(const Command& command) {
+  for (const CommandOption& option : command.options) {
+    if (!option.is_path()) continue;
+    for (const std::string& path : option.given) {
       std::error_code failure;
       const std::string advice = path_advice(std::filesystem::current_path(failure), path);
-      if (!advice.empty()) throw UsageError(fmt::format("{} {}: {}", option->get_name(), path, advice));
+      if (!advice.empty()) throw UsageError(fmt::format("{} {}: {}", option.long_name(), path, advice));
     }
   }
 }
 
+void add_commands(Command& program, ProgressMode mode) {
+  program.add_flag("--version", {}, "Display program version information and exit");
+  program.add_option("--plugin", {}, "Loads node types from a shared library; several times, and behind commands too")
+      .takes("FILE.so");
+  program.footer = examples;
+  add_run_command(program);
+  add_synth_command(program);
+  add_new_command(program);
+  add_check_command(program);
+  add_document_commands(program);
+  add_node_commands(program);
+  add_cache_command(program);
+  add_library_command(program);
+  add_farm_commands(program);
+  add_compare_command(program);
+  add_shell_commands(program, "terrazzo " TERRAZZO_VERSION);
+  add_help_command(program, mode);
+}
+
 /// Runs what the words ask for; returns the exit code.
 int obey(int argc, const char* const* argv, ProgressMode mode) {
-  CLI::App app("terrazzo turns a small PBR material into as much new, non-repeating material as a scene needs.",
-               "terrazzo");
-  app.set_version_flag("--version", built_with());
-  app.footer(examples);
-  std::string plugin;  // taken before, see plugin_flag.h; here for the help
-  app.add_option("--plugin", plugin, "Loads node types from a shared library; several times, and behind commands too")
-      ->type_name("FILE.so");
-  app.require_subcommand(0, 1);  // further words belong to the command, even if they are a command's name too
-  app.get_formatter()->column_width(32);
-  Chosen chosen;
-  add_run_command(app, chosen);
-  add_synth_command(app, chosen);
-  add_new_command(app, chosen);
-  add_check_command(app, chosen);
-  add_document_commands(app, chosen);
-  add_node_commands(app, chosen);
-  add_cache_command(app, chosen);
-  add_library_command(app, chosen);
-  add_farm_commands(app, chosen);
-  add_compare_command(app, chosen);
-  add_shell_commands(app, chosen, "terrazzo " TERRAZZO_VERSION);
-  add_help_command(app, chosen, mode);
+  Command program("terrazzo",
+                  "terrazzo turns a small PBR material into as much new, non-repeating material as a scene needs.");
+  add_commands(program, mode);
   try {
-    app.parse(argc, argv);
-    if (!chosen) throw CLI::RequiredError("A command");
-    check_paths(*named_command(&app));
-    return chosen();
-  } catch (const CLI::Success& e) {
-    return show_help(app, e, mode);
-  } catch (const CLI::ParseError& e) {
-    return usage_error(app, mode, e.what());
+    const ParsedWords parsed = parse_words(program, built_with(), argc, argv);
+    using Request = ParsedWords::Request;
+    if (parsed.request == Request::nothing_known) return usage_error(parsed, mode);
+    if (parsed.request != Request::run) return show_help(parsed, mode);
+    check_paths(*parsed.command);
+    return parsed.command->run();
   } catch (const GraphError& e) {
     write_error(mode, std::cerr, e);
     return exit_usage;

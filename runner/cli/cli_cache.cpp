@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/base/paths.h"
@@ -94,25 +93,25 @@ int free_with(const CacheFlags& flags, uint64_t (Cache::*act)()) {
 
 }  // namespace
 
-void add_cache_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* cache = app.add_subcommand("cache", "Manages the cache that runs share");
-  cache->require_subcommand(1);
-  cache->footer(
+void add_cache_command(Command& program) {
+  Command& cache = program.add_command("cache", "Manages the cache that runs share");
+  cache.footer =
       "The folder is $TERRAZZO_CACHE, or terrazzo under $XDG_CACHE_HOME, or ~/.cache/terrazzo.\n"
-      "Example:\n  terrazzo cache gc --limit 2G");
+      "Example:\n  terrazzo cache gc --limit 2G";
   const auto flags = std::make_shared<CacheFlags>();
-  const auto add = [&](const char* name, const char* help, const std::function<int(const CacheFlags&)>& act) {
-    CLI::App* sub = cache->add_subcommand(name, help);
-    sub->add_option("--cache", flags->folder, "The cache's folder, if not the usual one")->type_name("DIR");
-    sub->callback([&chosen, flags, act] { chosen = [flags, act] { return act(*flags); }; });
+  const auto add = [&](const char* name, const char* help,
+                       const std::function<int(const CacheFlags&)>& act) -> Command& {
+    Command& sub = cache.add_command(name, help);
+    sub.add_option("--cache", &flags->folder, "The cache's folder, if not the usual one").takes("DIR");
+    sub.run = [flags, act] { return act(*flags); };
     return sub;
   };
   add("status", "Prints its folder and size", show_status);
   add("verify", "Reads every entry and removes damaged ones; exit code 1 if there were any", verify);
   add("gc", "Evicts entries until the size limit holds",
       [](const CacheFlags& f) { return free_with(f, &Cache::collect); })
-      ->add_option("--limit", flags->limit, "A limit for this call, such as 500M or 2G")
-      ->type_name("SIZE");
+      .add_option("--limit", &flags->limit, "A limit for this call, such as 500M or 2G")
+      .takes("SIZE");
   add("clear", "Removes everything that no running process uses",
       [](const CacheFlags& f) { return free_with(f, &Cache::clear); });
 }

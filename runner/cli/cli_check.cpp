@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <map>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -153,23 +152,23 @@ int check(const CheckFlags& flags) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("check", "Checks a graph file without running it");
-  command->footer(
+void add_check_command(Command& program) {
+  Command& command = program.add_command("check", "Checks a graph file without running it");
+  command.footer =
       "Reports every mistake at once, with line and column: in the file, in the sources and maps it refers to,\n"
       "and in the paths it would write to. Warns of what is allowed and hardly meant, and of what a run would warn\n"
       "of when it reads the sources.\n"
       "Examples:\n"
       "  terrazzo check bricks.json\n"
-      "  terrazzo check bricks.json --set material=bricks/ --json");
+      "  terrazzo check bricks.json --set material=bricks/ --json";
   const auto flags = std::make_shared<CheckFlags>();
-  add_graph_argument(*command, *flags);
-  add_value_flags(*command, *flags);
-  add_limit_flags(*command, flags->limits);
-  command->add_flag("--json", flags->json,
-                    "Print the problems, of each severity the first hundred, as JSON: severity, code, file, line, "
-                    "column, JSON pointer, node, message");
-  command->callback([&chosen, flags] { chosen = [flags] { return check(*flags); }; });
+  add_graph_argument(command, *flags);
+  add_value_flags(command, *flags);
+  add_limit_flags(command, flags->limits);
+  command.add_flag("--json", &flags->json,
+                   "Print the problems, of each severity the first hundred, as JSON: severity, code, file, line, "
+                   "column, JSON pointer, node, message");
+  command.run = [flags] { return check(*flags); };
 }
 
 }  // namespace terrazzo

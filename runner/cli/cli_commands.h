@@ -9,13 +9,9 @@
 #include "core/file/file_io.h"
 #include "graphs/document/problem.h"
 #include "runner/cache/cache.h"
+#include "runner/cli/command.h"
 
-namespace CLI {
-class App;
-}
-
-/// The commands, one file per group. Each function adds its commands to the program; the one on the command line sets
-/// `chosen`, which runs it and returns the exit code.
+/// The commands, one file per group. Each function adds its commands to the program.
 namespace terrazzo {
 
 /// Runs the program; returns one of the exit codes below.
@@ -46,20 +42,18 @@ auto as_usage(const Act& act) {
   }
 }
 
-using Chosen = std::function<int()>;
-
-void add_run_command(CLI::App& app, Chosen& chosen);
-void add_synth_command(CLI::App& app, Chosen& chosen);
-void add_check_command(CLI::App& app, Chosen& chosen);
-void add_new_command(CLI::App& app, Chosen& chosen);
-void add_document_commands(CLI::App& app, Chosen& chosen);
-void add_node_commands(CLI::App& app, Chosen& chosen);
-void add_cache_command(CLI::App& app, Chosen& chosen);
-void add_compare_command(CLI::App& app, Chosen& chosen);
-void add_library_command(CLI::App& app, Chosen& chosen);
-void add_farm_commands(CLI::App& app, Chosen& chosen);
-/// Manual pages and completions, made from all commands; `app` must live as long as `chosen`.
-void add_shell_commands(CLI::App& app, Chosen& chosen, const std::string& version);
+void add_run_command(Command& program);
+void add_synth_command(Command& program);
+void add_check_command(Command& program);
+void add_new_command(Command& program);
+void add_document_commands(Command& program);
+void add_node_commands(Command& program);
+void add_cache_command(Command& program);
+void add_compare_command(Command& program);
+void add_library_command(Command& program);
+void add_farm_commands(Command& program);
+/// Manual pages and completions, made from all commands of `program`, which must live as long as they do.
+void add_shell_commands(Command& program, const std::string& version);
 
 /// Throws UsageError, before the run, unless the option's file can be written. Accepts an empty `path`.
 void check_writable(const char* option, const std::string& path);

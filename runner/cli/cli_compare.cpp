@@ -1,6 +1,5 @@
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "nodes/sink/export_report.h"
@@ -81,37 +80,35 @@ int compare(const CompareFlags& flags) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("compare", "Scores a result against its exemplar");
+void add_compare_command(Command& program) {
+  Command& command = program.add_command("compare", "Scores a result against its exemplar");
   const auto flags = std::make_shared<CompareFlags>();
-  command->add_option("EXEMPLAR", flags->exemplar, "The exemplar: a folder of maps, or one image")
-      ->required()
-      ->type_name("PATH");
-  command->add_option("OUTPUT", flags->output, "The result: a folder of maps, or one image")
-      ->required()
-      ->type_name("PATH");
+  command.add_option("EXEMPLAR", &flags->exemplar, "The exemplar: a folder of maps, or one image")
+      .required()
+      .takes("PATH");
+  command.add_option("OUTPUT", &flags->output, "The result: a folder of maps, or one image").required().takes("PATH");
   command
-      ->add_option("--uv", flags->uv,
-                   "The uv map that was exported with the output: adds figures about seams, copies and evenness of use")
-      ->type_name("FILE");
+      .add_option("--uv", &flags->uv,
+                  "The uv map that was exported with the output: adds figures about seams, copies and evenness of use")
+      .takes("FILE");
   command
-      ->add_option("--tileable", flags->tileable,
-                   "Directions in which the output should wrap around: adds figures about its seams. auto: as the uv "
-                   "map does")
-      ->type_name("auto|none|x|y|xy")
-      ->check(CLI::IsMember({"auto", "none", "x", "y", "xy"}));
-  command->add_flag("--json", flags->json, "For programs");
+      .add_option("--tileable", &flags->tileable,
+                  "Directions in which the output should wrap around: adds figures about its seams. auto: as the uv "
+                  "map does")
+      .takes("auto|none|x|y|xy")
+      .one_of({"auto", "none", "x", "y", "xy"});
+  command.add_flag("--json", &flags->json, "For programs");
   command
-      ->add_option("--sheet", flags->sheet,
-                   "Also write both side by side: a picture, or a page with the figures if the name ends in .html")
-      ->type_name("FILE");
-  command->add_flag("--force", flags->force, force_help);
-  add_limit_flags(*command, flags->limits);
-  command->footer(
+      .add_option("--sheet", &flags->sheet,
+                  "Also write both side by side: a picture, or a page with the figures if the name ends in .html")
+      .takes("FILE");
+  command.add_flag("--force", &flags->force, force_help);
+  add_limit_flags(command, flags->limits);
+  command.footer =
       "Examples:\n"
       "  terrazzo compare bricks/ out/\n"
-      "  terrazzo compare bricks/ out/ --sheet comparison.html");
-  command->callback([&chosen, flags] { chosen = [flags] { return compare(*flags); }; });
+      "  terrazzo compare bricks/ out/ --sheet comparison.html";
+  command.run = [flags] { return compare(*flags); };
 }
 
 }  // namespace terrazzo

@@ -2,7 +2,6 @@
 #include <functional>
 #include <set>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/base/text.h"
@@ -153,72 +152,70 @@ int draw(const DocumentFlags& flags) {
 
 }  // namespace
 
-void add_document_commands(CLI::App& app, Chosen& chosen) {
-  const auto add_out = [](CLI::App* command, DocumentFlags& flags) {
-    command->add_option("-o,--out", flags.out, "Write here and leave the graph file as it is")->type_name("FILE.json");
-    command->add_flag("--force", flags.force, force_help);
+void add_document_commands(Command& program) {
+  const auto add_out = [](Command& command, DocumentFlags& flags) {
+    command.add_option("-o,--out", &flags.out, "Write here and leave the graph file as it is").takes("FILE.json");
+    command.add_flag("--force", &flags.force, force_help);
   };
   const auto add = [&](const char* name, const char* help, const char* footer, int (*act)(const DocumentFlags&)) {
-    CLI::App* command = app.add_subcommand(name, help);
-    command->footer(footer);
+    Command& command = program.add_command(name, help);
+    command.footer = footer;
     const auto flags = std::make_shared<DocumentFlags>();
-    add_graph_argument(*command, *flags);
-    command->callback([&chosen, flags, act] { chosen = [flags, act] { return act(*flags); }; });
-    return std::pair(command, flags);
+    add_graph_argument(command, *flags);
+    command.run = [flags, act] { return act(*flags); };
+    return std::pair(&command, flags);
   };
   const auto [upgrade_command, upgrade_flags] =
       add("upgrade", "Rewrites a graph file in the current format version and layout",
           "Example:\n  terrazzo upgrade bricks.json", upgrade);
-  add_out(upgrade_command, *upgrade_flags);
+  add_out(*upgrade_command, *upgrade_flags);
   const auto [format_command, format_flags] =
       add("format", "Rewrites a graph file in the canonical layout; order and comments stay",
           "Examples:\n"
           "  terrazzo format bricks.json\n"
           "  terrazzo format bricks.json --check",
           format);
-  add_out(format_command, *format_flags);
-  format_command->add_flag("--check", format_flags->check, "Write nothing; exit code 1 if there is something to do");
+  add_out(*format_command, *format_flags);
+  format_command->add_flag("--check", &format_flags->check, "Write nothing; exit code 1 if there is something to do");
   const auto [group_command, group_flags] =
       add("group", "Turns nodes of a graph into a subgraph",
           "Their wires, and the graph's parameters that they use, become those of the subgraph.\n"
           "Examples:\n  terrazzo group bricks.json export maps picture lit\n"
           "  terrazzo group bricks.json save files --to parts/save.json",
           group);
-  group_command->add_option("NAME", group_flags->name, "The name of the subgraph, and of the node")->required();
-  group_command->add_option("NODE", group_flags->nodes, "The nodes to move into it")->required()->expected(-1);
+  group_command->add_option("NAME", &group_flags->name, "The name of the subgraph, and of the node").required();
+  group_command->add_option("NODE", &group_flags->nodes, "The nodes to move into it").required();
   group_command
-      ->add_option("--to", group_flags->to,
+      ->add_option("--to", &group_flags->to,
                    "Put the subgraph into a file of its own, which other graphs use as \"type\": \"FILE.json\"")
-      ->type_name("FILE.json");
-  add_out(group_command, *group_flags);
+      .takes("FILE.json");
+  add_out(*group_command, *group_flags);
   const auto [ungroup_command, ungroup_flags] = add("ungroup", "Turns a subgraph of a graph back into nodes",
                                                     "Example:\n  terrazzo ungroup bricks.json export", ungroup);
-  ungroup_command->add_option("NODE", ungroup_flags->name, "The node that is a subgraph")->required();
-  add_out(ungroup_command, *ungroup_flags);
+  ungroup_command->add_option("NODE", &ungroup_flags->name, "The node that is a subgraph").required();
+  add_out(*ungroup_command, *ungroup_flags);
   const auto [diff_command, diff_flags] =
       add("diff", "Says in words what differs between two graph files",
           "Order, layout and comments do not count. Exit code 0 if nothing differs, 1 if something does.\n"
           "Example:\n  terrazzo diff bricks.json bricks-new.json",
           diff);
-  diff_command->add_option("OTHER", diff_flags->name, "The graph file to compare with")
-      ->required()
-      ->type_name("FILE.json");
+  diff_command->add_option("OTHER", &diff_flags->name, "The graph file to compare with").required().takes("FILE.json");
   const auto [pack_command, pack_flags] =
       add("pack", "Writes a graph with all that it reads as one file, which runs elsewhere",
           "run, check, draw and submit take a pack like a graph file. It is a tar archive.\n"
           "Example:\n"
           "  terrazzo pack wall.json --set material=bricks/ -o wall.tzpack && terrazzo run wall.tzpack --set out=there",
           pack);
-  pack_command->add_option("-o,--out", pack_flags->out, "The file to write")->required()->type_name("FILE.tzpack");
-  pack_command->add_flag("--force", pack_flags->force, force_help);
+  pack_command->add_option("-o,--out", &pack_flags->out, "The file to write").required().takes("FILE.tzpack");
+  pack_command->add_flag("--force", &pack_flags->force, force_help);
   add_value_flags(*pack_command, *pack_flags);
   const auto [draw_command, draw_flags] = add("draw", "Draws a graph file",
                                               "Examples:\n"
                                               "  terrazzo draw bricks.json -o bricks.svg\n"
                                               "  terrazzo draw bricks.json -o bricks.dot",
                                               draw);
-  draw_command->add_option("-o,--out", draw_flags->out, "The drawing")->required()->type_name("FILE.svg|.dot");
-  draw_command->add_flag("--force", draw_flags->force, force_help);
+  draw_command->add_option("-o,--out", &draw_flags->out, "The drawing").required().takes("FILE.svg|.dot");
+  draw_command->add_flag("--force", &draw_flags->force, force_help);
   add_value_flags(*draw_command, *draw_flags);
 }
 

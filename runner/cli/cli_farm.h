@@ -9,8 +9,8 @@
 /// What the commands for farms share.
 namespace terrazzo {
 
-void add_submit_command(CLI::App& app, Chosen& chosen);
-void add_task_command(CLI::App& app, Chosen& chosen);
+void add_submit_command(Command& program);
+void add_task_command(Command& program);
 
 /// "41 of 65 done, 4 running, 20 waiting".
 std::string state_line(const JobState& state);

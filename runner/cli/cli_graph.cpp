@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/file/file_io.h"
@@ -75,13 +74,13 @@ std::vector<std::string> shown_warnings(const std::string& graph, const std::vec
   return out;
 }
 
-void add_graph_argument(CLI::App& command, GraphFlags& flags) {
-  command.add_option("GRAPH", flags.graph, "The graph file")->required()->type_name("FILE.json");
+void add_graph_argument(Command& command, GraphFlags& flags) {
+  command.add_option("GRAPH", &flags.graph, "The graph file").required().takes("FILE.json");
 }
 
-void add_value_flags(CLI::App& command, GraphFlags& flags) {
+void add_value_flags(Command& command, GraphFlags& flags) {
   const auto add = [&](const char* name, std::vector<std::string>& values, const char* type, const char* help) {
-    command.add_option(name, values, help)->type_name(type)->take_all()->expected(1);
+    command.add_option(name, &values, help).takes(type).repeated();
   };
   add("--set", flags.set, "NAME=VALUE",
       "Sets a graph parameter, or node.parameter; may be given several times. GRAPH --help lists the parameters");
@@ -93,19 +92,19 @@ void add_value_flags(CLI::App& command, GraphFlags& flags) {
 namespace {
 
 /// What the graph says that has been named; none if the command takes none or none has been named.
-std::optional<GraphInterface> named_interface(const CLI::App& command) {
-  const CLI::Option* graph = command.get_option_no_throw("GRAPH");
-  if (!graph || graph->results().empty()) return std::nullopt;
-  const std::string& file = graph->results().front();
+std::optional<GraphInterface> named_interface(const Command& command) {
+  const CommandOption* graph = command.find_option("GRAPH");
+  if (!graph || graph->given.empty()) return std::nullopt;
+  const std::string& file = graph->given.front();
   return is_pack(file) ? read_interface_text(graph_in_pack(file), file) : read_interface(file);
 }
 
 }  // namespace
 
-std::string set_hint(const CLI::App& command, const std::string& option) {
+std::string set_hint(const Command& command, const std::string& option) {
   const std::string name = option.substr(std::min(option.size(), size_t{2}), option.find('=') - 2);
   try {
-    if (!command.get_option_no_throw("--set")) return "";
+    if (!command.find_option("--set")) return "";
     const std::optional<GraphInterface> graph = named_interface(command);
     if (!graph) return "";
     for (const GraphParameter& p : graph->parameters)
@@ -116,9 +115,9 @@ std::string set_hint(const CLI::App& command, const std::string& option) {
   return "";
 }
 
-std::string help_on_graph(const CLI::App& command) {
+std::string help_on_graph(const Command& command) {
   const std::optional<GraphInterface> graph = named_interface(command);
-  return graph ? graph_reference(command.get_option("GRAPH")->results().front(), *graph) : "";
+  return graph ? graph_reference(command.find_option("GRAPH")->given.front(), *graph) : "";
 }
 
 }  // namespace terrazzo

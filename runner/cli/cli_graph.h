@@ -8,11 +8,8 @@
 
 #include "core/file/private_folder.h"
 #include "graphs/document/load.h"
+#include "runner/cli/command.h"
 #include "runner/cli/written_files.h"
-
-namespace CLI {
-class App;
-}
 
 namespace terrazzo {
 
@@ -20,7 +17,7 @@ namespace terrazzo {
 struct GraphFlags {
   std::string graph;
   std::vector<std::string> set, presets, settings;
-  std::filesystem::path pack{};                      ///< where it is unpacked, if it is one
+  std::filesystem::path pack{};                    ///< where it is unpacked, if it is one
   std::shared_ptr<const PrivateFolder> passing{};  ///< of a pack that no cache keeps
 
   /// Before a load: unpacks a pack into the cache, or, without one, into a folder that goes with these flags. Throws
@@ -40,15 +37,15 @@ struct GraphFlags {
 std::vector<std::string> shown_warnings(const std::string& graph, const std::vector<Problem>& warnings);
 
 /// The argument GRAPH.
-void add_graph_argument(CLI::App& command, GraphFlags& flags);
+void add_graph_argument(Command& command, GraphFlags& flags);
 /// --set, --preset and --params.
-void add_value_flags(CLI::App& command, GraphFlags& flags);
+void add_value_flags(Command& command, GraphFlags& flags);
 
 /// How to set a parameter of the command's graph that was taken for an option ("--seed"); empty if it has none such.
-std::string set_hint(const CLI::App& command, const std::string& option);
+std::string set_hint(const Command& command, const std::string& option);
 
 /// What `COMMAND GRAPH --help` adds about the graph; empty if the command takes none or none has been named. Throws
 /// GraphError.
-std::string help_on_graph(const CLI::App& command);
+std::string help_on_graph(const Command& command);
 
 }  // namespace terrazzo

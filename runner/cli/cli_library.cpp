@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -226,63 +225,60 @@ int remove(const LibraryFlags& flags) {
 
 }  // namespace
 
-void add_library_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* library = app.add_subcommand("library", "Keeps named analyses, for graphs to share");
-  library->require_subcommand(1);
-  library->footer(
+void add_library_command(Command& program) {
+  Command& library = program.add_command("library", "Keeps named analyses, for graphs to share");
+  library.footer =
       "Graphs name an analysis as \"library:brick/red\", in load_analysis, and in load_material for its maps.\n"
       "The folder is $TERRAZZO_LIBRARY (several are separated by colons; new analyses go into the first), or\n"
       "terrazzo/library under $XDG_DATA_HOME or ~/.local/share.\n"
       "Examples:\n"
       "  terrazzo library add brick/red bricks/ --tag wall --summary \"old red bricks\"\n"
-      "  terrazzo library list --tag wall --sheet walls.html");
+      "  terrazzo library list --tag wall --sheet walls.html";
   const auto flags = std::make_shared<LibraryFlags>();
-  const auto sub = [&](const char* name, const char* help, int (*act)(const LibraryFlags&)) {
-    CLI::App* command = library->add_subcommand(name, help);
-    command->add_option("--library", flags->folder, "The library's folder, if not the usual one")->type_name("DIR");
-    command->callback([&chosen, flags, act] { chosen = [flags, act] { return act(*flags); }; });
+  const auto sub = [&](const char* name, const char* help, int (*act)(const LibraryFlags&)) -> Command& {
+    Command& command = library.add_command(name, help);
+    command.add_option("--library", &flags->folder, "The library's folder, if not the usual one").takes("DIR");
+    command.run = [flags, act] { return act(*flags); };
     return command;
   };
-  const auto several = [](CLI::Option* option) { option->take_all()->expected(1); };
 
-  CLI::App* adding = sub("add", "Analyses a folder of maps, or takes an analysis, and keeps it under a name", add);
-  adding->add_option("NAME", flags->name, "Its name, such as brick/red")->required();
-  adding->add_option("SOURCE", flags->addition.source, "A folder of maps, or a file that save_analysis wrote")
-      ->required()
-      ->type_name("PATH");
-  adding->add_option("--material", flags->addition.material, "Of a file: the folder of the maps that were analysed")
-      ->type_name("DIR");
-  adding->add_flag("--other-material", flags->addition.other_material,
-                   "Take --material though it does not look like what was analysed");
-  several(
-      adding->add_option("--tag", flags->tags, "A word to find it by; may be given several times")->type_name("TAG"));
-  adding->add_option("--summary", flags->summary, "A line about it")->type_name("TEXT");
-  several(adding
-              ->add_option("--set", flags->addition.set,
-                           "Sets a parameter of a node of the stock graph analyse.json, such as "
-                           "weighted.weights.height=2; may be given several times")
-              ->type_name("NAME=VALUE"));
-  add_limit_flags(*adding, flags->limits);
-  adding->add_flag("--force", flags->force, "Replace the one that has this name");
+  Command& adding = sub("add", "Analyses a folder of maps, or takes an analysis, and keeps it under a name", add);
+  adding.add_option("NAME", &flags->name, "Its name, such as brick/red").required();
+  adding.add_option("SOURCE", &flags->addition.source, "A folder of maps, or a file that save_analysis wrote")
+      .required()
+      .takes("PATH");
+  adding.add_option("--material", &flags->addition.material, "Of a file: the folder of the maps that were analysed")
+      .takes("DIR");
+  adding.add_flag("--other-material", &flags->addition.other_material,
+                  "Take --material though it does not look like what was analysed");
+  adding.add_option("--tag", &flags->tags, "A word to find it by; may be given several times").takes("TAG").repeated();
+  adding.add_option("--summary", &flags->summary, "A line about it").takes("TEXT");
+  adding
+      .add_option("--set", &flags->addition.set,
+                  "Sets a parameter of a node of the stock graph analyse.json, such as "
+                  "weighted.weights.height=2; may be given several times")
+      .takes("NAME=VALUE")
+      .repeated();
+  add_limit_flags(adding, flags->limits);
+  adding.add_flag("--force", &flags->force, "Replace the one that has this name");
 
-  CLI::App* listing = sub("list", "Lists analyses: all, or those with these words in name, summary or tags", list);
-  listing->add_option("WORD", flags->names, "What to look for")->expected(0, -1);
-  several(listing->add_option("--tag", flags->tags, "Only those with this tag; may be given several times")
-              ->type_name("TAG"));
-  listing->add_option("--sheet", flags->sheet, "Write a sheet of their pictures, a picture or a page (.html)")
-      ->type_name("FILE");
-  add_limit_flags(*listing, flags->limits);
-  listing->add_flag("--force", flags->force, force_help);
-  listing->add_flag("--json", flags->json, "For programs");
+  Command& listing = sub("list", "Lists analyses: all, or those with these words in name, summary or tags", list);
+  listing.add_option("WORD", &flags->names, "What to look for");
+  listing.add_option("--tag", &flags->tags, "Only those with this tag; may be given several times")
+      .takes("TAG")
+      .repeated();
+  listing.add_option("--sheet", &flags->sheet, "Write a sheet of their pictures, a picture or a page (.html)")
+      .takes("FILE");
+  add_limit_flags(listing, flags->limits);
+  listing.add_flag("--force", &flags->force, force_help);
+  listing.add_flag("--json", &flags->json, "For programs");
 
   sub("check", "Reads every file, and looks whether the maps are still those that were analysed; exit code 1 if not",
       check)
-      ->add_option("NAME", flags->names, "Only these")
-      ->expected(0, -1);
+      .add_option("NAME", &flags->names, "Only these");
   sub("remove", "Removes analyses from the library", remove)
-      ->add_option("NAME", flags->names, "Their names")
-      ->required()
-      ->expected(1, -1);
+      .add_option("NAME", &flags->names, "Their names")
+      .required();
 }
 
 }  // namespace terrazzo

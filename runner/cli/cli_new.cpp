@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
@@ -92,21 +91,21 @@ int make_new(const NewFlags& flags) {
 
 }  // namespace
 
-void add_new_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("new", "Writes a graph to start from, for the maps found in a folder");
+void add_new_command(Command& program) {
+  Command& command = program.add_command("new", "Writes a graph to start from, for the maps found in a folder");
   const auto flags = std::make_shared<NewFlags>();
-  add_exemplar_flags(*command, flags->exemplar);
-  command->add_option("-o,--out", flags->out, "The graph file to write")->required()->type_name("FILE.json");
-  command->add_option("--like", flags->like, "The stock graph (graphs/NAME.json) to begin with; material if not given")
-      ->type_name("NAME");
-  add_limit_flags(*command, flags->limits);
-  command->add_flag("--force", flags->force, "Overwrite the graph file if it exists");
-  command->footer(
+  add_exemplar_flags(command, flags->exemplar);
+  command.add_option("-o,--out", &flags->out, "The graph file to write").required().takes("FILE.json");
+  command.add_option("--like", &flags->like, "The stock graph (graphs/NAME.json) to begin with; material if not given")
+      .takes("NAME");
+  add_limit_flags(command, flags->limits);
+  command.add_flag("--force", &flags->force, "Overwrite the graph file if it exists");
+  command.footer =
       "It looks at the maps, weights them, looks for what repeats, and says in comments what it chose and why.\n"
       "Examples:\n"
       "  terrazzo new bricks/ -o bricks.json && terrazzo run bricks.json\n"
-      "  terrazzo new bricks/ -o tiling.json --like make_tileable");
-  command->callback([&chosen, flags] { chosen = [flags] { return make_new(*flags); }; });
+      "  terrazzo new bricks/ -o tiling.json --like make_tileable";
+  command.run = [flags] { return make_new(*flags); };
 }
 
 }  // namespace terrazzo

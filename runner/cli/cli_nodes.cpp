@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
@@ -31,26 +30,24 @@ int show_nodes(const std::string& name, bool json) {
 
 }  // namespace
 
-void add_node_commands(CLI::App& app, Chosen& chosen) {
-  CLI::App* nodes = app.add_subcommand("nodes", "Lists the node types, or describes one");
+void add_node_commands(Command& program) {
+  Command& nodes = program.add_command("nodes", "Lists the node types, or describes one");
   struct Flags {
     std::string type;
     bool json = false;
   };
   const auto flags = std::make_shared<Flags>();
-  nodes->add_option("TYPE", flags->type, "The node type to describe")->type_name("");
-  nodes->add_flag("--json", flags->json, "For programs: an array of descriptors");
-  nodes->footer("Examples:\n  terrazzo nodes\n  terrazzo nodes synthesize");
-  nodes->callback([&chosen, flags] { chosen = [flags] { return show_nodes(flags->type, flags->json); }; });
+  nodes.add_option("TYPE", &flags->type, "The node type to describe").takes("");
+  nodes.add_flag("--json", &flags->json, "For programs: an array of descriptors");
+  nodes.footer = "Examples:\n  terrazzo nodes\n  terrazzo nodes synthesize";
+  nodes.run = [flags] { return show_nodes(flags->type, flags->json); };
 
-  CLI::App* schema = app.add_subcommand("schema", "Prints the JSON Schema of graph files, for editors");
-  schema->footer("Example:\n  terrazzo schema > terrazzo.schema.json");
-  schema->callback([&chosen] {
-    chosen = [] {
-      answer("{}", json_schema());
-      return exit_done;
-    };
-  });
+  Command& schema = program.add_command("schema", "Prints the JSON Schema of graph files, for editors");
+  schema.footer = "Example:\n  terrazzo schema > terrazzo.schema.json";
+  schema.run = [] {
+    answer("{}", json_schema());
+    return exit_done;
+  };
 }
 
 }  // namespace terrazzo

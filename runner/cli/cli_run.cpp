@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -270,51 +269,52 @@ void print_warnings(const RunResult& result) {
       if (is_warning(note)) say("{}node \"{}\": {}\n", warning_mark, s.node, note.substr(warning_mark.size()));
 }
 
-void add_run_flags(CLI::App& command, RunFlags& flags) {
-  command.add_option("--only", flags.only, "Run only this node and what it needs; may be given several times")
-      ->type_name("NODE")
-      ->take_all()
-      ->expected(1);
-  CLI::Option* cache = command.add_option("--cache", flags.cache, "Folder of the cache, if not the usual one");
-  cache->type_name("DIR");
-  CLI::Option* size = command.add_option(
-      "--cache-size", flags.cache_size,
-      "How large the cache may become, such as 20G; if not given, $TERRAZZO_CACHE_SIZE, or as settings.txt in the "
-      "cache's folder says, or 10G");
-  size->type_name("SIZE");
-  command.add_flag("--no-cache", flags.no_cache, "Reuse nothing and keep nothing")->excludes(cache)->excludes(size);
-  command.add_option("--threads", flags.threads, "Threads to use; one per core if not given")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+void add_run_flags(Command& command, RunFlags& flags) {
+  command.add_option("--only", &flags.only, "Run only this node and what it needs; may be given several times")
+      .takes("NODE")
+      .repeated();
+  command.add_option("--cache", &flags.cache, "Folder of the cache, if not the usual one").takes("DIR");
+  command
+      .add_option(
+          "--cache-size", &flags.cache_size,
+          "How large the cache may become, such as 20G; if not given, $TERRAZZO_CACHE_SIZE, or as settings.txt in the "
+          "cache's folder says, or 10G")
+      .takes("SIZE");
+  command.add_flag("--no-cache", &flags.no_cache, "Reuse nothing and keep nothing")
+      .not_with("--cache")
+      .not_with("--cache-size");
+  command.add_option("--threads", &flags.threads, "Threads to use; one per core if not given")
+      .takes("N")
+      .from_to(1, 1024);
   add_limit_flags(command, flags.limits);
   add_checked_flag(command, flags.checked);
-  CLI::Option* dry_run = command.add_flag("--dry-run", flags.dry_run, "Print what would run, and why; run nothing");
-  CLI::Option* watch = command.add_flag(
-      "--watch", flags.watch,
-      "Run again whenever the graph file or a file that it reads changes; a change while it runs starts it "
-      "anew. Ctrl-C ends it, with the exit "
-      "code of the last run, or 130 if it interrupts one");
-  watch->excludes(dry_run);
-  command.add_option("--report", flags.report, "Write a report with pictures")->type_name("FILE.html");
+  command.add_flag("--dry-run", &flags.dry_run, "Print what would run, and why; run nothing");
   command
-      .add_option("--summary", flags.summary,
+      .add_flag("--watch", &flags.watch,
+                "Run again whenever the graph file or a file that it reads changes; a change while it runs starts it "
+                "anew. Ctrl-C ends it, with the exit "
+                "code of the last run, or 130 if it interrupts one")
+      .not_with("--dry-run");
+  command.add_option("--report", &flags.report, "Write a report with pictures").takes("FILE.html");
+  command
+      .add_option("--summary", &flags.summary,
                   "Write what was done as JSON, also if the run fails or is cancelled: stages, times, files with "
                   "digests, failures")
-      ->type_name("FILE.json");
-  command.add_flag("--keep-going", flags.keep_going,
+      .takes("FILE.json");
+  command.add_flag("--keep-going", &flags.keep_going,
                    "After a failure, go on with everything that does not need the failed node; the exit code is 1 all "
                    "the same");
   command
-      .add_option("--sandbox", flags.sandbox,
+      .add_option("--sandbox", &flags.sandbox,
                   "Refuse to read or write anything for nodes outside of this folder, but for what --set names; links "
                   "count as where they lead")
-      ->type_name("DIR");
-  command.add_option("--trace", flags.trace, "Write a timeline for chrome://tracing")->type_name("FILE.json");
-  command.add_flag("--force", flags.force, force_help);
-  command.add_option("--progress", flags.progress, "auto, bar, plain, json, or none: nothing but warnings and errors")
-      ->type_name("MODE")
-      ->check(CLI::IsMember(std::vector<std::string>(progress_mode_names.begin(), progress_mode_names.end()),
-                            CLI::ignore_case));
+      .takes("DIR");
+  command.add_option("--trace", &flags.trace, "Write a timeline for chrome://tracing").takes("FILE.json");
+  command.add_flag("--force", &flags.force, force_help);
+  command.add_option("--progress", &flags.progress, "auto, bar, plain, json, or none: nothing but warnings and errors")
+      .takes("MODE")
+      .one_of({progress_mode_names.begin(), progress_mode_names.end()})
+      .any_case();
 }
 
 int run_with_flags(const LoadGraph& load, const RunFlags& flags) {
@@ -359,41 +359,39 @@ int run_sweep(GraphFlags values, const SweepFlags& asked, const RunFlags& given)
 
 }  // namespace
 
-void add_run_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* run = app.add_subcommand("run", "Runs a graph: only what has changed since it last ran");
+void add_run_command(Command& program) {
+  Command& run = program.add_command("run", "Runs a graph: only what has changed since it last ran");
   struct Flags : RunFlags {
     GraphFlags graph_values;
     SweepFlags variations;
   };
   const auto flags = std::make_shared<Flags>();
-  add_graph_argument(*run, flags->graph_values);
-  add_value_flags(*run, flags->graph_values);
-  add_sweep_flags(*run, flags->variations);
-  add_run_flags(*run, *flags);
-  run->footer(
+  add_graph_argument(run, flags->graph_values);
+  add_value_flags(run, flags->graph_values);
+  add_sweep_flags(run, flags->variations);
+  add_run_flags(run, *flags);
+  run.footer =
       "Examples:\n"
       "  terrazzo run bricks.json --set seed=7 --set size=2048x2048\n"
       "  terrazzo run bricks.json --only layout --dry-run\n"
-      "  terrazzo run bricks.json --sweep seed=1..8 --set \"out=='out/' + seed\" --sheet sheet.png --best swd");
-  run->callback([&chosen, flags] {
-    chosen = [flags] {
-      flags->graph = flags->graph_values.graph;
-      flags->reads = flags->graph_values.files();
-      flags->values = flags->graph_values.set;
-      if (!flags->variations.sheet.empty()) flags->files.push_back(flags->variations.sheet);
-      if (flags->variations.asked()) return run_sweep(flags->graph_values, flags->variations, *flags);
-      for (const std::string* left : {&flags->variations.sheet, &flags->variations.figures, &flags->variations.best})
-        if (!left->empty()) throw UsageError("--sheet, --figures and --best go with --sweep or --table");
-      flags->unpack = [&] { return flags->graph_values.unpack_for_run(flags->keeps(), flags->cache); };
-      return run_with_flags(
-          [&](const LoadOptions& options) {
-            LoadedGraph loaded = flags->graph_values.load(options);
-            for (const std::string& w : shown_warnings(flags->graph, loaded.warnings)) warn(*flags, w);
-            return std::move(loaded.graph);
-          },
-          *flags);
-    };
-  });
+      "  terrazzo run bricks.json --sweep seed=1..8 --set \"out=='out/' + seed\" --sheet sheet.png --best swd";
+  run.run = [flags] {
+    flags->graph = flags->graph_values.graph;
+    flags->reads = flags->graph_values.files();
+    flags->values = flags->graph_values.set;
+    if (!flags->variations.sheet.empty()) flags->files.push_back(flags->variations.sheet);
+    if (flags->variations.asked()) return run_sweep(flags->graph_values, flags->variations, *flags);
+    for (const std::string* left : {&flags->variations.sheet, &flags->variations.figures, &flags->variations.best})
+      if (!left->empty()) throw UsageError("--sheet, --figures and --best go with --sweep or --table");
+    flags->unpack = [&] { return flags->graph_values.unpack_for_run(flags->keeps(), flags->cache); };
+    return run_with_flags(
+        [&](const LoadOptions& options) {
+          LoadedGraph loaded = flags->graph_values.load(options);
+          for (const std::string& w : shown_warnings(flags->graph, loaded.warnings)) warn(*flags, w);
+          return std::move(loaded.graph);
+        },
+        *flags);
+  };
 }
 
 }  // namespace terrazzo

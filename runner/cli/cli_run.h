@@ -7,14 +7,11 @@
 
 #include "graphs/document/load.h"
 #include "runner/cli/checked_flag.h"
+#include "runner/cli/command.h"
 #include "runner/cli/limit_flags.h"
 #include "runner/cli/written_files.h"
 #include "runner/engine/schedule.h"
 #include "runner/report/progress.h"
-
-namespace CLI {
-class App;
-}
 
 namespace terrazzo {
 
@@ -55,7 +52,7 @@ struct RunFlags {
 /// Says what nodes warned of.
 void print_warnings(const RunResult& result);
 
-void add_run_flags(CLI::App& command, RunFlags& flags);
+void add_run_flags(Command& command, RunFlags& flags);
 
 using LoadGraph = std::function<Graph(const LoadOptions&)>;
 

@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -323,22 +322,22 @@ int submit(SubmitFlags& flags) {
 
 }  // namespace
 
-void add_submit_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("submit", "Hands a graph to a farm: Slurm, or an Open Job Description");
+void add_submit_command(Command& program) {
+  Command& command = program.add_command("submit", "Hands a graph to a farm: Slurm, or an Open Job Description");
   const auto flags = std::make_shared<SubmitFlags>();
-  add_submit_flags(*command, *flags);
-  command->footer(
+  add_submit_flags(command, *flags);
+  command.footer =
       "Examples:\n"
       "  terrazzo submit bricks.json --sweep seed=1..64 --set \"out=='/projects/bricks/' + seed\" --wait\n"
       "  terrazzo submit bricks.json --print            the scripts, without Slurm\n"
       "  terrazzo submit --status                       all jobs\n"
-      "  terrazzo submit bricks-1a2b --cancel           a job by the beginning of its name");
-  command->callback([&chosen, flags] { chosen = [flags] { return submit(*flags); }; });
+      "  terrazzo submit bricks-1a2b --cancel           a job by the beginning of its name";
+  command.run = [flags] { return submit(*flags); };
 }
 
-void add_farm_commands(CLI::App& app, Chosen& chosen) {
-  add_submit_command(app, chosen);
-  add_task_command(app, chosen);
+void add_farm_commands(Command& program) {
+  add_submit_command(program);
+  add_task_command(program);
 }
 
 }  // namespace terrazzo

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <set>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
@@ -54,33 +53,32 @@ std::string first_of(const std::string& type, const Graph& graph) {
 
 }  // namespace
 
-void add_variation_flags(CLI::App& command, SweepFlags& flags) {
+void add_variation_flags(Command& command, SweepFlags& flags) {
   command
-      .add_option("--sweep", flags.sweeps,
+      .add_option("--sweep", &flags.sweeps,
                   "Runs the graph with each of several values: seed=1..64, scale=0..1:0.25, size=512,1024; of several "
                   "sweeps, with every combination")
-      ->type_name("NAME=VALUES")
-      ->take_all()
-      ->expected(1);
+      .takes("NAME=VALUES")
+      .repeated();
   command
-      .add_option("--table", flags.table,
+      .add_option("--table", &flags.table,
                   "Runs the graph with each row of a table: a CSV file whose first line has the names, or a JSON "
                   "list of objects")
-      ->type_name("FILE");
+      .takes("FILE");
 }
 
-void add_sweep_flags(CLI::App& command, SweepFlags& flags) {
+void add_sweep_flags(Command& command, SweepFlags& flags) {
   add_variation_flags(command, flags);
   command
-      .add_option("--sheet", flags.sheet, "Of a sweep or table: writes a contact sheet, a picture or a page (.html)")
-      ->type_name("FILE");
-  command.add_option("--figures", flags.figures, "Of a sweep or table: writes the figures of all variations")
-      ->type_name("FILE.csv");
+      .add_option("--sheet", &flags.sheet, "Of a sweep or table: writes a contact sheet, a picture or a page (.html)")
+      .takes("FILE");
+  command.add_option("--figures", &flags.figures, "Of a sweep or table: writes the figures of all variations")
+      .takes("FILE.csv");
   command
-      .add_option("--best", flags.best,
+      .add_option("--best", &flags.best,
                   "Of a sweep or table: names the variation that is best by a figure, such as swd; NAME:min or "
                   "NAME:max say which way is better")
-      ->type_name("FIGURE");
+      .takes("FIGURE");
 }
 
 Sweep::Sweep(const SweepFlags& flags) : flags_(flags) {

@@ -8,11 +8,8 @@
 #include "core/node/report.h"
 #include "graphs/document/variations.h"
 #include "runner/cli/cli_graph.h"
+#include "runner/cli/command.h"
 #include "runner/engine/schedule.h"
-
-namespace CLI {
-class App;
-}
 
 namespace terrazzo {
 
@@ -25,9 +22,9 @@ struct SweepFlags {
 };
 
 /// --sweep and --table.
-void add_variation_flags(CLI::App& command, SweepFlags& flags);
+void add_variation_flags(Command& command, SweepFlags& flags);
 /// The same, and what to make of the results.
-void add_sweep_flags(CLI::App& command, SweepFlags& flags);
+void add_sweep_flags(Command& command, SweepFlags& flags);
 
 /// Several variations of a graph, run as one: analyses and whatever else they share are made once.
 class Sweep {

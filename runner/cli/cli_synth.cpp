@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/stochastic/method.h"
@@ -103,93 +102,90 @@ ChosenGraph chosen_graph(const SynthFlags& flags) {
 
 }  // namespace
 
-void add_synth_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* synth = app.add_subcommand("synth", "Makes a larger material from a folder of maps, without a graph file");
+void add_synth_command(Command& program) {
+  Command& synth = program.add_command("synth", "Makes a larger material from a folder of maps, without a graph file");
   const auto flags = std::make_shared<SynthFlags>();
-  add_exemplar_flags(*synth, flags->exemplar);
+  add_exemplar_flags(synth, flags->exemplar);
   synth
-      ->add_option("-o,--out", flags->out,
-                   "The folder to write to; {material}, {width}, {height} and {map} are replaced")
-      ->required()
-      ->type_name("DIR");
+      .add_option("-o,--out", &flags->out,
+                  "The folder to write to; {material}, {width}, {height} and {map} are replaced")
+      .required()
+      .takes("DIR");
   synth
-      ->add_option("--scale", flags->scale,
-                   "The size of the result: how many times the exemplar in each direction; 2 if not given")
-      ->type_name("FACTOR");
-  synth->add_option("--size", flags->size, "The size of the result in pixels")->type_name("WxH")->excludes("--scale");
-  synth->add_option("--seed", flags->seed, "Another number gives another arrangement")->type_name("N");
-  synth->add_option("--quality", flags->quality, "draft, normal or best: draft is quick, best takes its time")
-      ->type_name("LEVEL");
+      .add_option("--scale", &flags->scale,
+                  "The size of the result: how many times the exemplar in each direction; 2 if not given")
+      .takes("FACTOR");
+  synth.add_option("--size", &flags->size, "The size of the result in pixels").takes("WxH").not_with("--scale");
+  synth.add_option("--seed", &flags->seed, "Another number gives another arrangement").takes("N");
+  synth.add_option("--quality", &flags->quality, "draft, normal or best: draft is quick, best takes its time")
+      .takes("LEVEL");
   synth
-      ->add_option(
-          "--blend", flags->blend,
+      .add_option(
+          "--blend", &flags->blend,
           "How far from a seam pixels are blended, 0 to 8; more is softer, 2 to 3 hides most seams. 0 if not given")
-      ->type_name("PIXELS");
+      .takes("PIXELS");
   synth
-      ->add_option("--join", flags->join,
-                   "How far from a seam heights change so that pieces meet: below 1 a share of the exemplar's shorter "
-                   "side, else pixels; 0 keeps heights exact. 0.03 if not given")
-      ->type_name("REACH");
+      .add_option("--join", &flags->join,
+                  "How far from a seam heights change so that pieces meet: below 1 a share of the exemplar's shorter "
+                  "side, else pixels; 0 keeps heights exact. 0.03 if not given")
+      .takes("REACH");
   synth
-      ->add_option("--method", flags->method,
-                   "layout, noise (noise by example, for exemplars without structure), or auto: the one that suits the "
-                   "exemplar; layout if not given")
-      ->type_name("METHOD")
-      ->check(CLI::IsMember({"auto", "layout", "noise"}));
+      .add_option("--method", &flags->method,
+                  "layout, noise (noise by example, for exemplars without structure), or auto: the one that suits the "
+                  "exemplar; layout if not given")
+      .takes("METHOD")
+      .one_of({"auto", "layout", "noise"});
   synth
-      ->add_option("--format", flags->format,
-                   "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
-      ->type_name("FORMAT");
+      .add_option("--format", &flags->format,
+                  "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
+      .takes("FORMAT");
   synth
-      ->add_option(
-          "--set", flags->set,
-          "Sets a parameter of the graph that this stands for (graphs/material.json, or graphs/noise.json), or "
-          "of one of its nodes, as for run; may be given several times")
-      ->type_name("NAME=VALUE")
-      ->take_all()
-      ->expected(1);
-  synth->add_flag("--tileable{xy}", flags->tileable,
-                  "The result wraps around; --tileable=x or --tileable=y in one direction only");
-  add_run_flags(*synth, *flags);
-  synth->footer("Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7");
-  synth->callback([&chosen, flags] {
-    chosen = [flags] {
-      std::vector<Argument> arguments = {{"FOLDER", "material", flags->exemplar.folder}, {"-o", "out", flags->out}};
-      const auto set_if_given = [&](const char* name, const char* parameter, const std::string& value) {
-        if (!value.empty()) arguments.push_back({name, parameter, value});
-      };
-      set_if_given("--name", "name", flags->exemplar.name);
-      for (const auto& [map, how] : flags->exemplar.interpretations())
-        set_if_given("--interpret", ("exemplar.interpret." + map).c_str(), how);
-      set_if_given("--scale", "scale", flags->scale);
-      set_if_given("--size", "size", flags->size);
-      set_if_given("--seed", "seed", flags->seed);
-      set_if_given("--quality", "quality", flags->quality);
-      set_if_given("--blend", "blend", flags->blend);
-      set_if_given("--join", "join", flags->join);
-      set_if_given("--format", "format", flags->format);
-      set_if_given("--tileable", "tileable", flags->tileable);
-      std::vector<std::string> set;
-      for (const Argument& a : arguments) set.push_back(a.override_text());
-      set.insert(set.end(), flags->set.begin(), flags->set.end());
-      flags->values = set;
-      if (same_folder(flags->exemplar.folder, flags->out))
-        throw UsageError(
-            fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
-      try {
-        const ChosenGraph graph = chosen_graph(*flags);
-        if (!graph.name) return graph.code;
-        const std::string file = fmt::format("stock graph {}.json", graph.name);
-        return run_with_flags(
-            [&](const LoadOptions& options) {
-              return load_graph_text(stock_graph(graph.name), file, set, options).graph;
-            },
-            *flags);
-      } catch (const GraphError& e) {
-        throw about_arguments(e, arguments);
-      }
+      .add_option("--set", &flags->set,
+                  "Sets a parameter of the graph that this stands for (graphs/material.json, or graphs/noise.json), or "
+                  "of one of its nodes, as for run; may be given several times")
+      .takes("NAME=VALUE")
+      .repeated();
+  synth
+      .add_flag("--tileable", &flags->tileable,
+                "The result wraps around; --tileable=x or --tileable=y in one direction only")
+      .implies("xy");
+  add_run_flags(synth, *flags);
+  synth.footer = "Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7";
+  synth.run = [flags] {
+    std::vector<Argument> arguments = {{"FOLDER", "material", flags->exemplar.folder}, {"-o", "out", flags->out}};
+    const auto set_if_given = [&](const char* name, const char* parameter, const std::string& value) {
+      if (!value.empty()) arguments.push_back({name, parameter, value});
     };
-  });
+    set_if_given("--name", "name", flags->exemplar.name);
+    for (const auto& [map, how] : flags->exemplar.interpretations())
+      set_if_given("--interpret", ("exemplar.interpret." + map).c_str(), how);
+    set_if_given("--scale", "scale", flags->scale);
+    set_if_given("--size", "size", flags->size);
+    set_if_given("--seed", "seed", flags->seed);
+    set_if_given("--quality", "quality", flags->quality);
+    set_if_given("--blend", "blend", flags->blend);
+    set_if_given("--join", "join", flags->join);
+    set_if_given("--format", "format", flags->format);
+    set_if_given("--tileable", "tileable", flags->tileable);
+    std::vector<std::string> set;
+    for (const Argument& a : arguments) set.push_back(a.override_text());
+    set.insert(set.end(), flags->set.begin(), flags->set.end());
+    flags->values = set;
+    if (same_folder(flags->exemplar.folder, flags->out))
+      throw UsageError(fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
+    try {
+      const ChosenGraph graph = chosen_graph(*flags);
+      if (!graph.name) return graph.code;
+      const std::string file = fmt::format("stock graph {}.json", graph.name);
+      return run_with_flags(
+          [&](const LoadOptions& options) {
+            return load_graph_text(stock_graph(graph.name), file, set, options).graph;
+          },
+          *flags);
+    } catch (const GraphError& e) {
+      throw about_arguments(e, arguments);
+    }
+  };
 }
 
 }  // namespace terrazzo

@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/prctl.h>
@@ -141,40 +140,38 @@ int run_task(const TaskFlags& flags) {
 
 }  // namespace
 
-void add_task_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* command =
-      app.add_subcommand("task", "Makes a part of a job that `submit` has frozen: for schedulers, which call it");
+void add_task_command(Command& program) {
+  Command& command =
+      program.add_command("task", "Makes a part of a job that `submit` has frozen: for schedulers, which call it");
   const auto flags = std::make_shared<TaskFlags>();
-  command->add_option("JOB", flags->job, "The job's folder or name")->required()->type_name("JOB");
-  CLI::Option* units =
-      command->add_option("UNIT", flags->units, "What to make; --list says what there is, and what needs what");
-  units->type_name("UNIT");
-  CLI::Option* array =
-      command->add_option("--array", flags->array, "What to make, as a task of one of the job's arrays");
-  array->type_name("ID")->excludes(units);
-  command->add_option("--index", flags->index, "The number of the task in the array")
-      ->type_name("N")
-      ->needs(array)
-      ->check(CLI::NonNegativeNumber);
-  command->add_flag("--list", flags->list, "Print the job's units, what they need and their states, as JSON");
+  command.add_option("JOB", &flags->job, "The job's folder or name").required().takes("JOB");
+  command.add_option("UNIT", &flags->units, "What to make; --list says what there is, and what needs what")
+      .takes("UNIT");
+  command.add_option("--array", &flags->array, "What to make, as a task of one of the job's arrays")
+      .takes("ID")
+      .not_with("UNIT");
+  command.add_option("--index", &flags->index, "The number of the task in the array")
+      .takes("N")
+      .only_with("--array")
+      .not_negative();
+  command.add_flag("--list", &flags->list, "Print the job's units, what they need and their states, as JSON");
   command
-      ->add_option("--stamp", flags->stamp, "When it is made, write what it is, by digest, for Snakemake or Nextflow")
-      ->type_name("FILE.json");
-  command->add_option("--cache", flags->cache, "Folder of the cache, if not the one that the job lies in")
-      ->type_name("DIR");
-  command->add_option("--threads", flags->threads, "Threads to use; one per core if not given")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+      .add_option("--stamp", &flags->stamp, "When it is made, write what it is, by digest, for Snakemake or Nextflow")
+      .takes("FILE.json");
+  command.add_option("--cache", &flags->cache, "Folder of the cache, if not the one that the job lies in").takes("DIR");
+  command.add_option("--threads", &flags->threads, "Threads to use; one per core if not given")
+      .takes("N")
+      .from_to(1, 1024);
   command
-      ->add_option("--memory", flags->memory,
-                   "Memory for running nodes, such as 2G; half of the machine's if not given")
-      ->type_name("SIZE");
-  command->add_flag("--in-process", flags->in_process)->group("");
-  command->footer(
+      .add_option("--memory", &flags->memory,
+                  "Memory for running nodes, such as 2G; half of the machine's if not given")
+      .takes("SIZE");
+  command.add_flag("--in-process", &flags->in_process, "").hidden();
+  command.footer =
       "Examples:\n"
       "  terrazzo task bricks-1a2b3c4d5e6f --list\n"
-      "  terrazzo task bricks-1a2b3c4d5e6f index --stamp done/index.json");
-  command->callback([&chosen, flags] { chosen = [flags] { return run_task(*flags); }; });
+      "  terrazzo task bricks-1a2b3c4d5e6f index --stamp done/index.json";
+  command.run = [flags] { return run_task(*flags); };
 }
 
 }  // namespace terrazzo

@@ -5,7 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/shell_words.h"
-#include "runner/cli/command_tree.h"
+#include "runner/cli/shell_files.h"
 
 namespace terrazzo {
 
@@ -17,29 +17,23 @@ std::string brief(const std::string& help) {
   return help.substr(0, end);
 }
 
-std::vector<std::string> names_of(const std::vector<Command>& commands) {
-  std::vector<std::string> names;
-  for (const Command& c : commands) names.push_back(c.name());
-  return names;
-}
-
 bool takes_files(const CommandOption& o) {
-  return o.argument.starts_with("FILE") || o.argument.starts_with("DIR") || o.argument.starts_with("GRAPH");
+  return o.is_path() || o.names == "GRAPH";
 }
 
 /// What bash knows of each command: further commands, options, and options that take something.
 void add_to_bash(const Command& c, std::string& tables) {
   std::vector<std::string> options;
   for (const CommandOption& o : c.options)
-    for (const std::string& n : o.names) {
+    for (const std::string& n : o.spellings()) {
       options.push_back(n);
-      if (!o.argument.empty())
+      if (!o.takes_what().empty())
         tables += fmt::format("_terrazzo_values[{}]={}\n", shell_word(c.path + " " + n),
                               shell_word(o.choices.empty() ? (takes_files(o) ? "=files" : "=text")
                                                            : fmt::format("{}", fmt::join(o.choices, " "))));
     }
   tables += fmt::format("_terrazzo_commands[{}]={}\n", shell_word(c.path),
-                        shell_word(fmt::format("{}", fmt::join(names_of(c.commands), " "))));
+                        shell_word(fmt::format("{}", fmt::join(c.command_names(), " "))));
   tables += fmt::format("_terrazzo_options[{}]={}\n", shell_word(c.path),
                         shell_word(fmt::format("{}", fmt::join(options, " "))));
   for (const Command& sub : c.commands) add_to_bash(sub, tables);
@@ -98,8 +92,8 @@ void add_to_zsh(const Command& c, std::string& functions) {
   for (const CommandOption& o : c.options) {
     const std::string what =
         o.choices.empty() ? (takes_files(o) ? "_files" : " ") : fmt::format("({})", fmt::join(o.choices, " "));
-    const std::string takes = o.argument.empty() ? "" : fmt::format(":{}:{}", for_zsh(o.argument), what);
-    for (const std::string& n : o.names)
+    const std::string takes = o.takes_what().empty() ? "" : fmt::format(":{}:{}", for_zsh(o.takes_what()), what);
+    for (const std::string& n : o.spellings())
       arguments += " \\\n    " + shell_word(fmt::format("*{}[{}]{}", n, for_zsh(brief(o.help)), takes));
   }
   if (c.commands.empty()) {
@@ -131,13 +125,13 @@ void add_to_fish(const Command& c, const std::vector<std::string>& within, std::
     when += fmt::format("{}__fish_seen_subcommand_from {}", when.empty() ? "" : "; and ", w);
   if (!c.commands.empty())
     when += fmt::format("{}not __fish_seen_subcommand_from {}", when.empty() ? "" : "; and ",
-                        fmt::join(names_of(c.commands), " "));
+                        fmt::join(c.command_names(), " "));
   const std::string begin = fmt::format("complete -c terrazzo -n {}", shell_word(when));
   for (const CommandOption& o : c.options) {
-    if (o.names.empty()) continue;
+    if (o.is_argument()) continue;
     out += begin;
-    for (const std::string& n : o.names) out += n.starts_with("--") ? " -l " + n.substr(2) : " -s " + n.substr(1);
-    if (!o.argument.empty()) out += takes_files(o) ? " -r -F" : " -x";
+    for (const std::string& n : o.spellings()) out += n.starts_with("--") ? " -l " + n.substr(2) : " -s " + n.substr(1);
+    if (!o.takes_what().empty()) out += takes_files(o) ? " -r -F" : " -x";
     if (!o.choices.empty()) out += " -a " + shell_word(fmt::format("{}", fmt::join(o.choices, " ")));
     out += " -d " + shell_word(brief(o.help)) + "\n";
   }

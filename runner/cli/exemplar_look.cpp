@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/material/interpretation.h"
@@ -32,21 +31,20 @@ std::map<std::string, std::string> ExemplarFlags::interpretations() const {
   return out;
 }
 
-void add_exemplar_flags(CLI::App& command, ExemplarFlags& flags) {
-  command.add_option("FOLDER", flags.folder, "The folder of the exemplar's maps")->required()->type_name("DIR");
+void add_exemplar_flags(Command& command, ExemplarFlags& flags) {
+  command.add_option("FOLDER", &flags.folder, "The folder of the exemplar's maps").required().takes("DIR");
   command
-      .add_option("--name", flags.name,
+      .add_option("--name", &flags.name,
                   "Which material of a folder that holds several: what the names of its files begin with; '*' takes "
                   "all files as one")
-      ->type_name("STEM");
+      .takes("STEM");
   command
-      .add_option("--interpret", flags.interpret,
+      .add_option("--interpret", &flags.interpret,
                   fmt::format("What the file of a map holds where neither its name nor its pixels say it; may be given "
                               "several times. {}",
                               interpretation_help))
-      ->type_name("MAP=HOW")
-      ->take_all()
-      ->expected(1);
+      .takes("MAP=HOW")
+      .repeated();
 }
 
 Graph looking_graph(const ExemplarFlags& flags) {

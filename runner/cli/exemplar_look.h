@@ -5,10 +5,7 @@
 #include <vector>
 
 #include "graphs/document/graph.h"
-
-namespace CLI {
-class App;
-}
+#include "runner/cli/command.h"
 
 /// How commands look at an exemplar before they choose.
 namespace terrazzo {
@@ -24,7 +21,7 @@ struct ExemplarFlags {
 };
 
 /// The argument FOLDER, --name and --interpret.
-void add_exemplar_flags(CLI::App& command, ExemplarFlags& flags);
+void add_exemplar_flags(Command& command, ExemplarFlags& flags);
 
 /// Reads the maps of a folder ("exemplar"), weights them ("weighted"), and looks for what repeats ("lattice") and for
 /// elements ("elements"), as graphs/material.json does. Throws UsageError.

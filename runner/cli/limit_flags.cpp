@@ -2,7 +2,6 @@
 
 #include <charconv>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/image/image_limits.h"
@@ -16,19 +15,19 @@ void LimitFlags::apply() const {
   if (!max_bytes.empty()) set_most_bytes(int64_t(parse_bytes(max_bytes, "--max-bytes")));
 }
 
-void add_limit_flags(CLI::App& command, LimitFlags& flags) {
+void add_limit_flags(Command& command, LimitFlags& flags) {
   command
-      .add_option("--memory", flags.memory,
+      .add_option("--memory", &flags.memory,
                   "Memory to stay within, such as 2G; half of the machine's if not given. Images that do not fit are "
                   "read into a temporary file")
-      ->type_name("SIZE");
+      .takes("SIZE");
   command
       .add_option(
-          "--max-pixels", flags.max_pixels,
+          "--max-pixels", &flags.max_pixels,
           "Read no image of more pixels; as many as fit into half of the machine's memory if not given, or into "
           "16 times what --memory says")
-      ->type_name("N")
-      ->check([](const std::string& text) {
+      .takes("N")
+      .checked_by([](const std::string& text) {
         int64_t pixels = 0;
         const char* const end = text.data() + text.size();
         const auto [stop, error] = std::from_chars(text.data(), end, pixels);
@@ -36,10 +35,10 @@ void add_limit_flags(CLI::App& command, LimitFlags& flags) {
         return fmt::format("expected a number of pixels of at least 1, such as 100000000, found \"{}\"", text);
       });
   command
-      .add_option("--max-bytes", flags.max_bytes,
+      .add_option("--max-bytes", &flags.max_bytes,
                   "Read no image file of more bytes, such as 2G; an eighth of the memory to stay within if not given, "
                   "but at least 256M")
-      ->type_name("SIZE");
+      .takes("SIZE");
 }
 
 }  // namespace terrazzo

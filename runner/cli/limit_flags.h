@@ -3,9 +3,7 @@
 #include <cstdint>
 #include <string>
 
-namespace CLI {
-class App;
-}
+#include "runner/cli/command.h"
 
 namespace terrazzo {
 
@@ -20,6 +18,6 @@ struct LimitFlags {
 };
 
 /// --memory, --max-pixels and --max-bytes.
-void add_limit_flags(CLI::App& command, LimitFlags& flags);
+void add_limit_flags(Command& command, LimitFlags& flags);
 
 }  // namespace terrazzo

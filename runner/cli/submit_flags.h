@@ -5,6 +5,7 @@
 
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/cli_sweep.h"
+#include "runner/cli/command.h"
 #include "runner/farm/arrays.h"
 #include "runner/farm/slurm_script.h"
 
@@ -21,6 +22,6 @@ struct SubmitFlags : GraphFlags {
   SlurmOptions slurm;
 };
 
-void add_submit_flags(CLI::App& command, SubmitFlags& flags);
+void add_submit_flags(Command& command, SubmitFlags& flags);
 
 }  // namespace terrazzo
