@@ -3,7 +3,6 @@
 #include <cerrno>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "core/file/atomic_file.h"
 #include "core/file/bytes.h"
@@ -24,44 +23,12 @@ constexpr double seconds_worth_syncing = 0.05;
 
 }  // namespace
 
-Cache::State::State(std::filesystem::path given, uint64_t bytes)
-    : given_folder(std::move(given)),
-      limit(bytes == 0 ? cache_limit(given_folder) : CacheLimit{bytes, ""}),
-      folder(given_folder),
-      pins(folder.pins(), folder.lock()),
-      leases(folder.leases()) {
-  if (pins.failure() != 0) warn_unwritten(FileError("", pins.failure()));
-}
-
-void Cache::State::warn(const std::string& text) {
-  const std::lock_guard lock(mutex_);
-  if (said_.insert(text).second) warnings_.push_back(text);
-}
-
-void Cache::State::warn_unwritten(const Error& why) {
-  const auto* system = dynamic_cast<const FileError*>(&why);
-  warn(fmt::format("the cache {} cannot be written, so results are not kept: {}", given_folder.string(),
-                   system ? system_message(system->code()) : why.what()));
-}
-
-void Cache::State::discard(const std::filesystem::path& path, const Error& why) {
-  const bool is_gone = ::unlink(path.c_str()) == 0 || errno == ENOENT;
-  if (dynamic_cast<const OutdatedFile*>(&why)) return;  // as after every change of the format
-  warn(fmt::format("a damaged cache entry {}: {}", is_gone ? "was removed" : "is not used, and cannot be removed",
-                   why.what()));
-}
-
-std::vector<std::string> Cache::State::take_warnings() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(warnings_, {});
-}
-
 std::filesystem::path Cache::default_folder() {
   return user_folder("TERRAZZO_CACHE", "XDG_CACHE_HOME", ".cache");
 }
 
 Cache::Cache(const std::filesystem::path& folder, uint64_t limit)
-    : state_(std::make_unique<State>(std::filesystem::absolute(folder), limit)) {}
+    : state_(std::make_unique<CacheState>(std::filesystem::absolute(folder), limit)) {}
 Cache::~Cache() = default;
 
 const std::filesystem::path& Cache::folder() const {

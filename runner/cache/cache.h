@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,23 +10,11 @@
 #include "core/base/task.h"
 #include "core/node/value.h"
 #include "runner/cache/cache_leases.h"
+#include "runner/cache/stage_record.h"
 
 namespace terrazzo {
 
-/// A file that a sink wrote.
-struct OutputFile {
-  std::filesystem::path path;
-  uint64_t bytes = 0;
-  Digest content;
-};
-
-/// What is stored about a stage that has been computed.
-struct StageRecord {
-  std::map<std::string, Digest> outputs;  ///< value digest by output port
-  std::vector<std::string> notes;         ///< notes and warnings of the node
-  std::vector<OutputFile> files;          ///< for sinks
-  double seconds = 0;                     ///< time to compute
-};
+class CacheState;
 
 struct CacheStatus {
   uint64_t bytes = 0;
@@ -110,8 +97,7 @@ class Cache {
  private:
   CacheCollection collect_all();
 
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<CacheState> state_;
 };
 
 /// The digest of a file's content, not memoised; the fixed digest if it is missing or unreadable.

@@ -10,6 +10,7 @@
 #include "core/base/portable_math.h"
 #include "core/file/atomic_file.h"
 #include "core/node/serialize.h"
+#include "runner/cache/cache.h"
 #include "runner/cache/cache_records.h"
 #include "runner/cache/cache_state.h"
 #include "runner/cache/cache_total.h"

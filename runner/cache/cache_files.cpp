@@ -6,6 +6,7 @@
 
 #include "core/file/bytes.h"
 #include "core/file/file_io.h"
+#include "runner/cache/cache.h"
 #include "runner/cache/cache_records.h"
 #include "runner/cache/cache_state.h"
 

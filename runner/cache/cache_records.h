@@ -1,12 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "core/file/file_stamp.h"
-#include "runner/cache/cache.h"
-#include "runner/cache/cache_total.h"
+#include "runner/cache/stage_record.h"
 
 /// The cache's small files: a magic word, a version, the content and a checksum.
 namespace terrazzo {
@@ -14,6 +12,12 @@ namespace terrazzo {
 struct FileMemo {
   FileStamp stamp;
   Digest content;
+};
+
+/// The size of the cache, see runner/cache/cache_total.h.
+struct CacheTotal {
+  uint64_t bytes = 0;
+  int64_t counted_ns = 0;  ///< when all entries were last looked at; since the epoch
 };
 
 std::vector<uint8_t> stage_to_bytes(const Digest& key, const StageRecord& record);

@@ -1,21 +1,24 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "runner/cache/cache.h"
+#include "core/base/error.h"
 #include "runner/cache/cache_folder.h"
 #include "runner/cache/cache_leases.h"
 #include "runner/cache/cache_limit.h"
 #include "runner/cache/cache_pins.h"
 
-/// State shared by the parts of the cache.
 namespace terrazzo {
 
-struct Cache::State {
-  State(std::filesystem::path given, uint64_t bytes);
+/// State shared by the parts of the cache.
+class CacheState {
+ public:
+  CacheState(std::filesystem::path given, uint64_t bytes);
 
   std::filesystem::path given_folder;
   CacheLimit limit;

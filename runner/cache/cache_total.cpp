@@ -4,7 +4,6 @@
 
 #include "core/file/atomic_file.h"
 #include "runner/cache/cache_folder.h"
-#include "runner/cache/cache_records.h"
 
 namespace terrazzo {
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "core/node/serialize.h"
+#include "runner/cache/cache.h"
 #include "runner/cache/cache_records.h"
 #include "runner/cache/cache_state.h"
 #include "runner/cache/history_files.h"
