@@ -11,6 +11,7 @@
 #include "graphs/document/format.h"
 #include "graphs/document/load.h"
 #include "graphs/document/read_document.h"
+#include "runner/engine/planning.h"
 #include "runner/engine/preflight.h"
 #include "runner/engine/source_findings.h"
 

@@ -2,7 +2,8 @@
 
 #include <memory>
 
-#include "runner/engine/schedule.h"
+#include "runner/engine/run_options.h"
+#include "runner/engine/run_result.h"
 
 namespace terrazzo {
 

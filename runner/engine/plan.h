@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,15 +57,6 @@ struct Stage {
   bool loadable() const { return known && known->record && type().persist == Persist::payload && known->stored; }
 };
 
-struct PlanOptions {
-  std::vector<std::string> only{};  ///< the targets; empty: every sink, or without sinks every node that nothing reads
-  std::vector<std::string> keep{};  ///< more targets, whose values are returned in memory
-  bool look_ahead = true;           ///< false: what is certain to fail is no error yet
-  /// A failure ends only what depends on it. A node that is certain to fail, such as one whose file is truncated, is
-  /// one of those then, see Stage::faults.
-  bool keep_going = false;
-};
-
 /// What a run will do, and why. The graph must outlive it.
 struct Plan {
   const Graph* graph = nullptr;
@@ -76,11 +69,6 @@ struct Plan {
   /// The summary and an aligned table of all stages.
   std::string table() const;
 };
-
-/// Determines what must run: everything if `cache` is null. With `history`, reasons name the first difference from the
-/// last run. Throws Error if a name in `options` is not a node, and GraphError with all problems that can be found
-/// before anything runs (see runner/engine/preflight.h); with `keep_going`, only with those that are not one node's.
-Plan make_plan(const Graph& graph, Cache* cache, const PlanOptions& options = {}, const History* history = nullptr);
 
 /// Looks up a stage whose inputs all have names. Reads the cache; changes nothing.
 Resolution resolve(const Plan& plan, int stage, Cache* cache, const History* history);

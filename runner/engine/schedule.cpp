@@ -1,17 +1,17 @@
 #include "runner/engine/schedule.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
 #include <mutex>
 #include <thread>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <tbb/flow_graph.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
-#include "core/base/text.h"
 #include "core/base/thread_limits.h"
 #include "core/image/image_limits.h"
 #include "runner/engine/coordinator.h"
@@ -121,42 +121,6 @@ void remove_if_empty(const std::vector<std::filesystem::path>& folders) {
   std::error_code not_empty;
   for (size_t i = folders.size(); i-- > 0;) std::filesystem::remove(folders[i], not_empty);
 }
-
-}  // namespace
-
-int RunResult::count(StageOutcome::Kind kind) const {
-  return static_cast<int>(
-      std::count_if(stages.begin(), stages.end(), [&](const StageOutcome& s) { return s.kind == kind; }));
-}
-
-std::string RunResult::summary() const {
-  using Kind = StageOutcome::Kind;
-  const int reused = count(Kind::reused), run = count(Kind::run), failed = count(Kind::failed),
-            skipped = count(Kind::skipped), unfinished = count(Kind::unfinished),
-            all = reused + run + failed + skipped + unfinished;
-  std::string out = fmt::format("{}: {} cached, {} run", counted(all, "stage"), reused, run);
-  if (failed > 0) out += fmt::format(", {} failed", failed);
-  if (skipped > 0) out += fmt::format(", {} skipped because of that", skipped);
-  if (unfinished > 0) out += fmt::format(", {} not run", unfinished);
-  return out + fmt::format(", {:.2f} s", seconds);
-}
-
-std::vector<std::string> RunResult::skips() const {
-  std::map<std::string, std::vector<std::string>> by_cause;
-  for (const StageOutcome& s : stages)
-    if (s.kind == StageOutcome::Kind::skipped) by_cause[s.because].push_back(s.node);
-  constexpr size_t most_named = 20;
-  std::vector<std::string> out;
-  for (auto& [cause, nodes] : by_cause) {
-    const size_t more = nodes.size() - std::min(nodes.size(), most_named);
-    nodes.resize(nodes.size() - more);
-    out.push_back(fmt::format("skipped, as \"{}\" failed: {}{}", cause, fmt::join(nodes, ", "),
-                              more > 0 ? fmt::format(" and {} more", more) : ""));
-  }
-  return out;
-}
-
-namespace {
 
 /// Threads beyond the cores find nothing to do, and take the time of those that work by looking for it: of 1024 on two
 /// cores, two thirds of all time.

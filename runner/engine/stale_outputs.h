@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "runner/engine/schedule.h"
+#include "runner/engine/plan.h"
+#include "runner/engine/run_result.h"
 
 namespace terrazzo {
 

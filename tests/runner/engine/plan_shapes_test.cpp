@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "graphs/document/load.h"
-#include "runner/engine/plan.h"
+#include "runner/engine/planning.h"
 #include "tests/run_node.h"
 
 using namespace terrazzo;

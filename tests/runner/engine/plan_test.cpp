@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "runner/engine/history.h"
+#include "runner/engine/planning.h"
 #include "tests/runner/fakes.h"
 
 using namespace terrazzo;

@@ -5,6 +5,7 @@
 #include "core/file/file_io.h"
 #include "graphs/document/load.h"
 #include "graphs/document/variations.h"
+#include "runner/engine/planning.h"
 #include "runner/farm/farm_folder.h"
 #include "test_paths.h"
 #include "tests/runner/workplace.h"

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "runner/engine/planning.h"
+
+namespace terrazzo {
+
+class Sandbox;
+
+/// Receives the events of a run. Calls come from any thread, concurrently, and must return quickly. Every needed stage
+/// gets one of finished, reused, spared, failed and skipped, unless the run ends before.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  virtual void planned(const Plan&) {}
+  virtual void started(const Stage&) {}
+  /// Another process is computing it; called once.
+  virtual void waits(const Stage&) {}
+  virtual void progressed(const Stage&, double /*fraction*/) {}
+  virtual void noted(const Stage&, const std::string& /*message*/) {}
+  virtual void finished(const Stage&, double /*seconds*/) {}
+  /// It did not have to run: its result is cached, or its files are up to date.
+  virtual void reused(const Stage&) {}
+  /// Its result was not needed after all, and does not exist.
+  virtual void spared(const Stage&) {}
+  virtual void failed(const Stage&, const std::string& /*message*/) {}
+  /// It cannot run, as the node `because`, which it needs, has failed. Only with `targets.keep_going`.
+  virtual void skipped(const Stage&, const std::string& /*because*/) {}
+};
+
+struct RunOptions {
+  PlanOptions targets;
+  Cache* cache = nullptr;      ///< null: nothing is reused and nothing is kept
+  History* history = nullptr;  ///< for the reasons in plans; updated by the run
+  int threads = 0;             ///< 0: one per core
+  uint64_t memory = 0;         ///< budget in bytes for values and running nodes; 0: the process's, see memory_budget
+  bool checked =
+      false;  ///< each node twice, and watched, see runner/engine/checked.h; with one thread and without a cache
+  const std::atomic<bool>* cancelled = nullptr;  ///< set it to stop the run; may be null
+  RunObserver* observer = nullptr;
+  const Sandbox* sandbox = nullptr;  ///< keeps nodes from files elsewhere; may be null
+};
+
+}  // namespace terrazzo
