@@ -14,9 +14,6 @@
 /// hide tasks, beat what a batch script asks for, or keep tasks from being ended.
 namespace terrazzo {
 
-/// Before the array's id in a batch job's comment.
-inline constexpr std::string_view slurm_comment_mark = "terrazzo:";
-
 /// A task that Slurm knows and that has not ended.
 struct QueuedTask {
   std::string id;     ///< "17_3"

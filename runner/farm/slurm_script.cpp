@@ -8,7 +8,6 @@
 
 #include "core/base/error.h"
 #include "core/base/shell_words.h"
-#include "runner/farm/slurm.h"
 
 namespace terrazzo {
 

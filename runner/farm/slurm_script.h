@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runner/farm/arrays.h"
@@ -19,6 +20,9 @@ struct SlurmOptions {
 /// Throws Error if an option would break the submission, such as --array, or if Slurm cannot write logs into jobs that
 /// lie in `jobs`.
 void check_slurm_options(const SlurmOptions& options, const std::filesystem::path& jobs);
+
+/// Before the array's id in a batch job's comment.
+inline constexpr std::string_view slurm_comment_mark = "terrazzo:";
 
 /// What a batch job of this array runs. `after`: ids of jobs that must have ended before.
 std::string slurm_script(const FarmJob& job, const TaskArray& array, const std::filesystem::path& folder,
