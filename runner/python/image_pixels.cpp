@@ -10,7 +10,7 @@
 #include "core/base/suggest.h"
 #include "core/image/color.h"
 #include "core/image/image_limits.h"
-#include "runner/python/values.h"
+#include "runner/python/current_node.h"
 #include "runner/python/waiting.h"
 
 namespace terrazzo::python {

@@ -4,8 +4,18 @@
 
 #include <pybind11/numpy.h>
 
+#include "core/image/image.h"
+#include "runner/python/texts.h"
+
 /// Images and their pixels as arrays.
 namespace terrazzo::python {
+
+/// An image, and its pixels as long as somebody looks at them.
+struct ImageHandle {
+  ImagePtr image;
+  std::weak_ptr<const Image> pulled{};
+};
+using ImageHandlePtr = std::shared_ptr<ImageHandle>;
 
 /// An object that keeps something alive, for arrays that look into it.
 template <typename T>

@@ -10,7 +10,8 @@
 
 #include "core/file/path_relation.h"
 #include "runner/engine/checked.h"
-#include "runner/python/values.h"
+#include "runner/python/current_node.h"
+#include "runner/python/texts.h"
 
 namespace terrazzo::python {
 

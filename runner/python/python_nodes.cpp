@@ -8,6 +8,7 @@
 #include "nodes/common/node_faults.h"
 #include "nodes/common/registry.h"
 #include "runner/python/bindings.h"
+#include "runner/python/current_node.h"
 #include "runner/python/values.h"
 
 namespace terrazzo::python {

@@ -1,19 +1,15 @@
 #include "runner/python/values.h"
 
 #include <fmt/format.h>
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "core/base/suggest.h"
-#include "runner/python/image_pixels.h"
 
 namespace terrazzo::python {
 
 namespace py = pybind11;
 
 namespace {
-
-thread_local NodeContext* node_of_thread = nullptr;
 
 std::shared_ptr<MaterialHandle> handle_of(const MaterialPtr& material) {
   auto out = std::make_shared<MaterialHandle>(MaterialHandle{material, {}});
@@ -105,20 +101,6 @@ void bind_material(py::module_& module) {
 }
 
 }  // namespace
-
-const NodeContext* current_node() {
-  return node_of_thread;
-}
-NodeContext* current_node_to_note() {
-  return node_of_thread;
-}
-
-Computes::Computes(NodeContext& node) : before_(node_of_thread) {
-  node_of_thread = &node;
-}
-Computes::~Computes() {
-  node_of_thread = before_;
-}
 
 py::object to_python(const Value& value) {
   if (const auto* image = std::get_if<ImagePtr>(&value))

@@ -8,17 +8,11 @@
 #include <pybind11/pybind11.h>
 
 #include "core/node/node.h"
+#include "runner/python/image_pixels.h"
 #include "runner/python/texts.h"
 
 /// Images, materials and other values as Python objects.
 namespace terrazzo::python {
-
-/// An image, and its pixels as long as somebody looks at them.
-struct ImageHandle {
-  ImagePtr image;
-  std::weak_ptr<const Image> pulled{};
-};
-using ImageHandlePtr = std::shared_ptr<ImageHandle>;
 
 struct MaterialHandle {
   MaterialPtr material;
@@ -43,22 +37,6 @@ pybind11::object to_python(const Value& value);
 Value from_python(const pybind11::handle& object);
 Value from_python(const pybind11::handle& object, ValueType type);
 pybind11::object to_python(const ParamValue& value);
-
-/// The node that this thread computes; null outside of nodes.
-const NodeContext* current_node();
-NodeContext* current_node_to_note();
-
-/// Makes a node the one that this thread computes, for as long as it lives.
-class Computes {
- public:
-  explicit Computes(NodeContext& node);
-  ~Computes();
-  Computes(const Computes&) = delete;
-  Computes& operator=(const Computes&) = delete;
-
- private:
-  NodeContext* before_;
-};
 
 void bind_values(pybind11::module_& module);
 

@@ -10,7 +10,8 @@ with tz.Session() as s:
 from ._errors import Cancelled, Error, Failure, GraphError, Problem, RunError, UnknownName
 from ._graph import Graph, Node, Parameters
 from ._nodes import node
-from ._session import Event, Outcome, Plan, Result, Session, Stage, Variation, export, set_memory_budget
+from ._plan import Plan, Stage
+from ._session import Event, Outcome, Result, Session, Variation, export, set_memory_budget
 from ._terrazzo import Image, Material, Report, UvMap, Value, load_plugin
 from ._terrazzo import add_note as note
 from ._terrazzo import report_progress as progress

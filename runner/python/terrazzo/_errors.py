@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Sequence
 
+from . import _terrazzo
+
 
 @dataclass(frozen=True)
 class Problem:
@@ -74,3 +76,7 @@ class UnknownName(Error, AttributeError, KeyError):
 
     def __str__(self) -> str:
         return str(self.args[0])
+
+
+def _unknown(what: str, name: str, names: Sequence[str]) -> UnknownName:
+    return UnknownName(f'{what} "{name}"{_terrazzo.suggestion(name, list(names))}')

@@ -6,14 +6,12 @@ import json
 import os
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, MutableMapping, Sequence, Union
+from typing import Any, Iterator, Mapping, MutableMapping, Protocol, Sequence, Union
 
 from . import _terrazzo
-from ._errors import Problem, UnknownName
+from ._errors import Problem, _unknown
 from ._nodes import registered
-
-if TYPE_CHECKING:
-    from ._session import Plan, Session
+from ._plan import Names, Plan, _list
 
 Value = Union[_terrazzo.Image, _terrazzo.Material, _terrazzo.Report, _terrazzo.UvMap, _terrazzo.Value]
 PathLike = Union[str, "os.PathLike[str]"]
@@ -35,10 +33,6 @@ def _text_of(value: Any) -> str:
     if isinstance(value, str) and value.startswith("@"):
         return value
     return json.dumps(value, default=_plain, ensure_ascii=False, allow_nan=False)
-
-
-def _unknown(what: str, name: str, names: Sequence[str]) -> UnknownName:
-    return UnknownName(f'{what} "{name}"{_terrazzo.suggestion(name, list(names))}')
 
 
 class Parameters(MutableMapping[str, Any]):
@@ -133,6 +127,12 @@ class Node:
     def __repr__(self) -> str:
         node = self._graph._outline()["nodes"].get(self._name, {"type": "?"})
         return f'<node "{self._name}": {node["type"]}>'
+
+
+class Planner(Protocol):
+    """A session, as far as graphs need it."""
+
+    def plan(self, graph: Graph, only: Names = ()) -> Plan: ...
 
 
 class Graph:
@@ -238,14 +238,15 @@ class Graph:
         registered()
         return self._job.problems(warnings)
 
-    def plan(self, session: Session | None = None, only: Sequence[str] | str = ()) -> Plan:
+    def plan(self, session: Planner | None = None, only: Names = ()) -> Plan:
         """What a run would do, and why; without a session, with the usual cache."""
-        from ._session import Session
-
         if session is not None:
             return session.plan(self, only)
-        with Session() as own:
-            return own.plan(self, only)
+        own = _terrazzo.Session(Path(), True, 0, 0, False)
+        try:
+            return Plan(own.plan(_checked(self, _list(only)), _list(only)))
+        finally:
+            own.close()
 
     def to_text(self, folder: PathLike = ".") -> str:
         """The document with the values that have been set, as it would be saved in that folder."""

@@ -6,15 +6,13 @@ import itertools
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, Union
+from typing import Any, Callable, Iterable, Iterator, Mapping, Union
 
 from . import _terrazzo
-from ._errors import Cancelled, Error, Failure, GraphError, RunError, UnknownName
-from ._graph import Graph, PathLike, Value, _checked, _unknown, _with
+from ._errors import Cancelled, Error, Failure, GraphError, RunError, UnknownName, _unknown
+from ._graph import Graph, PathLike, Value, _checked, _with
 from ._nodes import _cause_of
-
-Names = Union[str, Sequence[str]]
-
+from ._plan import Names, Plan, _list
 
 #: A number, or a size as the command line takes it, such as "300M".
 Bytes = Union[int, str]
@@ -37,10 +35,6 @@ def set_memory_budget(size: Bytes) -> None:
     _terrazzo.set_memory_budget(_bytes("memory budget", size))
 
 
-def _list(names: Names) -> list[str]:
-    return [names] if isinstance(names, str) else list(names)
-
-
 @dataclass(frozen=True)
 class Event:
     """What a progress function gets, always on the thread that called run."""
@@ -57,46 +51,6 @@ class Event:
     #: how many nodes are done, of how many
     done: int
     total: int
-
-
-@dataclass(frozen=True)
-class Stage:
-    """A node in a plan."""
-
-    node: str
-    #: not needed, cached, up to date, derived, depends or run
-    state: str
-    #: why it has to run
-    why: str
-    #: that it will take, as far as earlier runs tell
-    seconds: float
-
-
-class Plan(Sequence[Stage]):
-    """What a run would do. Printed, a table: node, state, why."""
-
-    def __init__(self, plan: dict[str, Any]) -> None:
-        self._stages = [Stage(*s) for s in plan["stages"]]
-        self._table: str = plan["table"]
-        #: "12 stages: 9 cached, 3 to run"
-        self.summary: str = plan["summary"]
-
-    def __getitem__(self, index: Any) -> Any:
-        if isinstance(index, str):
-            for s in self._stages:
-                if s.node == index:
-                    return s
-            raise _unknown("the plan has no node", index, [s.node for s in self._stages])
-        return self._stages[index]
-
-    def __len__(self) -> int:
-        return len(self._stages)
-
-    def __str__(self) -> str:
-        return self._table.rstrip("\n")
-
-    def __repr__(self) -> str:
-        return f"<Plan {self.summary}>"
 
 
 @dataclass(frozen=True)
