@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "graphs/document/excerpt.h"
-
 namespace terrazzo {
 
 const JsonValue* JsonValue::find(std::string_view name) const {
@@ -74,6 +72,13 @@ std::string in_quotes(std::string_view text) {
     }
   }
   return out + "\"";
+}
+
+std::string excerpt(std::string_view text, size_t most) {
+  if (text.size() <= most) return in_quotes(text);
+  size_t end = most;
+  while (end > 0 && (static_cast<uint8_t>(text[end]) & 0xC0) == 0x80) end--;
+  return in_quotes(text.substr(0, end)) + " and so on";
 }
 
 std::string found(const JsonValue& value) {

@@ -76,5 +76,7 @@ std::string pointer_to(const JsonValue& document, Place place);
 std::string found(const JsonValue& value);
 /// A text as it stands in a JSON file, in quotes.
 std::string in_quotes(std::string_view text);
+/// A text of a document in quotes, for a message: of a long one the beginning, with "and so on" behind it.
+std::string excerpt(std::string_view text, size_t most = 200);
 
 }  // namespace terrazzo

@@ -13,7 +13,7 @@
 #include "graphs/document/forecasts.h"
 #include "graphs/document/given_inputs.h"
 #include "graphs/document/left_out.h"
-#include "graphs/document/level.h"
+#include "graphs/document/levels.h"
 #include "graphs/document/member_overrides.h"
 #include "graphs/document/pack_settings.h"
 #include "graphs/document/read_document.h"

@@ -9,7 +9,7 @@
 #include "core/base/text.h"
 #include "core/file/read_guard.h"
 #include "graphs/document/convert.h"
-#include "graphs/document/excerpt.h"
+#include "graphs/document/json.h"
 
 namespace terrazzo {
 

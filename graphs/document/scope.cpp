@@ -7,7 +7,7 @@
 
 #include "core/base/suggest.h"
 #include "graphs/document/convert.h"
-#include "graphs/document/excerpt.h"
+#include "graphs/document/json.h"
 #include "graphs/expression/operations.h"
 
 namespace terrazzo {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "graphs/document/level.h"
+#include "graphs/document/levels.h"
 
 namespace terrazzo {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "graphs/document/level.h"
+#include "graphs/document/levels.h"
 
 /// The wires between the nodes of a document.
 namespace terrazzo {

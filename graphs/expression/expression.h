@@ -5,29 +5,13 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/error.h"
 #include "core/node/node.h"
+#include "graphs/expression/expression_error.h"
+#include "graphs/expression/expression_value.h"
 
 /// Expressions in the parameters of graphs: "=size.x / 2". A small language without loops, names of its own or side
 /// effects; examples/guide/expressions.md has all of it on a page. Thread-safe.
 namespace terrazzo {
-
-/// A value and its unit ("pixels", "degrees"; empty: none, or not known).
-struct ExpressionValue {
-  ParamValue value;
-  std::string unit{};
-};
-
-/// What is wrong with an expression, and where.
-class ExpressionError : public Error {
- public:
-  ExpressionError(size_t offset, const std::string& message) : Error(message), offset_(offset) {}
-  /// Bytes from the beginning of the text that Expression was given.
-  size_t offset() const { return offset_; }
-
- private:
-  size_t offset_;
-};
 
 /// What the names in an expression stand for. What these throw as Error becomes an ExpressionError at the name.
 class ExpressionScope {

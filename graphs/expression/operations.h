@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "graphs/expression/expression.h"
+#include "graphs/expression/expression_value.h"
 
 /// What operators and functions do with values. All throw Error without a place; who calls them knows it.
 ///

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "graphs/expression/expression.h"
+#include "core/node/node.h"
+#include "graphs/expression/expression_error.h"
 
 namespace terrazzo::expression {
 

@@ -1,39 +1,20 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/geometry.h"
-#include "core/base/hash.h"
 #include "core/node/node.h"
+#include "graphs/library/library_entry.h"
 
 /// Named analyses that graphs and people share: `"library:brick/red"` in a graph stands for one of them. A library is a
 /// folder. Of the entry brick/red it holds brick/red.json, which describes it and names the files beside it: the
 /// analysis and a picture, whose names carry their content's digest. So an entry is replaced in one step, while others
 /// read it. Thread-safe; several processes may use one library at once.
 namespace terrazzo {
-
-struct LibraryEntry {
-  std::string name;  ///< "brick/red"
-  std::string summary;
-  std::vector<std::string> tags;
-  std::filesystem::path library;        ///< the folder it lies in
-  std::filesystem::path analysis;       ///< the file that load_analysis reads
-  Digest content;                       ///< of that file
-  std::filesystem::path picture;        ///< empty if there is none
-  std::filesystem::path material;       ///< the folder of the analysed maps; empty if it is not known
-  std::map<std::string, Digest> files;  ///< the content of the maps' files, by name, when they were analysed
-  std::map<std::string, int> versions;  ///< of the node types that made the analysis
-  std::vector<std::string> settings;    ///< with which the maps were analysed, as for --set
-  std::vector<std::string> maps;        ///< that were analysed
-  Size size;                            ///< of the exemplar
-  std::string added;                    ///< the day, "2026-11-25"
-};
 
 /// Whether a text names an entry of a library.
 bool is_library_reference(std::string_view text);

@@ -1,4 +1,4 @@
-#include "graphs/document/level.h"
+#include "graphs/document/levels.h"
 
 #include <algorithm>
 

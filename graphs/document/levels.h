@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "graphs/document/level.h"
+
+/// Reads the nodes of a graph with those of its subgraphs.
+namespace terrazzo {
+
+/// An override on its way to its node, in the level that has "walls" for "walls[brick]/layout".
+struct RoutedOverride {
+  const Override* override = nullptr;
+  std::string name;   ///< "walls[brick]"
+  std::string plain;  ///< "walls"
+  std::string rest;   ///< "layout"
+};
+
+/// Reads levels. Keeps all that has been read.
+class Levels {
+ public:
+  Levels(Subgraphs& graphs, const KnownTypes& types, std::vector<Problem>& problems)
+      : graphs_(graphs), types_(types), problems_(problems) {}
+
+  /// Reads the document's nodes and those of its subgraphs. `root` has graph, parameters, scope and substitution.
+  /// Overrides must outlive this.
+  Level& read(std::unique_ptr<Level> root, const std::vector<Override>& overrides);
+
+  /// Nodes that run; muted ones and those that are graphs are not among them.
+  Drafts& nodes() { return nodes_; }
+  /// The nodes that are graphs or muted.
+  Drafts& others() { return others_; }
+  const Drafts& nodes() const { return nodes_; }
+  const Drafts& others() const { return others_; }
+  const std::vector<std::unique_ptr<Level>>& all() const { return levels_; }
+  /// By the path that begins its nodes' names; null if there is none.
+  const Level* find(const std::string& path) const {
+    const auto at = by_path_.find(path);
+    return at == by_path_.end() ? nullptr : at->second;
+  }
+  /// Whether there is more than may be; the rest has not been read then, and a problem says so.
+  bool is_full() const { return is_full_; }
+  /// Files and folders that loops were made from.
+  const std::vector<LoopSource>& made_from() const { return made_from_; }
+  /// Parameters that loops need and that have no value.
+  const std::set<std::string>& unset_for_loops() const { return unset_for_loops_; }
+
+  /// Reads what the nodes of this level, and the graphs around it, wait for, as far as all they ask for is known.
+  void read_what_waits(Level& level, const std::set<std::string>& known);
+  /// Tells every scope where to ask for forecasts.
+  void set_forecasts(const GraphScope::Forecasts& forecasts);
+
+ private:
+  void read_level(Level& level, const std::vector<RoutedOverride>& overrides);
+  void read_item(Level& level, const JsonMember& member, const std::vector<RoutedOverride>& overrides);
+  void read_round(Level& level, const JsonMember& member, const std::string& local, Names& names,
+                  const std::vector<RoutedOverride>& overrides, std::vector<Item>& items);
+  Level* read_use(Level& outer, NodeDraft& use, const Subgraph& graph, const std::vector<RoutedOverride>& overrides);
+  void read_outputs(Level& level);
+  std::optional<int64_t> read_seed(Level& level);
+  Names* names_of_round(Level& level, const LoopRound& round, Diagnostics& diagnostics);
+  void refuse_unknown(const Level& level, const std::vector<RoutedOverride>& overrides);
+
+  Subgraphs& graphs_;
+  const KnownTypes& types_;
+  std::vector<Problem>& problems_;
+  std::vector<std::unique_ptr<Level>> levels_;
+  std::map<std::string, const Level*> by_path_;
+  Drafts nodes_, others_;
+  std::deque<NodeType> use_types_;
+  std::deque<Port> output_ports_;
+  std::vector<LoopSource> made_from_;
+  std::set<std::string> unset_for_loops_;
+  size_t text_ = 0;        ///< bytes in the values of nodes
+  size_t parameters_ = 0;  ///< of subgraphs
+  bool is_full_ = false;
+};
+
+/// Gives the parameters of a level the values that its node says, as far as they are known.
+void bind_parameters(Level& level);
+
+}  // namespace terrazzo

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "core/node/node.h"
+
+namespace terrazzo {
+
+/// A value and its unit ("pixels", "degrees"; empty: none, or not known).
+struct ExpressionValue {
+  ParamValue value;
+  std::string unit{};
+};
+
+}  // namespace terrazzo
