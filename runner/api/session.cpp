@@ -1,70 +1,86 @@
 #include "runner/api/session.h"
 
+#include <filesystem>
 #include <optional>
 
 #include "runner/engine/history.h"
+#include "runner/engine/schedule.h"
 
 namespace terrazzo {
 
 namespace {
 
-PlanOptions targets_of(const CheckedJob& job, const RunRequest& request) {
-  return {.only = nodes_meant(job.graph(), request.only), .keep = nodes_meant(job.graph(), request.keep)};
+/// Beside the cache; a graph without a name has none.
+std::optional<History> history_of(const Graph& graph, const Cache* cache) {
+  if (!cache || graph.file.empty()) return std::nullopt;
+  return History(cache->folder(), graph.file);
 }
 
-/// Beside the cache; graphs that were made in memory have none.
+/// Nor has a document in memory: others may go by the same name.
 std::optional<History> history_of(const CheckedJob& job, const Cache* cache) {
   std::error_code missing;
-  const std::filesystem::path& file = job.graph().file;
-  if (!cache || file.empty() || !std::filesystem::exists(file, missing)) return std::nullopt;
-  return History(cache->folder(), file);
+  return std::filesystem::exists(job.graph().file, missing) ? history_of(job.graph(), cache) : std::nullopt;
+}
+
+History* pointer_to(std::optional<History>& history) {
+  return history ? &*history : nullptr;
 }
 
 }  // namespace
 
 Session::Session(SessionOptions options) : options_(std::move(options)) {
   if (options_.use_cache && !options_.checked)
-    cache_ = std::make_unique<Cache>(options_.cache.empty() ? Cache::default_folder() : options_.cache);
+    cache_ = std::make_shared<Cache>(options_.cache.empty() ? Cache::default_folder() : options_.cache);
 }
 
-Session::~Session() {
-  if (!cache_ || !has_stored_) return;
-  try {
-    cache_->collect();
-  } catch (const std::exception&) {
-    // The next session will.
-  }
-}
+Session::Session(std::shared_ptr<Cache> cache, const SessionOptions& options)
+    : options_(options), cache_(std::move(cache)) {}
 
-/// It looks at every entry, which takes longer than a run that finds all it needs.
-void Session::collect_at_times() {
-  {
-    const std::lock_guard lock(mutex_);
-    has_stored_ = true;
-    const auto now = std::chrono::steady_clock::now();
-    if (now - collected_ < std::chrono::seconds(10)) return;
-    collected_ = now;
-    has_stored_ = false;
-  }
-  cache_->collect();
+Session::~Session() = default;
+
+RunOptions Session::options_for(const Graph& graph, const RunRequest& request) const {
+  return {.targets = {.only = nodes_meant(graph, request.only),
+                      .keep = nodes_meant(graph, request.keep),
+                      .look_ahead = request.look_ahead,
+                      .keep_going = request.keep_going},
+          .cache = cache_.get(),
+          .threads = options_.threads,
+          .memory = options_.memory,
+          .checked = options_.checked,
+          .cancelled = request.cancelled,
+          .observer = request.observer,
+          .sandbox = request.sandbox};
 }
 
 Plan Session::plan(const CheckedJob& job, const RunRequest& request) {
-  const std::optional<History> history = history_of(job, cache_.get());
-  return make_plan(job.graph(), cache_.get(), targets_of(job, request), history ? &*history : nullptr);
+  std::optional<History> history = history_of(job, cache_.get());
+  return make_plan(job.graph(), cache_.get(), options_for(job.graph(), request).targets, pointer_to(history));
+}
+
+Plan Session::plan(const Graph& graph, const RunRequest& request) {
+  std::optional<History> history = history_of(graph, cache_.get());
+  return make_plan(graph, cache_.get(), options_for(graph, request).targets, pointer_to(history));
 }
 
 RunResult Session::run(const CheckedJob& job, const RunRequest& request) {
   std::optional<History> history = history_of(job, cache_.get());
-  RunResult result = run_graph(job.graph(), {.targets = targets_of(job, request),
-                                             .cache = cache_.get(),
-                                             .history = history ? &*history : nullptr,
-                                             .threads = options_.threads,
-                                             .memory = options_.memory,
-                                             .checked = options_.checked,
-                                             .cancelled = request.cancelled,
-                                             .observer = request.observer});
-  if (cache_ && result.count(StageOutcome::Kind::run) > 0) collect_at_times();
+  return run(plan(job, request), request, pointer_to(history));
+}
+
+RunResult Session::run(const Graph& graph, const RunRequest& request) {
+  return run(plan(graph, request), request);
+}
+
+RunResult Session::run(Plan plan, const RunRequest& request) {
+  std::optional<History> history = history_of(*plan.graph, cache_.get());
+  return run(std::move(plan), request, pointer_to(history));
+}
+
+RunResult Session::run(Plan plan, const RunRequest& request, History* history) {
+  RunOptions options = options_for(*plan.graph, request);
+  options.history = history;
+  RunResult result = run_plan(std::move(plan), options);
+  if (cache_) cache_->collect_if_due();
   return result;
 }
 

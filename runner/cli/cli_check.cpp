@@ -7,13 +7,13 @@
 #include "core/base/text.h"
 #include "graphs/document/pack.h"
 #include "graphs/document/read_document.h"
+#include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/console.h"
 #include "runner/cli/limit_flags.h"
 #include "runner/cli/signals.h"
 #include "runner/engine/preflight.h"
-#include "runner/engine/schedule.h"
 #include "runner/engine/source_findings.h"
 
 namespace terrazzo {
@@ -61,7 +61,7 @@ Findings look_at(const CheckFlags& flags) {
     check_what_is_set(loaded.graph);
     note("nodes that depend on the graph's inputs were checked only as far as that goes without them");
   } else {
-    make_plan(loaded.graph, nullptr);
+    Session({.use_cache = false}).plan(loaded.graph);
   }
   const CancelOnSignal signals;
   const Task task(&signals.flag(), {});

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include "nodes/sink/export_report.h"
+#include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/console.h"
 #include "runner/cli/limit_flags.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/written_files.h"
 #include "runner/engine/memory_graph.h"
-#include "runner/engine/schedule.h"
 #include "runner/report/html_report.h"
 
 namespace terrazzo {
@@ -65,10 +65,8 @@ int compare(const CompareFlags& flags) {
   const WrittenFile sheet = {"--sheet", flags.sheet, is_page(flags.sheet) ? WrittenKind::page : WrittenKind::picture};
   check_kept({sheet}, inputs_of(graph));
   check_replaced({sheet}, flags.force);
-  RunOptions options;
-  options.targets.keep = {"figures"};
-  options.cancelled = &signals.flag();
-  const RunResult result = run_graph(graph, options);
+  const RunResult result =
+      Session({.use_cache = false}).run(graph, {.keep = {"figures"}, .cancelled = &signals.flag()});
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
   if (result.cancelled) return exit_cancelled;
   if (!result.ok()) return exit_failed;

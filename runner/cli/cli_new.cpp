@@ -7,6 +7,7 @@
 #include "core/file/atomic_file.h"
 #include "graphs/document/problem.h"
 #include "graphs/document/stock_graphs.h"
+#include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_run.h"
 #include "runner/cli/console.h"
@@ -15,7 +16,6 @@
 #include "runner/cli/signals.h"
 #include "runner/cli/starting_graph.h"
 #include "runner/cli/written_files.h"
-#include "runner/engine/schedule.h"
 
 namespace terrazzo {
 
@@ -38,9 +38,9 @@ fs::path seen_from(const fs::path& beside, const fs::path& folder) {
   return relative.empty() ? fs::absolute(folder) : relative;
 }
 
-RunResult run_on_folder(const Graph& graph, const RunOptions& options, const std::string& folder) {
+RunResult run_on_folder(const Graph& graph, const RunRequest& request, const std::string& folder) {
   try {
-    return run_graph(graph, options);
+    return Session({.use_cache = false}).run(graph, request);
   } catch (const GraphError& e) {
     std::vector<Problem> problems;
     for (const Problem& p : e.problems()) problems.push_back({{}, "FOLDER", for_command_line(p.message, folder)});
@@ -66,10 +66,8 @@ int make_new(const NewFlags& flags) {
   check_writable("-o", flags.out);
   const CancelOnSignal signals;
   const Graph graph = looking_graph(flags.exemplar);
-  RunOptions options;
-  options.targets.keep = {"exemplar", "elements"};
-  options.cancelled = &signals.flag();
-  const RunResult result = run_on_folder(graph, options, flags.exemplar.folder);
+  const RunResult result =
+      run_on_folder(graph, {.keep = {"exemplar", "elements"}, .cancelled = &signals.flag()}, flags.exemplar.folder);
   for (const Failure& f : result.failures) say("error: {}\n", f.message);
   print_warnings(result);
   if (!result.ok()) return result.cancelled ? exit_cancelled : exit_failed;

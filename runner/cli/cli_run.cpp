@@ -10,6 +10,7 @@
 #include "core/file/read_guard.h"
 #include "graphs/document/load.h"
 #include "graphs/document/override.h"
+#include "runner/api/session.h"
 #include "runner/cache/cache_limit.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
@@ -18,7 +19,6 @@
 #include "runner/cli/signals.h"
 #include "runner/cli/watch.h"
 #include "runner/engine/checked.h"
-#include "runner/engine/history.h"
 #include "runner/engine/preflight.h"
 #include "runner/engine/sandbox.h"
 #include "runner/report/html_report.h"
@@ -54,11 +54,11 @@ std::optional<uint64_t> limit_of_cache(const RunFlags& flags) {
 }
 
 /// The cache to use. The usual folder may be out of reach, which costs time; one that was asked for may not.
-std::unique_ptr<Cache> open_cache(const RunFlags& flags) {
+std::shared_ptr<Cache> open_cache(const RunFlags& flags) {
   if (!flags.keeps()) return nullptr;
   const std::optional<uint64_t> limit = limit_of_cache(flags);
   try {
-    return std::make_unique<Cache>(cache_folder(flags), limit.value_or(0));
+    return std::make_shared<Cache>(cache_folder(flags), limit.value_or(0));
   } catch (const Error& e) {
     if (!flags.cache.empty()) throw UsageError(fmt::format("--cache {}: {}", flags.cache, e.what()));
     warn(flags, fmt::format("running without a cache: {}", e.what()));
@@ -172,28 +172,19 @@ Guarded load_guarded(const LoadGraph& load, const RunFlags& flags) {
   return out;
 }
 
-int run_once(const Guarded& guarded, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
+int run_once(const Guarded& guarded, const RunFlags& flags, Session& session, const std::atomic<bool>& cancelled) {
   const auto& [graph, sandbox] = guarded;
-  std::optional<History> history;
-  if (cache && !graph.file.empty()) history.emplace(cache->folder(), graph.file);
-  RunOptions options;
-  options.targets.only = nodes_meant(graph, flags.only);
-  options.cache = cache;
-  options.history = history ? &*history : nullptr;
-  options.threads = flags.threads;
-  options.checked = flags.is_checked();
-  options.cancelled = &cancelled;
-  options.targets.keep = flags.keep;
-  options.targets.keep_going = flags.keep_going;
-
-  options.sandbox = sandbox ? &*sandbox : nullptr;
+  RunRequest request{.only = flags.only,
+                     .keep = flags.keep,
+                     .keep_going = flags.keep_going,
+                     .sandbox = sandbox ? &*sandbox : nullptr,
+                     .cancelled = &cancelled};
   const Plan plan = summarizing_failure(flags, [&, &graph = graph, &sandbox = sandbox] {
     check_sandbox(graph, sandbox);
     try {
       if (!flags.report.empty())
-        for (std::string& name : nodes_for_report(graph, flags.only, cache))
-          options.targets.keep.push_back(std::move(name));
-      return make_plan(graph, cache, options.targets, options.history);
+        for (std::string& name : nodes_for_report(graph, flags.only, session)) request.keep.push_back(std::move(name));
+      return session.plan(graph, request);
     } catch (const GraphError&) {
       throw;
     } catch (const Error& e) {
@@ -209,17 +200,13 @@ int run_once(const Guarded& guarded, const RunFlags& flags, Cache* cache, const 
   }
   const ProgressMode mode = *progress_mode_from(flags.progress);
   const std::unique_ptr<Progress> progress = make_progress(mode, std::cerr, is_terminal());
-  options.observer = progress.get();
-  const RunResult result = run_plan(plan, options);
-  std::vector<std::string> warnings;
-  if (cache) {
-    cache->collect_if_due();
-    warnings = cache->take_warnings();
-    for (const std::string& w : warnings) progress->warned(w);
-  }
+  request.observer = progress.get();
+  const RunResult result = session.run(plan, request);
+  std::vector<std::string> warnings = session.take_warnings();
+  for (const std::string& w : warnings) progress->warned(w);
   progress->closed(result);
   if (mode != ProgressMode::json) print_end(result, mode);
-  RunSummary summary{graph.file, &plan, &result, cache, std::move(warnings)};
+  RunSummary summary{graph.file, &plan, &result, session.cache(), std::move(warnings)};
   summary.variations = flags.variations;
   summary.exit_code = result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
   try {
@@ -237,7 +224,7 @@ int run_once(const Guarded& guarded, const RunFlags& flags, Cache* cache, const 
   return summary.exit_code;
 }
 
-int watch(const LoadGraph& load, const RunFlags& flags, Cache* cache, const std::atomic<bool>& cancelled) {
+int watch(const LoadGraph& load, const RunFlags& flags, Session& session, const std::atomic<bool>& cancelled) {
   Watch watched;
   const ProgressMode mode = *progress_mode_from(flags.progress);
   Guarded guarded;
@@ -250,7 +237,7 @@ int watch(const LoadGraph& load, const RunFlags& flags, Cache* cache, const std:
       guarded = summarizing_failure(flags, [&] { return load_guarded(load, flags); });
       watched.look_at(guarded.graph);
       watched.until_change(cancelled,
-                           [&](const std::atomic<bool>& stop) { code = run_once(guarded, flags, cache, stop); });
+                           [&](const std::atomic<bool>& stop) { code = run_once(guarded, flags, session, stop); });
     } catch (const Error& e) {
       write_error(mode, std::cerr, e);
     }
@@ -328,10 +315,10 @@ int run_with_flags(const LoadGraph& load, const RunFlags& flags) {
   check_replaced(files_of(flags), flags.force);
   if (flags.is_checked() && !is_watching()) warn(flags, "what nodes read is not watched: " + why_not_watching());
   const CancelOnSignal signals;
-  const std::unique_ptr<Cache> cache = open_cache(flags);
-  if (flags.watch) return watch(load, flags, cache.get(), signals.flag());
+  Session session(open_cache(flags), {.threads = flags.threads, .checked = flags.is_checked()});
+  if (flags.watch) return watch(load, flags, session, signals.flag());
   const Guarded guarded = summarizing_failure(flags, [&] { return load_guarded(load, flags); });
-  return run_once(guarded, flags, cache.get(), signals.flag());
+  return run_once(guarded, flags, session, signals.flag());
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #include "core/file/atomic_file.h"
 #include "graphs/document/load.h"
 #include "runner/api/plugin.h"
+#include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_farm.h"
 #include "runner/cli/cli_graph.h"
@@ -16,7 +17,6 @@
 #include "runner/cli/console.h"
 #include "runner/cli/signals.h"
 #include "runner/cli/submit_flags.h"
-#include "runner/engine/history.h"
 #include "runner/engine/preflight.h"
 #include "runner/farm/left_out.h"
 #include "runner/farm/openjd.h"
@@ -56,23 +56,22 @@ std::string lines_of(const std::map<std::string, std::string>& left_out) {
 }
 
 /// The job that the flags stand for, not written yet. Throws Error if nothing of it can be made.
-PreparedJob prepared_job(const SubmitFlags& flags, Cache& cache) {
+PreparedJob prepared_job(const SubmitFlags& flags, Session& session) {
   std::vector<std::string> only;
   Graph graph = graph_of(flags, only);
-  const History history(cache.folder(), graph.file);
-  PlanOptions targets{.only = nodes_meant(graph, only), .keep_going = flags.keep_going};
-  Plan plan = as_usage([&] { return make_plan(graph, &cache, targets, &history); });
+  RunRequest request{.only = only, .keep_going = flags.keep_going};
+  Plan plan = as_usage([&] { return session.plan(graph, request); });
   const LeftOut left_out = left_out_of(plan);
   if (!left_out.nodes.empty()) {
     if (left_out.targets.empty())
       throw Error(fmt::format("{}\nnothing can be made without that", lines_of(left_out.why)));
     take_out(left_out, graph);
-    targets.only = left_out.targets;
-    plan = make_plan(graph, &cache, targets, &history);
+    request.only = left_out.targets;
+    plan = session.plan(graph, request);
   }
   std::vector<std::string> plugins;
   for (const LoadedPlugin& p : loaded_plugins()) plugins.push_back(fs::absolute(p.file).string());
-  return prepared(plan, cache, plugins, left_out.why);
+  return prepared(plan, *session.cache(), plugins, left_out.why);
 }
 
 /// "1.5 GiB", "12 s"; what Slurm will be asked for.
@@ -283,7 +282,8 @@ int work_on_job(const fs::path& folder, const SubmitFlags& flags, Cache& cache, 
 
 int submit(SubmitFlags& flags) {
   const CancelOnSignal signals;
-  Cache cache(as_usage([&] { return flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache); }));
+  Session session = as_usage([&] { return Session({.cache = flags.cache}); });
+  Cache& cache = *session.cache();
   const Slurm slurm(tell, &signals.flag());
   const FarmFolder farm(cache.folder());
   if (!flags.memory.empty()) flags.arrays.memory = parse_bytes(flags.memory, "--memory");
@@ -304,7 +304,7 @@ int submit(SubmitFlags& flags) {
   if (is_about_a_job && !names_a_graph)
     return work_on_job(as_usage([&] { return farm.find_job(flags.graph); }), flags, cache, slurm, signals.flag());
   flags.open_pack(cache.folder());
-  const PreparedJob job = prepared_job(flags, cache);
+  const PreparedJob job = prepared_job(flags, session);
   if (is_about_a_job) {
     if (!fs::exists(job.folder / "job.json", missing))
       throw UsageError(fmt::format("{} has not been submitted with these values", flags.graph));

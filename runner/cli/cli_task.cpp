@@ -8,6 +8,7 @@
 
 #include "core/base/suggest.h"
 #include "core/file/atomic_file.h"
+#include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_farm.h"
 #include "runner/cli/console.h"
@@ -95,9 +96,9 @@ uint64_t memory_given() {
 }
 
 int list_units(const fs::path& folder, const FarmJob& job, const fs::path& cache_folder) {
-  Cache cache(cache_folder);
+  Session session({.cache = cache_folder});
   const LoadedGraph loaded = load_frozen(folder, job.document);
-  const Plan plan = make_plan(loaded.graph, &cache, {.only = job.targets, .look_ahead = false});
+  const Plan plan = session.plan(loaded.graph, {.only = job.targets, .look_ahead = false});
   answer("{}\n", state_json(folder, job, state_of(folder, job, plan, {})));
   return exit_done;
 }

@@ -13,6 +13,7 @@
 #include "core/image/resample.h"
 #include "graphs/document/load.h"
 #include "graphs/document/stock_graphs.h"
+#include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/engine/memory_graph.h"
 #include "runner/engine/preflight.h"
@@ -110,17 +111,15 @@ std::optional<LibraryEntry> made_entry(const LibraryAddition& asked, const fs::p
   LibraryEntry entry;
   entry.analysis = place / "new.analysis";
   Graph graph = is_folder ? analysing_graph(asked, entry.analysis) : copying_graph(asked, entry.analysis);
-  RunOptions options;
-  options.cancelled = &cancelled;
-  options.targets.keep = {"index"};
+  RunRequest request{.keep = {"index"}, .cancelled = &cancelled};
   const bool has_maps = find_node(graph, "exemplar") != nullptr;
   if (has_maps) {
     graph.nodes.push_back(picture_node());
-    for (const char* kept : {"exemplar", "picture"}) options.targets.keep.emplace_back(kept);
+    for (const char* kept : {"exemplar", "picture"}) request.keep.emplace_back(kept);
   }
   for (const GraphNode& n : graph.nodes)
     if (is_folder && n.type->category == "analysis") entry.versions[n.type->name] = n.type->version;
-  result = run_graph(graph, options);
+  result = Session({.use_cache = false}).run(graph, request);
   if (!result.ok()) return std::nullopt;
 
   const auto index = std::get<IndexPtr>(result.kept.at("index").at("index"));

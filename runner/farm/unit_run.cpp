@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/file/file_io.h"
+#include "runner/api/session.h"
 
 namespace terrazzo {
 
@@ -104,33 +105,27 @@ Digest key_on_farm(const GraphNode& node, Cache& cache) {
 
 UnitResult run_unit(const fs::path& folder, const FarmJob& job, const Unit& unit, const UnitRunOptions& options) {
   const LoadedGraph loaded = load_frozen(folder, job.document);
-  Cache cache(options.cache);
+  Session session({.cache = options.cache, .threads = options.threads, .memory = options.memory});
+  Cache& cache = *session.cache();
   check_nodes(folder, job, unit, loaded.graph, cache);
-  RunOptions run;
-  run.targets.only = unit.targets;
-  run.cache = &cache;
-  run.threads = options.threads;
-  run.memory = options.memory;
-  run.cancelled = options.cancelled;
-  run.observer = options.observer;
+  const RunRequest run{.only = unit.targets, .observer = options.observer, .cancelled = options.cancelled};
 
-  PlanOptions with_needs = run.targets;
-  with_needs.look_ahead = false;
+  RunRequest with_needs{.only = unit.targets, .look_ahead = false};
   with_needs.only.insert(with_needs.only.end(), unit.needs.begin(), unit.needs.end());
   look_for(options.patience, options.cancelled, [&] {
-    const Plan plan = make_plan(loaded.graph, &cache, with_needs);
+    const Plan plan = session.plan(loaded.graph, with_needs);
     const std::set<std::string> made = made_nodes(plan);
     if (is_done(unit, made)) return true;
     check_failures(folder, job, unit, made);
     return has_all_it_needs(job, unit, made);
   });
 
-  UnitResult result{.run = run_graph(loaded.graph, run)};
+  UnitResult result{.run = session.run(loaded.graph, run)};
   if (!result.run.ok()) return result;
   std::string trouble;
   const bool is_there = look_for(options.patience, options.cancelled, [&] {
     try {
-      const Plan plan = make_plan(loaded.graph, &cache, run.targets);
+      const Plan plan = session.plan(loaded.graph, run);
       for (const std::string& target : unit.targets) result.made[target] = verified(*stage_of(plan, target), cache);
       return true;
     } catch (const Error& e) {
@@ -141,7 +136,6 @@ UnitResult run_unit(const fs::path& folder, const FarmJob& job, const Unit& unit
   if (!is_there)
     throw Error(fmt::format("\"{}\" was made, but {}; is the cache {} full, or not the same on all machines?",
                             unit.name, trouble, options.cache.string()));
-  cache.collect_if_due();
   return result;
 }
 

@@ -99,7 +99,7 @@ class Materials {
 
 }  // namespace
 
-Names nodes_for_report(const Graph& graph, const Names& only, Cache* cache) {
+Names nodes_for_report(const Graph& graph, const Names& only, Session& session) {
   Names names, origins;
   for (const GraphNode& n : graph.nodes) {
     const auto is_meant = [&](const std::string& name) { return stands_for(name, n.name); };
@@ -112,7 +112,7 @@ Names nodes_for_report(const Graph& graph, const Names& only, Cache* cache) {
     add_origins(graph, n, origins);
   }
   std::optional<Plan> plan;
-  if (cache) plan = make_plan(graph, cache, {.only = nodes_meant(graph, only), .keep = names, .keep_going = true});
+  if (session.cache()) plan = session.plan(graph, {.only = only, .keep = names, .keep_going = true});
   for (const std::string& name : origins) {
     const auto at = std::ranges::find(graph.nodes, name, &GraphNode::name) - graph.nodes.begin();
     if (names.size() < most_shown_nodes && (!plan || is_cheap(plan->stages[size_t(at)]))) add_once(names, name);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "runner/engine/schedule.h"
+#include "runner/api/session.h"
 
 /// What of a run a report shows.
 namespace terrazzo {
@@ -11,7 +11,7 @@ namespace terrazzo {
 /// The nodes whose values a report shows: the targets (sinks, or `only`), what sinks read, and, where that costs
 /// nothing much, the exemplars and uv maps these are made from: as far as they run anyway, are stored, or only read a
 /// file. At most `most_shown_nodes`. Pass them as PlanOptions::keep. Throws as make_plan does.
-std::vector<std::string> nodes_for_report(const Graph& graph, const std::vector<std::string>& only, Cache* cache);
+std::vector<std::string> nodes_for_report(const Graph& graph, const std::vector<std::string>& only, Session& session);
 
 inline constexpr size_t most_shown_nodes = 48;
 

@@ -135,19 +135,17 @@ TEST_CASE("what is up to date is not computed for a report's origins") {
   FakeTypes t;
   t.number.category = "source";
   TemporaryFolder folder;
-  Cache cache(folder.path() / "cache");
+  Session session({.cache = folder.path() / "cache"}), without_cache({.use_cache = false});
   Graph g;
   add(g, "a", t.number, {{"value", 4.0}});
   add(g, "total", t.sum, {}, {"a"});
   add(g, "file", t.write, {{"path", (folder.path() / "out.txt").string()}}, {"total"});
-  CHECK(nodes_for_report(g, {}, nullptr) == std::vector<std::string>{"total", "a"});
-  RunOptions options;
-  options.cache = &cache;
-  REQUIRE(run_graph(g, options).ok());
-  options.targets.keep = nodes_for_report(g, {}, &cache);
-  CHECK(options.targets.keep == std::vector<std::string>{"total", "a"});
+  CHECK(nodes_for_report(g, {}, without_cache) == std::vector<std::string>{"total", "a"});
+  REQUIRE(session.run(g).ok());
+  const std::vector<std::string> kept = nodes_for_report(g, {}, session);
+  CHECK(kept == std::vector<std::string>{"total", "a"});
   const int runs = t.runs("number");
-  REQUIRE(run_graph(g, options).ok());
+  REQUIRE(session.run(g, {.keep = kept}).ok());
   CHECK(t.runs("number") == runs);
 }
 
