@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What examples/guide/pipelines.md shows: five folders as downloaded, each with every preset, opened by the presets' readers,
+# What examples/guide/materials.md shows: five folders as downloaded, each with every preset, opened by the presets' readers,
 # differ from the originals by no more than renderers do. Only in the long form of the tests: tests/run.sh -C long. Skips,
 # with exit code 77, where a reader is missing.
 # Usage: tests/pipelines_test.sh SOURCE_FOLDER PROGRAM

@@ -121,7 +121,7 @@ grep -q 'failed.*sized/64' sized-waited.txt || { complain "it does not say why";
 mkdir -p tree/bin
 cp -r "$source/graphs" tree
 ln -s "$program" tree/bin/terrazzo
-awk '/^```bash/ { open = 1; next } /^```/ { open = 0 } open' "$source/examples/guide/farms.md" >tree/commands.sh
+awk '/^```bash/ { open = 1; next } /^```/ { open = 0 } open' "$source/examples/guide/automation.md" >tree/commands.sh
 grep -q 'submit' tree/commands.sh || complain "the guide has no commands to run"
 (cd tree && PATH=$PWD/bin:$PATH bash -euo pipefail commands.sh) >guide.txt 2>&1 || { complain "the guide's commands fail"; cat guide.txt >&2; }
 [ -s tree/out/farm/walls/8/height.png ] || complain "the guide's commands make no walls"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the table of examples/guide/pipelines.md, in three steps, all of them without arguments:
+# Makes the table of examples/guide/materials.md, in three steps, all of them without arguments:
 #   folders   five folders, named and packed as the sites and engines do it, with originals beside them
 #   exports   each of them with each preset
 #   pictures  each export opened by its reader, and compared with the original; the readers are got from the npm registry,

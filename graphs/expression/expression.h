@@ -10,7 +10,7 @@
 #include "graphs/expression/expression_value.h"
 
 /// Expressions in the parameters of graphs: "=size.x / 2". A small language without loops, names of its own or side
-/// effects; examples/guide/expressions.md has all of it on a page. Thread-safe.
+/// effects; examples/guide/graph-files.md describes them. Thread-safe.
 namespace terrazzo {
 
 /// What the names in an expression stand for. What these throw as Error becomes an ExpressionError at the name.

@@ -71,7 +71,7 @@ std::string described(const FileContent& file);
 /// color_space=raw".
 std::string metadata_line(const FileContent& file, PhysicalSize metres);
 
-/// What lies in a folder of exported maps, as JSON: see examples/guide/pipelines.md. `files`: with their extensions.
+/// What lies in a folder of exported maps, as JSON: see examples/guide/materials.md. `files`: with their extensions.
 std::string sidecar_text(const ExportPreset& preset, const std::string& material, PhysicalSize metres,
                          const std::vector<std::pair<std::string, const FileContent*>>& files);
 

@@ -12,7 +12,7 @@
 namespace terrazzo {
 
 /// What a program that started a run wants to know of it afterwards: `run --summary FILE.json`. The members of the file
-/// are described in examples/guide/unattended.md and, for programs, in examples/guide/summary.schema.json.
+/// are described in examples/guide/automation.md and, for programs, in examples/guide/summary.schema.json.
 struct RunSummary {
   std::filesystem::path graph;
   const Plan* plan = nullptr;         ///< null if there was none: the graph is invalid

@@ -1,4 +1,4 @@
-"""terrazzo makes more material out of a small one. See examples/guide/python.md.
+"""terrazzo makes more material out of a small one. See examples/guide/programs.md.
 
 import terrazzo as tz
 g = tz.Graph.load("wall.json")

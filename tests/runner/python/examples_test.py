@@ -31,7 +31,7 @@ class ExamplesTest(Case):
 
     def test_the_blocks_of_the_guide(self):
         shutil.copytree(SOURCE / "graphs", "graphs", ignore=shutil.ignore_patterns("*.cpp", "*.h"))
-        text = (SOURCE / "examples/guide/python.md").read_text()
+        text = (SOURCE / "examples/guide/programs.md").read_text()
         # Each block on the lines that it has in the guide, so that tracebacks name these.
         code, line = "", 1
         for block in re.finditer(r"^```python\n(.*?)^```", text, re.M | re.S):
