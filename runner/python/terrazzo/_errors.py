@@ -1,4 +1,4 @@
-"""What goes wrong, and where."""
+"""Errors."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from . import _terrazzo
 
 @dataclass(frozen=True)
 class Problem:
-    """Something wrong in a graph, or hardly meant."""
+    """A mistake in a graph, or something that is probably unintended."""
 
     message: str
-    #: a JSON pointer (RFC 6901) such as /nodes/lattice/mode; empty if it is about no part of the document
+    #: a JSON pointer (RFC 6901) such as /nodes/lattice/mode; empty if it concerns no part of the document
     pointer: str
-    #: where it stands in the file, from 1; 0 if it does not stand there, as a value that has been set
+    #: line and column in the file, from 1; 0 if it is not in the file, such as a value that was set
     line: int
     column: int
-    #: its kind: "parameter", "wire", "override", "input", ...
+    #: the kind of problem: "parameter", "wire", "override", "input", ...
     code: str
-    #: the node that it is about; may be empty
+    #: the node that it concerns; may be empty
     node: str
     file: str
     #: "error" or "warning"
@@ -43,11 +43,11 @@ class Failure:
 
 
 class Error(Exception):
-    """Whatever terrazzo raises is one of these."""
+    """The base class of all exceptions that terrazzo raises."""
 
 
 class GraphError(Error):
-    """A graph that cannot be read or run. `problems` says why: all that was found."""
+    """The graph cannot be read or run. `problems` has all problems that were found."""
 
     def __init__(self, message: str, problems: Sequence[Problem] = ()) -> None:
         super().__init__(message)
@@ -55,7 +55,7 @@ class GraphError(Error):
 
 
 class RunError(Error):
-    """A run in which nodes failed. `failures` says which, `result` what else is known."""
+    """Nodes failed in a run. `failures` says which; `result` is the result of the rest."""
 
     def __init__(self, message: str, failures: Sequence[Failure] = (), result: Any = None) -> None:
         super().__init__(message)
@@ -63,16 +63,16 @@ class RunError(Error):
         self.result = result
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """To another process goes all but the values."""
+        """Everything but the values goes to another process."""
         return RunError, (str(self), self.failures)
 
 
 class Cancelled(Error):
-    """The run was cancelled: by Session.cancel, or by a progress function or a node that raised this."""
+    """The run was cancelled by Session.cancel, or by a progress function or node that raised this."""
 
 
 class UnknownName(Error, AttributeError, KeyError):
-    """A name that a graph, a node or a result does not have; the message has the nearest."""
+    """A graph, a node or a result has no such name; the message suggests the nearest one."""
 
     def __str__(self) -> str:
         return str(self.args[0])

@@ -1,4 +1,4 @@
-"""Graphs: documents with values on top."""
+"""Graphs: documents, and values set on them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 
 
 def _plain(value: Any) -> Any:
-    """What json cannot write itself: paths, numbers and arrays of NumPy, sets of values."""
+    """Converts what json cannot write: paths, NumPy numbers and arrays, sets of values."""
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if hasattr(value, "tolist"):
@@ -29,14 +29,14 @@ def _plain(value: Any) -> Any:
 
 
 def _text_of(value: Any) -> str:
-    """As the command line has it: wires have no quotes there."""
+    """The value as on the command line, where wires have no quotes."""
     if isinstance(value, str) and value.startswith("@"):
         return value
     return json.dumps(value, default=_plain, ensure_ascii=False, allow_nan=False)
 
 
 class Parameters(MutableMapping[str, Any]):
-    """The parameters that a graph declares, by name. What is deleted is again what the document says."""
+    """The parameters of a graph, by name. Deleting one restores the value from the document."""
 
     _graph: Graph
 
@@ -44,7 +44,7 @@ class Parameters(MutableMapping[str, Any]):
         object.__setattr__(self, "_graph", graph)
 
     def __setattr__(self, name: str, value: Any) -> None:
-        # Nodes have their parameters as attributes; here the value would be lost without a word.
+        # Nodes have their parameters as attributes; here the value would be lost silently.
         raise AttributeError(f'parameters of the graph are set by name: params["{name}"] = {value!r}')
 
     def _checked(self, name: str) -> str:
@@ -69,7 +69,7 @@ class Parameters(MutableMapping[str, Any]):
         return len(self._graph._outline()["parameters"])
 
     def describe(self, name: str) -> dict[str, Any]:
-        """Type, default, help, range, choices and so on."""
+        """The type, default, help, range, choices and so on of a parameter."""
         return dict(self._graph._outline()["parameters"][self._checked(name)])
 
     def __repr__(self) -> str:
@@ -77,7 +77,7 @@ class Parameters(MutableMapping[str, Any]):
 
 
 class Node:
-    """A node of a graph. Its parameters are attributes; so are its ports, whose wires are texts such as "@exemplar"."""
+    """A node of a graph. Its parameters and ports are attributes; the value of a port is a wire such as "@exemplar"."""
 
     _graph: Graph
     _name: str
@@ -87,7 +87,7 @@ class Node:
         object.__setattr__(self, "_name", name)
 
     def _described(self) -> dict[str, Any] | None:
-        """None of nodes inside of graphs that are used as nodes: a check tells what is wrong with their names."""
+        """None for nodes inside subgraphs: `check` finds wrong names there."""
         node = self._graph._outline()["nodes"].get(self._name)
         return node if node and node["known"] else None
 
@@ -130,13 +130,13 @@ class Node:
 
 
 class Planner(Protocol):
-    """A session, as far as graphs need it."""
+    """The part of a session that graphs need."""
 
     def plan(self, graph: Graph, only: Names = ()) -> Plan: ...
 
 
 class Graph:
-    """A graph document with values on top. Copies are independent. Use one from one thread at a time."""
+    """A graph document, and values set on it. Copies are independent. Use a graph from one thread at a time."""
 
     def __init__(self, job: _terrazzo.Job) -> None:
         """Use load, loads or stock."""
@@ -145,13 +145,13 @@ class Graph:
 
     @classmethod
     def load(cls, path: PathLike) -> Graph:
-        """Reads a graph file. Raises GraphError if that is none."""
+        """Reads a graph file. Raises GraphError if it is not one."""
         registered()
         return cls(_terrazzo.Job.open(Path(path)))
 
     @classmethod
     def loads(cls, text: str, path: PathLike = "graph.json") -> Graph:
-        """The same for text in memory; relative paths in it lie in the folder of `path`, which need not exist."""
+        """Reads a graph from text. Relative paths in it are relative to the folder of `path`, which need not exist."""
         registered()
         return cls(_terrazzo.Job.from_text(text, Path(path)))
 
@@ -165,7 +165,7 @@ class Graph:
 
     @property
     def path(self) -> Path:
-        """Where it has been read from."""
+        """The file that it was read from."""
         return self._job.path
 
     def _outline(self) -> dict[str, Any]:
@@ -180,7 +180,7 @@ class Graph:
 
     @property
     def params(self) -> Parameters:
-        """What the graph declares: g.params["seed"] = 7."""
+        """The parameters of the graph: g.params["seed"] = 7."""
         return Parameters(self)
 
     @property
@@ -202,44 +202,44 @@ class Graph:
         return iter(self.nodes)
 
     def set(self, name: str, value: Any) -> Graph:
-        """Sets a parameter of the graph or "node.parameter". Relative paths lie in the working folder. What is wrong with
-        the value is found by check."""
+        """Sets a parameter of the graph or "node.parameter". Relative paths are relative to the working folder. `check`
+        finds wrong values."""
         self._job.set_text(name, _text_of(value))
         return self
 
     def set_text(self, name: str, text: str) -> Graph:
-        """The same for a value as the command line has it: "512x512", "=2 * seed"."""
+        """Sets a value as on the command line: "512x512", "=2 * seed"."""
         self._job.set_text(name, text)
         return self
 
     def unset(self, name: str) -> Graph:
-        """Takes back what has been set."""
+        """Takes back a value that was set."""
         self._job.unset(name)
         return self
 
     def preset(self, name: str) -> Graph:
-        """Sets what a preset of the graph says. Values that are set count more."""
+        """Applies a preset of the graph. Values that are set override it."""
         self._job.preset(name)
         return self
 
     def settings(self, path: PathLike) -> Graph:
-        """Sets what a settings file says: more than presets, less than values that are set."""
+        """Applies a settings file. It overrides presets; values that are set override it."""
         self._job.settings(Path(path))
         return self
 
     def give(self, name: str, value: Value) -> Graph:
-        """Gives an image, a material or another value to an input of the graph, or in place of what a node makes."""
+        """Puts an image, a material or another value into an input of the graph, or in place of a node's result."""
         self._job.give(name, value)
         return self
 
     def check(self, *, warnings: bool = False) -> list[Problem]:
-        """All problems that can be found without running; none if the graph can run. With `warnings`, also what is
-        allowed and hardly meant (see Problem.severity)."""
+        """All problems that can be found without running; an empty list if the graph can run. `warnings` adds what is
+        allowed but probably unintended (see Problem.severity)."""
         registered()
         return self._job.problems(warnings)
 
     def plan(self, session: Planner | None = None, only: Names = ()) -> Plan:
-        """What a run would do, and why; without a session, with the usual cache."""
+        """What a run would do, and why. Without a session, it uses the usual cache."""
         if session is not None:
             return session.plan(self, only)
         own = _terrazzo.Session(Path(), True, 0, 0, False)
@@ -249,12 +249,12 @@ class Graph:
             own.close()
 
     def to_text(self, folder: PathLike = ".") -> str:
-        """The document with the values that have been set, as it would be saved in that folder."""
+        """The document with the values that were set, as it would be saved in that folder."""
         return self._job.text(Path(folder))
 
     def save(self, path: PathLike) -> None:
-        """Writes the document with the values that have been set. All else stays, comments and the order of names too.
-        Presets, settings files and values in memory are not part of it."""
+        """Writes the document with the values that were set. All else stays as it is, comments and order included.
+        Presets, settings files and values in memory are not saved."""
         path = Path(path)
         _terrazzo.write_file(path, self.to_text(path.absolute().parent))
         if path.absolute().parent != self.path.absolute().parent and not self.check():
@@ -276,7 +276,7 @@ def _checked(graph: Graph, only: Sequence[str]) -> _terrazzo.Checked:
 
 
 def _with(graph: Graph, values: Mapping[str, Any]) -> Graph:
-    """A copy with more values, whose names must be right."""
+    """A copy with more values set. Raises UnknownName."""
     out = graph.copy()
     for name, value in values.items():
         node, dot, param = name.partition(".")

@@ -23,7 +23,7 @@ _waiting: list[tuple[dict[str, Any], Callable[..., Any], tuple[Any, ...]]] = []
 _lock = threading.Lock()
 _version = 0
 _owners: dict[str, tuple[str, str]] = {}
-#: what nodes raised last, by its message
+#: the last exceptions that nodes raised, with their messages
 _raised: collections.deque[tuple[str, BaseException]] = collections.deque(maxlen=4)
 
 _VALUES = {
@@ -36,8 +36,8 @@ _PARAMS = {bool: "boolean", int: "integer", float: "number", str: "text", pathli
 
 
 def registered() -> int:
-    """Makes the nodes that have been declared known to graphs. Their code is looked at only now, when all that they call
-    is there. Gives a number that grows when there are more."""
+    """Registers the declared nodes. Their code is read only now, when everything that they call exists. Returns a
+    number that grows with every new node."""
     global _version
     with _lock:
         while _waiting:
@@ -46,7 +46,7 @@ def registered() -> int:
             try:
                 description["source"] = "\n".join(_sources(function, uses))
             except Error as e:
-                # Graphs that do not use it can do without.
+                # Graphs that do not use the node must still run.
                 description["source"], call = "", _raises(e)
             _terrazzo.register_node(description, call)
             _version += 1
@@ -54,21 +54,21 @@ def registered() -> int:
 
 
 def node(*, version: int = 1, name: str | None = None, uses: Iterable[Any] = ()) -> Callable[[Function], Function]:
-    """Makes a function a node type: its arguments that are an Image, a Material, a UvMap or a Report are inputs, all
-    others parameters. `Image | None` is an input that may be open, `list[Image]` takes several wires. Parameters are
-    bool, int, float, str, Path (a file or folder whose content counts; `Path | None` if there may be none),
-    Literal["a", "b"], tuple[int, int] (a size), list[float] and list[str]. What it returns is the output, of the annotated type.
+    """Makes a function a node type. Arguments of type Image, Material, UvMap or Report are inputs: `Image | None` is
+    optional, `list[Image]` takes several wires. All other arguments are parameters: bool, int, float, str, Path (a file
+    or folder whose content counts; `Path | None` if it is optional), Literal["a", "b"], tuple[int, int] (a size),
+    list[float] and list[str]. The function returns the output, and is annotated with its type.
 
-    Results are cached. Their keys have in them `version` and the source code of the function, of the functions of its
-    module that it calls, and the plain values that it takes from around it; `uses` names more functions and values. What
-    a function gives must depend on nothing else. Raise `version` when it does."""
+    Results are cached. The key covers `version`, the source code of the function, the functions of its module that it
+    calls, and the plain values around it that it uses; `uses` names more functions and values. The result must not
+    depend on anything else; if it does, raise `version` when that changes."""
 
     def declare(function: Function) -> Function:
         description = _description(function, function.__name__ if name is None else name, version)
         _check(function, description)
         module = function.__module__
         owner = ("__main__" if module == "__mp_main__" else module, function.__qualname__)
-        _sources(function, uses)  # raises if something is wrong with it
+        _sources(function, uses)  # raises if the function cannot be a node
         with _lock:
             taken = _owners.get(description["name"])
             if taken is None and description["name"] in _terrazzo.node_type_names():
@@ -83,7 +83,7 @@ def node(*, version: int = 1, name: str | None = None, uses: Iterable[Any] = ())
 
 
 def _check(function: Callable[..., Any], description: dict[str, Any]) -> None:
-    """Raises if it cannot be a node: here, not in the run that comes next."""
+    """Raises if it cannot be a node, at its declaration rather than in the next run."""
     version, name = description["version"], description["name"]
     if isinstance(version, bool) or not isinstance(version, int) or not 0 < version < 2**31:
         raise _fail(function, f"expected a version of 1 or more, found {version!r}")
@@ -103,7 +103,7 @@ def _raises(error: Error) -> Callable[..., Any]:
 
 
 def _with_paths(description: dict[str, Any], function: Callable[..., Any]) -> Callable[..., Any]:
-    """Paths come as texts, and none as an empty one."""
+    """Converts texts to paths, and an empty text to None."""
     paths = [p["name"] for p in description["params"] if p["type"] == "path"]
     if not paths:
         return function
@@ -189,7 +189,7 @@ def _param(function: Callable[..., Any], p: inspect.Parameter, hint: Any) -> dic
 
 
 def _source_of(function: Callable[..., Any]) -> str:
-    """Without decorators, which may hold versions; of what has been typed in, the compiled code."""
+    """The source without decorators, which may hold versions; for code typed into a prompt, the compiled code."""
     try:
         text = textwrap.dedent(inspect.getsource(function))
         tree = ast.parse(text).body[0]
@@ -218,7 +218,7 @@ def _is_plain(value: Any) -> bool:
 
 
 def _sources(function: Callable[..., Any], uses: Iterable[Any]) -> list[str]:
-    """All that the results of a function depend on, as far as that can be seen."""
+    """The source code and plain values that the results of a function depend on."""
     out: list[str] = []
     seen: set[int] = set()
     module = function.__module__
@@ -258,7 +258,7 @@ def _sources(function: Callable[..., Any], uses: Iterable[Any]) -> list[str]:
 
 
 def _describe(error: BaseException, trace: Any) -> str:
-    """The last line of a traceback, and where that was."""
+    """The last line of a traceback, with function, file and line."""
     text = traceback.format_exception_only(type(error), error)[-1].strip()
     frames = traceback.extract_tb(trace)
     if frames:
@@ -272,7 +272,7 @@ def _describe(error: BaseException, trace: Any) -> str:
 
 
 def _cause_of(failures: Iterable[Failure]) -> BaseException | None:
-    """What a node raised, for those who want the whole traceback."""
+    """The exception that a node raised, for its traceback."""
     for failure in failures:
         for entry in list(_raised):
             if entry[0] in failure.message:

@@ -21,14 +21,14 @@ class Stage:
     node: str
     #: not needed, cached, up to date, derived, depends or run
     state: str
-    #: why it has to run
+    #: the reason why it must run
     why: str
-    #: that it will take, as far as earlier runs tell
+    #: expected time, from earlier runs
     seconds: float
 
 
 class Plan(Sequence[Stage]):
-    """What a run would do. Printed, a table: node, state, why."""
+    """What a run would do. Printed as a table: node, state, why."""
 
     def __init__(self, plan: dict[str, Any]) -> None:
         self._stages = [Stage(*s) for s in plan["stages"]]

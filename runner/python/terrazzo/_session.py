@@ -1,4 +1,4 @@
-"""Sessions: a cache that is open, and runs."""
+"""Sessions: an open cache, and runs."""
 
 from __future__ import annotations
 
@@ -30,32 +30,32 @@ def _bytes(what: str, size: Bytes) -> int:
 
 
 def set_memory_budget(size: Bytes) -> None:
-    """What the process is to stay within: decoded images, values and running nodes of all sessions. A number of bytes, or
-    a size such as "300M"; 0 for half of the machine's memory, as at the start."""
+    """Limits the memory of the process: decoded images, values and running nodes of all sessions. A number of bytes, or
+    a size such as "300M"; 0 for half of the machine's memory, the default."""
     _terrazzo.set_memory_budget(_bytes("memory budget", size))
 
 
 @dataclass(frozen=True)
 class Event:
-    """What a progress function gets, always on the thread that called run."""
+    """The argument of a progress function, which is always called on the thread that called run."""
 
     #: planned, started, waits, progress, note, finished, reused, spared or failed
     kind: str
     node: str
-    #: of notes and failures; of planned, the plan in a few words
+    #: the text of a note or failure; for "planned", a summary of the plan
     message: str
-    #: of the node, 0 to 1
+    #: progress of the node, 0 to 1
     fraction: float
-    #: that the node took, once it has finished
+    #: time that the node took, once it has finished
     seconds: float
-    #: how many nodes are done, of how many
+    #: number of nodes that are done, and of all nodes
     done: int
     total: int
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a node in a run."""
+    """What happened to a node in a run."""
 
     node: str
     #: idle (not needed), reused, run, failed or unfinished
@@ -64,16 +64,16 @@ class Outcome:
     why: str
     seconds: float
     notes: list[str]
-    #: that it has written, in this run or before
+    #: files that it wrote, in this run or before
     files: list[Path]
 
 
 class Result(Mapping[str, Any]):
-    """What a run gave: values by node. A node with one output gives it; of others, all by name."""
+    """The result of a run: values by node. A node with one output has that value, others a dictionary by output."""
 
     def __init__(self, raw: dict[str, Any]) -> None:
         self._kept: dict[str, dict[str, Any]] = raw["kept"]
-        #: of every node, in the graph's order
+        #: one for every node, in the graph's order
         self.outcomes: list[Outcome] = [Outcome(*s) for s in raw["stages"]]
         self.seconds: float = raw["seconds"]
         #: "8 stages: 5 cached, 3 run, 1.84 s"
@@ -81,12 +81,12 @@ class Result(Mapping[str, Any]):
 
     @property
     def files(self) -> list[Path]:
-        """All that its sinks have written, in this run or before."""
+        """All files that the sinks wrote, in this run or before."""
         return [f for o in self.outcomes for f in o.files]
 
     @property
     def notes(self) -> list[str]:
-        """What nodes had to say: "node: what"."""
+        """The notes of nodes: "node: note"."""
         return [f"{o.node}: {n}" for o in self.outcomes for n in o.notes]
 
     def __getitem__(self, name: str) -> Any:
@@ -113,7 +113,7 @@ class Result(Mapping[str, Any]):
 
 
 class _Progress:
-    """Counts what is done, and calls the user's function."""
+    """Counts finished nodes, and calls the user's function."""
 
     def __init__(self, tell: Callable[[Event], Any]) -> None:
         self._tell = tell
@@ -129,13 +129,13 @@ class _Progress:
 
 
 class Session:
-    """A cache that is open, and how to run. Threads may share one; each run has the session's threads and memory.
+    """An open cache, and limits for runs. Threads may share a session; the limits hold for each run.
 
-    cache: its folder; None for the usual one, False for none. threads: 0 for one per core. memory: a budget for
-    values and running nodes, in bytes or as "300M"; 0 for that of set_memory_budget, which also bounds decoded images.
+    cache: the folder; None for the usual one, False for no cache. threads: 0 for one per core. memory: a budget for
+    values and running nodes, in bytes or as "300M"; 0 for that of set_memory_budget, which also covers decoded images.
 
-    checked: runs every node twice, one at a time and without a cache, and watches which files those in Python open. One
-    that gives something else the second time, or reads what no parameter of type Path names, fails."""
+    checked: runs every node twice, one at a time and without a cache, and watches which files nodes in Python open. A
+    node fails if its two results differ, or if it reads a file that no parameter of type Path names."""
 
     def __init__(
         self, cache: PathLike | bool | None = None, threads: int = 0, memory: Bytes = 0, checked: bool = False
@@ -150,15 +150,15 @@ class Session:
         self.close()
 
     def close(self) -> None:
-        """Closes the cache. Values stay valid; runs that are under way go on, and the last of them closes it."""
+        """Closes the cache. Values stay valid. If runs are in progress, they continue, and the last one closes it."""
         self._session.close()
 
     def cancel(self) -> None:
-        """Ends all runs of this session, from any thread; they raise Cancelled."""
+        """Ends all runs of this session; they raise Cancelled. May be called from any thread."""
         self._session.cancel()
 
     def take_warnings(self) -> list[str]:
-        """What only cost time since the last call, such as a full disk."""
+        """Warnings since the last call, about problems that only cost time, such as a full disk."""
         return self._session.take_warnings()
 
     def plan(self, graph: Graph, only: Names = ()) -> Plan:
@@ -173,11 +173,12 @@ class Session:
         keep: Names = (),
         progress: Callable[[Event], Any] | None = None,
     ) -> Result:
-        """Runs what must run. With `only`, these nodes and what they need, and their values come back; else all sinks
-        or, in a graph without, what nothing reads, whose values come back. `keep` names more values to bring back.
+        """Runs a graph, as far as results are not cached. With `only`, it makes these nodes and returns their values.
+        Otherwise it makes all sinks or, in a graph without sinks, all nodes that no other node reads, and returns the
+        values of the latter. `keep` names more values to return.
 
-        `progress` is called on this thread; what it raises ends the run. So does Ctrl-C. Raises GraphError before
-        anything runs, RunError if a node failed, and Cancelled."""
+        `progress` is called on this thread. An exception from it ends the run, and so does Ctrl-C. Raises GraphError
+        before anything runs, RunError if a node failed, and Cancelled."""
         only = _list(only)
         tell = None if progress is None else _Progress(progress)
         raw = self._session.run(_checked(graph, only), only, _list(keep), tell)
@@ -197,11 +198,11 @@ class Session:
         progress: Callable[[Event], Any] | None = None,
         **more: Iterable[Any],
     ) -> Iterator[Variation]:
-        """The graph with every combination of several values: sweep(g, seed=range(64)), or {"lattice.mode": [...]} for
-        names with dots; the last changes fastest. A text is one value. A list of dictionaries is a table with a row for
-        each variation.
+        """Variations of the graph, with every combination of several values: sweep(g, seed=range(64)), or
+        {"lattice.mode": [...]} for names with dots. The last name changes fastest. A text is one value. A list of
+        dictionaries is a table with a row for each variation.
 
-        All variations are checked before the first is there. Each runs when something of it is asked for; what they
+        All variations are checked before this returns. Each runs when you ask for one of its results; what variations
         share is in the cache."""
         rows = [dict(r) for r in values] if values is not None and not isinstance(values, Mapping) else [{}]
         columns = {**(values if isinstance(values, Mapping) else {}), **more}
@@ -216,7 +217,7 @@ class Session:
 
 
 def _several(name: str, values: Any) -> list[Any]:
-    """The values to sweep over; a text is one, not its letters."""
+    """The values to sweep over; a text is one value, not its letters."""
     if isinstance(values, (str, bytes)):
         return [values]
     try:
@@ -226,7 +227,7 @@ def _several(name: str, values: Any) -> list[Any]:
 
 
 def _check_but_unset(graph: Graph) -> None:
-    """What must still be set may not be needed for what will be asked for."""
+    """Checks all but missing values, which the requested nodes may not need."""
     try:
         _checked(graph, ())
     except GraphError as error:
@@ -239,7 +240,7 @@ def _shown(value: Any) -> str:
 
 
 class Variation:
-    """One of a sweep: a graph, its values, and what a run of it gives."""
+    """One variation of a sweep: a graph, its values, and the results of its run."""
 
     def __init__(
         self, session: Session, graph: Graph, values: dict[str, Any], progress: Callable[[Event], Any] | None,
@@ -248,11 +249,11 @@ class Variation:
         self._session = session
         self._progress = progress
         self._results: dict[str, Result] = {}
-        #: by what variations of the sweep have exported: which of them it was
+        #: for each path that a variation of the sweep has exported to, the label of that variation
         self._written = written
-        #: with the values set
+        #: the graph with the values set
         self.graph = graph
-        #: by name
+        #: the values by name
         self.values = values
 
     @property
@@ -264,21 +265,21 @@ class Variation:
         return self._session.run(self.graph, only, keep=keep, progress=self._progress)
 
     def __getitem__(self, name: str) -> Any:
-        """The value of a node, which runs for it if it has not yet."""
+        """The value of a node; runs the node if it has not run yet."""
         node = name if name in self.graph else name.rpartition(".")[0] or name
         if node not in self._results:
             self._results[node] = self.run([node])
         return self._results[node][name]
 
     def _filled(self, path: PathLike) -> str:
-        """A path with {seed} and so on; {label} is all of them. Other names in braces are for the export node."""
+        """Fills in {seed} and so on; {label} is all of them. Other names in braces are for the export node."""
         text = os.fspath(path).replace("{label}", self.label)
         for name, value in self.values.items():
             text = text.replace("{" + name + "}", _shown(value))
         return text
 
     def _take(self, pattern: str) -> None:
-        """Of a size or material in the name nobody knows here what it comes to."""
+        """Raises if another variation wrote this path. Paths with a size or material are unknown before the run."""
         if any(place in pattern for place in ("{width}", "{height}", "{material}")):
             return
         other = self._written.setdefault(os.path.abspath(_pattern(pattern)), self.label)
@@ -290,9 +291,9 @@ class Variation:
             )
 
     def export(self, path: PathLike, node: str | None = None) -> list[Path]:
-        """Writes maps: of the node's material or, without one, what the graph's first export would write, as it would
-        write it. A path that does not end like a picture's is a folder. {seed}, {label} and so on stand for the values;
-        a path that does not tell it from another variation of the sweep is refused."""
+        """Writes the maps of the node's material. Without `node`, runs the graph's first export node with this path. A
+        path without the extension of a picture is a folder. {seed}, {label} and so on stand for the values. Raises
+        Error if another variation of the sweep was written to the same path."""
         pattern = self._filled(path)
         self._take(pattern)
         if node is not None:
@@ -324,8 +325,8 @@ _EXPORT = """{
 
 
 def export(value: Value, path: PathLike, *, session: Session | None = None, **params: Any) -> list[Path]:
-    """Writes the maps of a material or image, or a UV map: to a folder, or to a pattern such as "out/{map}.exr". More
-    arguments are parameters of the export node, such as depth="half". Gives the files."""
+    """Writes the maps of a material or image, or a uv map: to a folder, or to a pattern such as "out/{map}.exr". Other
+    arguments are parameters of the export node, such as depth="half". Returns the files."""
     is_map = isinstance(value, _terrazzo.UvMap)
     port, kind = ("uv", "uv_map") if is_map else ("material", "material")
     graph = Graph.loads(_EXPORT % (kind, port)).give("value", value)

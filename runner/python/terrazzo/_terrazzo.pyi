@@ -1,4 +1,4 @@
-"""The compiled part. Image, Material, Report, UvMap and Value are used as terrazzo.Image and so on."""
+"""The compiled part. Use Image, Material, Report, UvMap and Value as terrazzo.Image and so on."""
 
 from pathlib import Path
 from typing import Any, Callable, Iterator, Literal, Mapping, Union
@@ -24,7 +24,7 @@ Semantic = Literal[
 ]
 
 class Image:
-    """One map: pixels, and what they mean. Immutable. Pixels may be computed when they are asked for."""
+    """One map: pixels, and what they mean. Immutable. Pixels may be computed when you read them."""
 
     @staticmethod
     def from_numpy(
@@ -75,7 +75,7 @@ class Material:
     def items(self) -> list[tuple[str, Image]]: ...
 
 class Report:
-    """Figures and small pictures, such as a compare node makes."""
+    """Figures and small pictures, such as those of a compare node."""
 
     @property
     def title(self) -> str: ...
@@ -98,7 +98,7 @@ class UvMap:
     def digest(self) -> str: ...
 
 class Value:
-    """A value that only nodes use; it can be given to inputs."""
+    """A value that only nodes use; you can pass it to inputs."""
 
     @property
     def type(self) -> str: ...
