@@ -111,8 +111,7 @@ ImageHandlePtr from_array(const py::array& array, const std::string& semantic,
 
 void bind_images(py::module_& module) {
   py::class_<ImageHandle, ImageHandlePtr> type(
-      module, "Image",
-      "One map: pixels, and what they mean. Immutable. Pixels may be computed when they are asked for.");
+      module, "Image", "One map: pixels, and what they mean. Immutable. Pixels may be computed when you read them.");
   type.def_static(
           "from_numpy", &from_array, py::arg("array"), py::arg("semantic") = "data", py::kw_only(),
           py::arg("color_space") = py::none(), py::arg("normal_y") = "up",

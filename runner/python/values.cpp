@@ -142,7 +142,7 @@ py::object to_python(const ParamValue& value) {
 void bind_values(py::module_& module) {
   bind_images(module);
   bind_material(module);
-  py::class_<ReportHandle>(module, "Report", "Figures and small pictures, such as a compare node makes.")
+  py::class_<ReportHandle>(module, "Report", "Figures and small pictures, such as those of a compare node.")
       .def_property_readonly("title", [](const ReportHandle& r) { return r.report->title(); })
       .def_property_readonly("figures", &figures_of, "numbers and texts by name")
       .def_property_readonly("pictures", &pictures_of, "images by name")
@@ -156,7 +156,7 @@ void bind_values(py::module_& module) {
       .def("numpy", &uv_pixels, "A read-only view of the pixels: (height, width, 2) of uint16, x and y. No copy.")
       .def_property_readonly("digest", [](const UvMapHandle& m) { return m.map->digest().hex(); })
       .attr("__module__") = "terrazzo";
-  py::class_<OtherValue>(module, "Value", "A value that only nodes use; it can be given to inputs.")
+  py::class_<OtherValue>(module, "Value", "A value that only nodes use; you can pass it to inputs.")
       .def_property_readonly("type", [](const OtherValue& v) { return name_of(type_of(v.value)); })
       .def_property_readonly("digest", [](const OtherValue& v) { return digest_of(v.value).hex(); })
       .attr("__module__") = "terrazzo";
