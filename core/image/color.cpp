@@ -87,10 +87,6 @@ std::string canonical_color_space(const std::string& name, const std::string& co
   return common ? common->name : found;
 }
 
-bool is_color(Semantic semantic) {
-  return semantic == Semantic::base_color || semantic == Semantic::emission || semantic == Semantic::specular;
-}
-
 std::string assumed_color_space(Semantic semantic, Depth depth) {
   if (!is_color(semantic)) return "raw";
   return depth >= Depth::f16 ? "lin_rec709" : "srgb_texture";
@@ -117,6 +113,10 @@ ImagePtr convert_color(const ImagePtr& image, const std::string& to, const std::
     apply(convert, out, in[0].channels(), region.area());
   };
   return Image::computed(info, recipe, {.sources = {image}, .compute = compute, .work = 20});
+}
+
+std::vector<std::filesystem::path> color_config_files(const std::string& config) {
+  return files_of_configuration(config);
 }
 
 }  // namespace terrazzo

@@ -23,8 +23,6 @@ std::string canonical_color_space(const std::string& name, const std::string& co
 /// The colour space of a map whose file does not say: srgb_texture for colours in 8 and 16 bit, lin_rec709 for colours
 /// in float files, raw for everything that is no colour.
 std::string assumed_color_space(Semantic semantic, Depth depth);
-/// Whether maps of that meaning are colours.
-bool is_color(Semantic semantic);
 
 /// The image in another colour space, converted when pulled; the first three channels are colour (of one- and
 /// two-channel images the first is grey), the last of two or four stays. A raw image, or one already in `to`, comes

@@ -13,7 +13,6 @@
 #include "core/file/file_io.h"
 #include "core/file/file_stamp.h"
 #include "core/file/read_guard.h"
-#include "core/image/color.h"
 #include "core/image/color_files.h"
 
 namespace terrazzo {
@@ -176,7 +175,7 @@ ColorConfiguration::Conversion color_conversion(const Configuration& c, const st
   return out;
 }
 
-std::vector<fs::path> color_config_files(const std::string& given) {
+std::vector<fs::path> files_of_configuration(const std::string& given) {
   for (const auto& [name, value] : variables_of_library()) VariablesRead::note(name, value);
   const std::string path = config_path(given);
   if (path.empty()) return {};

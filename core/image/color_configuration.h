@@ -1,7 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/base/hash.h"
 #include "core/image/image_libraries.h"
@@ -19,6 +21,9 @@ struct Configuration {
 /// again when something has changed that it depends on. Throws Error if it cannot be read, or if it or a file it names
 /// is no regular file or may not be read (ReadGuard): OpenColorIO would wait for a pipe without end. Thread-safe.
 Configuration color_configuration(const std::string& given);
+
+/// See color_config_files in core/image/color.h. Notes the variables that count (VariablesRead).
+std::vector<std::filesystem::path> files_of_configuration(const std::string& given);
 
 /// The conversion in that configuration. Throws Error.
 ColorConfiguration::Conversion color_conversion(const Configuration& c, const std::string& from, const std::string& to);

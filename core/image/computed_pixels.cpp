@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <exception>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -13,7 +14,7 @@
 #include "core/base/tuning.h"
 #include "core/image/image_limits.h"
 #include "core/image/pixel_buffer.h"
-#include "core/image/pull_plan.h"
+#include "core/image/pixel_maker.h"
 
 namespace terrazzo {
 
@@ -263,19 +264,28 @@ void ComputedPixels::keep() const {
   finish();
 }
 
-void release_later(std::shared_ptr<const PixelSource> source) {
-  static thread_local std::vector<std::shared_ptr<const PixelSource>>* pending = nullptr;
-  if (!source) return;
-  if (pending) return pending->push_back(std::move(source));
-  std::vector<std::shared_ptr<const PixelSource>> released;
-  pending = &released;
-  while (source) {
-    source.reset();  // what it is made from joins the others
-    if (released.empty()) continue;
-    source = std::move(released.back());
-    released.pop_back();
-  }
-  pending = nullptr;
+ImagePtr Image::computed(ImageInfo info, const Digest& recipe, Operation operation) {
+  info.check();
+  if (std::ranges::find(operation.sources, nullptr) != operation.sources.end())
+    throw std::logic_error("an image cannot be computed from one that is null");
+  Hasher h;
+  h.add("computed image");
+  info.add_to(h);
+  h.add(recipe);
+  auto source = ComputedPixels::make(info.size, info.channels, blaming_maker(std::move(operation)));
+  return with_digest(std::move(info), h.digest(), std::move(source));
+}
+
+ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::shared_ptr<const PixelSource> source) {
+  if (!source) throw std::logic_error("an image needs a source of pixels, found null");
+  return computed(std::move(info), recipe,
+                  [source = std::move(source)](const Rect& region, float* out) { source->read(region, out); });
+}
+
+ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::function<void(const Rect&, float*)> read) {
+  Operation made_from_nothing{
+      .sources = {}, .compute = [read = std::move(read)](auto, const Rect& region, float* out) { read(region, out); }};
+  return computed(std::move(info), recipe, std::move(made_from_nothing));
 }
 
 }  // namespace terrazzo

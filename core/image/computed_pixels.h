@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "core/image/image.h"
+#include "core/image/pull_plan.h"
 
 /// Images that are computed when they are asked for, and what that costs. Such images make up a graph without cycles;
 /// its edges lead from an image to those that it is made from.
@@ -24,10 +25,8 @@ namespace terrazzo {
 /// How many computed images a pull goes over at most, but for images with more sources than that.
 int longest_pull();
 
-class PullPlan;
-
 /// The pixels of one computed image. Thread-safe.
-class ComputedPixels : public PixelSource {
+class ComputedPixels final : public PulledImage {
  public:
   static std::shared_ptr<const ComputedPixels> make(Size size, int channels, Operation operation);
   /// The source of an image that is computed; null for others.
@@ -36,16 +35,11 @@ class ComputedPixels : public PixelSource {
   /// Stops with Cancelled when the task that the thread works for is cancelled.
   void read(const Rect& region, float* out) const override;
 
-  Size size() const { return size_; }
-  int channels() const { return channels_; }
-  /// Null once the pixels are kept.
-  std::shared_ptr<const Operation> operation() const;
-  /// Whether its pixels are to be kept, whether they are or not yet.
-  bool to_be_kept() const { return to_be_kept_; }
-  bool is_kept() const { return is_kept_; }
-  /// Computes all pixels and keeps them. Those that it is made from and that are to be kept must be, already. Threads
-  /// that ask for the same work together.
-  void keep() const;
+  Size size() const override { return size_; }
+  int channels() const override { return channels_; }
+  std::shared_ptr<const Operation> operation() const override;
+  bool to_be_kept() const override { return to_be_kept_; }
+  void keep() const override;
 
  private:
   struct Filling;
@@ -69,9 +63,5 @@ class ComputedPixels : public PixelSource {
   mutable std::shared_ptr<const Operation> operation_;  ///< guarded by mutex_
   mutable std::shared_ptr<Filling> filling_;            ///< guarded by mutex_ until is_kept_
 };
-
-/// Lets go of what may be the last reference to the first of many images in a row, without a call for each of them on
-/// the stack.
-void release_later(std::shared_ptr<const PixelSource> source);
 
 }  // namespace terrazzo

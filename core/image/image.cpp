@@ -11,9 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/image/computed_pixels.h"
 #include "core/image/image_limits.h"
-#include "core/image/pixel_maker.h"
 
 namespace terrazzo {
 
@@ -62,12 +60,6 @@ class HalfPixels : public PixelSource {
   PixelRoom room_;
 };
 
-void check(const ImageInfo& info) {
-  if (info.size.width <= 0 || info.size.height <= 0 || info.channels < 1 || info.channels > 4)
-    throw Error(fmt::format("expected an image of at least 1x1 pixels and 1 to 4 channels, found {}x{} pixels and {}",
-                            info.size.width, info.size.height, counted(info.channels, "channel")));
-}
-
 size_t value_count(const ImageInfo& info) {
   return size_t(info.size.area()) * info.channels;
 }
@@ -94,6 +86,16 @@ std::string_view name_of(Depth depth) {
   return names[static_cast<size_t>(depth)];
 }
 
+bool is_color(Semantic semantic) {
+  return semantic == Semantic::base_color || semantic == Semantic::emission || semantic == Semantic::specular;
+}
+
+void ImageInfo::check() const {
+  if (size.width <= 0 || size.height <= 0 || channels < 1 || channels > 4)
+    throw Error(fmt::format("expected an image of at least 1x1 pixels and 1 to 4 channels, found {}x{} pixels and {}",
+                            size.width, size.height, counted(channels, "channel")));
+}
+
 void ImageInfo::add_to(Hasher& h) const {
   h.add(size.width)
       .add(size.height)
@@ -108,7 +110,7 @@ Image::Image(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSo
     : info_(std::move(info)), digest_(digest), source_(std::move(source)) {}
 
 ImagePtr Image::from_floats(ImageInfo info, std::vector<float> pixels) {
-  check(info);
+  info.check();
   if (pixels.size() != value_count(info)) throw std::logic_error("pixel count does not match the image's size");
   const Digest digest = content_digest(info, pixels);
   auto source = std::make_shared<FloatPixels>(info, std::move(pixels));
@@ -116,43 +118,40 @@ ImagePtr Image::from_floats(ImageInfo info, std::vector<float> pixels) {
 }
 
 ImagePtr Image::from_halfs(ImageInfo info, std::vector<uint16_t> pixels) {
-  check(info);
+  info.check();
   if (pixels.size() != value_count(info)) throw std::logic_error("pixel count does not match the image's size");
   const Digest digest = content_digest(info, pixels);
   auto source = std::make_shared<HalfPixels>(info, std::move(pixels));
   return ImagePtr(new Image(std::move(info), digest, std::move(source)));
 }
 
+namespace {
+
+/// Lets go of what may be the last reference to the first of many images in a row, without a call for each of them on
+/// the stack.
+void release_later(std::shared_ptr<const PixelSource> source) {
+  static thread_local std::vector<std::shared_ptr<const PixelSource>>* pending = nullptr;
+  if (!source) return;
+  if (pending) return pending->push_back(std::move(source));
+  std::vector<std::shared_ptr<const PixelSource>> released;
+  pending = &released;
+  while (source) {
+    source.reset();  // what it is made from joins the others
+    if (released.empty()) continue;
+    source = std::move(released.back());
+    released.pop_back();
+  }
+  pending = nullptr;
+}
+
+}  // namespace
+
 Image::~Image() {
   release_later(std::move(source_));
 }
 
-ImagePtr Image::computed(ImageInfo info, const Digest& recipe, Operation operation) {
-  check(info);
-  if (std::ranges::find(operation.sources, nullptr) != operation.sources.end())
-    throw std::logic_error("an image cannot be computed from one that is null");
-  Hasher h;
-  h.add("computed image");
-  info.add_to(h);
-  h.add(recipe);
-  auto source = ComputedPixels::make(info.size, info.channels, blaming_maker(std::move(operation)));
-  return ImagePtr(new Image(std::move(info), h.digest(), std::move(source)));
-}
-
-ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::shared_ptr<const PixelSource> source) {
-  if (!source) throw std::logic_error("an image needs a source of pixels, found null");
-  return computed(std::move(info), recipe,
-                  [source = std::move(source)](const Rect& region, float* out) { source->read(region, out); });
-}
-
-ImagePtr Image::computed(ImageInfo info, const Digest& recipe, std::function<void(const Rect&, float*)> read) {
-  Operation made_from_nothing{
-      .sources = {}, .compute = [read = std::move(read)](auto, const Rect& region, float* out) { read(region, out); }};
-  return computed(std::move(info), recipe, std::move(made_from_nothing));
-}
-
 ImagePtr Image::with_digest(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSource> source) {
-  check(info);
+  info.check();
   if (!source) throw std::logic_error("an image needs a source of pixels, found null");
   return ImagePtr(new Image(std::move(info), digest, std::move(source)));
 }

@@ -38,6 +38,7 @@ inline std::string_view name_of(Semantic s) {
   return semantic_names[static_cast<size_t>(s)];
 }
 std::optional<Semantic> semantic_from(std::string_view name);
+bool is_color(Semantic semantic);
 
 /// The depth an image had in its file (`export` keeps it) or should be written with.
 enum class Depth : uint8_t { u8, u16, f16, f32 };
@@ -57,6 +58,8 @@ struct ImageInfo {
       NormalY::up;  ///< only meaningful for Semantic::normal; pixels stay as they came, this tells how to read them
   bool operator==(const ImageInfo&) const = default;
   void add_to(Hasher& hasher) const;
+  /// Throws Error unless an image may be so.
+  void check() const;
 };
 
 /// A way to get at pixels: from memory, from a file, or computed when asked for.

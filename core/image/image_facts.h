@@ -40,4 +40,15 @@ void require_same_size(const std::string& port, const ImageFacts& image, const s
 /// Throws Error about `port` if the image certainly has another shape than what it belongs to, to a pixel.
 void require_shape(const std::string& port, const ImageFacts& image, const std::string& of, std::optional<Size> size);
 
+/// The same for images that are there.
+inline std::string describe(const Image& image) {
+  return describe(facts_of(image.info()));
+}
+inline void require_one_channel(const std::string& port, const Image& image) {
+  require_one_channel(port, facts_of(image.info()));
+}
+inline void require_shape(const std::string& port, const Image& image, const std::string& of, Size size) {
+  require_shape(port, facts_of(image.info()), of, size);
+}
+
 }  // namespace terrazzo

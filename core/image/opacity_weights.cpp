@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/image/color.h"
+#include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
 #include "core/image/resample.h"

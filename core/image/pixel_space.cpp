@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/image/color.h"
 #include "core/image/normal.h"
 #include "core/image/srgb.h"
 

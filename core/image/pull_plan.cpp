@@ -60,7 +60,7 @@ std::vector<Rect> parts_read(const Operation& operation, size_t source, const Re
 
 }  // namespace
 
-PullPlan::PullPlan(const ComputedPixels& image, Until until) {
+PullPlan::PullPlan(const PulledImage& image, Until until) {
   order(image, until);
   for (const Step& step : steps_)
     for (const int source : step.sources)
@@ -68,19 +68,19 @@ PullPlan::PullPlan(const ComputedPixels& image, Until until) {
 }
 
 /// Depth first, with a stack of its own: images may lie in a row by the thousands.
-void PullPlan::order(const ComputedPixels& image, Until until) {
+void PullPlan::order(const PulledImage& image, Until until) {
   struct Open {
     Step step;
     size_t next = 0;
   };
-  std::unordered_map<const ComputedPixels*, int> places;
+  std::unordered_map<const PulledImage*, int> places;
   std::vector<Open> open;
-  const auto enter = [&](std::shared_ptr<const ComputedPixels> entered, std::shared_ptr<const Operation> operation) {
+  const auto enter = [&](std::shared_ptr<const PulledImage> entered, std::shared_ptr<const Operation> operation) {
     places.emplace(entered.get(), -1);
     open.push_back({Step{std::move(entered), std::move(operation), {}}});
   };
   // The caller holds the image.
-  enter({std::shared_ptr<const ComputedPixels>(), &image}, image.operation());
+  enter({std::shared_ptr<const PulledImage>(), &image}, image.operation());
   if (!open.back().step.operation) return;
   while (!open.empty()) {
     Open& top = open.back();
@@ -90,7 +90,7 @@ void PullPlan::order(const ComputedPixels& image, Until until) {
       open.pop_back();
       continue;
     }
-    std::shared_ptr<const ComputedPixels> source = ComputedPixels::of(*top.step.operation->sources[top.next]);
+    auto source = std::dynamic_pointer_cast<const PulledImage>(top.step.operation->sources[top.next]->source());
     const auto known = places.find(source.get());
     if (known != places.end()) {
       top.step.sources.push_back(known->second);

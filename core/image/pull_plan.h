@@ -1,11 +1,26 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "core/image/computed_pixels.h"
+#include "core/image/image.h"
 
 namespace terrazzo {
+
+/// A computed image as a pull sees it, see core/image/computed_pixels.h. Thread-safe.
+class PulledImage : public PixelSource {
+ public:
+  virtual Size size() const = 0;
+  virtual int channels() const = 0;
+  /// Null once the pixels are kept.
+  virtual std::shared_ptr<const Operation> operation() const = 0;
+  /// Whether its pixels are to be kept, whether they are or not yet.
+  virtual bool to_be_kept() const = 0;
+  /// Computes all pixels and keeps them. Those that it is made from and that are to be kept must be, already. Threads
+  /// that ask for the same work together.
+  virtual void keep() const = 0;
+};
 
 /// What has to be computed, and in which order, to pull regions of a computed image: the image itself and all those it
 /// is made from, up to ones whose pixels can be had. For one thread; any number of plans may use the same images.
@@ -17,7 +32,7 @@ class PullPlan {
     to_be_kept,  ///< and those whose pixels will be
   };
   /// `image` must outlive the plan.
-  PullPlan(const ComputedPixels& image, Until until);
+  PullPlan(const PulledImage& image, Until until);
 
   /// How many images it computes.
   size_t length() const { return steps_.size(); }
@@ -35,7 +50,7 @@ class PullPlan {
 
  private:
   struct Step {
-    std::shared_ptr<const ComputedPixels> image;
+    std::shared_ptr<const PulledImage> image;
     std::shared_ptr<const Operation> operation;
     std::vector<int> sources;   ///< their steps; -1 for what is read as it is
     std::vector<Rect> parts{};  ///< that are needed of it
@@ -48,7 +63,7 @@ class PullPlan {
   static constexpr int64_t read_for_one = 4;
 
   static int64_t values_read(const Step& step);
-  void order(const ComputedPixels& image, Until until);
+  void order(const PulledImage& image, Until until);
   void demand(const Rect& region);
   void compute(Step& step, float* out);
   void let_go(const Step& step);

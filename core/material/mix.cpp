@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/tuning.h"
+#include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "core/image/normal.h"
 #include "core/image/pixel_space.h"

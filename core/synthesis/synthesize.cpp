@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "core/synthesis/level_work.h"
 #include "core/synthesis/streaked_surface.h"
 

@@ -5,7 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/color.h"
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
 

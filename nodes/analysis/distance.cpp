@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "core/numeric/distance_transform.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"

@@ -3,7 +3,6 @@
 #include "core/analysis/space/feature_distance.h"
 #include "core/analysis/space/weighting.h"
 #include "core/image/color.h"
-#include "core/image/image_ops.h"
 #include "core/material/map_names.h"
 #include "nodes/common/analysis_memory.h"
 #include "nodes/common/exemplar_tiles.h"

@@ -2,7 +2,6 @@
 
 #include "core/analysis/space/weighting.h"
 #include "core/image/color.h"
-#include "core/image/image_ops.h"
 #include "core/material/map_names.h"
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"

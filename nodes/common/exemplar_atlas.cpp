@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text.h"
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
 

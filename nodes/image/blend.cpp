@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/image/composite.h"
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "core/image/pixel_space.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"

@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/image/color.h"
+#include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "nodes/common/color_space.h"
 #include "nodes/common/node_helpers.h"

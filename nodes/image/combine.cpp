@@ -6,7 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/color.h"
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "core/material/map_names.h"
 #include "core/material/mix.h"
 #include "nodes/common/exemplar_atlas.h"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "core/image/normal.h"
 #include "core/image/pixel_space.h"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
 #include "nodes/common/node_helpers.h"

@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/portable_math.h"
 #include "core/image/distribution.h"
+#include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
 #include "nodes/common/node_helpers.h"

@@ -1,4 +1,4 @@
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "nodes/common/horizon_params.h"
 #include "nodes/common/shape_rules.h"
 

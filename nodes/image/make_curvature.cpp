@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/image/curvature.h"
+#include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
 #include "core/image/resample.h"

@@ -5,7 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/image/height_from_normals.h"
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"

@@ -1,4 +1,4 @@
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "core/image/normal.h"
 #include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/image/distribution.h"
+#include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/image/color.h"
+#include "core/image/image_facts.h"
 #include "core/image/image_file.h"
 #include "core/image/image_limits.h"
 #include "core/image/image_ops.h"

@@ -2,6 +2,7 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/error.h"
+#include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "core/numeric/distance_transform.h"
 #include "core/synthesis/state/fixed_pixels.h"

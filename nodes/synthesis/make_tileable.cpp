@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "core/synthesis/state/fixed_pixels.h"
 #include "core/synthesis/steps.h"
 #include "nodes/common/shape_rules.h"

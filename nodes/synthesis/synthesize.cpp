@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/analysis/space/appearance_space.h"
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "core/synthesis/steps.h"
 #include "nodes/common/shape_rules.h"
 #include "nodes/common/synthesis_memory.h"

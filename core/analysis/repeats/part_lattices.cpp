@@ -11,7 +11,7 @@
 #include "core/analysis/space/mask_pyramid.h"
 #include "core/base/error.h"
 #include "core/base/tuning.h"
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "core/material/map_names.h"
 
 namespace terrazzo {

@@ -13,7 +13,7 @@
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
 #include "core/image/distribution.h"
-#include "core/image/image_ops.h"
+#include "core/image/image_facts.h"
 #include "core/image/resample.h"
 #include "core/synthesis/state/labels.h"
 

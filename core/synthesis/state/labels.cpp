@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/tuning.h"
+#include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "core/numeric/distance_transform.h"
 
