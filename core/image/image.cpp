@@ -90,6 +90,11 @@ bool is_color(Semantic semantic) {
   return semantic == Semantic::base_color || semantic == Semantic::emission || semantic == Semantic::specular;
 }
 
+bool is_one_value(Semantic semantic) {
+  return !is_color(semantic) && semantic != Semantic::normal && semantic != Semantic::data &&
+         semantic != Semantic::guidance;
+}
+
 void ImageInfo::check() const {
   if (size.width <= 0 || size.height <= 0 || channels < 1 || channels > 4)
     throw Error(fmt::format("expected an image of at least 1x1 pixels and 1 to 4 channels, found {}x{} pixels and {}",

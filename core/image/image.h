@@ -39,6 +39,8 @@ inline std::string_view name_of(Semantic s) {
 }
 std::optional<Semantic> semantic_from(std::string_view name);
 bool is_color(Semantic semantic);
+/// Whether a map of that meaning has one value at a pixel.
+bool is_one_value(Semantic semantic);
 
 /// The depth an image had in its file (`export` keeps it) or should be written with.
 enum class Depth : uint8_t { u8, u16, f16, f32 };

@@ -8,7 +8,6 @@
 
 #include "core/base/error.h"
 #include "core/base/suggest.h"
-#include "core/material/material_maps.h"
 
 namespace terrazzo {
 

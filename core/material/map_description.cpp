@@ -7,7 +7,6 @@
 
 #include "core/base/error.h"
 #include "core/image/color.h"
-#include "core/material/map_names.h"
 
 namespace terrazzo {
 

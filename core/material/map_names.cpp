@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/suggest.h"
-#include "core/material/material_files.h"
+#include "core/material/recognised_map.h"
 
 namespace terrazzo {
 
@@ -36,12 +36,6 @@ std::vector<std::string> maps_missing(const KnownMaps& from, const KnownMaps& ot
 }
 
 }  // namespace
-
-std::optional<Semantic> semantic_of_map(const std::string& map) {
-  for (const std::string_view name : semantic_names)
-    if (map == name || map.starts_with(std::string(name) + "_")) return semantic_from(name);
-  return std::nullopt;
-}
 
 std::vector<std::string> names_of(const std::vector<Map>& maps) {
   std::vector<std::string> names;

@@ -10,9 +10,6 @@
 /// Checks of a material's maps by name and size only, so that messages are the same before and during a run.
 namespace terrazzo {
 
-/// What a map of that name is: a semantic's name, or one with a suffix as in mask_moss.
-std::optional<Semantic> semantic_of_map(const std::string& map);
-
 std::vector<std::string> names_of(const std::vector<Map>& maps);
 
 /// Throws Error about `param`, listing the `known` maps, unless they include all `wanted`. `whose`: the material, for

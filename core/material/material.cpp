@@ -8,6 +8,12 @@
 
 namespace terrazzo {
 
+std::optional<Semantic> semantic_of_map(const std::string& map) {
+  for (const std::string_view name : semantic_names)
+    if (map == name || map.starts_with(std::string(name) + "_")) return semantic_from(name);
+  return std::nullopt;
+}
+
 Material::Material(std::string name, std::vector<Map> maps, PhysicalSize metres)
     : name_(std::move(name)), maps_(std::move(maps)), metres_(metres) {
   Hasher h;

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/image/image.h"
@@ -15,6 +17,9 @@ struct Map {
   std::string name;
   ImagePtr image;
 };
+
+/// What a map of that name is: a semantic's name, or one with a suffix as in mask_moss.
+std::optional<Semantic> semantic_of_map(const std::string& map);
 
 /// How large a surface is in the world, in metres.
 inline constexpr double largest_extent = 1e6;  ///< metres

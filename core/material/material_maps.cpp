@@ -73,11 +73,6 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
 
 }  // namespace
 
-bool is_one_value(Semantic semantic) {
-  return !is_color(semantic) && semantic != Semantic::normal && semantic != Semantic::data &&
-         semantic != Semantic::guidance;
-}
-
 int channels_of_map(const RecognisedMap& source, int file_channels) {
   if (source.semantic == Semantic::normal) return 3;  // where the file has no z, it is rebuilt
   if (!source.channels.empty()) return int(source.channels.size());

@@ -4,13 +4,10 @@
 #include <vector>
 
 #include "core/image/image.h"
-#include "core/material/material_files.h"
+#include "core/material/recognised_map.h"
 
 /// From the pixels of a file to its maps.
 namespace terrazzo {
-
-/// Whether a map of that semantic has one value at a pixel.
-bool is_one_value(Semantic semantic);
 
 /// How many channels the map has that comes of a file with `file_channels`.
 int channels_of_map(const RecognisedMap& source, int file_channels);

@@ -9,7 +9,7 @@
 #include "core/material/file_words.h"
 #include "core/material/map_description.h"
 #include "core/material/map_keyword.h"
-#include "core/material/map_names.h"
+#include "core/material/material.h"
 
 namespace terrazzo {
 
