@@ -1,7 +1,5 @@
 #include "nodes/source/given_maps.h"
 
-#include <filesystem>
-
 #include <fmt/format.h>
 
 #include "core/base/text.h"
@@ -9,7 +7,6 @@
 #include "core/material/file_stems.h"
 #include "core/material/map_names.h"
 #include "core/material/material_maps.h"
-#include "nodes/source/material_folder.h"
 
 namespace terrazzo {
 
@@ -34,8 +31,7 @@ std::string with_tile(std::string text, const Params& params) {
   return text;
 }
 
-void require_given_map(const Params& params, const std::string& map, const std::string& text) {
-  const fs::path folder = folder_of(params);
+void require_given_map(const Params& params, const fs::path& folder, const std::string& map, const std::string& text) {
   const RecognisedMap given = given_map(params, map, text);
   const size_t colon = given.file.rfind(':');
   std::error_code missing;
@@ -69,10 +65,10 @@ RecognisedMap given_map(const Params& params, const std::string& map, const std:
   return m;
 }
 
-void require_given_maps(const Params& params) {
+void require_given_maps(const Params& params, const fs::path& folder) {
   std::vector<Error> troubles;
   for (const auto& [map, text] : std::get<TextMap>(params.at("maps"))) try {
-      if (!text.empty()) require_given_map(params, map, text);
+      if (!text.empty()) require_given_map(params, folder, map, text);
     } catch (const Error& e) {
       troubles.emplace_back("maps." + map, e.what());
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "core/material/material_files.h"
@@ -12,8 +13,8 @@ namespace terrazzo {
 /// <UDIM> stands for the tile that the parameter `name` picks. Throws Error if it picks none.
 RecognisedMap given_map(const Params& params, const std::string& map, const std::string& text);
 
-/// Throws Error with all that is wrong with the files that `maps` gives: not there, or without the channels or the
-/// layer.
-void require_given_maps(const Params& params);
+/// Throws Error with all that is wrong with the files that `maps` gives: not in the folder, or without the channels or
+/// the layer.
+void require_given_maps(const Params& params, const std::filesystem::path& folder);
 
 }  // namespace terrazzo

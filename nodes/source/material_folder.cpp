@@ -356,7 +356,7 @@ std::vector<std::string> problems_with_interpretations(const Params& params) {
 FoundMaterial find_maps(const Params& params, Texts& notes) {
   const fs::path folder = folder_of(params);
   require_folder(folder);
-  require_given_maps(params);
+  require_given_maps(params, folder);
   const TextMap& given = std::get<TextMap>(params.at("maps"));
   FoundMaterial out{.name = folder.filename().string()};
   std::set<FilePlace> taken;
