@@ -1,6 +1,8 @@
 #pragma once
 
-#include "core/procedural/pattern.h"
+#include <memory>
+
+#include "core/procedural/pattern_type.h"
 
 /// One function per pattern type, each defined in the file of its name.
 namespace terrazzo {
