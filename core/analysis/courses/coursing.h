@@ -3,18 +3,11 @@
 #include <vector>
 
 #include "core/analysis/courses/course_axes.h"
+#include "core/analysis/courses/exemplar_course.h"
 #include "core/base/task.h"
 #include "core/exemplar/appearance.h"
 
 namespace terrazzo {
-
-/// A course of bricks (tiles, blocks), between the centres of two bed joints. Positions are pixels of the coursing's
-/// level.
-struct ExemplarCourse {
-  double begin = 0, end = 0;  ///< across the courses
-  int kind = 0;               ///< courses of one kind repeat with the period, as header courses may
-  std::vector<float> joint;   ///< per pixel along the course, likelihood of a head joint: 0..1
-};
 
 /// The courses of an exemplar, and where each may be cut without cutting a brick.
 struct Coursing {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/analysis/courses/course_sheet.h"
-#include "core/analysis/courses/coursing.h"
+#include "core/analysis/courses/exemplar_course.h"
 #include "core/numeric/eigen.h"
 
 namespace terrazzo {
