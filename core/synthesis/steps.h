@@ -7,10 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "core/exemplar/appearance.h"
+#include "core/synthesis/state/control.h"
 #include "core/synthesis/state/usage_penalty.h"
 #include "core/synthesis/steps/correction.h"
 #include "core/synthesis/steps/seams.h"
-#include "core/synthesis/synthesize.h"
+#include "core/synthesis/synthesis_options.h"
 
 /// The synthesis as a list. Every ingredient is a step: a value that says when in the work on a level it runs, where it
 /// applies and what it does. steps.cpp holds the one table of them, in the order in which they run. To add an

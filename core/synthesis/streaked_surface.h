@@ -5,7 +5,7 @@
 #include "core/exemplar/appearance.h"
 #include "core/exemplar/uv_map.h"
 #include "core/synthesis/state/field.h"
-#include "core/synthesis/synthesize.h"
+#include "core/synthesis/synthesis_options.h"
 
 namespace terrazzo {
 

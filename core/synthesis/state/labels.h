@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/synthesis/state/control.h"
+#include "core/base/task.h"
+#include "core/synthesis/state/control_map.h"
 
 /// Controls of mode labels: numbers the labels and finds the areas where borders between them may move.
 namespace terrazzo {

@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/tuning.h"
-#include "core/synthesis/state/usage_penalty.h"
+#include "core/synthesis/state/cost_factor.h"
 
 namespace terrazzo {
 

@@ -31,7 +31,7 @@ class ProximityPenalty {
   static bool is_worth_it(Size exemplar, const ExemplarCells& cells, const Plane& plane);
   /// The field must hold the whole plane.
   void count(const Field& field, const ExemplarCells& cells);
-  /// The factors of all cells at a position of the plane, in unit_factor (usage_penalty.h).
+  /// The factors of all cells at a position of the plane, in unit_factor.
   const uint16_t* factors(int x, int y) const { return &factors_[block(x, y) * cells_]; }
 
  private:

@@ -5,14 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "core/synthesis/state/cost_factor.h"
 #include "core/synthesis/state/field.h"
 #include "core/synthesis/state/fixed_pixels.h"
 #include "core/synthesis/state/proximity_penalty.h"
 
 namespace terrazzo {
-
-/// Factors on costs are integers in 1/4096, so that every machine chooses alike.
-inline constexpr uint32_t unit_factor = 4096;
 
 /// A factor on the cost of using each cell of the exemplar (ExemplarCells) once more: above 1 for cells that show more
 /// than an even share, and more than once as a whole; below 1 for cells that show less than their share.

@@ -11,7 +11,9 @@
 #include <hwy/highway.h>
 
 #include "core/base/hash.h"
-#include "core/synthesis/steps/correction_kernel.h"
+#include "core/synthesis/state/correction_level.h"
+#include "core/synthesis/state/field.h"
+#include "core/synthesis/steps/correction_pass.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace terrazzo {

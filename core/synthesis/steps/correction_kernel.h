@@ -4,20 +4,20 @@
 
 #include "core/base/geometry.h"
 #include "core/exemplar/appearance.h"
+#include "core/synthesis/state/correction_level.h"
+#include "core/synthesis/state/field.h"
 #include "core/synthesis/state/sub_pass.h"
-#include "core/synthesis/steps/correction.h"
+#include "core/synthesis/state/usage_penalty.h"
+#include "core/synthesis/steps/correction_pass.h"
 
 /// The inner loop of correction, compiled for several instruction sets.
 namespace terrazzo {
-
-inline constexpr int most_window_pixels = 24;  ///< those of full_window()
-inline constexpr int most_random_candidates = 40;
 
 /// What all tiles of a sub-pass share. Borrows everything.
 struct CorrectionInputs {
   const Field& field;
   const CorrectionLevel& level;
-  const CorrectionPass& pass;  ///< its window and its random candidates are at most as many as above
+  const CorrectionPass& pass;  ///< its window and its random candidates are at most as many as the constants say
   const UsagePenalty& usage;
   uint32_t repeat_penalty = 0;  ///< in unit_factor: what each repeat near by adds to a candidate's cost
 };

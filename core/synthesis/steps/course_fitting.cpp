@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
-#include "core/analysis/space/padded_level.h"
 #include "core/synthesis/steps/course_path.h"
 
 namespace terrazzo {
 
 namespace {
-
-constexpr int difference_shift = 3;  // differences are in eighths of squared appearance units per strip
 
 /// Runs of a result that wraps. In a path twice around, a cut in the middle does not depend on the ends. A second path
 /// begins and ends there.
@@ -44,12 +41,6 @@ std::vector<CourseRun> runs_around(const CourseLabels& labels, const CourseFit& 
 }
 
 }  // namespace
-
-int32_t difference(const ColumnLook& a, const ColumnLook& b) {
-  int32_t sum = 0;
-  for (size_t s = 0; s < a.size(); s++) sum += squared_distance(a[s], b[s]) >> difference_shift;
-  return sum;
-}
 
 std::vector<CourseRun> fitting_runs(const std::vector<ColumnLook>& shown, const std::vector<TriedCourse>& courses,
                                     const CoursePriceList& prices, const CourseFit& fit) {

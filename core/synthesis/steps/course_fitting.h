@@ -1,77 +1,10 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
-#include "core/exemplar/appearance.h"
+#include "core/synthesis/steps/course_columns.h"
 
 namespace terrazzo {
-
-/// The appearance of a column of a course: the mean of each of its strips, from one bed joint to the next.
-inline constexpr int course_strips = 4;
-using ColumnLook = std::array<AppearanceVector, course_strips>;
-
-/// A course of the exemplar, column by column.
-struct CourseColumns {
-  std::vector<ColumnLook> looks;
-  std::vector<uint8_t> usable;  ///< whether a result may show a column
-  struct Cut {
-    int column = 0;
-    int32_t cost = 0;
-    int off_middle = 0;  ///< columns from the middle of the joint that it cuts; at most farthest_off_middle
-  };
-  static constexpr int farthest_off_middle = 3;
-  /// The columns before which a run may begin or end, and what either costs; ascending, perhaps one past the last.
-  std::vector<Cut> cuts;
-};
-
-/// Consecutive columns of the exemplar that a result shows from one of its columns on, up to the next run.
-struct CourseRun {
-  int begin = 0;   ///< the first column of the result
-  int course = 0;  ///< of the exemplar
-  int from = 0;    ///< the exemplar's column that it shows there
-  bool operator==(const CourseRun&) const = default;
-};
-
-/// An addition to the cost of showing a column of the exemplar in the result's columns from `begin` to before `end`.
-struct ColumnPrice {
-  int course = 0;
-  int column = 0;
-  int begin = 0, end = 0;
-  int32_t price = 0;
-};
-
-/// A course of the exemplar that a result may show.
-struct TriedCourse {
-  const CourseColumns* columns = nullptr;
-  /// Element i: whether runs may begin whose shift is `least_shift + i`. A run's shift is the exemplar's column that it
-  /// shows, or would show if it were extended, in the result's first column. Empty: all may.
-  std::vector<uint8_t> in_phase{};
-  int least_shift = 0;
-  bool fits(int shift) const { return in_phase.empty() || in_phase[size_t(shift - least_shift)]; }
-};
-
-struct CourseFit {
-  int step = 1;      ///< columns of the exemplar to one of the result
-  int shortest = 1;  ///< the minimum length of runs in columns of the result, except at its borders
-  /// A run that goes back in the course of the one before goes back by at least so many columns of the exemplar.
-  int least_step_back = 0;
-  double per_difference = 0;    ///< the cost per difference() of a column from what is shown,
-  int32_t most_difference = 0;  ///< and its limit
-  int32_t per_gap = 0;          ///< the cost per column by which a joint joined from two parts is too wide or narrow
-  bool closed = false;          ///< the result wraps: its last run continues with its first columns
-};
-
-/// What a result's course costs beyond its look.
-struct CoursePriceList {
-  std::vector<ColumnPrice> columns{};
-  /// Of a run that begins in each of the result's columns; empty: nothing.
-  std::vector<int32_t> cuts{};
-};
-
-/// The squared distance of two columns, scaled.
-int32_t difference(const ColumnLook& a, const ColumnLook& b);
 
 /// The sequence of runs of the exemplar's courses, ascending, whose costs are least: differences from `shown`, prices
 /// and cuts (dynamic programming; Viterbi, Error bounds for convolutional codes, 1967). `courses` have at most 65534

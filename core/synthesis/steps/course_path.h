@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/synthesis/steps/course_fitting.h"
+#include "core/synthesis/steps/course_columns.h"
 
 /// The dynamic programme behind fitting_runs().
 namespace terrazzo {
