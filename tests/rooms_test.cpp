@@ -70,6 +70,60 @@ std::vector<std::string> types_of(const std::string& text) {
   return found;
 }
 
+/// Which units each unit includes. A header and its source file are one unit, named by their path without extension.
+using UnitIncludes = std::map<std::string, std::set<std::string>>;
+
+UnitIncludes unit_includes() {
+  const std::regex include(R"re(#include "([^"]+)\.h")re");
+  UnitIncludes includes;
+  for (const char* folder : {"core", "nodes", "graphs", "runner"})
+    for (const fs::path& file : sources(folder)) {
+      const std::string unit = fs::path(file).replace_extension().string();
+      std::set<std::string>& included = includes[unit];
+      for (std::string& other : matches(text_of(source / file), include))
+        if (other != unit) included.insert(std::move(other));
+    }
+  return includes;
+}
+
+/// The strongly connected components of more than one unit (Tarjan, Depth-first search and linear graph algorithms,
+/// 1972), each sorted.
+class IncludeCircles {
+ public:
+  explicit IncludeCircles(const UnitIncludes& includes) : includes_(includes) {
+    for (const auto& [unit, others] : includes)
+      if (!order_.contains(unit)) visit(unit);
+  }
+  const std::set<std::vector<std::string>>& found() const { return found_; }
+
+ private:
+  /// The least number that is reached from the unit among those that are open.
+  size_t visit(const std::string& unit) {
+    const size_t number = order_.size(), begin = open_.size();
+    size_t least = number;
+    order_[unit] = number;
+    open_.push_back(unit);
+    if (const auto at = includes_.find(unit); at != includes_.end())
+      for (const std::string& other : at->second) {
+        if (!order_.contains(other))
+          least = std::min(least, visit(other));
+        else if (std::ranges::find(open_, other) != open_.end())
+          least = std::min(least, order_[other]);
+      }
+    if (least < number) return least;
+    std::vector<std::string> circle(open_.begin() + ptrdiff_t(begin), open_.end());
+    open_.resize(begin);
+    std::ranges::sort(circle);
+    if (circle.size() > 1) found_.insert(std::move(circle));
+    return least;
+  }
+
+  const UnitIncludes& includes_;
+  std::map<std::string, size_t> order_;
+  std::vector<std::string> open_;
+  std::set<std::vector<std::string>> found_;
+};
+
 }  // namespace
 
 TEST_CASE("types of one name are found, those of anonymous namespaces aside") {
@@ -104,6 +158,27 @@ TEST_CASE("includes between rooms follow the order of tests/rooms.txt") {
         CHECK_MESSAGE(place(included) <= place(room), "includes ", included, ", which comes after ", room);
       }
     }
+}
+
+TEST_CASE("circles of includes are found") {
+  const UnitIncludes includes = {{"a", {"b"}}, {"b", {"c", "d"}}, {"c", {"a", "d"}}, {"d", {"e"}}, {"e", {}}};
+  CHECK(IncludeCircles(includes).found() == std::set<std::vector<std::string>>{{"a", "b", "c"}});
+  CHECK(IncludeCircles({{"a", {"b", "c"}}, {"b", {"c"}}}).found().empty());
+}
+
+TEST_CASE("no unit includes another that includes it") {
+  const UnitIncludes includes = unit_includes();
+  CHECK(includes.size() > 400);
+  const IncludeCircles circles(includes);
+  for (const std::vector<std::string>& circle : circles.found()) {
+    std::string text;
+    for (const std::string& unit : circle) {
+      text += "\n  " + unit + " includes";
+      for (const std::string& other : includes.at(unit))
+        if (std::ranges::binary_search(circle, other)) text += " " + other;
+    }
+    FAIL_CHECK("a circle of includes:", text);
+  }
 }
 
 TEST_CASE("core knows neither JSON nor the command line") {
