@@ -146,11 +146,6 @@ std::string system_message(int code) {
   return std::generic_category().message(code);
 }
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "host";
-}
-
 void throw_system_error(std::string_view verb, const std::filesystem::path& path, int code) {
   throw FileError(fmt::format("cannot {} {}: {}", verb, path.string(), system_message(code)), code);
 }

@@ -77,9 +77,6 @@ std::optional<Digest> content_digest(const std::filesystem::path& path);
 /// What the operating system says about an error number ("No space left on device").
 std::string system_message(int code);
 
-/// What this machine is called, where several share a file system.
-std::string host_name();
-
 /// Throws FileError "cannot <verb> <path>: <what the system says>".
 [[noreturn]] void throw_system_error(std::string_view verb, const std::filesystem::path& path, int code);
 

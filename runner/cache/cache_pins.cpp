@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/base/processes.h"
 #include "runner/cache/cache_folder.h"
 
 namespace terrazzo {

@@ -9,8 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/base/processes.h"
 #include "core/file/file_io.h"
-#include "core/file/processes.h"
 
 namespace terrazzo {
 

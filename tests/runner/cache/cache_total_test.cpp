@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "core/base/processes.h"
 #include "runner/cache/cache.h"
 #include "runner/cache/cache_folder.h"
 #include "tests/run_node.h"

@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "core/file/processes.h"
+#include "core/base/processes.h"
 #include "runner/cache/cache_folder.h"
 #include "runner/cache/cache_leases.h"
 #include "runner/cache/lease_folder.h"

@@ -1,14 +1,20 @@
-#include "core/file/processes.h"
+#include "core/base/processes.h"
 
+#include <array>
 #include <cerrno>
 #include <filesystem>
 
 #include <signal.h>
+#include <unistd.h>
 
 #include "core/base/hash.h"
-#include "core/file/file_io.h"
 
 namespace terrazzo {
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "host";
+}
 
 std::string process_neighbourhood() {
   std::error_code missing;

@@ -6,6 +6,9 @@
 
 namespace terrazzo {
 
+/// What this machine is called, where several share a file system.
+std::string host_name();
+
 /// Names the processes whose numbers mean something here: those of this host that are counted together with this one.
 /// Eight hexadecimal digits.
 std::string process_neighbourhood();
