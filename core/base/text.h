@@ -25,6 +25,27 @@ inline bool is_word(char c) {
   return is_digit(c) || is_letter(c) || c == '_';
 }
 
+/// Whether a name matches a pattern with the wildcards * and ?; case does not count.
+inline bool matches_pattern(std::string_view name, std::string_view pattern) {
+  const std::string text = lowercase(name), wanted = lowercase(pattern);
+  size_t at = 0, next = 0, after_star = std::string::npos, star_ends = 0;
+  while (at < text.size()) {
+    if (next < wanted.size() && wanted[next] == '*') {
+      after_star = ++next;
+      star_ends = at;
+    } else if (next < wanted.size() && (wanted[next] == '?' || wanted[next] == text[at])) {
+      at++;
+      next++;
+    } else if (after_star != std::string::npos) {  // the last star takes one more
+      at = ++star_ends;
+      next = after_star;
+    } else {
+      return false;
+    }
+  }
+  return wanted.find_first_not_of('*', next) == std::string::npos;
+}
+
 /// The text as it stands in HTML and SVG, between tags or in a quoted attribute.
 inline std::string markup(std::string_view text) {
   std::string out;

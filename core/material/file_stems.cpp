@@ -131,14 +131,6 @@ size_t words_in_stem(const std::vector<std::string>& words, const std::string& k
   return 0;
 }
 
-/// Both in lower case.
-bool matches(std::string_view name, std::string_view pattern) {
-  if (pattern.empty()) return name.empty();
-  if (pattern[0] == '*') return matches(name, pattern.substr(1)) || (!name.empty() && matches(name.substr(1), pattern));
-  if (name.empty()) return false;
-  return (pattern[0] == '?' || pattern[0] == name[0]) && matches(name.substr(1), pattern.substr(1));
-}
-
 }  // namespace
 
 std::string Stem::key() const {
@@ -254,10 +246,6 @@ std::string rest_of_name(std::string_view file, const std::vector<FolderMaterial
   std::string rest;
   for (size_t i = said; i < words.size(); i++) rest += (rest.empty() ? "" : "_") + words[i];
   return rest;
-}
-
-bool matches_pattern(std::string_view name, std::string_view pattern) {
-  return matches(lowercase(name), lowercase(pattern));
 }
 
 }  // namespace terrazzo

@@ -73,7 +73,4 @@ MeantMaterials materials_named(const std::vector<FolderMaterial>& all, const std
 /// if that is all.
 std::string rest_of_name(std::string_view file, const std::vector<FolderMaterial>& materials);
 
-/// Whether `name` matches a pattern with the wildcards * and ?; case does not count.
-bool matches_pattern(std::string_view name, std::string_view pattern);
-
 }  // namespace terrazzo

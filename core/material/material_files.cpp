@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text.h"
 #include "core/material/map_candidates.h"
 #include "core/material/material_choice.h"
 

@@ -116,13 +116,6 @@ TEST_CASE("files whose names say nothing are kept as data where patterns say so"
   CHECK(kept({"wall_materialID.png"}, {}) == "data_id=wall_materialID.png");
 }
 
-TEST_CASE("patterns match whole names") {
-  CHECK(matches_pattern("rock_COLOR.png", "*_color.*"));
-  CHECK(matches_pattern("a1.png", "a?.png"));
-  CHECK_FALSE(matches_pattern("a12.png", "a?.png"));
-  CHECK_FALSE(matches_pattern("color.png.txt", "*.png"));
-}
-
 TEST_CASE("a material's name may end in a UDIM tile") {
   CHECK(udim_tile_of("wall.1002") == "1002");
   CHECK(without_udim_tile("wall.1002") == "wall");
