@@ -211,4 +211,16 @@ ImagePtr resampled(const ImagePtr& source, Size size, const std::string& filter,
                   scaling_filter(name, source->height(), size.height), outside);
 }
 
+ImagePtr numbers_at_size(const ImagePtr& image, Size size, const Task& task) {
+  ImageInfo info = image->info();
+  info.semantic = Semantic::data;
+  info.color_space = "raw";
+  const ImagePtr plain = Image::redescribed(image, info);
+  if (image->size() == size) return materialized(plain, task);
+  info.size = size;
+  const AxisFilter across = scaling_filter("triangle", image->width(), size.width);
+  const AxisFilter down = scaling_filter("triangle", image->height(), size.height);
+  return materialized(filtered(plain, info, Digest{}, across, down, Outside::clamp), task);
+}
+
 }  // namespace terrazzo

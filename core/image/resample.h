@@ -44,4 +44,7 @@ ImagePtr filtered(const ImagePtr& source, const ImageInfo& info, const Digest& r
 /// masks and guidance. The image itself if it has that size.
 ImagePtr resampled(const ImagePtr& source, Size size, const std::string& filter, Outside outside, const Digest& recipe);
 
+/// An image's plain numbers at another size, whatever they mean, by the triangle filter; in memory.
+ImagePtr numbers_at_size(const ImagePtr& image, Size size, const Task& task);
+
 }  // namespace terrazzo

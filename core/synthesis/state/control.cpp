@@ -62,21 +62,6 @@ constexpr double most_weight = 1e9;  // keeps sums of weighted squares within 64
 constexpr int deviation_windows = 512,
               distance_pairs = 1024;  // sample sizes: the means they give vary by a few per cent
 
-using PlaneValues = std::vector<float>;
-
-/// The control's plain numbers at another size.
-ImagePtr values_at_size(const ImagePtr& image, Size size, const Task& task) {
-  ImageInfo info = image->info();
-  info.semantic = Semantic::data;
-  info.color_space = "raw";
-  const ImagePtr plain = Image::redescribed(image, info);
-  if (image->size() == size) return materialized(plain, task);
-  info.size = size;
-  const AxisFilter across = scaling_filter("triangle", image->width(), size.width);
-  const AxisFilter down = scaling_filter("triangle", image->height(), size.height);
-  return materialized(filtered(plain, info, Digest{}, across, down, Outside::clamp), task);
-}
-
 /// Puts bytes made from each pixel's values into channels [first, first + count) of the planes.
 template <typename Encode>
 void put(const Image& image, ControlPlanes& planes, int first, const Encode& encode) {
@@ -99,8 +84,8 @@ struct ByteScale {
 };
 
 void put_values(const Control& control, ControlPlanes& exemplar, ControlPlanes& target, int first, const Task& task) {
-  const ImagePtr has = values_at_size(control.exemplar, exemplar.size, task);
-  const ImagePtr wants = values_at_size(control.target, target.size, task);
+  const ImagePtr has = numbers_at_size(control.exemplar, exemplar.size, task);
+  const ImagePtr wants = numbers_at_size(control.target, target.size, task);
   const std::vector<Distribution> own = Distribution::of(*has, task), wanted = Distribution::of(*wants, task);
   std::vector<ByteScale> scales;
   std::vector<PiecewiseLinear> curves;
