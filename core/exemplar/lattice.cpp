@@ -4,7 +4,6 @@
 #include <array>
 #include <limits>
 
-#include "core/base/portable_math.h"
 #include "core/base/tuning.h"
 
 namespace terrazzo {
@@ -23,7 +22,6 @@ struct LatticeTuning {
   double most_bent = 0.15;
   double unseen_bend = 0.01;
   double unseen_bend_by_doubt = 0.025;
-  double bending_weight = 2;
   int farthest = 3;
 };
 const Tunable<LatticeTuning> lattice_tuning(
@@ -68,10 +66,6 @@ const Tunable<LatticeTuning> lattice_tuning(
         {&LatticeTuning::unseen_bend_by_doubt, "unseen_bend_by_doubt", "share of a cell",
          "the same, in addition, of one that is not certain at all, whose cells vary anyway",
          "not measured: taken over from the code before constants were listed"},
-        {&LatticeTuning::bending_weight, "bending_weight", "logarithms of a factor on the side",
-         "to a cell that is bent by its length. Higher: sizes that wrap are farther from those asked for; lower: their "
-         "cells are bent",
-         "not measured: a side half as long again is as bad as cells bent by a fifth"},
         {&LatticeTuning::farthest, "farthest", "steps along both vectors",
          "in which a course may run. Higher: bonds of many bricks have courses, too; lower: less chance",
          "not measured: taken over from the code before constants were listed", 1, 1000},
@@ -83,22 +77,6 @@ Matrix2d inverse(const Vector2d& a, const Vector2d& b) {
   Matrix2d out;
   out << b.y() * d, -b.x() * d, -a.y() * d, a.x() * d;
   return out;
-}
-
-/// The length of a side, near `length`, that wraps best.
-int best_side(const Lattice& lattice, int length, bool along_x, int give) {
-  int best = length;
-  double least = std::numeric_limits<double>::max();
-  for (int n = length / 2 + 1; n <= length + length / 8; n++) {
-    const int room = give + std::max(0, n - length);
-    const double bent = lattice.bent({n, n}, along_x, !along_x, {room, room});
-    if (bent > Lattice::most_bent() && n != length) continue;
-    const double badness = std::abs(portable::log(double(n) / length)) + lattice_tuning->bending_weight * bent;
-    if (badness >= least) continue;
-    least = badness;
-    best = n;
-  }
-  return best;
 }
 
 }  // namespace
@@ -215,12 +193,6 @@ double Lattice::bent(Size size, bool wraps_x, bool wraps_y, Size give) const {
     return missing > 0 ? missing / (x ? give.width : give.height) : 0;
   };
   return std::max(wraps_x ? along(true) : 0, wraps_y ? along(false) : 0);
-}
-
-Size Lattice::best_fitting(Size size, bool wraps_x, bool wraps_y, Size give) const {
-  if (rank == 0) return size;
-  return {wraps_x ? best_side(*this, size.width, true, give.width) : size.width,
-          wraps_y ? best_side(*this, size.height, false, give.height) : size.height};
 }
 
 Matrix2d LatticePhase::to_cells(const Lattice& l, double scale) {

@@ -57,11 +57,6 @@ struct Lattice {
   static double most_bent();
   /// How much they can be bent without its being seen: the less sure the lattice, the more its cells vary anyway.
   double unseen_bend() const;
-  /// The size near `size`, over half of it and at most an eighth larger, which wraps best along those axes: a size far
-  /// off is weighed against cells that must be bent. They are bent within `give`, pixels along each side, and what a
-  /// side grows by.
-  Size best_fitting(Size size, bool wraps_x, bool wraps_y, Size give) const;
-
   bool operator==(const Lattice&) const = default;
   void add_to(Hasher& h) const {
     h.add(rank).add(first.x()).add(first.y()).add(second.x()).add(second.y()).add(certainty);

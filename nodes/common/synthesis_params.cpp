@@ -8,6 +8,7 @@
 #include "core/image/image_facts.h"
 #include "core/synthesis/state/jitter.h"
 #include "nodes/common/shape_rules.h"
+#include "nodes/common/wrapping_size.h"
 
 namespace terrazzo {
 
@@ -194,7 +195,7 @@ void warn_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
   // The less there is to bend in, the nearer to whole repeats.
   for (const int part : {1, 4, 16}) {
     const Size give{std::max(1, options.size.width / part), std::max(1, options.size.height / part)};
-    const Size would = lattice.best_fitting(options.size, options.tile_x, options.tile_y, give);
+    const Size would = best_wrapping_size(lattice, options.size, options.tile_x, options.tile_y, give);
     if (!fits(would)) continue;
     advice = fmt::format("{} would", describe(would));
     break;

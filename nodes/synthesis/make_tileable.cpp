@@ -11,6 +11,7 @@
 #include "nodes/common/synthesis_memory.h"
 #include "nodes/common/synthesis_params.h"
 #include "nodes/common/synthesis_steps.h"
+#include "nodes/common/wrapping_size.h"
 
 namespace terrazzo {
 
@@ -74,7 +75,7 @@ void compute_make_tileable(NodeContext& node) {
       "it is analysed, in the stock graph by --set tiles=yes");
   const Lattice& lattice = index->appearance()->lattice();
   const Size fitting =
-      lattice.best_fitting(exemplar, options.tile_x, options.tile_y, {2 * border.width, 2 * border.height});
+      best_wrapping_size(lattice, exemplar, options.tile_x, options.tile_y, {2 * border.width, 2 * border.height});
   if (node.text("fit") == "repeats") options.size = fitting;
   options.kept = interior(exemplar, options.size, border);
   if (options.size != exemplar)
