@@ -13,7 +13,7 @@ if [ "${1:-}" = short ]; then short=yes; shift; fi
 [[ $# -le 1 && ${1:-asan} =~ ^(asan|tsan)$ ]] || { sed -n '5s/^# //p' "$0" >&2; exit 2; }
 declare -A rooms
 if [ -n "$short" ]; then
-  rooms[asan]="core/base;core/file;core/node;graphs/document;graphs/expression"
+  rooms[asan]="core/base;core/file;core/block_file;core/integrity;core/node;graphs/text;graphs/values;graphs/document;graphs/expression"
   rooms[tsan]="runner/engine;runner/cache;core/synthesis"
 fi
 

@@ -16,7 +16,7 @@ std::string host_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "host";
 }
 
-std::string process_neighbourhood() {
+std::string pid_namespace_id() {
   std::error_code missing;
   const std::filesystem::path processes = std::filesystem::read_symlink("/proc/self/ns/pid", missing);
   return Hasher().add(host_name()).add(processes.native()).digest().hex().substr(0, 8);

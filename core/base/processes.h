@@ -11,7 +11,7 @@ std::string host_name();
 
 /// Names the processes whose numbers mean something here: those of this host that are counted together with this one.
 /// Eight hexadecimal digits.
-std::string process_neighbourhood();
+std::string pid_namespace_id();
 
 /// Whether a process of the neighbourhood runs, or has stopped and may go on.
 bool is_running(pid_t process);

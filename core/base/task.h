@@ -34,13 +34,13 @@ class Task {
 /// Makes a task the one that this thread works for, for as long as the object lives. Pixels are computed wherever they
 /// are asked for, deep inside code that was given no task: what computes them asks here whether to go on. A loop that
 /// pulls pixels on other threads says so on each of them.
-class WorksFor {
+class CurrentTask {
  public:
   /// `task` must outlive the object.
-  explicit WorksFor(const Task& task) : before_(current_) { current_ = &task; }
-  ~WorksFor() { current_ = before_; }
-  WorksFor(const WorksFor&) = delete;
-  WorksFor& operator=(const WorksFor&) = delete;
+  explicit CurrentTask(const Task& task) : before_(current_) { current_ = &task; }
+  ~CurrentTask() { current_ = before_; }
+  CurrentTask(const CurrentTask&) = delete;
+  CurrentTask& operator=(const CurrentTask&) = delete;
 
   /// The task this thread works for; one that is never cancelled if nobody has said.
   static const Task& task() {

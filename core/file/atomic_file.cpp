@@ -54,7 +54,7 @@ bool is_abandoned(const fs::directory_entry& entry) {
   const std::optional<Owner> owner = owner_of(entry.path());
   std::error_code failure;
   if (!owner || entry.is_symlink(failure) || !entry.is_regular_file(failure)) return false;
-  if (owner->neighbourhood == process_neighbourhood()) return !is_running(owner->process);
+  if (owner->neighbourhood == pid_namespace_id()) return !is_running(owner->process);
   const fs::file_time_type written = entry.last_write_time(failure);
   return !failure && fs::file_time_type::clock::now() - written > trusted_age;
 }
@@ -135,7 +135,7 @@ fs::path temporary_beside(const fs::path& target) {
   const std::string beginning = target.stem().string().substr(0, 100);
   const std::string extension = target.extension().string().substr(0, 50);
   return target.parent_path() /
-         fmt::format(".{}.{}-{}-{}-{}{}", beginning, mark, process_neighbourhood(), ::getpid(), count++, extension);
+         fmt::format(".{}.{}-{}-{}-{}{}", beginning, mark, pid_namespace_id(), ::getpid(), count++, extension);
 }
 
 namespace {

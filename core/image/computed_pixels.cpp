@@ -223,7 +223,7 @@ void ComputedPixels::await(Filling& filling) const {
       continue;
     }
     filling.changed.wait_for(lock, patience);
-    WorksFor::task().check();
+    CurrentTask::task().check();
   }
 }
 
@@ -243,7 +243,7 @@ void ComputedPixels::give_up(const std::shared_ptr<Filling>& filling) const {
 void ComputedPixels::keep() const {
   if (is_kept_) return;
   const std::shared_ptr<Filling> all = filling();
-  const Task& task = WorksFor::task();
+  const Task& task = CurrentTask::task();
   task.check();
   try {
     if (all->strips == 1)
@@ -252,7 +252,7 @@ void ComputedPixels::keep() const {
       // Isolated: a thread that waits for others must not pick up work that waits for it.
       tbb::this_task_arena::isolate([&] {
         tbb::parallel_for(0, std::min(all->strips, tbb::this_task_arena::max_concurrency()), [&](int) {
-          const WorksFor scope(task);
+          const CurrentTask scope(task);
           help(*all);
         });
       });

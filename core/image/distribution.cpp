@@ -44,7 +44,7 @@ void visit_strips(const Image& image, tbb::enumerable_thread_specific<State>& st
   const int strips = (image.height() + strip_rows - 1) / strip_rows;
   std::atomic<int> done{0};
   tbb::parallel_for(0, strips, [&](int strip) {
-    const WorksFor scope(task);
+    const CurrentTask scope(task);
     task.progress(from + 0.5 * done++ / strips);
     const int y = strip * strip_rows;
     const Rect region{0, y, image.width(), std::min(strip_rows, image.height() - y)};

@@ -278,7 +278,7 @@ void for_each_strip(const Image& image, const std::function<void(const Rect&, co
   const int rows = rows_of_a_strip(image);
   std::vector<float> buffer;
   for (int y = 0; y < image.height(); y += rows) {
-    WorksFor::task().check();
+    CurrentTask::task().check();
     const Rect r{0, y, image.width(), std::min(rows, image.height() - y)};
     if (const float* all = image.in_memory()) {
       visit(r, all + size_t(y) * image.width() * image.channels());
@@ -298,7 +298,7 @@ ImagePtr materialized(const ImagePtr& image, const Task& task) {
   const int strips = (info.size.height + rows - 1) / rows;
   std::atomic<int> done{0};
   tbb::parallel_for(0, strips, [&](int strip) {
-    const WorksFor scope(task);
+    const CurrentTask scope(task);
     task.progress(double(done++) / strips);
     const int y = strip * rows;
     image->read({0, y, info.size.width, std::min(rows, info.size.height - y)},

@@ -54,7 +54,7 @@ struct ImageInfo {
   Size size;
   int channels = 1;  ///< 1..4
   Semantic semantic = Semantic::data;
-  std::string color_space = "raw";  ///< a name that core/image/color.h knows; "raw" is never converted
+  std::string color_space = "raw";  ///< a name that core/image_io/color.h knows; "raw" is never converted
   Depth depth = Depth::f32;
   NormalY normal_y =
       NormalY::up;  ///< only meaningful for Semantic::normal; pixels stay as they came, this tells how to read them
@@ -155,7 +155,7 @@ class Image {
   const Digest& digest() const { return digest_; }
 
   /// Reads a region that lies inside the image; `out` holds region.area() * channels() floats. Thread-safe. Throws
-  /// Cancelled if pixels have to be computed and the task that the thread works for (see WorksFor) is cancelled.
+  /// Cancelled if pixels have to be computed and the task that the thread works for (see CurrentTask) is cancelled.
   void read(const Rect& region, float* out) const { source_->read(region, out); }
   std::vector<float> read(const Rect& region) const;
   /// The whole image as floats.
@@ -184,6 +184,6 @@ void for_each_strip(const Image& image, const std::function<void(const Rect&, co
 
 /// An image whose pixels lie in memory: `image` itself if they do already, else a copy that has been pulled, in
 /// parallel. Tells `task` how far it is.
-ImagePtr materialized(const ImagePtr& image, const Task& task = WorksFor::task());
+ImagePtr materialized(const ImagePtr& image, const Task& task = CurrentTask::task());
 
 }  // namespace terrazzo

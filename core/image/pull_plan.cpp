@@ -162,7 +162,7 @@ void PullPlan::let_go(const Step& step) {
 void PullPlan::pull(const Rect& region, float* out) {
   demand(region);
   for (Step& step : steps_) {
-    WorksFor::task().check();
+    CurrentTask::task().check();
     compute(step, &step == &steps_.back() ? out : nullptr);
     let_go(step);
   }

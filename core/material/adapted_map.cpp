@@ -6,8 +6,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/image/color.h"
 #include "core/image/image_ops.h"
+#include "core/image_io/color.h"
 
 namespace terrazzo {
 

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/text.h"
-#include "core/material/file_words.h"
+#include "core/naming/file_words.h"
 
 namespace terrazzo {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/image/color.h"
+#include "core/image_io/color.h"
 
 namespace terrazzo {
 

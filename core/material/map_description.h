@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "core/material/material.h"
 
 /// What an image file says in its description of the maps that it holds, on a line of its own. Thread-safe.
@@ -33,7 +33,7 @@ struct FileDescription {
 std::optional<FileDescription> file_description(std::string_view description);
 
 /// The colour space that a file says: in its description, if that is of colours, or in a PNG file's gAMA chunk. By a
-/// name that core/image/color.h knows; empty if it says none, or if `semantic` is no colour. Throws Error about
+/// name that core/image_io/color.h knows; empty if it says none, or if `semantic` is no colour. Throws Error about
 /// "color_space" for a name that is not known.
 std::string stated_color_space(const FileInfo& file, Semantic semantic);
 

@@ -67,7 +67,7 @@ void note_taken(const Candidate& c, std::vector<std::string>& notes) {
 
 }  // namespace
 
-Recognition recognise_maps(std::vector<MapFile> files, const MapWishes& wishes) {
+Recognition recognise_maps(std::vector<MapFile> files, const RecognitionOptions& wishes) {
   std::sort(files.begin(), files.end(), [](const MapFile& a, const MapFile& b) { return a.name < b.name; });
   Candidates candidates = candidates_among(files);
   std::vector<Candidate>& found = candidates.maps;

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/material/file_stems.h"
 #include "core/material/recognised_map.h"
+#include "core/naming/file_stems.h"
 
 /// Recognises the maps of a material by file name: the conventions of ambientCG, Poly Haven, Substance, Quixel
 /// Megascans, Unreal, Unity and glTF, and plain names. Works on lists; reads no files.
@@ -19,7 +19,7 @@ struct Recognition {
 };
 
 /// What the user says of the files.
-struct MapWishes {
+struct RecognitionOptions {
   std::string name{};               ///< which material is meant, see materials_named; empty: there is only one
   std::vector<std::string> data{};  ///< patterns of files to keep as data where their names say no map
 };
@@ -28,6 +28,6 @@ struct MapWishes {
 /// wishes do not say which, or name none of them, there are no maps. Of several files for one map it prefers those that
 /// share their stem with most other files, then direct maps over packed or inverted ones, OpenGL normals over DirectX,
 /// more pixels, and EXR, TIFF and PNG over lossy formats. The order of `files` does not matter.
-Recognition recognise_maps(std::vector<MapFile> files, const MapWishes& wishes = {});
+Recognition recognise_maps(std::vector<MapFile> files, const RecognitionOptions& wishes = {});
 
 }  // namespace terrazzo

@@ -8,8 +8,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/tuning.h"
-#include "core/image/color.h"
-#include "core/image/file_pixels.h"
+#include "core/image_io/color.h"
+#include "core/image_io/file_pixels.h"
 
 namespace terrazzo {
 

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/base/text.h"
-#include "core/material/file_words.h"
 #include "core/material/map_description.h"
-#include "core/material/map_keyword.h"
 #include "core/material/material.h"
+#include "core/naming/file_words.h"
+#include "core/naming/map_keyword.h"
 
 namespace terrazzo {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/image/image.h"
-#include "core/material/file_stems.h"
-#include "core/material/interpretation.h"
+#include "core/naming/file_stems.h"
+#include "core/naming/interpretation.h"
 
 /// Recognises the maps in one file by its name, the names of its layers, and its description. Reads no files.
 namespace terrazzo {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/hash.h"
-#include "core/image/resample.h"
+#include "core/filter/resample.h"
 
 namespace terrazzo {
 

@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "core/base/portable_math.h"
+#include "core/filter/resample.h"
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
-#include "core/image/resample.h"
 
 namespace terrazzo {
 

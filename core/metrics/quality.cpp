@@ -61,7 +61,7 @@ Planes stacked(const Material& material, const std::vector<MapChannels>& maps) {
   std::vector<Planes> parts;
   int channels = 0;
   for (const MapChannels& map : maps) {
-    WorksFor::task().check();
+    CurrentTask::task().check();
     parts.push_back(map_planes(*material.find(std::string_view(map.name)), map.channels, material.size()));
     channels += parts.back().channels;
   }

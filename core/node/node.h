@@ -175,9 +175,10 @@ struct NodeType {
   /// of its material, or of its only output, and the files of a sink. Must be fast; may read files that `files_read`
   /// names.
   std::function<Forecast(const Params&, const InputForecasts&)> preflight;
-  /// What is allowed and hardly meant, for the command `check`: one message each, starting with the name of a parameter
-  /// or port in quotes if it is about one. May read files that `files_read` names; ports that are open are not there.
-  std::function<std::vector<std::string>(const Params&, const InputForecasts&)> doubts;
+  /// What is allowed and probably unintended, for the command `check`: one message each, starting with the name of a
+  /// parameter or port in quotes if it is about one. May read files that `files_read` names; ports that are open are
+  /// not there.
+  std::function<std::vector<std::string>(const Params&, const InputForecasts&)> lint;
   NodeOrigin origin{};
 
   const Port* find_input(std::string_view port) const;

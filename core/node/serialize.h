@@ -3,11 +3,11 @@
 #include <filesystem>
 
 #include "core/base/task.h"
-#include "core/file/bytes.h"
+#include "core/block_file/bytes.h"
 #include "core/node/value.h"
 
 /// The file format of values, for cache entries and portable analyses: versioned, little endian, compressed in blocks,
-/// each with a checksum (core/file/block_file.h).
+/// each with a checksum (core/block_file/block_file.h).
 namespace terrazzo {
 
 /// Writes the value to `path` and, if `sync`, waits until it is on disk. Images are pulled strip by strip; lazy ones

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/file/bytes.h"
+#include "core/block_file/bytes.h"
 
 namespace terrazzo {
 

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/block_file/block_file.h"
 #include "core/exemplar/features.h"
-#include "core/file/block_file.h"
 #include "core/node/serialize.h"
 #include "core/node/serialize_check.h"
 #include "core/node/stored_pixels.h"

@@ -2,9 +2,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/block_file/block_file.h"
 #include "core/exemplar/appearance.h"
 #include "core/exemplar/features.h"
-#include "core/file/block_file.h"
 #include "core/node/serialize.h"
 
 namespace terrazzo {
@@ -234,7 +234,7 @@ class ValueWriter {
     constexpr int rows_at_once = 32;
     const size_t row = size_t(image.width()) * size_t(image.channels());
     tbb::parallel_for(0, (rows + rows_at_once - 1) / rows_at_once, [&](int i) {
-      const WorksFor scope(task_);
+      const CurrentTask scope(task_);
       const int first = i * rows_at_once;
       image.read({0, y + first, image.width(), std::min(rows_at_once, rows - first)}, out + size_t(first) * row);
     });

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/file/block_file.h"
+#include "core/block_file/block_file.h"
 #include "core/image/image.h"
 
 namespace terrazzo {

@@ -8,8 +8,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/image/color.h"
-#include "core/image/resample.h"
+#include "core/filter/resample.h"
+#include "core/image_io/color.h"
 #include "core/picture/pixel_font.h"
 #include "core/picture/sheet_canvas.h"
 
@@ -121,7 +121,7 @@ ImagePtr picture_grid(const std::vector<ImagePtr>& pictures, const GridSpec& spe
   SheetCanvas sheet(grid_size(pictures.size(), spec));
   const Size place = place_size(spec);
   tbb::parallel_for(size_t{0}, pictures.size(), [&](size_t i) {
-    const WorksFor scope(task);
+    const CurrentTask scope(task);
     const int column = int(i) % columns_of(pictures.size(), spec), row = int(i) / columns_of(pictures.size(), spec);
     const int left = spec.gap + column * (place.width + spec.gap), top = spec.gap + row * (place.height + spec.gap);
     const ImagePtr picture = displayed(pictures[i], fitted(pictures[i]->size(), spec));

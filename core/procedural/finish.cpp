@@ -5,8 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/portable_math.h"
+#include "core/filter/occlusion.h"
 #include "core/image/normal.h"
-#include "core/image/occlusion.h"
 
 namespace terrazzo {
 

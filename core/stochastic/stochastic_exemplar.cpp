@@ -107,7 +107,7 @@ void StochasticExemplar::decorrelate(const std::vector<ImagePtr>& maps, const Ta
   components_.channels = count;
   components_.values.resize(size_t(size().area()) * count);
   tbb::parallel_for(0, size().height, [&](int y) {
-    const WorksFor scope(task);
+    const CurrentTask scope(task);
     std::vector<float> row(size_t(size().width) * n);
     read_row(maps, y, n, row.data());
     VectorXd pixel(n);

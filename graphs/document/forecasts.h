@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "graphs/document/graph.h"
+#include "graphs/text/graph.h"
 
 namespace terrazzo {
 

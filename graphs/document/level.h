@@ -14,14 +14,14 @@
 namespace terrazzo {
 
 /// Parameters as expressions see them: those of a level, or, in a round of a loop, the loop's variables before these.
-struct Names {
+struct NodeScope {
   std::vector<GraphParameter> parameters;  ///< of a round only the variables
   std::unique_ptr<GraphScope> scope;
   std::unique_ptr<Substitution> substitution;
 };
 
 /// What a name in a level's section `nodes` stands for; several in a loop.
-struct Item {
+struct NodeInstance {
   NodeDraft* draft = nullptr;
   Level* inner = nullptr;  ///< null if it is no graph, is muted, or could not be read
 };
@@ -32,18 +32,18 @@ struct Level {
   Level* outer = nullptr;
   NodeDraft* use = nullptr;  ///< the node in `outer` that it is
   std::string path;          ///< begins the names of its nodes: "walls/"
-  Names names;
-  std::vector<std::unique_ptr<Names>> rounds;  ///< of all its loops
+  NodeScope names;
+  std::vector<std::unique_ptr<NodeScope>> rounds;  ///< of all its loops
   NodeReading reading;
-  std::vector<std::pair<std::string, std::vector<Item>>> items;  ///< by name, in the document's order
-  std::map<std::string, size_t> positions;                       ///< in `items`
+  std::vector<std::pair<std::string, std::vector<NodeInstance>>> items;  ///< by name, in the document's order
+  std::map<std::string, size_t> positions;                               ///< in `items`
   std::map<std::string, PortWires> outputs;
 
   const PortWires* find_output(const std::string& name) const {
     const auto at = outputs.find(name);
     return at == outputs.end() ? nullptr : &at->second;
   }
-  const std::vector<Item>* find(const std::string& name) const {
+  const std::vector<NodeInstance>* find(const std::string& name) const {
     const auto at = positions.find(name);
     return at == positions.end() ? nullptr : &items[at->second].second;
   }

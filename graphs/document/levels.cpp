@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
-#include "graphs/document/convert.h"
 #include "graphs/document/file_origins.h"
 #include "graphs/expression/operations.h"
+#include "graphs/values/convert.h"
 
 namespace terrazzo {
 
@@ -93,7 +93,7 @@ void Levels::read_level(Level& level, const std::vector<RoutedOverride>& overrid
   if (const JsonValue* nodes = level.graph->json->find("nodes"))
     for (const JsonMember& m : nodes->members) {
       level.positions.emplace(m.name, level.items.size());
-      level.items.emplace_back(m.name, std::vector<Item>());
+      level.items.emplace_back(m.name, std::vector<NodeInstance>());
       const auto its = by_node.find(m.name);
       read_item(level, m, its == by_node.end() ? std::vector<RoutedOverride>() : its->second);
     }
@@ -107,17 +107,17 @@ void Levels::refuse_unknown(const Level& level, const std::vector<RoutedOverride
   std::vector<std::string> names;
   for (const auto& [name, items] : level.items) names.push_back(name);
   std::map<std::string, std::vector<std::string>> rounds_of;  // sorted, by loop
-  const auto rounds_in = [&](const std::string& loop, const std::vector<Item>& items) -> const auto& {
+  const auto rounds_in = [&](const std::string& loop, const std::vector<NodeInstance>& items) -> const auto& {
     const auto [at, is_new] = rounds_of.try_emplace(loop);
     if (is_new)
-      for (const Item& item : items) at->second.push_back(item.draft->local);
+      for (const NodeInstance& item : items) at->second.push_back(item.draft->local);
     if (is_new) std::ranges::sort(at->second);
     return at->second;
   };
   const std::string in = level.path.empty() ? "the graph" : in_quotes(level.path.substr(0, level.path.size() - 1));
   size_t hints = 0;
   for (const RoutedOverride& o : overrides) {
-    const std::vector<Item>* items = level.find(o.plain);
+    const std::vector<NodeInstance>* items = level.find(o.plain);
     const auto refuse = [&](const std::string& message) {
       o.override->diagnostics(problems_).add(o.override->place, message);
     };
@@ -139,7 +139,7 @@ void Levels::refuse_unknown(const Level& level, const std::vector<RoutedOverride
 }
 
 void Levels::read_item(Level& level, const JsonMember& member, const std::vector<RoutedOverride>& its) {
-  std::vector<Item>& items = level.items.back().second;
+  std::vector<NodeInstance>& items = level.items.back().second;
   const std::string where = "node " + in_quotes(level.path + member.name);
   if (!is_node_name(member.name))
     problems_.push_back({member.place, where, "expected a name of letters, digits, _ and -", level.path + member.name});
@@ -175,29 +175,29 @@ void Levels::read_item(Level& level, const JsonMember& member, const std::vector
     }
     std::vector<RoutedOverride> of_round;
     for (const size_t i : positions) of_round.push_back(its[i]);
-    if (Names* names = names_of_round(level, round, diagnostics))
+    if (NodeScope* names = names_of_round(level, round, diagnostics))
       read_round(level, member, local, *names, of_round, items);
   }
-  for (const Item& item : items) item.draft->loop_names = names;
+  for (const NodeInstance& item : items) item.draft->loop_names = names;
 }
 
 /// Null after a problem.
-Names* Levels::names_of_round(Level& level, const LoopRound& round, Diagnostics& diagnostics) {
+NodeScope* Levels::names_of_round(Level& level, const LoopRound& round, Diagnostics& diagnostics) {
   for (const GraphParameter& v : round.variables)
     if (level.names.scope->look_up(v.param.name)) {
       diagnostics.add(v.place, fmt::format("the graph has a parameter {} already; choose another name with \"as\"",
                                            in_quotes(v.param.name)));
       return nullptr;
     }
-  Names& out = *level.rounds.emplace_back(std::make_unique<Names>());
+  NodeScope& out = *level.rounds.emplace_back(std::make_unique<NodeScope>());
   out.parameters = round.variables;
   out.scope = std::make_unique<GraphScope>(out.parameters, *level.names.scope);
   out.substitution = std::make_unique<Substitution>(*out.scope);
   return &out;
 }
 
-void Levels::read_round(Level& level, const JsonMember& member, const std::string& local, Names& names,
-                        const std::vector<RoutedOverride>& overrides, std::vector<Item>& items) {
+void Levels::read_round(Level& level, const JsonMember& member, const std::string& local, NodeScope& names,
+                        const std::vector<RoutedOverride>& overrides, std::vector<NodeInstance>& items) {
   if (is_full_) return;
   const auto refuse = [&](const std::string& message) {
     problems_.push_back({member.place, "", message});
@@ -308,13 +308,13 @@ std::optional<int64_t> Levels::read_seed(Level& level) {
 void Levels::set_forecasts(const GraphScope::Forecasts& forecasts) {
   for (const std::unique_ptr<Level>& level : levels_) {
     level->names.scope->set_forecasts(forecasts);
-    for (const std::unique_ptr<Names>& round : level->rounds) round->scope->set_forecasts(forecasts);
+    for (const std::unique_ptr<NodeScope>& round : level->rounds) round->scope->set_forecasts(forecasts);
   }
 }
 
-void Levels::read_what_waits(Level& level, const std::set<std::string>& known) {
+void Levels::read_deferred(Level& level, const std::set<std::string>& known) {
   if (!level.use) return;
-  read_what_waits(*level.outer, known);
+  read_deferred(*level.outer, known);
   NodeDraft& use = *level.use;
   if (use.waiting.empty() || !std::ranges::all_of(use.asked, [&](const std::string& n) { return known.contains(n); }))
     return;

@@ -53,19 +53,19 @@ class Levels {
   const std::set<std::string>& unset_for_loops() const { return unset_for_loops_; }
 
   /// Reads what the nodes of this level, and the graphs around it, wait for, as far as all they ask for is known.
-  void read_what_waits(Level& level, const std::set<std::string>& known);
+  void read_deferred(Level& level, const std::set<std::string>& known);
   /// Tells every scope where to ask for forecasts.
   void set_forecasts(const GraphScope::Forecasts& forecasts);
 
  private:
   void read_level(Level& level, const std::vector<RoutedOverride>& overrides);
   void read_item(Level& level, const JsonMember& member, const std::vector<RoutedOverride>& overrides);
-  void read_round(Level& level, const JsonMember& member, const std::string& local, Names& names,
-                  const std::vector<RoutedOverride>& overrides, std::vector<Item>& items);
+  void read_round(Level& level, const JsonMember& member, const std::string& local, NodeScope& names,
+                  const std::vector<RoutedOverride>& overrides, std::vector<NodeInstance>& items);
   Level* read_use(Level& outer, NodeDraft& use, const Subgraph& graph, const std::vector<RoutedOverride>& overrides);
   void read_outputs(Level& level);
   std::optional<int64_t> read_seed(Level& level);
-  Names* names_of_round(Level& level, const LoopRound& round, Diagnostics& diagnostics);
+  NodeScope* names_of_round(Level& level, const LoopRound& round, Diagnostics& diagnostics);
   void refuse_unknown(const Level& level, const std::vector<RoutedOverride>& overrides);
 
   Subgraphs& graphs_;

@@ -8,17 +8,17 @@
 
 #include "core/base/paths.h"
 #include "core/base/suggest.h"
-#include "graphs/document/convert.h"
 #include "graphs/document/file_origins.h"
 #include "graphs/document/forecasts.h"
-#include "graphs/document/given_inputs.h"
 #include "graphs/document/left_out.h"
 #include "graphs/document/levels.h"
 #include "graphs/document/member_overrides.h"
 #include "graphs/document/pack_settings.h"
-#include "graphs/document/read_document.h"
 #include "graphs/document/unused.h"
 #include "graphs/document/wires.h"
+#include "graphs/text/given_inputs.h"
+#include "graphs/text/read_document.h"
+#include "graphs/values/convert.h"
 
 namespace terrazzo {
 
@@ -106,11 +106,11 @@ class Loader {
     connect(levels_, problems_);
     coded("wire");
     Drafts& drafts = levels_.nodes();
-    for (NodeDraft& d : drafts) name_what_is_asked(d);
-    for (NodeDraft& d : levels_.others()) name_what_is_asked(d);
+    for (NodeDraft& d : drafts) resolve_queried_nodes(d);
+    for (NodeDraft& d : levels_.others()) resolve_queried_nodes(d);
     const std::vector<size_t> order = execution_order(drafts, problems_);
     coded("cycle");
-    read_what_waits(order, root);
+    read_deferred(order, root);
     const std::set<std::string> wanted = wanted_nodes(drafts, options.only);
     const bool is_part = options.keep_going ? !of_sources_.empty() : report_sources(asked_too(drafts, wanted));
     coded("parameter");
@@ -194,7 +194,7 @@ class Loader {
   }
 
   /// In a node, instead of names as expressions have them, those of the nodes behind.
-  void name_what_is_asked(NodeDraft& draft) const {
+  void resolve_queried_nodes(NodeDraft& draft) const {
     std::set<std::string> nodes;
     for (const std::string& name : draft.asked) {
       WireSources found = sources_behind(name);
@@ -206,7 +206,7 @@ class Loader {
   }
 
   /// Evaluates what is made from the forecasts of nodes: node by node, so that each can ask for earlier ones.
-  void read_what_waits(const std::vector<size_t>& order, Level& root) {
+  void read_deferred(const std::vector<size_t>& order, Level& root) {
     Drafts& drafts = levels_.nodes();
     std::vector<std::string> asked;
     for (const NodeDraft& d : drafts) asked.insert(asked.end(), d.asked.begin(), d.asked.end());
@@ -232,7 +232,7 @@ class Loader {
           d.unset.insert(at->second->unset.begin(), at->second->unset.end());
       }
       const size_t before = problems_.size();
-      if (complete) levels_.read_what_waits(*d.level, known);
+      if (complete) levels_.read_deferred(*d.level, known);
       if (complete && !d.waiting.empty()) read_waiting(d, problems_);
       set_file(problems_, before, d.node.file);
       if (needed.contains(d.node.name) && !(complete && look_ahead(d, forecasts, incomplete)))

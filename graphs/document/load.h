@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "graphs/document/graph.h"
 #include "graphs/document/loops.h"
-#include "graphs/document/migrate.h"
-#include "graphs/document/parameters.h"
-#include "graphs/document/presets.h"
-#include "graphs/document/problem.h"
+#include "graphs/text/graph.h"
+#include "graphs/text/migrate.h"
+#include "graphs/text/problem.h"
+#include "graphs/values/parameters.h"
+#include "graphs/values/presets.h"
 #include "nodes/common/registry.h"
 
 /// From a graph document to a checked graph. Thread-safe.

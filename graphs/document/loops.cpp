@@ -12,9 +12,9 @@
 #include "core/base/text.h"
 #include "core/file/path_spelling.h"
 #include "core/file/read_guard.h"
-#include "graphs/document/convert.h"
-#include "graphs/document/format.h"
-#include "graphs/document/variations.h"
+#include "graphs/text/format.h"
+#include "graphs/values/convert.h"
+#include "graphs/values/variations.h"
 
 namespace terrazzo {
 
@@ -127,14 +127,14 @@ class LoopReader {
         kind->value, {.name = kind->name, .type = is_path ? ParamType::path : ParamType::numbers}, diagnostics_);
     const Lacking lacking = substitution_.take_lacking();
     lacking_.add(lacking);
-    if (!lacking.nodes.empty()) complain("a loop cannot depend on what nodes give");
+    if (!lacking.nodes.empty()) report("a loop cannot depend on what nodes give");
     if (!given) return std::nullopt;
     if (is_path && !given->is_text()) {
-      complain(fmt::format("expected a text for \"{}\", found {}", kind->name, found(*given)));
+      report(fmt::format("expected a text for \"{}\", found {}", kind->name, found(*given)));
       return std::nullopt;
     }
     if (is_path)
-      if (const std::string advice = path_advice(folder_, given->text); !advice.empty()) complain(advice);
+      if (const std::string advice = path_advice(folder_, given->text); !advice.empty()) report(advice);
     if (failed_) return std::nullopt;
     if (kind->name == "table") {
       read_table_of(folder_ / given->text);
@@ -142,7 +142,7 @@ class LoopReader {
       try {
         find_paths((folder_ / given->text).lexically_normal(), kind->name == "folders");
       } catch (const Error& e) {
-        complain(e.what());
+        report(e.what());
       }
     } else {
       read_values(*given);
@@ -153,7 +153,7 @@ class LoopReader {
   }
 
  private:
-  void complain(const std::string& message) {
+  void report(const std::string& message) {
     diagnostics_.add(place_, message);
     failed_ = true;
   }
@@ -165,7 +165,7 @@ class LoopReader {
     const std::string expected =
         "expected an object such as {\"folders\": \"scans/*\", \"as\": \"scan\"}, with one of " + listed(kinds);
     if (!loop_.is_object()) {
-      complain(fmt::format("{}; found {}", expected, found(loop_)));
+      report(fmt::format("{}; found {}", expected, found(loop_)));
       return nullptr;
     }
     for (const JsonMember& m : loop_.members) {
@@ -181,12 +181,12 @@ class LoopReader {
         diagnostics_.add(m.place, fmt::format("unknown key {}{}", in_quotes(m.name), suggestion(m.name, keys)));
         failed_ = true;
       } else if (out) {
-        complain(fmt::format("expected one of {}, found two", listed(kinds)));
+        report(fmt::format("expected one of {}, found two", listed(kinds)));
       } else {
         out = &m;
       }
     }
-    if (!out && !failed_) complain(expected);
+    if (!out && !failed_) report(expected);
     return failed_ ? nullptr : out;
   }
 
@@ -210,7 +210,7 @@ class LoopReader {
   }
 
   void refuse_values(const JsonValue& given) {
-    complain("expected a list of values, or a range such as \"1..8\", found " + found(given));
+    report("expected a list of values, or a range such as \"1..8\", found " + found(given));
   }
 
   void read_values(const JsonValue& given) {
@@ -221,19 +221,19 @@ class LoopReader {
         if (range.front().values.front().second == given.text) return refuse_values(given);
         for (const Variation& v : range) values.push_back(value_in_cell(v.values.front().second));
       } catch (const Error& e) {
-        return complain(e.what());
+        return report(e.what());
       }
     } else if (!given.is_list()) {
       return refuse_values(given);
     }
     if (values.empty())
-      return complain(
+      return report(
           "expected at least one value, found an empty list; no wire could come from a node without rounds: give a "
           "value, or take the node out");
     if (values.size() > most_variations)
-      return complain(fmt::format("expected at most {} values, found {}", most_variations, values.size()));
+      return report(fmt::format("expected at most {} values, found {}", most_variations, values.size()));
     const std::optional<ParamType> type = common_type(values);
-    if (!type) return complain("expected values of one kind: numbers, texts, sizes, or true and false");
+    if (!type) return report("expected values of one kind: numbers, texts, sizes, or true and false");
     for (const JsonValue& v : values) add_round(v, *type, v.is_text() ? v.text : compact(v));
   }
 
@@ -248,9 +248,9 @@ class LoopReader {
       else
         others += folders ? fs::is_regular_file(path, failure) : fs::is_directory(path, failure);
     }
-    if (paths.empty()) return complain(nothing_like(pattern, folders, others));
+    if (paths.empty()) return report(nothing_like(pattern, folders, others));
     if (paths.size() > most_variations)
-      return complain(fmt::format("expected at most {} of them, found {}", most_variations, paths.size()));
+      return report(fmt::format("expected at most {} of them, found {}", most_variations, paths.size()));
     std::ranges::sort(paths);
     for (const fs::path& p : paths) made_from_.back().names.push_back(p.filename().string());
     for (const fs::path& p : paths)
@@ -264,21 +264,21 @@ class LoopReader {
       ReadGuard::check(file);
       rows = read_table(file);
     } catch (const Error& e) {
-      return complain(e.what());
+      return report(e.what());
     }
     const auto& columns = rows.front().values;
     for (size_t c = 0; c < columns.size(); c++) {
       const std::string& name = columns[c].first;
       if (!is_parameter_name(name))
-        return complain(fmt::format("{}: expected names of letters, digits and _ for columns, found {}", file.string(),
-                                    in_quotes(name)));
+        return report(fmt::format("{}: expected names of letters, digits and _ for columns, found {}", file.string(),
+                                  in_quotes(name)));
       std::vector<JsonValue> values;
       for (size_t r = 0; r < rows.size(); r++) {
         const auto& cells = rows[r].values;
         const auto cell = std::ranges::find(cells, name, &std::pair<std::string, std::string>::first);
         if (cell == cells.end() || cells.size() != columns.size())
-          return complain(fmt::format("{}: row {} has other columns than the first one; a loop needs a value in each",
-                                      file.string(), r + 1));
+          return report(fmt::format("{}: row {} has other columns than the first one; a loop needs a value in each",
+                                    file.string(), r + 1));
         values.push_back(value_in_cell(cell->second));
       }
       const ParamType type = common_type(values).value_or(ParamType::text);

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "graphs/document/parameters.h"
-#include "graphs/document/substitution.h"
+#include "graphs/values/parameters.h"
+#include "graphs/values/substitution.h"
 
 /// `foreach`: one node, or subgraph, for each of several files, folders, values or rows of a table.
 ///

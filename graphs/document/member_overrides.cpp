@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "graphs/document/convert.h"
+#include "graphs/values/convert.h"
 
 namespace terrazzo {
 

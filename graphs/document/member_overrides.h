@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "graphs/document/override.h"
-#include "graphs/document/parameters.h"
+#include "graphs/values/override.h"
+#include "graphs/values/parameters.h"
 
 namespace terrazzo {
 

@@ -8,7 +8,7 @@
 #include "core/base/hash.h"
 #include "core/base/suggest.h"
 #include "core/file/read_guard.h"
-#include "graphs/document/convert.h"
+#include "graphs/values/convert.h"
 
 namespace terrazzo {
 
@@ -31,7 +31,7 @@ class NodeReader {
 
   void read(const JsonValue& value, const std::vector<const Override*>& overrides) {
     if (!value.is_object()) {
-      complain(value.place, "expected an object such as {\"type\": \"load_map\", ...}, found " + found(value));
+      report(value.place, "expected an object such as {\"type\": \"load_map\", ...}, found " + found(value));
     } else if (draft_.node.type || find_type(value)) {
       if (const JsonValue* mute = value.find("mute")) read_mute(*mute);
       for (const Override* o : overrides)
@@ -51,16 +51,16 @@ class NodeReader {
 
  private:
   const NodeType& type() const { return *draft_.node.type; }
-  void complain(Place place, const std::string& message) { problems_.push_back({place, where_, message}); }
+  void report(Place place, const std::string& message) { problems_.push_back({place, where_, message}); }
 
   bool find_type(const JsonValue& value) {
     const JsonValue* given = value.find("type");
     if (!given) {
-      complain(draft_.node.place, "expected a \"type\"; `terrazzo nodes` lists them");
+      report(draft_.node.place, "expected a \"type\"; `terrazzo nodes` lists them");
       return false;
     }
     if (!given->is_text()) {
-      complain(given->place, "expected the name of a node type, found " + found(*given));
+      report(given->place, "expected the name of a node type, found " + found(*given));
       return false;
     }
     draft_.node.type = reading_.known->find(given->text);
@@ -70,8 +70,8 @@ class NodeReader {
         names = *reading_.graph_names;
         names.insert(names.end(), reading_.known->names.begin(), reading_.known->names.end());
       }
-      complain(given->place, fmt::format("unknown node type {}{}; `terrazzo nodes` lists all", in_quotes(given->text),
-                                         did_you_mean(given->text, names)));
+      report(given->place, fmt::format("unknown node type {}{}; `terrazzo nodes` lists all", in_quotes(given->text),
+                                       did_you_mean(given->text, names)));
     }
     return draft_.node.type;
   }
@@ -92,7 +92,7 @@ class NodeReader {
     if (comment.is_text())
       draft_.node.comment = comment.text;
     else
-      complain(comment.place, "expected a text for \"comment\", found " + found(comment));
+      report(comment.place, "expected a text for \"comment\", found " + found(comment));
   }
 
   /// Of "weights.height=2" the whole map, if `weights` is one. False if it is not.
@@ -235,8 +235,8 @@ class NodeReader {
   void add_missing() {
     for (const Port& p : type().inputs)
       if (!p.optional && !given_.contains(p.name))
-        complain(draft_.node.place,
-                 fmt::format("the port \"{}\" must be given: expected a wire of type {}", p.name, name_of(p.type)));
+        report(draft_.node.place,
+               fmt::format("the port \"{}\" must be given: expected a wire of type {}", p.name, name_of(p.type)));
     for (const Param& p : type().params) {
       if (given_.contains(p.name)) continue;
       if (p.name == "seed" && p.type == ParamType::integer && reading_.seed) {
@@ -244,8 +244,8 @@ class NodeReader {
       } else if (p.fallback) {
         draft_.node.params.emplace(p.name, default_of(p, reading_.graph_folder));
       } else {
-        complain(draft_.node.place,
-                 fmt::format("the parameter \"{}\" must be given: expected {}", p.name, expectation(p)));
+        report(draft_.node.place,
+               fmt::format("the parameter \"{}\" must be given: expected {}", p.name, expectation(p)));
       }
     }
   }
@@ -255,11 +255,11 @@ class NodeReader {
     const bool is_foreign = !type().origin.name.empty();
     try {
       if (type().check)
-        for (const std::string& message : type().check(draft_.node.params)) complain(place_of(message), message);
+        for (const std::string& message : type().check(draft_.node.params)) report(place_of(message), message);
       // Many ask for these files, and none of them expects that it fails.
       if (is_foreign && type().files_read) type().files_read(draft_.node.params);
     } catch (const Error& e) {
-      complain(draft_.node.place_of(e.about()), e.what());
+      report(draft_.node.place_of(e.about()), e.what());
     }
   }
 

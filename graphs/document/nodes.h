@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "graphs/document/graph.h"
-#include "graphs/document/json.h"
 #include "graphs/document/loops.h"
-#include "graphs/document/override.h"
-#include "graphs/document/substitution.h"
+#include "graphs/text/graph.h"
+#include "graphs/text/json.h"
+#include "graphs/values/override.h"
+#include "graphs/values/substitution.h"
 
 /// The nodes of a graph, each by itself. Wires are in wires.h, the graphs that nodes may be in level.h.
 namespace terrazzo {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/file/path_relation.h"
-#include "graphs/document/read_document.h"
+#include "graphs/text/read_document.h"
 
 namespace terrazzo {
 

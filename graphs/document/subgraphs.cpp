@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
-#include "graphs/document/read_document.h"
-#include "graphs/document/stock_graphs.h"
+#include "graphs/text/read_document.h"
+#include "graphs/text/stock_graphs.h"
 
 namespace terrazzo {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/node/node.h"
-#include "graphs/document/json.h"
-#include "graphs/document/migrate.h"
 #include "graphs/document/nodes.h"
-#include "graphs/document/parameters.h"
+#include "graphs/text/json.h"
+#include "graphs/text/migrate.h"
+#include "graphs/values/parameters.h"
 
 /// Graphs as the types of nodes: a file ("walls.json"), an entry of the section `graphs` of the same file ("walls"), or
 /// a graph that comes with the program ("stock:material").

@@ -39,9 +39,9 @@ std::set<std::string> names_given(const Levels& levels, const Level& root) {
   while (!open.empty()) {
     const std::string name = std::move(open.back());
     open.pop_back();
-    const std::vector<Item>* items = root.find(name);
+    const std::vector<NodeInstance>* items = root.find(name);
     if (!items || !out.insert(name).second) continue;
-    for (const Item& item : *items)
+    for (const NodeInstance& item : *items)
       for (const PortWires& p : item.draft->ports)
         for (const WireEnd& end : p.wires) open.push_back(end.node);
   }

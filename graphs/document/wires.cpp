@@ -122,9 +122,9 @@ class WireFollower {
     if (++steps_ > most_steps) {
       if (!out_.is_faulty) asking_.add(end.place, "the wires of subgraphs form a cycle");
       out_.is_faulty = true;
-    } else if (const std::vector<Item>* items = level.find(end.node)) {
+    } else if (const std::vector<NodeInstance>* items = level.find(end.node)) {
       out_.is_faulty |= items->empty();  // a loop that could not be read
-      for (const Item& item : *items) from_item(level, item, end);
+      for (const NodeInstance& item : *items) from_item(level, item, end);
     } else {
       from_input(level, end);
     }
@@ -153,7 +153,7 @@ class WireFollower {
     }
   }
 
-  void from_item(const Level& level, const Item& item, const WireEnd& end) {
+  void from_item(const Level& level, const NodeInstance& item, const WireEnd& end) {
     const NodeDraft& draft = *item.draft;
     const NodeType* type = draft.node.type;
     const Port* output = !type || type->outputs.empty() ? nullptr
@@ -317,7 +317,7 @@ void check_wires(Level& level, std::vector<Problem>& problems, std::vector<Probl
   const size_t before = problems.size();
   WireChecker checker(level, conversions);
   for (const auto& [name, items] : level.items)
-    for (const Item& item : items) {
+    for (const NodeInstance& item : items) {
       const size_t first = problems.size();
       for (PortWires& p : item.draft->ports) checker.check(item.draft->local, p);
       set_node(problems, first, item.draft->node.name);

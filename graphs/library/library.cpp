@@ -12,8 +12,8 @@
 
 #include "core/base/suggest.h"
 #include "core/base/text.h"
+#include "core/block_file/bytes.h"
 #include "core/file/atomic_file.h"
-#include "core/file/bytes.h"
 #include "core/file/file_lock.h"
 #include "core/file/user_folders.h"
 #include "core/node/serialize.h"

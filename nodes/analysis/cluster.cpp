@@ -4,8 +4,8 @@
 #include "core/analysis/space/weighting.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/image/color.h"
 #include "core/image/image_facts.h"
+#include "core/image_io/color.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
 

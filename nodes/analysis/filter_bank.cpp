@@ -1,9 +1,9 @@
 #include "core/analysis/space/filter_bank.h"
 
 #include "core/analysis/space/weighting.h"
-#include "core/image/color.h"
 #include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
+#include "core/image_io/color.h"
 #include "core/material/map_names.h"
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"

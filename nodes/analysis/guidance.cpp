@@ -2,7 +2,7 @@
 
 #include "core/analysis/space/feature_distance.h"
 #include "core/analysis/space/weighting.h"
-#include "core/image/color.h"
+#include "core/image_io/color.h"
 #include "core/material/map_names.h"
 #include "nodes/common/analysis_memory.h"
 #include "nodes/common/exemplar_tiles.h"

@@ -1,7 +1,7 @@
 #include "core/analysis/space/progression.h"
 
 #include "core/analysis/space/weighting.h"
-#include "core/image/color.h"
+#include "core/image_io/color.h"
 #include "core/material/map_names.h"
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"

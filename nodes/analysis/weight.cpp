@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/analysis/space/weighting.h"
-#include "core/image/color.h"
+#include "core/image_io/color.h"
 #include "core/material/map_names.h"
 #include "nodes/common/analysis_memory.h"
 #include "nodes/common/exemplar_tiles.h"
@@ -81,7 +81,7 @@ NodeType weight_node() {
   t.persist = Persist::digest;
   t.files_read = [](const Params&) { return color_config_files(); };
   t.compute = compute_weight;
-  t.doubts = [](const Params& params, const InputForecasts&) {
+  t.lint = [](const Params& params, const InputForecasts&) {
     std::vector<std::string> out;
     for (const auto& [name, weights] : std::get<NumberMap>(params.at("weights")))
       if (std::ranges::all_of(weights, [](double w) { return w == 0; }))

@@ -1,7 +1,7 @@
 #include "nodes/common/analysis_memory.h"
 
 #include "core/exemplar/features.h"
-#include "core/image/color.h"
+#include "core/image_io/color.h"
 #include "nodes/common/shape_rules.h"
 
 namespace terrazzo {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/analysis/repeats/wrap_detection.h"
-#include "core/image/resample.h"
+#include "core/filter/resample.h"
 #include "nodes/common/node_helpers.h"
 
 namespace terrazzo {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/image/occlusion.h"
+#include "core/filter/occlusion.h"
 #include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 

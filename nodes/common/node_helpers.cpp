@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/exemplar/features.h"
-#include "core/image/color.h"
+#include "core/image_io/color.h"
 #include "core/material/map_names.h"
 #include "nodes/common/shape_rules.h"
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "core/material/material.h"
 
 /// How programs take the maps of a material: which file holds what, in which channel, and which way green points. A

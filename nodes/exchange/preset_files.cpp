@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/image/color.h"
 #include "core/image/image_ops.h"
 #include "core/image/normal.h"
+#include "core/image_io/color.h"
 #include "nodes/exchange/export_preset.h"
 
 namespace terrazzo {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/image/color.h"
+#include "core/image_io/color.h"
 #include "core/material/map_description.h"
 #include "nodes/exchange/export_preset.h"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/image/composite.h"
+#include "core/filter/composite.h"
 #include "core/image/image_facts.h"
 #include "core/image/pixel_space.h"
 #include "nodes/common/node_helpers.h"

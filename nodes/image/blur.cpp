@@ -1,4 +1,4 @@
-#include "core/image/resample.h"
+#include "core/filter/resample.h"
 #include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/image/color.h"
 #include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
+#include "core/image_io/color.h"
 #include "nodes/common/color_space.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"

@@ -5,8 +5,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/image/color.h"
 #include "core/image/image_facts.h"
+#include "core/image_io/color.h"
 #include "core/material/map_names.h"
 #include "core/material/mix.h"
 #include "nodes/common/exemplar_atlas.h"

@@ -1,4 +1,4 @@
-#include "core/image/color.h"
+#include "core/image_io/color.h"
 #include "core/node/node.h"
 #include "core/picture/picture_grid.h"
 

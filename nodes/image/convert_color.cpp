@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/image/color.h"
+#include "core/image_io/color.h"
 #include "nodes/common/color_space.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
@@ -57,7 +57,7 @@ NodeType convert_color_node() {
   t.persist = Persist::digest;
   t.files_read = [](const Params& params) { return color_config_files(std::get<std::string>(params.at("config"))); };
   t.check = check_convert_color;
-  t.doubts = [](const Params&, const InputForecasts& inputs) {
+  t.lint = [](const Params&, const InputForecasts& inputs) {
     const std::optional<Semantic> semantic = image_at(inputs, "image").semantic;
     return semantic && is_data(*semantic)
                ? Texts{fmt::format(

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/filter/workflow.h"
 #include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
-#include "core/image/workflow.h"
 #include "core/material/map_names.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"

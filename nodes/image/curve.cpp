@@ -1,4 +1,4 @@
-#include "core/image/curve.h"
+#include "core/filter/curve.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "core/image/color.h"
+#include "core/image_io/color.h"
 #include "nodes/common/color_space.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"

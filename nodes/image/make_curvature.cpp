@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/image/curvature.h"
+#include "core/filter/curvature.h"
+#include "core/filter/resample.h"
 #include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
-#include "core/image/resample.h"
 #include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"

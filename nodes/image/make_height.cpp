@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/image/height_from_normals.h"
+#include "core/filter/height_from_normals.h"
 #include "core/image/image_facts.h"
 #include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"

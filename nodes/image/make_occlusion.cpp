@@ -1,5 +1,5 @@
+#include "core/filter/occlusion.h"
 #include "core/image/image_facts.h"
-#include "core/image/occlusion.h"
 #include "nodes/common/horizon_params.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/image/color.h"
+#include "core/image_io/color.h"
 #include "core/material/map_names.h"
 #include "core/node/node.h"
 #include "nodes/common/shape_rules.h"

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image/opacity_weights.h"
-#include "core/image/resample.h"
+#include "core/filter/opacity_weights.h"
+#include "core/filter/resample.h"
 #include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"

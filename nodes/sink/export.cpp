@@ -5,9 +5,9 @@
 
 #include "core/exemplar/uv_image.h"
 #include "core/file/file_io.h"
-#include "core/image/color.h"
-#include "core/image/image_file.h"
 #include "core/image/normal.h"
+#include "core/image_io/color.h"
+#include "core/image_io/image_file.h"
 #include "core/material/map_description.h"
 #include "core/material/map_names.h"
 #include "core/node/node.h"

@@ -7,8 +7,8 @@
 
 #include "core/base/error.h"
 #include "core/base/suggest.h"
-#include "core/image/image_libraries.h"
-#include "core/material/file_stems.h"
+#include "core/image_io/image_libraries.h"
+#include "core/naming/file_stems.h"
 #include "nodes/common/node_helpers.h"
 
 namespace terrazzo {

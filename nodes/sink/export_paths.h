@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "core/node/node.h"
 
 /// Where the node `export` writes to, as far as its parameters say. All throw Error naming the parameter.

@@ -10,9 +10,9 @@
 
 #include "core/base/text.h"
 #include "core/file/file_io.h"
-#include "core/image/color.h"
-#include "core/material/file_stems.h"
+#include "core/image_io/color.h"
 #include "core/material/map_names.h"
+#include "core/naming/file_stems.h"
 #include "core/node/node.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
@@ -145,7 +145,7 @@ OutputForecasts infer_export_preset(const Params& params, const InputForecasts& 
 }
 
 /// What would be refused if the material turns out to have all maps that it may have, such as opacity in alpha.
-Texts doubts_about_export_preset(const Params& params, const InputForecasts& inputs) {
+Texts lint_of_export_preset(const Params& params, const InputForecasts& inputs) {
   const auto material = inputs.find("material");
   if (material == inputs.end() || !material->second.front().possible_maps) return {};
   Texts all = material->second.front().maps;
@@ -387,7 +387,7 @@ NodeType export_preset_node() {
   t.infer = infer_export_preset;
   t.compute = compute_export_preset;
   t.preflight = preflight_export_preset;
-  t.doubts = doubts_about_export_preset;
+  t.lint = lint_of_export_preset;
   return t;
 }
 

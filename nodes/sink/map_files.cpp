@@ -9,8 +9,8 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/paths.h"
-#include "core/image/mip_levels.h"
-#include "core/image/opacity_weights.h"
+#include "core/filter/mip_levels.h"
+#include "core/filter/opacity_weights.h"
 
 namespace terrazzo {
 

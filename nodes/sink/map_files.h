@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "core/node/node.h"
 
 /// Maps on their way into files, for the nodes that write them.
@@ -17,7 +17,7 @@ struct MapFileJob {
   std::filesystem::path target;
   std::filesystem::path temporary{};
   bool has_levels = false;  ///< mip levels get files of their own
-  ImagePtr weights{};       ///< of colours in mip levels, see core/image/opacity_weights.h
+  ImagePtr weights{};       ///< of colours in mip levels, see core/filter/opacity_weights.h
   std::vector<std::filesystem::path> level_temporaries{};
   WriteOptions options{};
   Clipping clipped{};

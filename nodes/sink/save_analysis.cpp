@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/file/block_file.h"
+#include "core/block_file/block_file.h"
 #include "core/node/node.h"
 #include "core/node/serialize.h"
 

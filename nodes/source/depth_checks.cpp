@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/base/tuning.h"
-#include "core/image/file_pixels.h"
-#include "core/image/normal_convention.h"
-#include "core/material/file_words.h"
-#include "core/material/packing_guess.h"
+#include "core/filter/normal_convention.h"
+#include "core/image_io/file_pixels.h"
+#include "core/naming/file_words.h"
+#include "core/naming/packing_guess.h"
 
 namespace terrazzo {
 

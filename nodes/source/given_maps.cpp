@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/base/text.h"
-#include "core/image/image_file.h"
-#include "core/material/file_stems.h"
+#include "core/image_io/image_file.h"
 #include "core/material/map_names.h"
 #include "core/material/material_maps.h"
+#include "core/naming/file_stems.h"
 
 namespace terrazzo {
 

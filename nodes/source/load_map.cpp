@@ -1,16 +1,16 @@
 #include <fmt/format.h>
 
-#include "core/image/color.h"
 #include "core/image/image_facts.h"
-#include "core/image/image_file.h"
 #include "core/image/image_limits.h"
 #include "core/image/image_ops.h"
 #include "core/image/pixel_space.h"
-#include "core/material/interpretation.h"
+#include "core/image_io/color.h"
+#include "core/image_io/image_file.h"
 #include "core/material/map_description.h"
+#include "core/naming/interpretation.h"
 #include "core/node/node.h"
 #include "nodes/common/color_space.h"
-#include "nodes/common/exemplar_doubts.h"
+#include "nodes/common/exemplar_lint.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/source/depth_checks.h"
 #include "nodes/source/normal_maps.h"
@@ -186,9 +186,9 @@ NodeType load_map_node() {
     }
     return out;
   };
-  t.doubts = [](const Params& p, const InputForecasts&) {
+  t.lint = [](const Params& p, const InputForecasts&) {
     const bool is_colour = std::get<std::string>(p.at("semantic")) == "base_color";
-    return is_colour ? doubts_about_colour("\"path\"", std::get<std::string>(p.at("path"))) : Texts{};
+    return is_colour ? lint_of_colour("\"path\"", std::get<std::string>(p.at("path"))) : Texts{};
   };
   t.compute = compute_load_map;
   return t;

@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/image/color.h"
-#include "core/image/image_file.h"
+#include "core/image_io/color.h"
+#include "core/image_io/image_file.h"
 #include "core/material/map_description.h"
 #include "core/material/material_maps.h"
 #include "core/node/node.h"
 #include "nodes/common/color_space.h"
-#include "nodes/common/exemplar_doubts.h"
+#include "nodes/common/exemplar_lint.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
 #include "nodes/source/depth_checks.h"
@@ -170,11 +170,11 @@ Forecast preflight_load_material(const Params& params, const InputForecasts&) {
   return out;
 }
 
-Texts doubts_about_load_material(const Params& params, const InputForecasts&) {
+Texts lint_of_load_material(const Params& params, const InputForecasts&) {
   Texts ignored_notes;
   for (const RecognisedMap& m : find_maps(params, ignored_notes).maps)
     if (m.semantic == Semantic::base_color && m.channels.empty() && m.layer.empty())
-      return doubts_about_colour("\"path\": " + m.file, folder_of(params) / m.file);
+      return lint_of_colour("\"path\": " + m.file, folder_of(params) / m.file);
   return {};
 }
 
@@ -278,7 +278,7 @@ NodeType load_material_node() {
     return bytes;
   };
   t.preflight = preflight_load_material;
-  t.doubts = doubts_about_load_material;
+  t.lint = lint_of_load_material;
   t.check = check_load_material;
   return t;
 }

@@ -1,5 +1,5 @@
 #include "core/exemplar/uv_image.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "core/node/node.h"
 #include "nodes/common/shape_rules.h"
 

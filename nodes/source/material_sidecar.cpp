@@ -9,9 +9,9 @@
 #include "core/base/error.h"
 #include "core/base/suggest.h"
 #include "core/file/file_io.h"
-#include "core/image/color.h"
-#include "core/material/file_stems.h"
+#include "core/image_io/color.h"
 #include "core/material/map_names.h"
+#include "core/naming/file_stems.h"
 
 namespace terrazzo {
 

@@ -4,7 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "nodes/source/turned_files.h"
 
 namespace terrazzo {
@@ -62,7 +62,7 @@ Sources read_sources(NodeContext& node, const fs::path& folder, const std::vecto
   std::vector<std::string> notes;
   settle_orientations_by_shape(files, notes);
   tbb::parallel_for(size_t{0}, readings.size(), [&](size_t i) {
-    const WorksFor working(node.task());
+    const CurrentTask working(node.task());
     readings[i].read(folder, files[i].as_stored);
   });
   std::vector<ImagePtr> pictures;

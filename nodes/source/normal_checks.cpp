@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text.h"
-#include "core/image/normal_convention.h"
+#include "core/filter/normal_convention.h"
 
 namespace terrazzo {
 

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/material/interpretation.h"
+#include "core/naming/interpretation.h"
 
 namespace terrazzo {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image/normal_channels.h"
+#include "core/filter/normal_channels.h"
 
 namespace terrazzo {
 

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/text.h"
-#include "core/image/normal_convention.h"
+#include "core/filter/normal_convention.h"
 #include "core/material/material_maps.h"
 #include "core/material/shared_detail.h"
 

@@ -8,8 +8,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/tuning.h"
-#include "core/image/structure_match.h"
-#include "core/material/interpretation.h"
+#include "core/filter/structure_match.h"
+#include "core/naming/interpretation.h"
 
 namespace terrazzo {
 

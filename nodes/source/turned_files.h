@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/image/image.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 
 /// Files of one material whose orientation tags differ: one that was tagged by mistake does not fit the others.
 namespace terrazzo {

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "core/material/material_maps.h"
-#include "core/material/packing_guess.h"
+#include "core/naming/packing_guess.h"
 
 namespace terrazzo {
 

@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
-#include "graphs/document/convert.h"
-#include "graphs/document/format.h"
 #include "graphs/document/load.h"
-#include "graphs/document/read_document.h"
-#include "runner/engine/planning.h"
-#include "runner/engine/preflight.h"
-#include "runner/engine/source_findings.h"
+#include "graphs/text/format.h"
+#include "graphs/text/read_document.h"
+#include "graphs/values/convert.h"
+#include "runner/plan/planning.h"
+#include "runner/plan/preflight.h"
+#include "runner/plan/source_findings.h"
 
 namespace terrazzo {
 
@@ -137,8 +137,8 @@ std::vector<Problem> Job::warnings() const {
   if (!check().empty()) return {};
   const CheckedJob job = checked();
   std::vector<Problem> out = job.warnings();
-  for (Problem& p : look_at_sources(job.graph(), WorksFor::task()).warnings) out.push_back(std::move(p));
-  for (Problem& p : doubts_about(job.graph(), WorksFor::task())) out.push_back(std::move(p));
+  for (Problem& p : look_at_sources(job.graph(), CurrentTask::task()).warnings) out.push_back(std::move(p));
+  for (Problem& p : lint_of(job.graph(), CurrentTask::task())) out.push_back(std::move(p));
   return out;
 }
 

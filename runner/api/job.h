@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/node/node.h"
-#include "graphs/document/problem.h"
+#include "graphs/text/problem.h"
 
 /// A graph and the values that it is to run with, for programs. The same as `terrazzo run GRAPH --set ...`: the same
 /// messages, the same keys, the same bytes.
@@ -39,7 +39,7 @@ struct JobOutline {
 class CheckedJob {
  public:
   const Graph& graph() const;
-  /// What is allowed and hardly meant, and conversions that were put in.
+  /// What is allowed and probably unintended, and conversions that were put in.
   const std::vector<Problem>& warnings() const;
 
  private:
@@ -80,7 +80,7 @@ class Job {
   std::optional<std::string> value_of(const std::string& name) const;
   /// All problems that can be found without running; empty if the job can run. Never throws GraphError.
   std::vector<Problem> check() const;
-  /// What is allowed and hardly meant; empty if there are problems.
+  /// What is allowed and probably unintended; empty if there are problems.
   std::vector<Problem> warnings() const;
   /// The JSON pointer (RFC 6901) to what a problem is about, also if that has been set; empty if it is elsewhere.
   std::string pointer_to(const Problem& problem) const;

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "graphs/document/convert.h"
-#include "graphs/document/edit.h"
-#include "graphs/document/format.h"
-#include "graphs/document/migrate.h"
 #include "graphs/document/subgraphs.h"
+#include "graphs/text/edit.h"
+#include "graphs/text/format.h"
+#include "graphs/text/migrate.h"
+#include "graphs/values/convert.h"
 #include "nodes/common/registry.h"
 #include "runner/api/job.h"
 

@@ -61,7 +61,7 @@ void guard(NodeType& type) {
   guard(type.check, plugin);
   guard(type.infer, plugin);
   guard(type.preflight, plugin);
-  guard(type.doubts, plugin);
+  guard(type.lint, plugin);
 }
 
 void require_file(const fs::path& file) {

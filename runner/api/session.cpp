@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "runner/engine/history.h"
 #include "runner/engine/schedule.h"
+#include "runner/plan/history.h"
 
 namespace terrazzo {
 

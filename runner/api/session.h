@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "runner/api/job.h"
-#include "runner/engine/plan.h"
 #include "runner/engine/schedule.h"
+#include "runner/plan/plan.h"
 
 /// Runs jobs, for programs.
 namespace terrazzo {

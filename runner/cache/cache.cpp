@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/block_file/bytes.h"
 #include "core/file/atomic_file.h"
-#include "core/file/bytes.h"
 #include "core/file/file_io.h"
 #include "core/file/user_folders.h"
 #include "core/image/pixel_maker.h"

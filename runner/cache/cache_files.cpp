@@ -4,7 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include "core/file/bytes.h"
+#include "core/block_file/bytes.h"
 #include "core/file/file_io.h"
 #include "runner/cache/cache.h"
 #include "runner/cache/cache_records.h"

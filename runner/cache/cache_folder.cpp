@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/block_file/bytes.h"
 #include "core/file/atomic_file.h"
-#include "core/file/bytes.h"
 #include "core/file/file_io.h"
 
 namespace terrazzo {

@@ -4,7 +4,7 @@
 
 #include <xxhash.h>
 
-#include "core/file/bytes.h"
+#include "core/block_file/bytes.h"
 
 namespace terrazzo {
 

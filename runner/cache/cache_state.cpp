@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "core/file/bytes.h"
+#include "core/block_file/bytes.h"
 #include "core/file/file_io.h"
 
 namespace terrazzo {

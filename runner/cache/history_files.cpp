@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "core/file/bytes.h"
+#include "core/block_file/bytes.h"
 
 namespace terrazzo {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-/// The frame of the files in history/, which runner/engine/history.h fills: a first line that names the format, and a
+/// The frame of the files in history/, which runner/plan/history.h fills: a first line that names the format, and a
 /// last one with a checksum, so that `cache verify` can tell whether they are sound.
 namespace terrazzo {
 

@@ -33,13 +33,13 @@ void remove_folder(const fs::path& folder) {
 
 std::string new_lease_holder() {
   static std::atomic<unsigned> count{0};
-  return fmt::format("{}-{}-{}", process_neighbourhood(), ::getpid(), count++);
+  return fmt::format("{}-{}-{}", pid_namespace_id(), ::getpid(), count++);
 }
 
 bool is_dead(const std::string& who) {
   const size_t first = who.find('-'), second = who.rfind('-');
   pid_t process = 0;
-  return first != std::string::npos && second > first && who.substr(0, first) == process_neighbourhood() &&
+  return first != std::string::npos && second > first && who.substr(0, first) == pid_namespace_id() &&
          is_number(std::string_view(who).substr(first + 1, second - first - 1), process) && process > 0 &&
          !is_running(process);
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <sstream>
 
@@ -13,21 +12,19 @@
 #include "core/base/suggest.h"
 #include "core/base/text.h"
 #include "core/base/thread_limits.h"
-#include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
 #include "core/file/path_spelling.h"
-#include "core/image/image_file.h"
-#include "graphs/document/problem.h"
+#include "core/image_io/image_file.h"
+#include "graphs/text/problem.h"
 #include "nodes/source/material_folder.h"
-#include "runner/cache/cache_limit.h"
-#include "runner/cli/built_with.h"
-#include "runner/cli/checked_flag.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
-#include "runner/cli/console.h"
-#include "runner/cli/plugin_flag.h"
 #include "runner/engine/checked.h"
 #include "runner/report/progress.h"
+#include "runner/terminal/built_with.h"
+#include "runner/terminal/checked_flag.h"
+#include "runner/terminal/console.h"
+#include "runner/terminal/plugin_flag.h"
 
 namespace terrazzo {
 
@@ -85,7 +82,7 @@ std::string unknown_words(const ParsedWords& parsed) {
 int usage_error(const ParsedWords& parsed, ProgressMode mode) {
   const std::string unknown = unknown_words(parsed);
   write_error(mode, std::cerr, UsageError(unknown.empty() ? parsed.text : unknown));
-  if (mode != ProgressMode::json) say("`{} --help` says what it takes.\n", parsed.command->path);
+  if (mode != ProgressMode::json) print_message("`{} --help` says what it takes.\n", parsed.command->path);
   return exit_usage;
 }
 
@@ -100,25 +97,12 @@ void keep_standard_streams_apart() {
 
 /// The exit code, given that a command that has ended with `code` may have lost part of its answer.
 int with_answer_written(int code, ProgressMode mode) {
-  if (answer_failure() == 0) return code;
-  write_error(mode, std::cerr, Error("cannot write to standard output: " + system_message(answer_failure())));
+  if (result_failure() == 0) return code;
+  write_error(mode, std::cerr, Error("cannot write to standard output: " + system_message(result_failure())));
   return code == exit_done ? exit_failed : code;
 }
 
 }  // namespace
-
-void check_writable(const char* option, const std::string& path) {
-  if (path.empty()) return;
-  const std::filesystem::path file = path;
-  std::error_code missing;
-  if (std::filesystem::exists(file, missing) && !std::filesystem::is_regular_file(file, missing) &&
-      !std::filesystem::is_directory(file, missing))
-    return;  // a device or a pipe
-  const std::string trouble = why_not_writable(file.parent_path(), file.filename().string());
-  if (!trouble.empty()) throw UsageError(fmt::format("{} {}: {}", option, path, trouble));
-  if (std::filesystem::exists(file, missing) && !std::ofstream(file, std::ios::app))
-    throw UsageError(fmt::format("{} {}: the file cannot be written", option, path));
-}
 
 bool is_page(const std::filesystem::path& path) {
   return path.extension() == ".html" || path.extension() == ".htm";
@@ -146,23 +130,9 @@ std::string for_command_line(std::string message, const std::string& folder, con
   return message;
 }
 
-uint64_t parse_bytes(const std::string& text, const std::string& option) {
-  if (const std::optional<uint64_t> bytes = size_from(text)) return *bytes;
-  throw UsageError(fmt::format("{} {}; \"{}\" is not one", option, size_help, text));
-}
-
-std::string shown_bytes(uint64_t bytes) {
-  constexpr std::array<std::string_view, 5> units = {"bytes", "KiB", "MiB", "GiB", "TiB"};
-  if (bytes < 1024) return counted(int64_t(bytes), "byte");
-  double value = static_cast<double>(bytes);
-  size_t unit = 0;
-  for (; value >= 1024 && unit + 1 < units.size(); unit++) value /= 1024;
-  return fmt::format("{:.1f} {}", value, units[unit]);
-}
-
 namespace {
 
-int obey(int argc, const char* const* argv, ProgressMode mode);
+int dispatch(int argc, const char* const* argv, ProgressMode mode);
 
 /// What `--help` behind the words says.
 int help_on(const Command& program, const std::vector<std::string>& words, ProgressMode mode) {
@@ -176,7 +146,7 @@ int help_on(const Command& program, const std::vector<std::string>& words, Progr
     argv.push_back(word.c_str());
   }
   argv.push_back("--help");
-  return obey(int(argv.size()), argv.data(), mode);
+  return dispatch(int(argv.size()), argv.data(), mode);
 }
 
 void add_help_command(Command& program, ProgressMode mode) {
@@ -198,7 +168,7 @@ int show_help(const ParsedWords& parsed, ProgressMode mode) {
   if (names_unknown_command(parsed)) return usage_error(parsed, mode);
   const bool is_help = parsed.request == ParsedWords::Request::help;
   const std::string about_graph = is_help ? help_on_graph(*parsed.command) : "";
-  answer("{}{}", about_graph.empty() ? "" : about_graph + "\n", parsed.text);
+  print_result("{}{}", about_graph.empty() ? "" : about_graph + "\n", parsed.text);
   return exit_done;
 }
 
@@ -234,7 +204,7 @@ void add_commands(Command& program, ProgressMode mode) {
 }
 
 /// Runs what the words ask for; returns the exit code.
-int obey(int argc, const char* const* argv, ProgressMode mode) {
+int dispatch(int argc, const char* const* argv, ProgressMode mode) {
   Command program("terrazzo",
                   "terrazzo turns a small PBR material into as much new, non-repeating material as a scene needs.");
   add_commands(program, mode);
@@ -283,7 +253,7 @@ int run_command_line(int argc, const char* const* argv) {
     write_error(mode, std::cerr, e);
     return exit_usage;
   }
-  return with_answer_written(obey(int(line.words.size()), line.words.data(), mode), mode);
+  return with_answer_written(dispatch(int(line.words.size()), line.words.data(), mode), mode);
 }
 
 }  // namespace terrazzo

@@ -1,14 +1,16 @@
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include "core/base/paths.h"
 #include "core/base/suggest.h"
+#include "runner/cache/cache.h"
 #include "runner/cache/cache_folder.h"
 #include "runner/cli/cli_commands.h"
-#include "runner/cli/console.h"
-#include "runner/cli/signals.h"
+#include "runner/terminal/console.h"
+#include "runner/terminal/signals.h"
 
 namespace terrazzo {
 
@@ -48,7 +50,7 @@ struct CacheFlags {
 };
 
 int no_cache_yet(const CacheFlags& flags) {
-  answer("there is no cache yet in {}; the first run makes it\n", flags.path().string());
+  print_result("there is no cache yet in {}; the first run makes it\n", flags.path().string());
   return exit_done;
 }
 
@@ -56,9 +58,9 @@ int show_status(const CacheFlags& flags) {
   const std::unique_ptr<Cache> cache = flags.open();
   if (!cache) return no_cache_yet(flags);
   const CacheStatus s = cache->status();
-  answer("folder  {}\nsize    {} of {}\nlimit   from {}\nstages  {}\nvalues  {}\ngraphs  {}\n",
-         cache->folder().string(), shown_bytes(s.bytes), shown_bytes(s.limit), s.limit_from, s.stages, s.values,
-         s.histories);
+  print_result("folder  {}\nsize    {} of {}\nlimit   from {}\nstages  {}\nvalues  {}\ngraphs  {}\n",
+               cache->folder().string(), shown_bytes(s.bytes), shown_bytes(s.limit), s.limit_from, s.stages, s.values,
+               s.histories);
   return exit_done;
 }
 
@@ -78,16 +80,16 @@ int verify(const CacheFlags& flags) {
   const std::unique_ptr<Cache> cache = flags.open();
   if (!cache) return no_cache_yet(flags);
   const CacheVerdict verdict = cache->verify(Task(&signals.flag(), {}));
-  for (const std::string& line : verdict.damaged) answer("{}\n", line);
-  for (const std::string& warning : cache->take_warnings()) say("warning: {}\n", warning);
-  answer("{}\n", verdict_text(verdict));
+  for (const std::string& line : verdict.damaged) print_result("{}\n", line);
+  for (const std::string& warning : cache->take_warnings()) print_message("warning: {}\n", warning);
+  print_result("{}\n", verdict_text(verdict));
   return verdict.damaged.empty() ? exit_done : exit_failed;
 }
 
 int free_with(const CacheFlags& flags, uint64_t (Cache::*act)()) {
   const std::unique_ptr<Cache> cache = flags.open();
   if (!cache) return no_cache_yet(flags);
-  answer("{} freed\n", shown_bytes((cache.get()->*act)()));
+  print_result("{} freed\n", shown_bytes((cache.get()->*act)()));
   return exit_done;
 }
 

@@ -5,16 +5,16 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
-#include "graphs/document/pack.h"
-#include "graphs/document/read_document.h"
+#include "graphs/text/read_document.h"
+#include "graphs/tools/pack.h"
 #include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
-#include "runner/cli/console.h"
-#include "runner/cli/limit_flags.h"
-#include "runner/cli/signals.h"
-#include "runner/engine/preflight.h"
-#include "runner/engine/source_findings.h"
+#include "runner/plan/preflight.h"
+#include "runner/plan/source_findings.h"
+#include "runner/terminal/console.h"
+#include "runner/terminal/limit_flags.h"
+#include "runner/terminal/signals.h"
 
 namespace terrazzo {
 
@@ -68,7 +68,7 @@ Findings look_at(const CheckFlags& flags) {
   SourceFindings sources = look_at_sources(loaded.graph, task);
   if (!sources.errors.empty()) throw GraphError(loaded.graph.file.string(), std::move(sources.errors));
   std::ranges::move(sources.warnings, std::back_inserter(out.warnings));
-  for (Problem& p : doubts_about(loaded.graph, task)) out.warnings.push_back(std::move(p));
+  for (Problem& p : lint_of(loaded.graph, task)) out.warnings.push_back(std::move(p));
   return out;
 }
 
@@ -120,7 +120,7 @@ void answer_json(const CheckFlags& flags, const Findings& found) {
     not_shown += list->size() - std::min(list->size(), most_problems_shown);
   const Json out = {{"graph", flags.graph},           {"valid", found.errors.empty()},   {"nodes", found.nodes},
                     {"parameters", found.parameters}, {"problems", std::move(problems)}, {"not_shown", not_shown}};
-  answer("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
+  print_result("{}\n", out.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 int check(const CheckFlags& flags) {
@@ -138,15 +138,15 @@ int check(const CheckFlags& flags) {
   const Findings found = look_at(flags);
   size_t notes = 0, warnings = 0;
   for (const Problem& n : found.notes)
-    if (n.place.line > 0 && notes++ < most_problems_shown) answer("note: {}\n", describe(flags.graph, n));
-  if (notes > most_problems_shown) answer("{}\n", problems_not_shown(notes, "note"));
+    if (n.place.line > 0 && notes++ < most_problems_shown) print_result("note: {}\n", describe(flags.graph, n));
+  if (notes > most_problems_shown) print_result("{}\n", problems_not_shown(notes, "note"));
   for (const Problem& w : found.warnings)
-    if (warnings++ < most_problems_shown) say("warning: {}\n", describe(flags.graph, w));
-  if (warnings > most_problems_shown) say("{}\n", problems_not_shown(warnings, "warning"));
+    if (warnings++ < most_problems_shown) print_message("warning: {}\n", describe(flags.graph, w));
+  if (warnings > most_problems_shown) print_message("{}\n", problems_not_shown(warnings, "warning"));
   for (const Problem& n : found.notes)
-    if (n.place.line == 0) say("note: {}\n", n.message);
-  answer("{} is valid: {}, {}\n", flags.graph, counted(int64_t(found.nodes), "node"),
-         counted(int64_t(found.parameters), "parameter"));
+    if (n.place.line == 0) print_message("note: {}\n", n.message);
+  print_result("{} is valid: {}, {}\n", flags.graph, counted(int64_t(found.nodes), "node"),
+               counted(int64_t(found.parameters), "parameter"));
   return exit_done;
 }
 
@@ -156,7 +156,8 @@ void add_check_command(Command& program) {
   Command& command = program.add_command("check", "Checks a graph file without running it");
   command.footer =
       "Reports every mistake at once, with line and column: in the file, in the sources and maps it refers to,\n"
-      "and in the paths it would write to. Warns of what is allowed and hardly meant, and of what a run would warn\n"
+      "and in the paths it would write to. Warns of what is allowed and probably unintended, and of what a run would "
+      "warn\n"
       "of when it reads the sources.\n"
       "Examples:\n"
       "  terrazzo check bricks.json\n"

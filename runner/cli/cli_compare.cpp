@@ -5,12 +5,12 @@
 #include "nodes/sink/export_report.h"
 #include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
-#include "runner/cli/console.h"
-#include "runner/cli/limit_flags.h"
-#include "runner/cli/signals.h"
-#include "runner/cli/written_files.h"
-#include "runner/engine/memory_graph.h"
+#include "runner/plan/memory_graph.h"
 #include "runner/report/html_report.h"
+#include "runner/terminal/console.h"
+#include "runner/terminal/limit_flags.h"
+#include "runner/terminal/signals.h"
+#include "runner/terminal/written_files.h"
 
 namespace terrazzo {
 
@@ -63,16 +63,16 @@ int compare(const CompareFlags& flags) {
   const CancelOnSignal signals;
   const Graph graph = compare_graph(flags);
   const WrittenFile sheet = {"--sheet", flags.sheet, is_page(flags.sheet) ? WrittenKind::page : WrittenKind::picture};
-  check_kept({sheet}, inputs_of(graph));
+  check_protected({sheet}, inputs_of(graph));
   check_replaced({sheet}, flags.force);
   const RunResult result =
       Session({.use_cache = false}).run(graph, {.keep = {"figures"}, .cancelled = &signals.flag()});
-  for (const Failure& f : result.failures) say("error: {}\n", f.message);
+  for (const Failure& f : result.failures) print_message("error: {}\n", f.message);
   if (result.cancelled) return exit_cancelled;
   if (!result.ok()) return exit_failed;
   const ReportPtr report = std::get<ReportPtr>(result.kept.at("figures").at("report"));
   if (is_page(flags.sheet)) write_report_page(*report, flags.sheet);
-  answer("{}", flags.json ? report_as_json(*report) : as_table(*report));
+  print_result("{}", flags.json ? report_as_json(*report) : as_table(*report));
   return exit_done;
 }
 

@@ -6,16 +6,16 @@
 
 #include "core/base/text.h"
 #include "core/file/atomic_file.h"
-#include "graphs/document/diff.h"
-#include "graphs/document/draw.h"
-#include "graphs/document/grouping.h"
-#include "graphs/document/migrate.h"
-#include "graphs/document/pack.h"
-#include "graphs/document/read_document.h"
+#include "graphs/text/migrate.h"
+#include "graphs/text/read_document.h"
+#include "graphs/tools/diff.h"
+#include "graphs/tools/draw.h"
+#include "graphs/tools/grouping.h"
+#include "graphs/tools/pack.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
-#include "runner/cli/console.h"
-#include "runner/cli/written_files.h"
+#include "runner/terminal/console.h"
+#include "runner/terminal/written_files.h"
 
 namespace terrazzo {
 
@@ -31,7 +31,7 @@ struct DocumentFlags : GraphFlags {
 
 /// Throws UsageError unless -o names a file that a graph may be written to.
 void check_out(const DocumentFlags& flags, WrittenKind kind) {
-  check_kept({{"-o", flags.out, kind}}, flags.files());
+  check_protected({{"-o", flags.out, kind}}, flags.files());
   check_replaced({{"-o", flags.out, kind}}, flags.force);
 }
 
@@ -39,7 +39,7 @@ void check_out(const DocumentFlags& flags, WrittenKind kind) {
 void write_changed(const DocumentFlags& flags, const std::string& text) {
   const std::string& target = flags.out.empty() ? flags.graph : flags.out;
   write_whole_file(target, text);
-  say("wrote {}\n", target);
+  print_message("wrote {}\n", target);
 }
 
 int upgrade(const DocumentFlags& flags) {
@@ -47,7 +47,7 @@ int upgrade(const DocumentFlags& flags) {
   const std::string before = read_document(flags.graph);
   const std::string after = upgraded(before, flags.graph);
   if (flags.out.empty() && before == after) {
-    say("{} is up to date\n", flags.graph);
+    print_message("{} is up to date\n", flags.graph);
     return exit_done;
   }
   write_changed(flags, after);
@@ -59,7 +59,7 @@ int format(const DocumentFlags& flags) {
   const std::string before = read_document(flags.graph);
   const std::string after = upgraded(before, flags.graph);
   if (flags.check && before != after) {
-    say("{} is not in the canonical layout; terrazzo format {} writes it\n", flags.graph, flags.graph);
+    print_message("{} is not in the canonical layout; terrazzo format {} writes it\n", flags.graph, flags.graph);
     return exit_failed;
   }
   if (before != after || !flags.out.empty()) write_changed(flags, after);
@@ -76,7 +76,7 @@ void compare_seeds(const DocumentFlags& flags, const std::string& before, const 
     return out;
   };
   if (seeds(before) != seeds(after))
-    say("note: nodes that derive their seeds from the graph's have others now, as they have other names\n");
+    print_message("note: nodes that derive their seeds from the graph's have others now, as they have other names\n");
 }
 
 int regroup(const DocumentFlags& flags, const std::function<std::string(const std::string&)>& rewrite) {
@@ -99,7 +99,7 @@ int group_to_file(const DocumentFlags& flags) {
   const std::string grouped_text = as_usage([&] { return grouped(before, flags.graph, flags.name, flags.nodes); });
   const GraphInFile moved = moved_to_file(grouped_text, flags.graph, flags.name, type.generic_string());
   write_whole_file(flags.to, moved.graph);
-  say("wrote {}\n", flags.to);
+  print_message("wrote {}\n", flags.to);
   write_changed(flags, moved.document);
   compare_seeds(flags, before, moved.document);
   return exit_done;
@@ -117,8 +117,8 @@ int ungroup(const DocumentFlags& flags) {
 int diff(const DocumentFlags& flags) {
   const std::vector<std::string> found = differences(current_document(read_document(flags.graph), flags.graph),
                                                      current_document(read_document(flags.name), flags.name));
-  for (const std::string& line : found) answer("{}\n", line);
-  if (found.empty()) say("the graphs do not differ\n");
+  for (const std::string& line : found) print_result("{}\n", line);
+  if (found.empty()) print_message("the graphs do not differ\n");
   return found.empty() ? exit_done : exit_failed;
 }
 
@@ -127,12 +127,13 @@ int pack(const DocumentFlags& flags) {
   options.presets = flags.presets;
   options.settings.assign(flags.settings.begin(), flags.settings.end());
   check_out(flags, WrittenKind::pack);
-  check_kept({{"-o", flags.out, WrittenKind::pack}}, inputs_of(load_graph(flags.graph, flags.set, options).graph));
+  check_protected({{"-o", flags.out, WrittenKind::pack}}, inputs_of(load_graph(flags.graph, flags.set, options).graph));
   const PackedFiles packed = write_pack(flags.graph, flags.set, options, flags.out);
-  for (const std::string& renamed : packed.renamed) say("note: {}\n", renamed);
+  for (const std::string& renamed : packed.renamed) print_message("note: {}\n", renamed);
   for (const std::string& file : packed.left_out)
-    say("warning: {} is not in the pack: no parameter of a node names it\n", file);
-  say("wrote {}: the graph and {}, {}\n", flags.out, counted(int64_t(packed.count), "file"), shown_bytes(packed.bytes));
+    print_message("warning: {} is not in the pack: no parameter of a node names it\n", file);
+  print_message("wrote {}: the graph and {}, {}\n", flags.out, counted(int64_t(packed.count), "file"),
+                shown_bytes(packed.bytes));
   return exit_done;
 }
 
@@ -144,9 +145,9 @@ int draw(const DocumentFlags& flags) {
   GraphFlags opened = flags;
   opened.open_pack();
   const Graph graph = opened.load({.allow_unset = true}).graph;
-  check_kept({{"-o", flags.out, WrittenKind::drawing}}, inputs_of(graph));
+  check_protected({{"-o", flags.out, WrittenKind::drawing}}, inputs_of(graph));
   write_whole_file(flags.out, ending == ".svg" ? draw_svg(graph) : draw_dot(graph));
-  say("wrote {}\n", flags.out);
+  print_message("wrote {}\n", flags.out);
   return exit_done;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "runner/cli/cli_commands.h"
-#include "runner/farm/job_state.h"
+#include "runner/scheduler/job_state.h"
 
 /// What the commands for farms share.
 namespace terrazzo {

@@ -6,9 +6,9 @@
 
 #include "core/file/file_io.h"
 #include "core/file/private_folder.h"
-#include "graphs/document/pack.h"
-#include "graphs/document/read_document.h"
-#include "graphs/document/reference.h"
+#include "graphs/text/read_document.h"
+#include "graphs/tools/pack.h"
+#include "graphs/tools/reference.h"
 #include "runner/cache/cache.h"
 
 namespace terrazzo {
@@ -59,8 +59,8 @@ LoadedGraph GraphFlags::load(LoadOptions options) const {
   return load_graph_text(read_document(pack / "graph.json"), graph, set, options);
 }
 
-std::vector<KeptFile> GraphFlags::files() const {
-  std::vector<KeptFile> out = {{graph, "it is the graph file"}};
+std::vector<ProtectedFile> GraphFlags::files() const {
+  std::vector<ProtectedFile> out = {{graph, "it is the graph file"}};
   out.push_back({std::filesystem::path(graph).replace_extension(".presets.json"), "it holds the graph's presets"});
   for (const std::string& file : settings) out.push_back({file, "--params reads it"});
   return out;

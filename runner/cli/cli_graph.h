@@ -8,8 +8,8 @@
 
 #include "core/file/private_folder.h"
 #include "graphs/document/load.h"
-#include "runner/cli/command.h"
-#include "runner/cli/written_files.h"
+#include "runner/terminal/command.h"
+#include "runner/terminal/written_files.h"
 
 namespace terrazzo {
 
@@ -30,7 +30,7 @@ struct GraphFlags {
   /// Loads it; `options` are completed by the presets and settings files. Throws GraphError.
   LoadedGraph load(LoadOptions options) const;
   /// The files that have been named.
-  std::vector<KeptFile> files() const;
+  std::vector<ProtectedFile> files() const;
 };
 
 /// What to say of the warnings about a graph: of many the first ones.

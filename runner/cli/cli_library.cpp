@@ -11,18 +11,18 @@
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
 #include "core/file/private_folder.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "core/picture/contact_sheet.h"
-#include "graphs/document/problem.h"
 #include "graphs/library/library.h"
+#include "graphs/text/problem.h"
 #include "nodes/common/registry.h"
 #include "runner/cli/cli_commands.h"
-#include "runner/cli/console.h"
 #include "runner/cli/library_making.h"
-#include "runner/cli/limit_flags.h"
-#include "runner/cli/signals.h"
-#include "runner/cli/written_files.h"
 #include "runner/report/html_report.h"
+#include "runner/terminal/console.h"
+#include "runner/terminal/limit_flags.h"
+#include "runner/terminal/signals.h"
+#include "runner/terminal/written_files.h"
 
 namespace terrazzo {
 
@@ -64,13 +64,13 @@ int add(const LibraryFlags& flags) {
                           for_command_line(p.message, flags.addition.source, "--set exemplar.name=")});
     throw GraphError("", std::move(problems));
   }
-  for (const Failure& f : result.failures) say("error: {}\n", f.message);
+  for (const Failure& f : result.failures) print_message("error: {}\n", f.message);
   if (!entry) return result.cancelled ? exit_cancelled : exit_failed;
   entry->name = name;
   entry->tags = flags.tags;
   entry->summary = flags.summary;
   library.add(*entry, flags.force);
-  say("added \"library:{}\" to {}\n", name, library.folder().string());
+  print_message("added \"library:{}\" to {}\n", name, library.folder().string());
   return exit_done;
 }
 
@@ -150,12 +150,12 @@ void write_sheet(const std::vector<LibraryEntry>& entries, const fs::path& path)
     throw Error("--sheet: none of these has a picture");
   else
     write_picture(*contact_sheet(rows, largest, captions), path);
-  say("wrote {}\n", path.string());
+  print_message("wrote {}\n", path.string());
 }
 
 /// What the library holds, which no sheet may take the place of.
-std::vector<KeptFile> files_of(const std::vector<LibraryEntry>& entries) {
-  std::vector<KeptFile> out;
+std::vector<ProtectedFile> files_of(const std::vector<LibraryEntry>& entries) {
+  std::vector<ProtectedFile> out;
   for (const LibraryEntry& e : entries)
     for (const fs::path& path : {e.analysis, e.picture, e.library / (e.name + ".json")})
       out.push_back({path, fmt::format("it belongs to \"library:{}\"", e.name)});
@@ -168,9 +168,9 @@ int list(const LibraryFlags& flags) {
   const Library library = flags.open();
   std::vector<std::string> faults;
   std::vector<LibraryEntry> entries = library.entries(faults);
-  for (const std::string& fault : faults) say("{}{}\n", warning_mark, fault);
+  for (const std::string& fault : faults) print_message("{}{}\n", warning_mark, fault);
   const WrittenFile sheet = {"--sheet", flags.sheet, is_page(flags.sheet) ? WrittenKind::page : WrittenKind::picture};
-  check_kept({sheet}, files_of(entries));
+  check_protected({sheet}, files_of(entries));
   check_replaced({sheet}, flags.force);
   const std::vector<LibraryEntry> all = entries;
   std::erase_if(entries, [&](const LibraryEntry& e) { return !is_meant(e, flags); });
@@ -178,7 +178,7 @@ int list(const LibraryFlags& flags) {
   if (flags.json)
     write_answer(as_json(entries));
   else if (entries.empty())
-    say("the library {} holds {}\n", library.folder().string(), nothing_found(all, flags));
+    print_message("the library {} holds {}\n", library.folder().string(), nothing_found(all, flags));
   else
     write_answer(aligned(as_table(entries)));
   return exit_done;
@@ -200,17 +200,18 @@ int check(const LibraryFlags& flags) {
   std::vector<LibraryEntry> entries;
   if (flags.names.empty()) entries = library.entries(faults);
   for (const std::string& name : flags.names) entries.push_back(as_usage([&] { return library.find(name); }));
-  for (const std::string& fault : faults) answer("{}\n", fault);
+  for (const std::string& fault : faults) print_result("{}\n", fault);
   size_t faulty = faults.size();
   for (const LibraryEntry& e : entries) {
     const std::vector<std::string> found = Library::faults_of(e);
     faulty += !found.empty();
-    for (const std::string& fault : found) answer("{}: {}\n", e.name, fault);
-    for (const std::string& old : outdated(e)) answer("{}: note: {}\n", e.name, old);
+    for (const std::string& fault : found) print_result("{}: {}\n", e.name, fault);
+    for (const std::string& old : outdated(e)) print_result("{}: note: {}\n", e.name, old);
   }
-  answer("{}\n", faulty == 0 ? fmt::format("{} sound", entries.size() == 1 ? "1 analysis"
-                                                                           : fmt::format("{} analyses", entries.size()))
-                             : fmt::format("{} of {} with faults", faulty, entries.size() + faults.size()));
+  print_result("{}\n", faulty == 0
+                           ? fmt::format("{} sound", entries.size() == 1 ? "1 analysis"
+                                                                         : fmt::format("{} analyses", entries.size()))
+                           : fmt::format("{} of {} with faults", faulty, entries.size() + faults.size()));
   return faulty == 0 ? exit_done : exit_failed;
 }
 
@@ -218,7 +219,7 @@ int remove(const LibraryFlags& flags) {
   const Library library = flags.open();
   for (const std::string& name : flags.names) {
     as_usage([&] { library.remove(name); });
-    say("removed {}\n", name);
+    print_message("removed {}\n", name);
   }
   return exit_done;
 }

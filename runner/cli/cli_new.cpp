@@ -5,17 +5,17 @@
 #include "core/base/suggest.h"
 #include "core/exemplar/features.h"
 #include "core/file/atomic_file.h"
-#include "graphs/document/problem.h"
-#include "graphs/document/stock_graphs.h"
+#include "graphs/text/problem.h"
+#include "graphs/text/stock_graphs.h"
 #include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_run.h"
-#include "runner/cli/console.h"
-#include "runner/cli/exemplar_look.h"
-#include "runner/cli/limit_flags.h"
-#include "runner/cli/signals.h"
+#include "runner/cli/exemplar_inspection.h"
 #include "runner/cli/starting_graph.h"
-#include "runner/cli/written_files.h"
+#include "runner/terminal/console.h"
+#include "runner/terminal/limit_flags.h"
+#include "runner/terminal/signals.h"
+#include "runner/terminal/written_files.h"
 
 namespace terrazzo {
 
@@ -62,28 +62,29 @@ int make_new(const NewFlags& flags) {
   if (!flags.force && fs::exists(flags.out))
     throw UsageError(fmt::format("{} exists; --force overwrites it", flags.out));
   require_stock_graph(flags);
-  check_kept({{"-o", flags.out, WrittenKind::graph}}, files_at(flags.exemplar.folder, "it belongs to the exemplar"));
+  check_protected({{"-o", flags.out, WrittenKind::graph}},
+                  files_at(flags.exemplar.folder, "it belongs to the exemplar"));
   check_writable("-o", flags.out);
   const CancelOnSignal signals;
-  const Graph graph = looking_graph(flags.exemplar);
+  const Graph graph = inspection_graph(flags.exemplar);
   const RunResult result =
       run_on_folder(graph, {.keep = {"exemplar", "elements"}, .cancelled = &signals.flag()}, flags.exemplar.folder);
-  for (const Failure& f : result.failures) say("error: {}\n", f.message);
+  for (const Failure& f : result.failures) print_message("error: {}\n", f.message);
   print_warnings(result);
   if (!result.ok()) return result.cancelled ? exit_cancelled : exit_failed;
   const auto features = std::get<FeaturesPtr>(result.kept.at("elements").at("features"));
-  ExemplarLook look{.exemplar = std::get<MaterialPtr>(result.kept.at("exemplar").at("material")),
-                    .folder = seen_from(fs::absolute(flags.out).parent_path(), flags.exemplar.folder),
-                    .name = flags.exemplar.name,
-                    .interpret = flags.exemplar.interpretations(),
-                    .notes = result.stages[0].notes,
-                    .lattice_notes = result.stages[2].notes,
-                    .repeats = features->repeats().lattice.rank > 0,
-                    .streaks = features->repeats().streaks.any(),
-                    .tiles = features->wraps(),
-                    .method = suitable_method(*features, Task())};
+  ExemplarFindings look{.exemplar = std::get<MaterialPtr>(result.kept.at("exemplar").at("material")),
+                        .folder = seen_from(fs::absolute(flags.out).parent_path(), flags.exemplar.folder),
+                        .name = flags.exemplar.name,
+                        .interpret = flags.exemplar.interpretations(),
+                        .notes = result.stages[0].notes,
+                        .lattice_notes = result.stages[2].notes,
+                        .repeats = features->repeats().lattice.rank > 0,
+                        .streaks = features->repeats().streaks.any(),
+                        .tiles = features->wraps(),
+                        .method = suitable_method(*features, Task())};
   write_whole_file(flags.out, starting_graph(look, stock_graph(flags.like)));
-  say("found {}\n{}\n{}\nwrote {}\n", look.exemplar->map_names(), look.nature(), look.advice(), flags.out);
+  print_message("found {}\n{}\n{}\nwrote {}\n", look.exemplar->map_names(), look.nature(), look.advice(), flags.out);
   return exit_done;
 }
 

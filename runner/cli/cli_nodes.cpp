@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
-#include "graphs/document/reference.h"
-#include "graphs/document/schema.h"
+#include "graphs/tools/reference.h"
+#include "graphs/tools/schema.h"
 #include "nodes/common/registry.h"
 #include "runner/cli/cli_commands.h"
-#include "runner/cli/console.h"
+#include "runner/terminal/console.h"
 
 namespace terrazzo {
 
@@ -20,11 +20,11 @@ const NodeType& known_type(const std::string& name) {
 
 int show_nodes(const std::string& name, bool json) {
   if (name.empty())
-    answer("{}", json ? nodes_json() : node_list());
+    print_result("{}", json ? nodes_json() : node_list());
   else if (json)
-    answer("{}", nodes_json({known_type(name)}));
+    print_result("{}", nodes_json({known_type(name)}));
   else
-    answer("{}", node_reference(known_type(name)));
+    print_result("{}", node_reference(known_type(name)));
   return exit_done;
 }
 
@@ -45,7 +45,7 @@ void add_node_commands(Command& program) {
   Command& schema = program.add_command("schema", "Prints the JSON Schema of graph files, for editors");
   schema.footer = "Example:\n  terrazzo schema > terrazzo.schema.json";
   schema.run = [] {
-    answer("{}", json_schema());
+    print_result("{}", json_schema());
     return exit_done;
   };
 }

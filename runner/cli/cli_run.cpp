@@ -9,22 +9,22 @@
 
 #include "core/file/read_guard.h"
 #include "graphs/document/load.h"
-#include "graphs/document/override.h"
+#include "graphs/values/override.h"
 #include "runner/api/session.h"
 #include "runner/cache/cache_limit.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/cli_sweep.h"
-#include "runner/cli/console.h"
-#include "runner/cli/signals.h"
 #include "runner/cli/watch.h"
 #include "runner/engine/checked.h"
-#include "runner/engine/preflight.h"
 #include "runner/engine/sandbox.h"
+#include "runner/plan/preflight.h"
 #include "runner/report/html_report.h"
 #include "runner/report/run_summary.h"
 #include "runner/report/shown_nodes.h"
 #include "runner/report/trace.h"
+#include "runner/terminal/console.h"
+#include "runner/terminal/signals.h"
 
 namespace terrazzo {
 
@@ -73,14 +73,14 @@ bool is_terminal() {
 
 /// What people read at the end; programs that asked for json have had it all.
 void print_end(const RunResult& result, ProgressMode mode) {
-  for (const Failure& f : result.failures) say("error: {}\n", f.message);
-  for (const std::string& line : result.skips()) say("{}\n", line);
+  for (const Failure& f : result.failures) print_message("error: {}\n", f.message);
+  for (const std::string& line : result.skips()) print_message("{}\n", line);
   print_warnings(result);
   if (mode == ProgressMode::none) return;
   for (const StageOutcome& s : result.stages)
     if (s.kind == StageOutcome::Kind::run)
-      for (const OutputFile& f : s.files) say("wrote {}\n", f.path.string());
-  say("{}{}\n", result.cancelled ? "cancelled; " : "", result.summary());
+      for (const OutputFile& f : s.files) print_message("wrote {}\n", f.path.string());
+  print_message("{}{}\n", result.cancelled ? "cancelled; " : "", result.summary());
 }
 
 void summarize(const RunFlags& flags, const RunSummary& summary) {
@@ -192,10 +192,10 @@ int run_once(const Guarded& guarded, const RunFlags& flags, Session& session, co
     }
   });
   const std::vector<WrittenFile> written = files_of(flags);
-  check_kept(written, inputs_of(graph));
-  check_kept(without_pictures(written), outputs_of(plan));
+  check_protected(written, inputs_of(graph));
+  check_protected(without_pictures(written), outputs_of(plan));
   if (flags.dry_run) {
-    answer("{}", plan.table());
+    print_result("{}", plan.table());
     return exit_done;
   }
   const ProgressMode mode = *progress_mode_from(flags.progress);
@@ -210,7 +210,7 @@ int run_once(const Guarded& guarded, const RunFlags& flags, Session& session, co
   summary.variations = flags.variations;
   summary.exit_code = result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
   try {
-    check_kept(without_pictures(written), outputs_of(result));  // names that nobody knew before
+    check_protected(without_pictures(written), outputs_of(result));  // names that nobody knew before
     if (flags.after) flags.after(result);
     if (!flags.trace.empty()) write_trace(result, flags.trace);
     if (!flags.report.empty()) write_html_report(plan, result, flags.report);
@@ -253,7 +253,8 @@ int watch(const LoadGraph& load, const RunFlags& flags, Session& session, const 
 void print_warnings(const RunResult& result) {
   for (const StageOutcome& s : result.stages)
     for (const std::string& note : s.notes)
-      if (is_warning(note)) say("{}node \"{}\": {}\n", warning_mark, s.node, note.substr(warning_mark.size()));
+      if (is_warning(note))
+        print_message("{}node \"{}\": {}\n", warning_mark, s.node, note.substr(warning_mark.size()));
 }
 
 void add_run_flags(Command& command, RunFlags& flags) {
@@ -311,7 +312,7 @@ int run_with_flags(const LoadGraph& load, const RunFlags& flags) {
   const bool is_device = fs::exists(flags.report, missing) && !fs::is_regular_file(flags.report, missing);
   if (!flags.report.empty() && !is_device && ending != ".html" && ending != ".htm")
     throw UsageError(fmt::format("--report takes a file that ends in .html; \"{}\" does not", flags.report));
-  check_kept(files_of(flags), flags.reads);
+  check_protected(files_of(flags), flags.reads);
   check_replaced(files_of(flags), flags.force);
   if (flags.is_checked() && !is_watching()) warn(flags, "what nodes read is not watched: " + why_not_watching());
   const CancelOnSignal signals;

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "graphs/document/load.h"
-#include "runner/cli/checked_flag.h"
-#include "runner/cli/command.h"
-#include "runner/cli/limit_flags.h"
-#include "runner/cli/written_files.h"
 #include "runner/engine/schedule.h"
 #include "runner/report/progress.h"
+#include "runner/terminal/checked_flag.h"
+#include "runner/terminal/command.h"
+#include "runner/terminal/limit_flags.h"
+#include "runner/terminal/written_files.h"
 
 namespace terrazzo {
 
@@ -37,7 +37,7 @@ struct RunFlags {
   std::vector<std::string> files{};   ///< more files that it names
   std::string progress = "auto";
   std::vector<WrittenFile> writes{};                ///< besides report and trace
-  std::vector<KeptFile> reads{};                    ///< besides the graph and the files of its nodes
+  std::vector<ProtectedFile> reads{};               ///< besides the graph and the files of its nodes
   std::map<std::string, std::string> variations{};  ///< see RunSummary
   std::vector<std::string> keep{};                  ///< more targets, whose values are kept for `after`
   /// Called before each load; a sandbox allows to read what it returns.

@@ -7,8 +7,8 @@
 #include "core/base/suggest.h"
 #include "core/file/file_io.h"
 #include "runner/cli/cli_commands.h"
-#include "runner/cli/console.h"
-#include "runner/cli/shell_files.h"
+#include "runner/terminal/console.h"
+#include "runner/terminal/shell_files.h"
 
 namespace terrazzo {
 
@@ -51,7 +51,7 @@ void add_shell_commands(Command& program, const std::string& version) {
   man.footer = "Example:\n  terrazzo man run | man -l -";
   man.run = [&program, words, folder, version] {
     if (folder->empty())
-      answer("{}", man_page(found(program, *words), version));
+      print_result("{}", man_page(found(program, *words), version));
     else
       write_pages(program, *folder, version);
     return exit_done;
@@ -64,7 +64,7 @@ void add_shell_commands(Command& program, const std::string& version) {
       "Example:\n"
       "  source <(terrazzo completion bash)";
   completion.run = [&program, shell] {
-    answer("{}", completion_script(program, *shell));
+    print_result("{}", completion_script(program, *shell));
     return exit_done;
   };
 }

@@ -14,13 +14,13 @@
 #include "runner/cli/cli_farm.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/cli_sweep.h"
-#include "runner/cli/console.h"
-#include "runner/cli/signals.h"
 #include "runner/cli/submit_flags.h"
-#include "runner/engine/preflight.h"
 #include "runner/farm/left_out.h"
-#include "runner/farm/openjd.h"
-#include "runner/farm/submission.h"
+#include "runner/plan/preflight.h"
+#include "runner/scheduler/openjd.h"
+#include "runner/scheduler/submission.h"
+#include "runner/terminal/console.h"
+#include "runner/terminal/signals.h"
 
 namespace terrazzo {
 
@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void tell(const std::string& text) {
-  say("{}\n", text);
+  print_message("{}\n", text);
 }
 
 Graph graph_of(const SubmitFlags& flags, std::vector<std::string>& only) {
@@ -109,7 +109,7 @@ std::vector<TaskArray> arrays_of_job(const PreparedJob& prepared, const ArrayOpt
 }
 
 void tell_all_is_made(const PreparedJob& prepared) {
-  answer("nothing to do: all {} has been made\n", prepared.job.left_out.empty() ? "of it" : "else");
+  print_result("nothing to do: all {} has been made\n", prepared.job.left_out.empty() ? "of it" : "else");
 }
 
 /// Writes the job, and says what was found damaged.
@@ -134,7 +134,7 @@ int print_scripts(const PreparedJob& prepared, const SubmitFlags& flags, const S
   for (size_t i = 0; i < arrays.size(); i++) {
     std::vector<std::string> after;
     for (const size_t n : arrays[i].needs) after.push_back(fmt::format("<job of array {}>", n + 1));
-    answer("# array {}\n{}\n", i + 1, slurm_script(prepared.job, arrays[i], prepared.folder, after, flags.slurm));
+    print_result("# array {}\n{}\n", i + 1, slurm_script(prepared.job, arrays[i], prepared.folder, after, flags.slurm));
   }
   if (arrays.empty()) tell_all_is_made(prepared);
   return exit_done;
@@ -157,10 +157,11 @@ int code_of(const JobState& state) {
 
 void show(const fs::path& folder, const FarmJob& job, const JobState& state, bool as_json) {
   if (as_json) {
-    answer("{}\n", state_json(folder, job, state));
+    print_result("{}\n", state_json(folder, job, state));
     return;
   }
-  answer("job     {}\ngraph   {}\nfolder  {}\nunits   {}\n", job.name, job.graph, folder.string(), state_line(state));
+  print_result("job     {}\ngraph   {}\nfolder  {}\nunits   {}\n", job.name, job.graph, folder.string(),
+               state_line(state));
   Table table = {{"unit", "state", "task", "where or why"}};
   for (size_t i = 0; i < job.units.size(); i++) {
     const std::string& name = job.units[i].name;
@@ -173,12 +174,12 @@ void show(const fs::path& folder, const FarmJob& job, const JobState& state, boo
                                                      : task->second.reason});
   }
   for (const auto& [node, why] : job.left_out) table.push_back({node, "left out", "", why});
-  if (table.size() > 1) answer("\n{}", aligned(table));
-  if (!job.left_out.empty()) answer("\nsubmit the same again once what was left out is mended\n");
+  if (table.size() > 1) print_result("\n{}", aligned(table));
+  if (!job.left_out.empty()) print_result("\nsubmit the same again once what was left out is mended\n");
   if (state.count(UnitState::elsewhere) > 0)
-    answer("\nwritten to {} for another scheduler, which alone knows what is running\n", state.assignment.file);
+    print_result("\nwritten to {} for another scheduler, which alone knows what is running\n", state.assignment.file);
   else if (!state.is_moving() && !state.is_complete())
-    answer("\nlogs are in {}; submit the same again to make what is missing\n", (folder / "logs").string());
+    print_result("\nlogs are in {}; submit the same again to make what is missing\n", (folder / "logs").string());
 }
 
 int wait_until_done(const fs::path& folder, const FarmJob& job, const SubmitFlags& flags, Cache& cache,
@@ -222,9 +223,9 @@ int submit_graph(const PreparedJob& prepared, const SubmitFlags& flags, Cache& c
   const FarmJob job = read_farm_job(prepared.folder);
   write_assignment(prepared.folder, {.to = Assignment::To::slurm});
   const std::vector<HandedOver> handed = hand_over(prepared.folder, job, cache, slurm, arrays, flags.slurm);
-  answer("job {}\n", job.name);
+  print_result("job {}\n", job.name);
   if (handed.empty()) {
-    answer("handed over before; nothing was added\n");
+    print_result("handed over before; nothing was added\n");
   } else {
     std::vector<TaskArray> given;
     std::vector<std::string> ids;
@@ -232,7 +233,7 @@ int submit_graph(const PreparedJob& prepared, const SubmitFlags& flags, Cache& c
       given.push_back(h.array);
       ids.push_back(h.id);
     }
-    answer("{}", aligned(table_of(given, ids)));
+    print_result("{}", aligned(table_of(given, ids)));
   }
   return flags.wait ? wait_until_done(prepared.folder, job, flags, cache, slurm, cancelled) : exit_done;
 }
@@ -250,9 +251,9 @@ int list_jobs(const FarmFolder& farm, Cache& cache, const Slurm& slurm) {
     }
   }
   if (table.size() == 1)
-    answer("no jobs in {}\n", farm.root().string());
+    print_result("no jobs in {}\n", farm.root().string());
   else
-    answer("{}", aligned(table));
+    print_result("{}", aligned(table));
   return code;
 }
 
@@ -266,7 +267,7 @@ int cancel(const fs::path& folder, Cache& cache, const Slurm& slurm) {
     // Slurm's queue tells.
   }
   cancel_job(folder, cache, slurm);
-  answer("cancelled {}; what has been made stays in the cache\n", job);
+  print_result("cancelled {}; what has been made stays in the cache\n", job);
   return exit_done;
 }
 

@@ -9,13 +9,13 @@
 
 #include "core/base/suggest.h"
 #include "core/file/atomic_file.h"
-#include "graphs/document/problem.h"
+#include "graphs/text/problem.h"
 #include "nodes/sink/compare.h"
 #include "nodes/sink/export_report.h"
 #include "runner/cli/cli_commands.h"
-#include "runner/cli/console.h"
-#include "runner/engine/memory_graph.h"
+#include "runner/plan/memory_graph.h"
 #include "runner/report/html_report.h"
+#include "runner/terminal/console.h"
 
 namespace terrazzo {
 
@@ -335,10 +335,10 @@ void Sweep::report(const RunResult& result) const {
         row[values + f] = value_text(figures[i]->figures()[f]);
     table.push_back(std::move(row));
   }
-  if (!figures.empty()) answer("{}", aligned(table));
+  if (!figures.empty()) print_result("{}", aligned(table));
   if (!flags_.figures.empty()) {
     write_whole_file(flags_.figures, as_csv(table));
-    say("wrote {}\n", flags_.figures);
+    print_message("wrote {}\n", flags_.figures);
   }
   if (is_page(flags_.sheet)) {
     std::vector<Report::Picture> pictures;
@@ -347,7 +347,7 @@ void Sweep::report(const RunResult& result) const {
       pictures.push_back({variations_[i].label(), std::get<ImagePtr>(picture)});
     }
     write_variations_page("Variations", table, pictures, flags_.sheet);
-    say("wrote {}\n", flags_.sheet);
+    print_message("wrote {}\n", flags_.sheet);
   }
   if (!flags_.best.empty()) tell_best(figures);
 }
@@ -365,7 +365,7 @@ void Sweep::tell_best(const std::vector<const Report*>& reports) const {
     }
   }
   if (best == reports.size()) throw UsageError(fmt::format("--best {}: no variation has this figure", name));
-  answer("best by {}: {} ({})\n", name, variations_[best].label(), value);
+  print_result("best by {}: {} ({})\n", name, variations_[best].label(), value);
 }
 
 }  // namespace terrazzo

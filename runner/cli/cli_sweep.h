@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/node/report.h"
-#include "graphs/document/variations.h"
+#include "graphs/values/variations.h"
 #include "runner/cli/cli_graph.h"
-#include "runner/cli/command.h"
 #include "runner/engine/schedule.h"
+#include "runner/terminal/command.h"
 
 namespace terrazzo {
 

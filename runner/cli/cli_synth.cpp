@@ -5,12 +5,12 @@
 
 #include "core/stochastic/method.h"
 #include "graphs/document/load.h"
-#include "graphs/document/override.h"
-#include "graphs/document/stock_graphs.h"
+#include "graphs/text/stock_graphs.h"
+#include "graphs/values/override.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_run.h"
-#include "runner/cli/console.h"
-#include "runner/cli/exemplar_look.h"
+#include "runner/cli/exemplar_inspection.h"
+#include "runner/terminal/console.h"
 
 namespace terrazzo {
 
@@ -79,10 +79,10 @@ ChosenGraph suitable_graph(const SynthFlags& flags) {
     if (result.ok()) features = std::get<FeaturesPtr>(result.kept.at("elements").at("features"));
   };
   looking.files = {flags.exemplar.folder};
-  const int code = run_with_flags([&](const LoadOptions&) { return looking_graph(flags.exemplar); }, looking);
+  const int code = run_with_flags([&](const LoadOptions&) { return inspection_graph(flags.exemplar); }, looking);
   if (!features) return {nullptr, code};
   const MethodChoice choice = suitable_method(*features, Task());
-  say("{}\n", choice.sentence());
+  print_message("{}\n", choice.sentence());
   return {choice.method == Method::noise ? "noise" : "material"};
 }
 
@@ -96,7 +96,7 @@ ChosenGraph chosen_graph(const SynthFlags& flags) {
   if (flags.dry_run)
     throw UsageError("--method auto: it has to look at the exemplar; name layout or noise for a --dry-run");
   if (of_layout.empty()) return suitable_graph(flags);
-  say("a layout is made: {} asks for one\n", of_layout);
+  print_message("a layout is made: {} asks for one\n", of_layout);
   return {"material"};
 }
 

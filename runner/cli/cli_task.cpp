@@ -11,12 +11,12 @@
 #include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_farm.h"
-#include "runner/cli/console.h"
-#include "runner/cli/signals.h"
 #include "runner/farm/farm_folder.h"
-#include "runner/farm/supervisor.h"
 #include "runner/farm/unit_run.h"
 #include "runner/report/progress.h"
+#include "runner/scheduler/supervisor.h"
+#include "runner/terminal/console.h"
+#include "runner/terminal/signals.h"
 
 namespace terrazzo {
 
@@ -99,7 +99,7 @@ int list_units(const fs::path& folder, const FarmJob& job, const fs::path& cache
   Session session({.cache = cache_folder});
   const LoadedGraph loaded = load_frozen(folder, job.document);
   const Plan plan = session.plan(loaded.graph, {.only = job.targets, .look_ahead = false});
-  answer("{}\n", state_json(folder, job, state_of(folder, job, plan, {})));
+  print_result("{}\n", state_json(folder, job, state_of(folder, job, plan, {})));
   return exit_done;
 }
 
@@ -135,7 +135,7 @@ int run_task(const TaskFlags& flags) {
   Supervision how{.words = words_for_unit(flags, cache, job), .costs = FarmFolder::of_job(folder).costs()};
   how.memory = memory_given();
   how.cancelled = &signals.flag();
-  how.told = [](const std::string& text) { say("{}\n", text); };
+  how.told = [](const std::string& text) { print_message("{}\n", text); };
   return run_units(folder, job, units, how);
 }
 

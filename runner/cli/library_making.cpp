@@ -9,14 +9,14 @@
 #include "core/analysis/space/likeness.h"
 #include "core/exemplar/appearance.h"
 #include "core/file/file_io.h"
-#include "core/image/image_file.h"
-#include "core/image/resample.h"
+#include "core/filter/resample.h"
+#include "core/image_io/image_file.h"
 #include "graphs/document/load.h"
-#include "graphs/document/stock_graphs.h"
+#include "graphs/text/stock_graphs.h"
 #include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
-#include "runner/engine/memory_graph.h"
-#include "runner/engine/preflight.h"
+#include "runner/plan/memory_graph.h"
+#include "runner/plan/preflight.h"
 
 namespace terrazzo {
 

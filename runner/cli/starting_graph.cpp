@@ -9,10 +9,10 @@
 
 #include "core/analysis/space/weighting.h"
 #include "core/base/text.h"
-#include "graphs/document/convert.h"
-#include "graphs/document/format.h"
-#include "graphs/document/json.h"
-#include "graphs/document/stock_graphs.h"
+#include "graphs/text/format.h"
+#include "graphs/text/json.h"
+#include "graphs/text/stock_graphs.h"
+#include "graphs/values/convert.h"
 
 namespace terrazzo {
 
@@ -67,7 +67,7 @@ void weigh(JsonValue& weighted, const Material& exemplar) {
   if (!all_are_empty) weighted.set("weights", std::move(weights));
 }
 
-void tell_of_lattice(JsonValue& lattice, const ExemplarLook& look) {
+void tell_of_lattice(JsonValue& lattice, const ExemplarFindings& look) {
   for (const std::string& note : look.lattice_notes) comment(lattice, note);
   if (look.repeats) {
     comment(lattice, "Pieces move by whole steps of it. \"off\" lets them move freely: more variety, broken joints.");
@@ -77,7 +77,7 @@ void tell_of_lattice(JsonValue& lattice, const ExemplarLook& look) {
   lattice.set("mode", JsonValue::of("off"));
 }
 
-void tell_of_layout(JsonValue& layout, const ExemplarLook& look) {
+void tell_of_layout(JsonValue& layout, const ExemplarFindings& look) {
   comment(layout, "Another seed gives another variation; nothing before this node runs again for it.");
   comment(layout, look.repeats
                       ? "Jitter is left to the lattice: it moves pieces by whole steps, so that joints meet."
@@ -115,12 +115,12 @@ void interpret(JsonValue& graph, const std::map<std::string, std::string>& maps)
 
 }  // namespace
 
-std::string ExemplarLook::nature() const {
+std::string ExemplarFindings::nature() const {
   if (repeats) return streaks ? "it repeats, in streaks" : "it repeats";
   return fmt::format("{}; it {}", streaks ? "streaks" : "no lattice", tiles ? "tiles" : "does not tile");
 }
 
-std::string ExemplarLook::advice() const {
+std::string ExemplarFindings::advice() const {
   return method.sentence() + (method.method == Method::noise ? "; --like noise begins with that" : "");
 }
 
@@ -129,7 +129,7 @@ bool takes_a_folder(std::string_view graph) {
   return parsed.value && !parsed.value->find("inputs") && folder_parameter(*parsed.value);
 }
 
-std::string starting_graph(const ExemplarLook& look, std::string_view stock) {
+std::string starting_graph(const ExemplarFindings& look, std::string_view stock) {
   ParsedJson parsed = parse_json(stock);
   if (!parsed.value) throw std::logic_error("the stock graph is no JSON");
   JsonValue& graph = *parsed.value;

@@ -12,7 +12,7 @@
 namespace terrazzo {
 
 /// What has been found out about an exemplar.
-struct ExemplarLook {
+struct ExemplarFindings {
   MaterialPtr exemplar;
   std::filesystem::path folder;                    ///< of its maps, as a graph should name it
   std::string name{};                              ///< of the material in the folder, where one was asked for
@@ -35,6 +35,6 @@ bool takes_a_folder(std::string_view graph);
 
 /// A stock graph for this exemplar: its folder, weights, and whether a lattice is looked for, with comments on what was
 /// found, what was chosen and why, and what is worth changing.
-std::string starting_graph(const ExemplarLook& look, std::string_view stock);
+std::string starting_graph(const ExemplarFindings& look, std::string_view stock);
 
 }  // namespace terrazzo

@@ -5,9 +5,9 @@
 
 #include "runner/cli/cli_graph.h"
 #include "runner/cli/cli_sweep.h"
-#include "runner/cli/command.h"
 #include "runner/farm/arrays.h"
-#include "runner/farm/slurm_script.h"
+#include "runner/scheduler/slurm_script.h"
+#include "runner/terminal/command.h"
 
 namespace terrazzo {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <map>
 
-#include "graphs/document/graph.h"
+#include "graphs/text/graph.h"
 
 namespace terrazzo {
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "runner/engine/plan.h"
+#include "runner/plan/plan.h"
 
 /// Checked runs prove what the cache trusts: that a node's results depend on nothing but its key. Each node is run
 /// twice and must give the same, to the last pixel; and what it opens and which variables of the environment it reads

@@ -195,14 +195,14 @@ void Coordinator::loaded(StageJob& job) {
 void Coordinator::computed(StageJob& job) {
   Stage& s = plan_.stages[job.stage];
   outcomes_.computed(job);
-  if (options_.cache && !job.made_elsewhere) enqueue_store(job);
+  if (options_.cache && !job.computed_remotely) enqueue_store(job);
   if (s.known->names.empty()) s.known->names = job.record->outputs;
   if (states_.name(job.stage) == NameState::nameless) name(job.stage, NameEvent::computed);
   std::map<std::string, Value>& values = values_[job.stage] = std::move(job.values);
   std::erase_if(values, [&](const auto& value) {
     return std::find(s.used_outputs.begin(), s.used_outputs.end(), value.first) == s.used_outputs.end();
   });
-  if (job.made_elsewhere)
+  if (job.computed_remotely)
     held_.hold_loaded(job.stage, values);
   else
     held_.hold_computed(job.stage, values, s.sources);

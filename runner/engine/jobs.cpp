@@ -13,7 +13,7 @@
 #include "core/file/read_guard.h"
 #include "core/file/write_guard.h"
 #include "core/image/pixel_maker.h"
-#include "graphs/document/problem.h"
+#include "graphs/text/problem.h"
 #include "runner/engine/checked.h"
 #include "runner/engine/sandbox.h"
 
@@ -178,7 +178,7 @@ bool is_worth_a_lease(const Stage& stage, const Resolution& known, const RunOpti
 }
 
 /// Another process is at it.
-void leave_to_others(StageJob& job, const Stage& stage, const RunOptions& options) {
+void defer_to_lease_holder(StageJob& job, const Stage& stage, const RunOptions& options) {
   if (!job.waited && options.observer) options.observer->waits(stage);
   job.waited = job.busy = true;
 }
@@ -190,7 +190,7 @@ bool claim(StageJob& job, const Stage& stage, const RunOptions& options) {
   LeaseAttempt attempt = options.cache->try_lease(stage.known->key);
   job.lease = std::move(attempt.lease);
   if (!attempt.taken || stage.type().persist != Persist::payload) return true;
-  leave_to_others(job, stage, options);
+  defer_to_lease_holder(job, stage, options);
   return false;
 }
 
@@ -198,7 +198,7 @@ bool claim(StageJob& job, const Stage& stage, const RunOptions& options) {
 void look_up(StageJob& job, const Plan& plan, const RunOptions& options) {
   const Stage& stage = plan.stages[job.stage];
   job.resolution = resolve(plan, job.stage, options.cache, nullptr);
-  if (is_being_made(stage, *job.resolution, options)) leave_to_others(job, stage, options);
+  if (is_being_made(stage, *job.resolution, options)) defer_to_lease_holder(job, stage, options);
 }
 
 /// Loads what another process has computed since the stage was looked up.
@@ -211,7 +211,7 @@ bool find_elsewhere(StageJob& job, const Stage& stage, Cache* cache) {
   load(job, stage, record->outputs, cache);
   if (job.values.size() < stage.used_outputs.size()) return false;
   job.record = std::move(record);
-  job.made_elsewhere = true;
+  job.computed_remotely = true;
   job.lease.reset();
   return true;
 }
@@ -241,7 +241,7 @@ std::string of_targets(const NodeContext& context, std::string message) {
 
 void perform_kind(StageJob& job, const Plan& plan, const RunOptions& options) {
   const Task pulls(options.cancelled, {});
-  const WorksFor scope(pulls);
+  const CurrentTask scope(pulls);
   const Stage& stage = plan.stages[job.stage];
   switch (job.kind) {
     case StageJob::Kind::begin:

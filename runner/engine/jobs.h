@@ -25,7 +25,7 @@ struct StageJob {
   std::optional<Resolution> resolution;  ///< out for look_up
   std::shared_ptr<Lease> lease;          ///< out for compute, in for store: given up once its result is stored
   bool stored = false;                   ///< out for store: its values can be loaded again
-  bool made_elsewhere = false;           ///< out for compute: values and record were stored by another process
+  bool computed_remotely = false;        ///< out for compute: values and record were stored by another process
   bool busy = false;     ///< out for look_up and compute: another process is computing it; to be retried
   bool resumed = false;  ///< was busy, and is being retried
   bool waited = false;   ///< has been busy before

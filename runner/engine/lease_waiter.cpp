@@ -6,8 +6,8 @@
 
 namespace terrazzo {
 
-LeaseWaiter::LeaseWaiter(Taken taken, GiveBack give_back, const std::atomic<bool>* cancelled)
-    : taken_(std::move(taken)), give_back_(std::move(give_back)), cancelled_(cancelled) {}
+LeaseWaiter::LeaseWaiter(Taken taken, OnReady give_back, const std::atomic<bool>* cancelled)
+    : taken_(std::move(taken)), on_ready_(std::move(give_back)), cancelled_(cancelled) {}
 
 LeaseWaiter::~LeaseWaiter() {
   {
@@ -72,7 +72,7 @@ std::vector<LeaseWaiter::Entry> LeaseWaiter::look_at(std::vector<Entry> due, boo
     }
     e.wait.end = Clock::now();
     free_rows.push_back(e.wait.row);
-    give_back_(std::move(e.job), e.wait);
+    on_ready_(std::move(e.job), e.wait);
   }
   return still;
 }

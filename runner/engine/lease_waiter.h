@@ -31,10 +31,10 @@ class LeaseWaiter {
     int row = 0;  ///< for timelines: the lowest number that was free when the wait began
   };
   /// Receives a job back. Called once per job, without locks, on the waiter's thread; must not throw.
-  using GiveBack = std::function<void(StageJobPtr, const Wait&)>;
+  using OnReady = std::function<void(StageJobPtr, const Wait&)>;
 
   /// `cancelled` may be null; once set, all jobs are given back.
-  LeaseWaiter(Taken taken, GiveBack give_back, const std::atomic<bool>* cancelled);
+  LeaseWaiter(Taken taken, OnReady give_back, const std::atomic<bool>* cancelled);
   /// Gives all jobs back first.
   ~LeaseWaiter();
   LeaseWaiter(const LeaseWaiter&) = delete;
@@ -61,7 +61,7 @@ class LeaseWaiter {
   std::vector<Entry> look_at(std::vector<Entry> due, bool give_all_back, std::vector<int>& free_rows);
 
   const Taken taken_;
-  const GiveBack give_back_;
+  const OnReady on_ready_;
   const std::atomic<bool>* const cancelled_;
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "runner/engine/history.h"
+#include "runner/plan/history.h"
 
 namespace terrazzo {
 
@@ -41,7 +41,7 @@ void Outcomes::rests(int stage) {
   if (notified_[stage]) return;
   notified_[stage] = true;
   if (!options_.observer) return;
-  if (stages_[stage].kind != StageOutcome::Kind::reused) return options_.observer->spared(plan_.stages[stage]);
+  if (stages_[stage].kind != StageOutcome::Kind::reused) return options_.observer->not_needed(plan_.stages[stage]);
   options_.observer->reused(plan_.stages[stage]);
   note(stage);
 }
@@ -49,11 +49,11 @@ void Outcomes::rests(int stage) {
 void Outcomes::computed(const StageJob& job) {
   const Stage& s = plan_.stages[job.stage];
   StageOutcome& outcome = stages_[job.stage];
-  outcome.kind = job.made_elsewhere ? StageOutcome::Kind::reused : StageOutcome::Kind::run;
+  outcome.kind = job.computed_remotely ? StageOutcome::Kind::reused : StageOutcome::Kind::run;
   outcome.notes = job.record->notes;
   outcome.files = job.record->files;
   outcome.outputs = job.record->outputs;
-  if (job.made_elsewhere) {
+  if (job.computed_remotely) {
     rests(job.stage);
   } else {
     outcome.seconds += job.record->seconds;

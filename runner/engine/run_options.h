@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <string>
 
-#include "runner/engine/planning.h"
+#include "runner/plan/planning.h"
 
 namespace terrazzo {
 
 class Sandbox;
 
 /// Receives the events of a run. Calls come from any thread, concurrently, and must return quickly. Every needed stage
-/// gets one of finished, reused, spared, failed and skipped, unless the run ends before.
+/// gets one of finished, reused, not_needed, failed and skipped, unless the run ends before.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
@@ -25,7 +25,7 @@ class RunObserver {
   /// It did not have to run: its result is cached, or its files are up to date.
   virtual void reused(const Stage&) {}
   /// Its result was not needed after all, and does not exist.
-  virtual void spared(const Stage&) {}
+  virtual void not_needed(const Stage&) {}
   virtual void failed(const Stage&, const std::string& /*message*/) {}
   /// It cannot run, as the node `because`, which it needs, has failed. Only with `targets.keep_going`.
   virtual void skipped(const Stage&, const std::string& /*because*/) {}

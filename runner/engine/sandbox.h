@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "graphs/document/graph.h"
-#include "graphs/document/problem.h"
+#include "graphs/text/graph.h"
+#include "graphs/text/problem.h"
 
 namespace terrazzo {
 

@@ -15,9 +15,9 @@
 #include "core/base/thread_limits.h"
 #include "core/image/image_limits.h"
 #include "runner/engine/coordinator.h"
-#include "runner/engine/history.h"
 #include "runner/engine/lease_waiter.h"
 #include "runner/engine/stale_outputs.h"
+#include "runner/plan/history.h"
 
 namespace terrazzo {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runner/engine/plan.h"
+#include "runner/plan/plan.h"
 
 /// The states of a stage in a run: one for its outputs' names, one for their values, and the allowed transitions.
 ///

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "runner/engine/plan.h"
 #include "runner/engine/run_result.h"
+#include "runner/plan/plan.h"
 
 namespace terrazzo {
 

@@ -12,9 +12,8 @@
 ///   farm/jobs/<name>/graph.json    runner/farm/frozen_graph.h
 ///   farm/jobs/<name>/job.json      runner/farm/farm_job.h
 ///   farm/jobs/<name>/assignment.json  runner/farm/assignment.h
-///   farm/jobs/<name>/arrays/       runner/farm/job_state.h: which units a task makes; the scripts of Slurm's tasks
-///   farm/jobs/<name>/failures/     runner/farm/farm_job.h
-///   farm/jobs/<name>/logs/         what tasks print
+///   farm/jobs/<name>/arrays/       runner/scheduler/job_state.h: which units a task makes; the scripts of Slurm's
+///   tasks farm/jobs/<name>/failures/     runner/farm/farm_job.h farm/jobs/<name>/logs/         what tasks print
 namespace terrazzo {
 
 /// From a job's folder to the inputs.

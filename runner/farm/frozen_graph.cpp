@@ -9,10 +9,10 @@
 #include "core/base/paths.h"
 #include "core/file/atomic_file.h"
 #include "core/file/file_io.h"
-#include "graphs/document/convert.h"
-#include "graphs/document/format.h"
-#include "runner/engine/key.h"
+#include "graphs/text/format.h"
+#include "graphs/values/convert.h"
 #include "runner/farm/farm_folder.h"
+#include "runner/plan/key.h"
 
 namespace terrazzo {
 

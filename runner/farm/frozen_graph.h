@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "graphs/document/load.h"
-#include "runner/engine/plan.h"
+#include "runner/plan/plan.h"
 
 /// A graph as the machines of a farm run it: one document in which every value is written out, and copies of its input
 /// files, named by content. What is edited after it was handed over changes nothing any more.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runner/engine/plan.h"
+#include "runner/plan/plan.h"
 
 namespace terrazzo {
 

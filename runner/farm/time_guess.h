@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runner/engine/plan.h"
+#include "runner/plan/plan.h"
 
 namespace terrazzo {
 

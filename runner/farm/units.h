@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "runner/engine/plan.h"
+#include "runner/plan/plan.h"
 
 /// A plan in pieces that different machines can make.
 namespace terrazzo {

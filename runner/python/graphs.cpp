@@ -5,7 +5,7 @@
 
 #include "core/base/suggest.h"
 #include "core/file/atomic_file.h"
-#include "graphs/document/stock_graphs.h"
+#include "graphs/text/stock_graphs.h"
 #include "runner/python/errors.h"
 #include "runner/python/values.h"
 
@@ -59,7 +59,7 @@ py::list problems_in(const Job& job, bool warnings) {
   const auto [errors, doubts] =
       for_job(own, [&] { return std::pair(own.check(), warnings ? own.warnings() : std::vector<Problem>()); });
   py::list out = problems_of(errors, own, "error");
-  out += problems_of(doubts, own, "warning");
+  out += problems_of(lint, own, "warning");
   return out;
 }
 

@@ -8,8 +8,8 @@
 #include <tbb/task_arena.h>
 
 #include "core/base/suggest.h"
-#include "core/image/color.h"
 #include "core/image/image_limits.h"
+#include "core/image_io/color.h"
 #include "runner/python/current_node.h"
 #include "runner/python/waiting.h"
 

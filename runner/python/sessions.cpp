@@ -40,7 +40,7 @@ class Watcher : public RunObserver {
     events_.add({.kind = "finished", .node = s.node->name, .fraction = 1, .seconds = seconds});
   }
   void reused(const Stage& s) override { events_.add({.kind = "reused", .node = s.node->name, .fraction = 1}); }
-  void spared(const Stage& s) override { events_.add({.kind = "spared", .node = s.node->name}); }
+  void not_needed(const Stage& s) override { events_.add({.kind = "not_needed", .node = s.node->name}); }
   void failed(const Stage& s, const std::string& message) override {
     events_.add({.kind = "failed", .node = s.node->name, .message = message});
   }

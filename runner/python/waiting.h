@@ -16,7 +16,7 @@ namespace terrazzo::python {
 
 /// What has happened in a run.
 struct Event {
-  std::string kind;  ///< planned, started, waits, progress, note, finished, reused, spared, failed
+  std::string kind;  ///< planned, started, waits, progress, note, finished, reused, not_needed, failed
   std::string node{};
   std::string message{};
   double fraction = 0;

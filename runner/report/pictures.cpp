@@ -7,8 +7,8 @@
 
 #include "core/base/base64.h"
 #include "core/base/text.h"
-#include "core/image/color.h"
-#include "core/image/image_file.h"
+#include "core/image_io/color.h"
+#include "core/image_io/image_file.h"
 
 namespace terrazzo {
 

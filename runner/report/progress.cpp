@@ -9,7 +9,7 @@
 
 #include "core/base/printable.h"
 #include "core/base/text.h"
-#include "graphs/document/problem.h"
+#include "graphs/text/problem.h"
 #include "runner/report/process_usage.h"
 
 namespace terrazzo {
@@ -210,7 +210,7 @@ class PlainProgress : public Progress {
     count_.settle(s);
     line(s, s.type().is_sink() ? "up to date" : "cached");
   }
-  void spared(const Stage& s) override {
+  void not_needed(const Stage& s) override {
     const std::lock_guard lock(mutex_);
     count_.settle(s);
   }
@@ -269,7 +269,7 @@ class BarProgress : public Progress {
   }
   void finished(const Stage& s, double) override { settle(s); }
   void reused(const Stage& s) override { settle(s); }
-  void spared(const Stage& s) override { settle(s); }
+  void not_needed(const Stage& s) override { settle(s); }
   void failed(const Stage& s, const std::string&) override {
     const std::lock_guard lock(mutex_);
     running_.erase(&s);

@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "graphs/document/convert.h"
-#include "graphs/document/format.h"
+#include "graphs/text/format.h"
+#include "graphs/values/convert.h"
 
 namespace terrazzo {
 

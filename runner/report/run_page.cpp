@@ -6,8 +6,8 @@
 
 #include "core/base/text.h"
 #include "core/picture/render/preview.h"
-#include "graphs/document/convert.h"
-#include "graphs/document/draw.h"
+#include "graphs/tools/draw.h"
+#include "graphs/values/convert.h"
 #include "runner/report/charts.h"
 #include "runner/report/page.h"
 #include "runner/report/stage_table.h"
@@ -157,7 +157,7 @@ std::string RunPage::lit_view() const {
   PreviewSpec spec;
   const Size shape = material->size();
   spec.size = completed(shape.width < shape.height ? Size{0, 512} : Size{512, 0}, spec.shape, shape);
-  const ImagePtr still = render_preview(*material, spec, WorksFor::task());
+  const ImagePtr still = render_preview(*material, spec, CurrentTask::task());
   return fmt::format(
       "<div id=\"viewer\"><img class=\"still\" src=\"{}\" alt=\"the material lit from the upper left\" width=\"{}\" "
       "height=\"{}\"></div>\n<p class=\"quiet\" id=\"viewer-state\">A still picture: moving the light needs "

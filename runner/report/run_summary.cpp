@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/atomic_file.h"
-#include "graphs/document/convert.h"
-#include "graphs/document/format.h"
-#include "graphs/document/problem.h"
+#include "graphs/text/format.h"
+#include "graphs/text/problem.h"
+#include "graphs/values/convert.h"
 #include "runner/report/process_usage.h"
 #include "runner/report/run_data.h"
 

@@ -13,7 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 
 using namespace terrazzo;
 namespace fs = std::filesystem;

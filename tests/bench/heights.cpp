@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/exemplar/uv_image.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 
 using namespace terrazzo;
 

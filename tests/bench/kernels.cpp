@@ -11,7 +11,7 @@
 #include "core/analysis/space/weighting.h"
 #include "core/base/hash.h"
 #include "core/exemplar/lattice.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "core/material/material.h"
 #include "core/numeric/principal_components.h"
 #include "core/procedural/pattern.h"

@@ -11,10 +11,10 @@
 
 #include "core/analysis/space/planes.h"
 #include "core/analysis/space/weighting.h"
+#include "core/filter/resample.h"
 #include "core/image/image_ops.h"
-#include "core/image/resample.h"
-#include "runner/engine/memory_graph.h"
 #include "runner/engine/schedule.h"
+#include "runner/plan/memory_graph.h"
 
 using namespace terrazzo;
 

@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 
 #include "core/base/error.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "core/material/material.h"
 #include "core/metrics/quality.h"
 #include "nodes/common/registry.h"

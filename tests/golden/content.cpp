@@ -10,7 +10,7 @@
 #include "core/exemplar/appearance.h"
 #include "core/exemplar/features.h"
 #include "core/exemplar/uv_map.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "core/material/material.h"
 #include "core/node/serialize.h"
 #include "tests/odd_images.h"

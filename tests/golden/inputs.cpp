@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/base/hash.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "test_paths.h"
 #include "tests/odd_images.h"
 #include "tests/run_node.h"

@@ -62,7 +62,7 @@ tz::NodeType odd_node() {
   t.infer = [=](const tz::Params& params, const tz::InputForecasts&) {
     return fails_at(params, "infer"), tz::OutputForecasts();
   };
-  t.doubts = [=](const tz::Params& params, const tz::InputForecasts&) {
+  t.lint = [=](const tz::Params& params, const tz::InputForecasts&) {
     return fails_at(params, "doubts"), std::vector<std::string>();
   };
   t.memory_ahead = [=](const tz::Params& params, const tz::InputForecasts&) {

@@ -1,6 +1,6 @@
 #include "tests/runner/workplace.h"
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "tests/runner/fakes.h"
 
 namespace terrazzo::test {

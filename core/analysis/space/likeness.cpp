@@ -5,7 +5,7 @@
 
 #include "core/analysis/space/weighting.h"
 #include "core/base/tuning.h"
-#include "core/image/resample.h"
+#include "core/filter/resample.h"
 
 namespace terrazzo {
 

@@ -123,7 +123,7 @@ Planes halved(const Planes& in) {
   Planes out = Planes::zeros(size, in.channels, in.wraps);
   constexpr float kernel[4] = {0.125f, 0.375f, 0.375f, 0.125f};
   const int n = in.channels;
-  const Task& task = WorksFor::task();
+  const Task& task = CurrentTask::task();
   tbb::parallel_for(0, size.height, [&](int y) {
     task.check();
     // Vertically first, into one row; then horizontally.

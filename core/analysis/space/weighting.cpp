@@ -7,9 +7,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/image/color.h"
 #include "core/image/image_facts.h"
 #include "core/image/image_ops.h"
+#include "core/image_io/color.h"
 #include "core/material/map_names.h"
 
 namespace terrazzo {

@@ -6,8 +6,8 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/portable_math.h"
-#include "core/image/color.h"
 #include "core/image/normal.h"
+#include "core/image_io/color.h"
 
 namespace terrazzo::render {
 
@@ -31,7 +31,7 @@ Texture averaged(const Image& image, int factor, Decode decode, const Task& task
   const Size size{(info.size.width + factor - 1) / factor, (info.size.height + factor - 1) / factor};
   std::vector<float> out(size_t(size.area()) * c, 0.f);
   tbb::parallel_for(0, size.height, [&](int row) {
-    const WorksFor scope(task);
+    const CurrentTask scope(task);
     task.check();
     const Rect band{0, row * factor, info.size.width, std::min(factor, info.size.height - row * factor)};
     std::vector<float> in = image.read(band);

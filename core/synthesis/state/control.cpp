@@ -12,9 +12,9 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
+#include "core/filter/resample.h"
 #include "core/image/distribution.h"
 #include "core/image/image_facts.h"
-#include "core/image/resample.h"
 #include "core/synthesis/state/labels.h"
 
 namespace terrazzo {

@@ -39,7 +39,7 @@ def set_memory_budget(size: Bytes) -> None:
 class Event:
     """The argument of a progress function, which is always called on the thread that called run."""
 
-    #: planned, started, waits, progress, note, finished, reused, spared or failed
+    #: planned, started, waits, progress, note, finished, reused, not_needed or failed
     kind: str
     node: str
     #: the text of a note or failure; for "planned", a summary of the plan

@@ -5,8 +5,8 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#include "core/file/file_integrity.h"
 #include "core/file/tar.h"
+#include "core/integrity/file_integrity.h"
 #include "tests/run_node.h"
 #include "tests/texts.h"
 

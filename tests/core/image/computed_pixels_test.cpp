@@ -323,7 +323,7 @@ TEST_CASE("cancelling stops a pull at once, and another goes on from there") {
   for (float& v : expected)
     for (int i = 0; i < 2000; i++) v += 1;
   std::thread([&] {  // alone in its arena or not: nobody else pulls
-    const WorksFor scope(task);
+    const CurrentTask scope(task);
     CHECK_THROWS_AS(image->pixels(), Cancelled);
   })
       .join();
@@ -348,7 +348,7 @@ TEST_CASE("a thread that is cancelled leaves its part to those that are not") {
   for (float& v : expected)
     for (int i = 0; i < 100; i++) v *= 0.5f;
   std::thread hurried([&] {
-    const WorksFor scope(task);
+    const CurrentTask scope(task);
     try {
       image->pixels();
     } catch (const Cancelled&) {

@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "tests/odd_images.h"
 #include "tests/run_node.h"
 #include "tests/texts.h"

@@ -5,8 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include "core/filter/resample.h"
 #include "core/image/pixel_buffer.h"
-#include "core/image/resample.h"
 
 using namespace terrazzo;
 

@@ -8,7 +8,7 @@
 
 #include "core/synthesis/synthesize.h"
 #include "nodes/common/registry.h"
-#include "runner/engine/key.h"
+#include "runner/plan/key.h"
 #include "tests/core/synthesis/fields.h"
 #include "tests/drawn_wall.h"
 #include "tests/overrides.h"

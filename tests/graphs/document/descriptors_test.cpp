@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "graphs/document/convert.h"
 #include "graphs/document/nodes.h"
-#include "graphs/document/reference.h"
-#include "graphs/document/schema.h"
+#include "graphs/tools/reference.h"
+#include "graphs/tools/schema.h"
+#include "graphs/values/convert.h"
 #include "tests/graphs/document/fake_types.h"
 
 using namespace terrazzo;

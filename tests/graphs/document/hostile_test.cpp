@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/hash.h"
-#include "graphs/document/migrate.h"
+#include "graphs/text/migrate.h"
 #include "tests/graphs/document/fake_types.h"
 
 using namespace terrazzo;

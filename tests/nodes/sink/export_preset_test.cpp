@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "nodes/common/registry.h"
 #include "tests/run_node.h"
 #include "tests/texts.h"

@@ -8,8 +8,8 @@
 
 #include "core/base/error.h"
 #include "core/exemplar/uv_image.h"
-#include "core/image/color.h"
-#include "core/image/image_file.h"
+#include "core/image_io/color.h"
+#include "core/image_io/image_file.h"
 #include "nodes/common/registry.h"
 #include "tests/odd_images.h"
 #include "tests/run_node.h"

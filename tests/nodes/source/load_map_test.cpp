@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "core/base/error.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "core/material/material.h"
 #include "tests/odd_images.h"
 #include "tests/run_node.h"

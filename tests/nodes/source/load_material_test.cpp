@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "nodes/common/registry.h"
 #include "test_paths.h"
 #include "tests/odd_images.h"

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "nodes/common/registry.h"
 #include "tests/odd_images.h"
 #include "tests/run_node.h"

@@ -10,7 +10,7 @@
 #include "runner/cache/cache.h"
 #include "runner/cache/cache_folder.h"
 #include "runner/cache/cache_pins.h"
-#include "runner/engine/history.h"
+#include "runner/plan/history.h"
 #include "test_paths.h"
 #include "tests/run_node.h"
 #include "tests/runner/fakes.h"

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/file/bytes.h"
+#include "core/block_file/bytes.h"
 #include "runner/cache/cache_folder.h"
 #include "runner/cache/cache_records.h"
 #include "test_paths.h"

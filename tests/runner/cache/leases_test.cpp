@@ -296,7 +296,7 @@ TEST_CASE("of many that take over at once, one gets the lease") {
   const TemporaryFolder folder;
   const Digest key{1, 2};
   for (int round = 0; round < 20; round++) {
-    const LeaseHolder dead{process_neighbourhood() + "-999999999-0"};
+    const LeaseHolder dead{pid_namespace_id() + "-999999999-0"};
     REQUIRE(claim_lease(folder.path() / key.hex(), dead));
     std::atomic<int> got{0}, arrived{0}, tried{0};
     std::vector<std::thread> threads;

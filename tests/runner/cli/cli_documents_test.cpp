@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "test_paths.h"
 #include "tests/runner/program.h"
 #include "tests/runner/workplace.h"
@@ -90,7 +90,7 @@ TEST_CASE("a parameter of the graph that is taken for an option is told how to b
   CHECK(contains(w.run({"run", "soft.json", "--swep", "radius=1"}).err, "did you mean \"--sweep\"?"));
 }
 
-TEST_CASE("check warns of what is hardly meant") {
+TEST_CASE("check warns of what is probably unintended") {
   const Workplace w;
   write_text(w.path / "odd.json", R"({"terrazzo": 1, "nodes": {
  "n": {"type": "load_map", "path": "photo.png", "semantic": "normal"}, "c": {"type": "convert_color", "image": "@n"},

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "test_paths.h"
 #include "tests/runner/program.h"
 #include "tests/runner/workplace.h"

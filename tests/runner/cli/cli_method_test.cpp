@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "core/base/hash.h"
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "tests/exemplars.h"
 #include "tests/runner/fakes.h"
 #include "tests/runner/program.h"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "test_paths.h"
 #include "tests/runner/fakes.h"
 #include "tests/runner/program.h"

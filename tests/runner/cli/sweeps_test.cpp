@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "graphs/document/load.h"
 #include "test_paths.h"
 #include "tests/runner/fakes.h"

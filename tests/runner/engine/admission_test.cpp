@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "runner/engine/history.h"
+#include "runner/plan/history.h"
 #include "tests/runner/fakes.h"
 
 using namespace terrazzo;

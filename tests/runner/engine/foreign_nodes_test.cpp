@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "core/base/variables_read.h"
-#include "graphs/document/problem.h"
-#include "runner/engine/key.h"
+#include "graphs/text/problem.h"
+#include "runner/plan/key.h"
 #include "tests/runner/fakes.h"
 
 /// What nodes that others have written may do.

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "core/image/image_file.h"
+#include "core/image_io/image_file.h"
 #include "tests/exemplars.h"
 #include "tests/runner/fakes.h"
 #include "tests/runner/program.h"

@@ -4,9 +4,9 @@
 
 #include "core/file/file_io.h"
 #include "graphs/document/load.h"
-#include "graphs/document/variations.h"
-#include "runner/engine/planning.h"
+#include "graphs/values/variations.h"
 #include "runner/farm/farm_folder.h"
+#include "runner/plan/planning.h"
 #include "test_paths.h"
 #include "tests/runner/workplace.h"
 #include "tests/texts.h"

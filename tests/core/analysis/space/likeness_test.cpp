@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "core/analysis/space/planes.h"
-#include "core/image/resample.h"
+#include "core/filter/resample.h"
 #include "tests/exemplars.h"
 
 using namespace terrazzo;

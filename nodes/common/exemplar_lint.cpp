@@ -1,0 +1,30 @@
+#include "nodes/common/exemplar_lint.h"
+
+#include <fmt/format.h>
+
+#include "core/filter/exemplar_faults.h"
+#include "core/image_io/image_file.h"
+
+namespace terrazzo {
+
+std::vector<std::string> lint_of_colour(const std::string& subject, const std::filesystem::path& file) {
+  std::vector<std::string> out;
+  try {
+    const ExemplarFaults found = exemplar_faults(*read_image(file, {}, [](const std::string&) {}));
+    if (found.is_mostly_one_colour())
+      out.push_back(fmt::format(
+          "{}: {:.0f} % of the exemplar are one colour: a background or a border? Crop it (crop), or leave it out by "
+          "a mask",
+          subject, 100 * found.one_colour));
+    if (found.is_lit_from_a_side())
+      out.push_back(
+          fmt::format("{}: the exemplar is {:.0f} % brighter at the {} than at the {}: light that was baked in shows "
+                      "as blotches in a result. A photograph in flat light, or a filter that evens it out, helps",
+                      subject, 100 * found.brightening, found.bright_side, found.dark_side));
+  } catch (const Error&) {
+    // reading reports it
+  }
+  return out;
+}
+
+}  // namespace terrazzo

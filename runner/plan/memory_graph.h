@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "graphs/text/graph.h"
+
+namespace terrazzo {
+
+/// A node for a graph built in code: missing parameters take their defaults. Throws std::logic_error if there is no
+/// such type, or a parameter without a default is missing.
+GraphNode memory_node(const std::string& name, const std::string& type, const Params& given);
+
+/// A node that reads a material from a folder of maps, or one map from an image file, whose
+/// name may say which.
+GraphNode reading_node(const std::string& name, const std::filesystem::path& path);
+
+}  // namespace terrazzo

@@ -1,0 +1,121 @@
+// The only file that includes CLI11, whose templates take long to compile.
+#include <map>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+
+#include "runner/terminal/command.h"
+
+namespace terrazzo {
+
+namespace {
+
+constexpr int any_number = -1;  // CLI11's word for it
+
+/// A command line as CLI11 sees it, made from commands.
+class Parser {
+ public:
+  Parser(Command& program, const std::string& version) : app_(program.help, program.path), version_(version) {
+    app_.get_formatter()->column_width(32);
+    add_to(app_, program);
+    app_.require_subcommand(0, 1);  // further words belong to the command, even if they are a command's name too
+  }
+
+  ParsedWords parse(int argc, const char* const* argv) {
+    using Request = ParsedWords::Request;
+    ParsedWords out;
+    try {
+      app_.parse(argc, argv);
+      finish(out);
+      if (!out.command->run) out = {Request::nothing_known, out.command, CLI::RequiredError("A command").what()};
+      return out;
+    } catch (const CLI::CallForVersion& e) {
+      out = {Request::version, nullptr, e.what()};
+    } catch (const CLI::Success& e) {
+      std::ostringstream text;
+      app_.exit(e, text, text);
+      out = {Request::help, nullptr, text.str()};
+    } catch (const CLI::ParseError& e) {
+      out = {Request::nothing_known, nullptr, e.what()};
+    }
+    finish(out);
+    return out;
+  }
+
+ private:
+  void add_to(CLI::App& app, Command& command) {
+    commands_[&app] = &command;
+    app.footer(command.footer);
+    std::map<std::string, CLI::Option*> by_name;
+    for (CommandOption& option : command.options)
+      if (CLI::Option* made = add_option(app, option)) {
+        options_[made] = &option;
+        by_name[option.long_name()] = made;
+      }
+    for (const CommandOption& option : command.options) {
+      for (const std::string& other : option.excludes) by_name.at(option.long_name())->excludes(by_name.at(other));
+      for (const std::string& other : option.needs) by_name.at(option.long_name())->needs(by_name.at(other));
+    }
+    for (Command& sub : command.commands) add_to(*app.add_subcommand(sub.name(), sub.help), sub);
+    if (!command.commands.empty()) app.require_subcommand(1);
+  }
+
+  /// Null for --help, which CLI11 adds by itself.
+  CLI::Option* add_option(CLI::App& app, const CommandOption& o) {
+    CLI::Option* const made = std::visit(
+        [&](auto target) -> CLI::Option* {
+          if constexpr (std::is_same_v<decltype(target), std::monostate>)
+            return o.long_name() == "--help"      ? nullptr
+                   : o.long_name() == "--version" ? app.set_version_flag(o.names, version_, o.help)
+                                                  : app.add_option(o.names, o.help);
+          else if (o.is_flag)
+            return add_flag(app, o, target);
+          else
+            return app.add_option(o.names, *target, o.help);
+        },
+        o.target);
+    if (!made) return nullptr;
+    if (o.value_name) made->type_name(*o.value_name);
+    if (o.is_repeated) made->take_all()->expected(1);
+    if (o.is_argument() && std::holds_alternative<std::vector<std::string>*>(o.target))
+      made->expected(o.is_required ? 1 : 0, any_number);
+    if (!o.choices.empty() && o.ignores_case) made->check(CLI::IsMember(o.choices, CLI::ignore_case));
+    if (!o.choices.empty() && !o.ignores_case) made->check(CLI::IsMember(o.choices));
+    if (o.limits) made->check(CLI::Range(o.limits->first, o.limits->second));
+    if (o.is_not_negative) made->check(CLI::NonNegativeNumber);
+    if (o.check) made->check(o.check);
+    if (o.is_required) made->required();
+    if (o.is_hidden) made->group("");
+    return made;
+  }
+
+  template <typename T>
+  static CLI::Option* add_flag(CLI::App& app, const CommandOption& o, T target) {
+    if constexpr (std::is_same_v<T, bool*> || std::is_same_v<T, std::string*>)
+      return app.add_flag(o.implied.empty() ? o.names : o.names + "{" + o.implied + "}", *target, o.help);
+    else
+      throw std::logic_error("the flag " + o.names + " is neither a truth value nor a text");
+  }
+
+  /// The command that was named, what its options were given, and what is left.
+  void finish(ParsedWords& out) const {
+    const CLI::App* named = &app_;
+    while (!named->get_subcommands().empty()) named = named->get_subcommands().front();
+    out.command = commands_.at(named);
+    out.unknown = named->remaining();
+    for (const auto& [made, option] : options_) option->given = made->results();
+  }
+
+  CLI::App app_;
+  std::string version_;
+  std::map<const CLI::App*, Command*> commands_;
+  std::map<const CLI::Option*, CommandOption*> options_;
+};
+
+}  // namespace
+
+ParsedWords parse_words(Command& program, const std::string& version, int argc, const char* const* argv) {
+  return Parser(program, version).parse(argc, argv);
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "runner/terminal/command.h"
+
+namespace terrazzo {
+
+/// How much a command may take: options of every command that reads images.
+struct LimitFlags {
+  std::string memory;      ///< as given; empty: none
+  int64_t max_pixels = 0;  ///< 0: not given
+  std::string max_bytes;
+
+  /// Makes them hold for this process. Throws UsageError.
+  void apply() const;
+};
+
+/// --memory, --max-pixels and --max-bytes.
+void add_limit_flags(Command& command, LimitFlags& flags);
+
+}  // namespace terrazzo
