@@ -6,11 +6,11 @@ namespace terrazzo {
 
 namespace {
 
-enum Salt : uint64_t { courses = 1, stone = 32 };
-
 /// A wall of squared stones in courses of several heights, with thin joints and some stones two courses high.
 class Ashlar : public Surface {
  public:
+  enum Salt : uint64_t { courses = 1, stone = 32 };
+
   Ashlar(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
         length_(1 / visible_scale(spec)),

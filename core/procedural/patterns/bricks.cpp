@@ -6,11 +6,11 @@ namespace terrazzo {
 
 namespace {
 
-enum Salt : uint64_t { brick_cell = 1, warp_u, warp_v };
-
 /// A wall of bricks in running bond.
 class Bricks : public Surface {
  public:
+  enum Salt : uint64_t { brick_cell = 1, warp_u, warp_v };
+
   Bricks(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
         grid_(canvas, spec.scale, 2.75, 2),

@@ -10,11 +10,11 @@ namespace {
 
 using namespace portable;
 
-enum Salt : uint64_t { board_cell = 1 };
-
 /// Parquet in chevrons: columns of slanting boards, cut so that their ends meet those of the next column, mirrored.
 class Chevron : public Surface {
  public:
+  enum Salt : uint64_t { board_cell = 1 };
+
   Chevron(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : columns_(whole_pairs(spec.scale, canvas.wraps())),
         grid_(canvas, columns_, boards_per_column),

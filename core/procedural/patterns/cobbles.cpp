@@ -10,21 +10,6 @@ namespace {
 
 using namespace portable;
 
-enum Salt : uint64_t {
-  stone = 1,
-  warp_u,
-  warp_v,
-  swell,
-  rough,
-  specks,
-  earth,
-  pebble,
-  moss_patch,
-  moss_tuft,
-  wet,
-  seam
-};
-
 struct Site {
   double x, y;  ///< in cells
 };
@@ -38,6 +23,21 @@ struct Cell {
 /// A street of rounded stones: cells around relaxed points, with earth and moss between them.
 class Cobbles : public Surface {
  public:
+  enum Salt : uint64_t {
+    stone = 1,
+    warp_u,
+    warp_v,
+    swell,
+    rough,
+    specks,
+    earth,
+    pebble,
+    moss_patch,
+    moss_tuft,
+    wet,
+    seam
+  };
+
   Cobbles(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
         spec_(spec),

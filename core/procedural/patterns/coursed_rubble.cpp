@@ -8,11 +8,11 @@ namespace terrazzo {
 
 namespace {
 
-enum Salt : uint64_t { courses = 1, stone = 32, warp_u, warp_v };
-
 /// A wall of roughly dressed stones of all lengths, in courses of all heights.
 class CoursedRubble : public Surface {
  public:
+  enum Salt : uint64_t { courses = 1, stone = 32, warp_u, warp_v };
+
   CoursedRubble(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
         irregularity_(spec.irregularity),

@@ -6,11 +6,11 @@ namespace terrazzo {
 
 namespace {
 
-enum Salt : uint64_t { slabs = 1, slab = 64, warp_u, warp_v };
-
 /// Paving of broken flat slabs, with joints of even width.
 class CrazyPaving : public Surface {
  public:
+  enum Salt : uint64_t { slabs = 1, slab = 64, warp_u, warp_v };
+
   CrazyPaving(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
         unit_(1 / visible_scale(spec)),

@@ -11,8 +11,6 @@ namespace {
 
 using namespace portable;
 
-enum Salt : uint64_t { layer = 1, shape = 20, skin, specks, sand, film };
-
 struct Pebble {
   double x, y;                           ///< centre, in cells
   double cosine, sine;                   ///< of its direction
@@ -40,6 +38,8 @@ struct Top {
 /// Heaped pebbles: layers of ever smaller stones, the upper hiding the lower, on sand.
 class Gravel : public Surface {
  public:
+  enum Salt : uint64_t { layer = 1, shape = 20, skin, specks, sand, film };
+
   Gravel(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas), spec_(spec), palette_(palette), per_stone_(spec.scale) {
     // {size of the cells in large stones, share of cells that hold one, lift}

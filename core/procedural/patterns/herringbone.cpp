@@ -6,11 +6,11 @@ namespace terrazzo {
 
 namespace {
 
-enum Salt : uint64_t { lying = 1, standing, warp_u, warp_v };
-
 /// Brick pavers in herringbone bond: blocks of two square cells, lying and standing in turn, each row one cell on.
 class Herringbone : public Surface {
  public:
+  enum Salt : uint64_t { lying = 1, standing, warp_u, warp_v };
+
   Herringbone(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
         grid_(canvas, cells_across(spec.scale, canvas.wraps()), 1, 4),

@@ -8,11 +8,11 @@ namespace {
 
 using namespace portable;
 
-enum Salt : uint64_t { board_cell = 1, row_cell };
-
 /// Floor boards of plain-sawn wood, laid with random joints.
 class Planks : public Surface {
  public:
+  enum Salt : uint64_t { board_cell = 1, row_cell };
+
   Planks(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : grid_(canvas, spec.scale / boards_long, boards_long),
         unit_(grid_.cell_height()),

@@ -8,11 +8,11 @@ namespace terrazzo {
 
 namespace {
 
-enum Salt : uint64_t { stones = 1, stone = 32, warp_u, warp_v };
-
 /// A wall of uncoursed random rubble: rounded stones of very different sizes in mortar.
 class Rubble : public Surface {
  public:
+  enum Salt : uint64_t { stones = 1, stone = 32, warp_u, warp_v };
+
   Rubble(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
         unit_(1 / visible_scale(spec)),

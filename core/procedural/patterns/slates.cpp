@@ -9,11 +9,11 @@ namespace {
 
 using namespace portable;
 
-enum Salt : uint64_t { slate_cell = 1, edge, chips, riven, grain, cloud, damp, lichen };
-
 /// Fish-scale slates: rows of tongues with round ends, each row over the one below, half a slate on.
 class Slates : public Surface {
  public:
+  enum Salt : uint64_t { slate_cell = 1, edge, chips, riven, grain, cloud, damp, lichen };
+
   Slates(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
         spec_(spec),

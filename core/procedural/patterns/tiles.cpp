@@ -9,11 +9,11 @@ namespace {
 
 using namespace portable;
 
-enum Salt : uint64_t { tile_cell = 1, edge, chips, glaze, cloud, craze, craze_at, grout, grime, smudge, specks };
-
 /// Glazed square floor tiles with cement grout.
 class Tiles : public Surface {
  public:
+  enum Salt : uint64_t { tile_cell = 1, edge, chips, glaze, cloud, craze, craze_at, grout, grime, smudge, specks };
+
   Tiles(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas), spec_(spec), palette_(palette), grid_(canvas, spec.scale, 1), unit_(grid_.cell_width()) {}
 

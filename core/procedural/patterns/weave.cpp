@@ -9,8 +9,6 @@ namespace {
 
 using namespace portable;
 
-enum Salt : uint64_t { warp_yarn = 1, weft_yarn, sway_u, sway_v, slub_u, slub_v, fibre, fuzz, shade, lint };
-
 /// One yarn at a point.
 struct Strand {
   double height = 0;
@@ -24,6 +22,8 @@ struct Strand {
 /// Cloth in plain weave: yarns of twisted fibres that go over and under each other.
 class Weave : public Surface {
  public:
+  enum Salt : uint64_t { warp_yarn = 1, weft_yarn, sway_u, sway_v, slub_u, slub_v, fibre, fuzz, shade, lint };
+
   Weave(const Canvas& canvas, const PatternSpec& spec, const Palette& palette)
       : canvas_(canvas),
         spec_(spec),
