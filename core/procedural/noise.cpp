@@ -11,12 +11,6 @@ namespace {
 
 using portable::floor_int;
 
-int64_t wrapped(int64_t v, int period) {
-  if (period == 0) return v;
-  const int64_t m = v % period;
-  return m < 0 ? m + period : m;
-}
-
 uint64_t corner(uint64_t seed, int64_t x, int64_t y, Period period) {
   return lattice_bits(seed, wrapped(x, period.x), wrapped(y, period.y));
 }

@@ -17,6 +17,13 @@ struct Period {
   int y = 0;
 };
 
+/// `v` modulo `period`, in [0, period); `v` itself if it is 0.
+inline int64_t wrapped(int64_t v, int period) {
+  if (period == 0) return v;
+  const int64_t m = v % period;
+  return m < 0 ? m + period : m;
+}
+
 /// Random bits of lattice point (x, y).
 inline uint64_t lattice_bits(uint64_t seed, int64_t x, int64_t y) {
   const uint64_t at = static_cast<uint32_t>(x) | uint64_t{static_cast<uint32_t>(y)} << 32;

@@ -12,10 +12,6 @@ int whole_count(double n) {
   return int(std::max<int64_t>(1, portable::floor_int(n + 0.5)));
 }
 
-int64_t wrapped(int64_t v, int period) {
-  return period ? ((v % period) + period) % period : v;
-}
-
 }  // namespace
 
 Rgb saturated(const Rgb& color, double saturation) {
