@@ -1,48 +1,20 @@
 #!/usr/bin/env bash
 # Opens reports from the file system in headless Chromium: nothing goes wrong in their scripts, nothing is wider than
 # the window, the material is lit, and without WebGL the page says so. The pages tell by data attributes of their body
-# (runner/report/page/page.js). Exit code 77, a skipped test, if there is no Chromium.
+# (runner/report/page/page.js). Exit code 77, a skipped test, if there is no Chromium or no Node.js.
 # Usage: tests/page_test.sh SOURCE_FOLDER PROGRAM
 set -euo pipefail
 source=$(realpath "${1:?usage: page_test.sh SOURCE_FOLDER PROGRAM}")
 program=$(realpath "${2:?usage: page_test.sh SOURCE_FOLDER PROGRAM}")
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
-if [ -z "$browser" ]; then
-  echo "skipped: there is no Chromium (apt-get install chromium)"
+if [ -z "$browser" ] || ! command -v node >/dev/null; then
+  echo "skipped: there is no Chromium, or no Node.js to drive it (apt-get install chromium nodejs)"
   exit 77
 fi
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/terrazzo-page.XXXXXX")
 trap 'rm -rf "$scratch"' EXIT
 export TERRAZZO_CACHE=$scratch/cache
 cd "$scratch"
-failed=0
-
-complain() {
-  echo "$1" >&2
-  failed=1
-}
-
-# A browser that hangs is tried again once.
-browse() {
-  timeout -k 5 60 "$browser" --headless=new --no-sandbox --disable-breakpad --use-gl=angle --use-angle=swiftshader \
-    --enable-unsafe-swiftshader --virtual-time-budget=8000 --user-data-dir="$scratch/profile" --enable-logging=stderr \
-    "$@" >dom 2>log
-}
-
-# open PAGE WIDTH [OPTION...]: what the page says of itself in `body`, and messages of the console in `console`.
-open() {
-  local page=$1 width=$2
-  shift 2
-  local options=(--window-size="$width,900" "$@" --dump-dom "file://$PWD/$page")
-  browse "${options[@]}" || browse "${options[@]}" || complain "$page: the browser failed"
-  body=$(grep -o '<body[^>]*>' dom || true)
-  console=$(grep ':CONSOLE' log | grep -v 'GL Driver Message (OpenGL, Performance' || true)
-}
-
-# says NAME VALUE: the page's data attribute has that value.
-says() {
-  [[ $body == *"data-$1=\"$2\""* ]] || complain "$page at $width: expected data-$1=\"$2\", found $body"
-}
 
 "$program" run "$source/graphs/generate-exemplar.json" --set type=bricks --set size=64x64 --set out=bricks --progress none
 "$program" synth bricks -o out --size 96x96 --quality draft --report run.html --progress none
@@ -53,47 +25,76 @@ says() {
 "$program" run "$source/graphs/generate-exemplar.json" --set type=gravel --set size=16x16 --sweep seed=1..80 \
   --set "out=='many/' + seed" --report many.html --progress none >swept
 
-for page in run.html compare.html sweep.html many.html; do
-  for width in 1400 800; do
-    open "$page" "$width"
-    says ready yes
-    says errors ""
-    says overflow 0
-    [ -z "$console" ] || complain "$page at $width: $console"
-    [[ $page != run.html && $page != many.html ]] || says lit yes
-  done
-done
+cat >test.mjs <<JS
+import { Browser, Checks } from '$source/tests/readers/browser.mjs';
+JS
+cat >>test.mjs <<'JS'
+const browser = await Browser.start(process.argv[2]), checks = new Checks();
 
-page=run.html width=1400
-open "$page" "$width"
-brightness=$(sed -nE 's/.*data-brightness="([0-9]+).*/\1/p' <<<"$body")
-[ "${brightness:-0}" -gt 30 ] || complain "the lit material is dark: $body"
+// Opens a page and returns what it says of itself once it is ready, and lit if it has a material.
+async function open(page, width, before = '') {
+  checks.about(`${page} at ${width}`);
+  await browser.open(`file://${process.cwd()}/${page}`, {
+    width, before,
+    until: `document.body.dataset.errors || document.body.dataset.ready && (document.body.dataset.lit || !document.getElementById('viewer'))`,
+  });
+  const told = {...await browser.evaluate('({...document.body.dataset})'), console: browser.console};
+  checks.equal(told, {ready: 'yes', errors: '', overflow: '0'});
+  return told;
+}
 
-# A click on a node shows its parameters, a click on a picture enlarges it, a click on a head sorts.
-sed 's#</body>#<script>document.querySelector("g.node[data-node=\\"7\\"]").dispatchEvent(new MouseEvent("click", {bubbles: true}));document.querySelector("img.picture").click();document.querySelector(".stages th").click()</script></body>#' \
-  run.html >clicked.html
-open clicked.html "$width"
-says errors ""
-grep -q '<h3>layout (synthesize)</h3>' dom || complain "a click on a node does not show it"
-grep -q '<dialog' dom || complain "a click on a picture does not enlarge it"
-grep -q 'data-order="up"' dom || complain "a click on a head does not sort"
+for (const page of ['compare.html', 'sweep.html'])
+  for (const width of [1400, 800]) checks.equal(await open(page, width), {console: ''});
 
-# Many variations fold: the page stays short, and a search opens what it finds.
-sed 's#</body>#<script>document.body.dataset.height = document.documentElement.scrollHeight; const field = document.querySelector("input[type=search]"); field.value = "seed=77"; field.dispatchEvent(new Event("input")); document.body.dataset.open = [...document.querySelectorAll("details[open]")].filter((d) => d.querySelector(".stages")).length</script></body>#' \
-  many.html >searched.html
-page=searched.html
-open "$page" "$width"
-says errors ""
-says open 1
-height=$(sed -nE 's/.*data-height="([0-9]+).*/\1/p' <<<"$body")
-[ "${height:-99999}" -lt 8000 ] || complain "the report of 80 variations is $height pixels tall"
-[[ $body == *'data-found="'[1-9]* ]] || complain "a search finds nothing: $body"
-page=run.html
+checks.equal(await open('run.html', 800), {lit: 'yes', console: ''});
+checks.equal(await open('run.html', 1400, `
+  const Plain = Image;
+  globalThis.textures = [];
+  globalThis.Image = function() {
+    const image = new Plain();
+    textures.push(new Promise(done => image.addEventListener('load', done)));
+    return image;
+  };`), {lit: 'yes', console: ''});
+// Drawn once more after all textures are there.
+const lit = await browser.evaluate(`Promise.all(textures).then(async () => {
+  for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
+  return {textures: textures.length, brightness: document.body.dataset.brightness};
+})`);
+checks.holds(lit.textures >= 4, `the lit material has ${lit.textures} textures`);
+checks.holds(lit.brightness > 30, `the lit material is dark: ${lit.brightness}`);
 
-open "$page" "$width" --disable-gpu --disable-3d-apis
-says ready yes
-says errors ""
-says lit no
-grep -q 'this browser has no WebGL' dom || complain "without WebGL the page does not say why it shows a still picture"
+// A click on a node shows its parameters, a click on a picture enlarges it, a click on a head sorts.
+const clicked = await browser.evaluate(`(() => {
+  document.querySelector('g.node[data-node="7"]').dispatchEvent(new MouseEvent('click', {bubbles: true}));
+  document.querySelector('img.picture').click();
+  document.querySelector('.stages th').click();
+  return {node: document.querySelector('#node h3')?.textContent, enlarged: !!document.querySelector('dialog[open]'),
+          sorted: !!document.querySelector('[data-order=up]'), errors: document.body.dataset.errors};
+})()`);
+checks.equal(clicked, {node: 'layout (synthesize)', enlarged: true, sorted: true, errors: ''});
 
-exit $failed
+// Many variations fold: the page stays short, and a search opens what it finds.
+checks.equal(await open('many.html', 1400), {lit: 'yes', console: ''});
+const searched = await browser.evaluate(`(() => {
+  const height = document.documentElement.scrollHeight, field = document.querySelector('input[type=search]');
+  field.value = 'seed=77';
+  field.dispatchEvent(new Event('input'));
+  const open = [...document.querySelectorAll('details[open]')].filter(d => d.querySelector('.stages')).length;
+  return {height, open, found: document.body.dataset.found, errors: document.body.dataset.errors};
+})()`);
+checks.equal(searched, {open: 1, errors: ''});
+checks.holds(searched.height < 8000, `the report of 80 variations is ${searched.height} pixels tall`);
+checks.holds(parseInt(searched.found) > 0, `a search finds "${searched.found}"`);
+
+checks.equal(await open('many.html', 800, `
+  const plain = HTMLCanvasElement.prototype.getContext;
+  HTMLCanvasElement.prototype.getContext = function(kind, ...more) {
+    return kind.startsWith('webgl') ? null : plain.call(this, kind, ...more);
+  };`), {lit: 'no'});
+const line = await browser.evaluate(`document.getElementById('viewer-state').textContent`);
+checks.holds(line.includes('this browser has no WebGL'), `without WebGL the page says "${line}"`);
+
+browser.close();
+process.exit(checks.failed ? 1 : 0);
+JS
+node test.mjs "$browser"

@@ -74,7 +74,10 @@ rewrite mtlx-wrong-type materialx_openpbr $mtlx 's/type="float" nodename="roughn
 spoil green-up unreal T_old_stones_Normal.png --mulc 1,-1,1 --addc 0,1,0
 spoil not-smooth unity_hdrp old_stones_MaskMap.png --mulc 1,1,1,-1 --addc 0,0,0,1
 
-cat >jobs.mjs <<'JS'
+cat >test.mjs <<JS
+import { Browser } from '$source/tests/readers/browser.mjs';
+JS
+cat >>test.mjs <<'JS'
 const jobs = [], maps = {};
 for (const map of ['base_color', 'normal', 'roughness', 'metallic', 'ambient_occlusion']) maps[map] = `maps/${map}.png`;
 const common = {size: [128, 128], azimuth: 135, elevation: 40, ambient: 0.25, repeats: 2};
@@ -104,29 +107,16 @@ for (const folder of ['mtlx-linear-colour', 'mtlx-unconnected', 'mtlx-once', 'mt
   add(folder, true, bare(135, library(folder)));
 add('green-up', true, lit(135, engine('green-up', 'unreal')));
 add('not-smooth', true, lit(135, engine('not-smooth', 'unity_hdrp')));
-console.log(JSON.stringify(jobs));
-JS
-node jobs.mjs >jobs.json
 
-cat >judge.mjs <<'JS'
 // Fails where an export as it is differs, or where a spoilt one does not, in its picture and in a map. Values that reach the
 // surface are those of the maps, but for rounding. Pictures differ by what renderers do differently: three.js reflects what
 // it takes from diffuse light too, and MaterialX' library makes up for light that is lost between facets. Measured: 2.6 on
 // average and 4.1 in a block, and 3.6 and 6.3 in the library; spoilt ones differ by 4.3 and more.
-import fs from 'fs';
-const jobs = JSON.parse(fs.readFileSync('jobs.json')), told = new Map();
-for (const line of fs.readFileSync('told', 'utf8').trim().split('\n')) {
-  const t = JSON.parse(line);
-  told.set(t.name, t);
-}
+const browser = await Browser.start(process.argv[2]);
+jobs.sort((a, b) => a.page.localeCompare(b.page));
 let failed = false;
 for (const job of jobs) {
-  const t = told.get(job.name), found = [];
-  if (!t) {
-    console.log(`${job.name}: the page says nothing of it`);
-    failed = true;
-    continue;
-  }
+  const t = await browser.work(job), found = [];
   const [mean, block] = job.page === 'materialx' ? [4.5, 8] : [3.3, 5.2];
   if (!(t.mean < mean && t.block < block)) found.push(`the picture differs by ${t.mean} on average, by ${t.block} in a block`);
   const inPicture = found.length > 0;
@@ -141,7 +131,7 @@ for (const job of jobs) {
   else console.log(inPicture && inMaps ? `seen, ${job.name}: ${all}` : `NOT SEEN in ${inPicture ? 'the maps' : 'the picture'}, ${job.name}: ${all}`);
   if (job.wrong ? !(inPicture && inMaps) : found.length) failed = true;
 }
+browser.close();
 process.exit(failed ? 1 : 0);
 JS
-node "$source/tests/readers/browse.mjs" "$browser" jobs.json >told
-node judge.mjs
+node test.mjs "$browser"

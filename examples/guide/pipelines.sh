@@ -126,13 +126,17 @@ rm -rf seen told
 mkdir seen
 "$root/tests/readers/install.sh"
 
-cat >jobs.mjs <<'JS'
+cat >seen.mjs <<JS
+import { Browser } from '$root/tests/readers/browser.mjs';
+JS
+cat >>seen.mjs <<'JS'
+import fs from 'fs';
 // What the pages are to do: all but Blender's and Godot's part.
 const jobs = [];
 const add = (source, preset, lit, more) => jobs.push({
   name: `${source} ${preset}`, size: [128, 128], azimuth: 135, elevation: 40, ambient: 0.25, expected: `lit/${source}-${lit}.png`,
   picture: `seen/${source}-${preset}.png`, ...more});
-for (const source of process.argv.slice(2)) {
+for (const source of process.argv.slice(3)) {
   for (const engine of ['unreal', 'unity_hdrp', 'unity_urp'])
     add(source, engine, 'lit', {page: 'three', reader: 'engine', engine, file: `${source}/${engine}/${engine === 'unreal' ? 'T_' : ''}wall{}`});
   for (const kind of ['gltf', 'glb']) add(source, kind, 'lit', {page: 'three', reader: 'gltf', file: `${source}/${kind}/wall.${kind}`});
@@ -140,11 +144,17 @@ for (const source of process.argv.slice(2)) {
   for (const preset of ['materialx', 'materialx_openpbr'])
     add(source, preset, 'bare', {page: 'materialx', reader: 'materialx', file: `${source}/${preset}/wall.mtlx`});
 }
-console.log(JSON.stringify(jobs));
+// Prints by how much each differs; of those that something is wrong with, what.
+const browser = await Browser.start(process.argv[2]);
+jobs.sort((a, b) => a.page.localeCompare(b.page));
+for (const job of jobs) {
+  const {mean, picture, errors} = await browser.work(job);
+  if (picture) fs.writeFileSync(job.picture, Buffer.from(picture.split(',')[1], 'base64'));
+  console.log(job.name, errors.length ? errors.join('; ') : mean);
+}
+browser.close();
 JS
-node jobs.mjs "${sources[@]}" >jobs.json
-node "$root/tests/readers/browse.mjs" "$browser" jobs.json >told.json
-sed -E 's/^\{"name":"([^"]*)".*"mean":([0-9.]+).*"errors":\[\].*/\1 \2/' told.json >told
+node seen.mjs "$browser" "${sources[@]}" >told
 
 for source in "${sources[@]}"; do
   blender --background --factory-startup --python-exit-code 1 --python "$source/blender/wall.py" --python "$root/tests/readers/blender.py" \

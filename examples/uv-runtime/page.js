@@ -1,10 +1,10 @@
 // The page of uv-runtime.html: draws the exemplar through its uv map, and the resolved maps beside it. URL parameters
 // set what the controls do (map, zoom, tilt, x, y, gain, probes, packed, wrong), the far maps' level (far), the panes'
-// size (pane), and whether to measure (figures). The body's data attributes tell what came of it;
-// tests/uv_runtime_test.sh reads them.
+// size (pane), and whether to measure (figures); so does `look` for those it is given. The body's data attributes tell what
+// came of it; tests/uv_runtime_test.sh reads them.
 "use strict";
 
-const query = new URLSearchParams(location.search);
+let query = new URLSearchParams(location.search);
 const farLevel = Number(query.get("far") || 3);
 const $ = (id) => document.getElementById(id);
 const tell = (facts) => Object.assign(document.body.dataset, facts);
@@ -19,92 +19,11 @@ addEventListener("error", (e) => fail(e.message));
 
 // ---- Files
 
-// What a zlib stream holds (RFC 1950, 1951). Written out since DecompressionStream would not be done when the page has
-// loaded, which is when headless browsers take their pictures.
-function inflated(bytes) {
-  let at = 2, bit = 0, out = new Uint8Array(1 << 16), length = 0;
-  const bits = (n) => {
-    let value = 0;
-    for (let i = 0; i < n; i++) {
-      value |= (bytes[at] >> bit & 1) << i;
-      if (++bit === 8) [bit, at] = [0, at + 1];
-    }
-    return value;
-  };
-  const put = (byte) => {
-    if (length === out.length) {
-      const larger = new Uint8Array(2 * length);
-      larger.set(out);
-      out = larger;
-    }
-    out[length++] = byte;
-  };
-  const codeOf = (lengths) => {  // canonical: how many codes there are of each length, and their symbols in order
-    const counts = new Uint16Array(16), next = new Uint16Array(16), symbols = [];
-    for (const l of lengths) counts[l]++;
-    counts[0] = 0;
-    for (let l = 1; l < 15; l++) next[l + 1] = next[l] + counts[l];
-    lengths.forEach((l, symbol) => { if (l) symbols[next[l]++] = symbol; });
-    return {counts, symbols};
-  };
-  const symbolOf = ({counts, symbols}) => {
-    for (let l = 1, code = 0, first = 0, index = 0; l < 16; l++) {
-      code |= bits(1);
-      if (code - first < counts[l]) return symbols[index + code - first];
-      index += counts[l];
-      first = (first + counts[l]) << 1;
-      code <<= 1;
-    }
-    throw new Error("the uv map's file is damaged");
-  };
-  const lengthBase = [3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 15, 17, 19, 23, 27, 31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258];
-  const lengthBits = [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0];
-  const backBase = [1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577];
-  for (let last = 0; !last;) {
-    last = bits(1);
-    const kind = bits(2);
-    if (kind === 0) {
-      if (bit) [bit, at] = [0, at + 1];
-      const count = bytes[at] | bytes[at + 1] << 8;
-      for (let i = 0; i < count; i++) put(bytes[at + 4 + i]);
-      at += 4 + count;
-      continue;
-    }
-    let lengths = [], literals = 288;
-    if (kind === 1) {
-      for (let i = 0; i < 288; i++) lengths.push(i < 144 ? 8 : i < 256 ? 9 : i < 280 ? 7 : 8);
-      for (let i = 0; i < 30; i++) lengths.push(5);
-    } else {
-      literals = bits(5) + 257;
-      const all = literals + bits(5) + 1, used = bits(4) + 4, order = [16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15];
-      const small = Array(19).fill(0);
-      for (let i = 0; i < used; i++) small[order[i]] = bits(3);
-      const code = codeOf(small);
-      while (lengths.length < all) {
-        const symbol = symbolOf(code);
-        if (symbol < 16) lengths.push(symbol);
-        else {
-          const value = symbol === 16 ? lengths.at(-1) : 0;
-          const count = symbol === 16 ? 3 + bits(2) : symbol === 17 ? 3 + bits(3) : 11 + bits(7);
-          for (let i = 0; i < count; i++) lengths.push(value);
-        }
-      }
-    }
-    const literal = codeOf(lengths.slice(0, literals)), distance = codeOf(lengths.slice(literals));
-    for (let symbol; (symbol = symbolOf(literal)) !== 256;) {
-      if (symbol < 256) put(symbol);
-      else {
-        const count = lengthBase[symbol - 257] + bits(lengthBits[symbol - 257]);
-        const code = symbolOf(distance), back = backBase[code] + bits(code < 4 ? 0 : (code >> 1) - 1);
-        for (let i = 0; i < count; i++) put(out[length - back]);
-      }
-    }
-  }
-  return out.slice(0, length);
-}
+const inflated = (bytes) =>
+  new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
 
 // A uv map in a 16-bit TIFF as terrazzo writes it. Not a PNG: browsers decode those to 8 bits.
-function readUv(bytes) {
+async function readUv(bytes) {
   const view = new DataView(bytes.buffer);
   if (view.getUint32(0) !== 0x49492a00) throw new Error("the uv map is no little-endian TIFF");
   const directory = view.getUint32(4, true), tags = {};
@@ -120,7 +39,7 @@ function readUv(bytes) {
   const size = /exemplar of (\d+)x(\d+) pixels/.exec(String.fromCharCode(...tags[270]));
   const values = new Uint16Array(2 * width * height);
   for (const [strip, from] of tags[273].entries()) {
-    const data = new Uint16Array(inflated(bytes.subarray(from, from + tags[279][strip])).buffer);
+    const data = new Uint16Array(await inflated(bytes.subarray(from, from + tags[279][strip])));
     for (let y = 0; (y + 1) * width * channels <= data.length; y++) {
       let red = 0, green = 0;  // each value is stored as its difference from the one on the left
       for (let x = 0, i = y * width * channels, o = 2 * (strip * rows + y) * width; x < width; x++, i += channels) {
@@ -539,8 +458,8 @@ function showStores(uv, pack, maps, name) {
   $("exemplar-caption").textContent = `The exemplar, ${map.width} × ${map.height}: ${map.name}`;
 }
 
-function main() {
-  const uv = readUv(Uint8Array.from(atob($("uv-file").textContent.trim()), (c) => c.charCodeAt(0)));
+async function main() {
+  const uv = await readUv(Uint8Array.from(atob($("uv-file").textContent.trim()), (c) => c.charCodeAt(0)));
   const maps = [...document.querySelectorAll("img[data-map]")].map(readMap);
   for (const m of maps) {
     if (m.width !== uv.exemplar[0] || m.height !== uv.exemplar[1])
@@ -561,14 +480,17 @@ function main() {
   if (has("base_color") && has("normal")) form.map.add(new Option("lit", "lit"));
   for (const m of maps) form.map.add(new Option(m.name.replaceAll("_", " "), m.name));
   const number = (name, fallback) => query.has(name) ? Number(query.get(name)) : fallback;
-  form.map.value = query.get("map") || (has("base_color") ? "base_color" : maps[0].name);
-  form.zoom.value = Math.log2(number("zoom", 1));
-  form.tilt.value = number("tilt", 0);
-  form.gain.value = number("gain", 4);
-  form.packed.checked = number("packed", 0) > 0;
-  form.wrong.checked = number("wrong", 0) > 0;
-  form.probes.checked = number("probes", 1) > 1;
-  const view = {x: number("x", uv.width / 2), y: number("y", uv.height / 2), zoom: number("zoom", 1)};
+  const view = {};
+  const choose = () => {
+    form.map.value = query.get("map") || (has("base_color") ? "base_color" : maps[0].name);
+    form.zoom.value = Math.log2(number("zoom", 1));
+    form.tilt.value = number("tilt", 0);
+    form.gain.value = number("gain", 4);
+    form.packed.checked = number("packed", 0) > 0;
+    form.wrong.checked = number("wrong", 0) > 0;
+    form.probes.checked = number("probes", 1) > 1;
+    Object.assign(view, {x: number("x", uv.width / 2), y: number("y", uv.height / 2), zoom: number("zoom", 1)});
+  };
 
   const draw = (figures) => {
     view.pane = number("pane", 0) || Math.max(64, 2 * Math.round($("runtime").clientWidth * devicePixelRatio / 2));
@@ -631,7 +553,6 @@ function main() {
     });
   }
 
-  showStores(uv, pack, maps, form.map.value);
   paint($("uv"), uv.width, uv.height, (i, bytes, o) => {
     for (let c = 0; c < 2; c++) bytes[o + c] = 255 * uv.values[2 * i + c] / uv.exemplar[c];
     bytes[o + 2] = 0;
@@ -639,8 +560,7 @@ function main() {
   $("uv-caption").textContent = `The uv map, ${uv.width} × ${uv.height}; packed with at most ${pack.most} offsets in a tile of ${1 << pack.shift}²`;
   showMemory(uv, pack, maps);
   $("state").hidden = true;
-  const [a, b, source] = draw(true);
-  if (query.has("figures")) {
+  const measure = (a, b, source) => {
     const truth = renderer.pixels(view, sources.reference);
     tell({meanRuntime: compare(a, truth).mean.toFixed(3), meanResolved: compare(b, truth).mean.toFixed(3)});
     if (view.tilt === 0) {
@@ -652,7 +572,15 @@ function main() {
     tell({changeRuntime: compare(a, renderer.pixels(moved, source)).mean.toFixed(3),
           changeResolved: compare(b, renderer.pixels(moved, sources.resolved)).mean.toFixed(3)});
     tell({mostPacked: compare(a, renderer.pixels({...view, packed: !view.packed}, source)).most});
-  }
-  tell({ready: "yes", errors: "", glError: renderer.gl.getError(), overflow: document.documentElement.scrollWidth - document.documentElement.clientWidth});
+  };
+  globalThis.look = (search) => {
+    query = new URLSearchParams(search);
+    choose();
+    showStores(uv, pack, maps, form.map.value);
+    const drawn = draw(true);
+    if (query.has("figures")) measure(...drawn);
+    tell({ready: "yes", errors: "", glError: renderer.gl.getError(), overflow: document.documentElement.scrollWidth - document.documentElement.clientWidth});
+  };
+  look(location.search);
 }
-addEventListener("load", main);
+addEventListener("load", () => main().catch((e) => fail(e.message)));

@@ -6,7 +6,7 @@ import { cameraOver, loaded, planeOf, sceneOf, tell, work } from './work.js';
 const renderer = new THREE.WebGPURenderer({forceWebGL: true});
 await renderer.init();
 
-await work(async (job, told) => {
+work(async (job, told) => {
   const {materials} = await new MaterialXLoader().loadAsync('/' + job.file);
   const object = planeOf(Object.values(materials)[0]), scene = sceneOf(job);
   scene.add(object);

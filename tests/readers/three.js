@@ -145,7 +145,7 @@ async function materialx(job) {
 
 const readers = {gltf, usd, engine, materialx};
 
-await work(async (job, told) => {
+work(async (job, told) => {
   const object = await readers[job.reader](job), scene = sceneOf(job);
   scene.add(object);
   const {camera, size} = cameraOver(object);

@@ -1,19 +1,5 @@
-// What the pages share: jobs are fetched, done one by one, and told of.
+// What the pages share: how they see materials, and how what they see is compared. browser.mjs gives them their jobs.
 import * as THREE from 'three';
-
-const post = (to, body) => fetch(to, {method: 'POST', body});
-let errors = [];
-for (const name of ['error', 'warn']) {
-  const say = console[name];
-  console[name] = (...words) => {
-    const text = words.map(String).join(' ');
-    // MaterialX' library says so of whatever is no number and no image.
-    if (!text.startsWith('MaterialX: Unsupported uniform')) errors.push(text);
-    say(...words);
-  };
-}
-addEventListener('unhandledrejection', event => errors.push(String(event.reason)));
-addEventListener('error', event => errors.push(event.message));
 
 // Colours as preview has them: as they are up to 0.75, then a shoulder; sRGB.
 function displayed(x) {
@@ -123,33 +109,25 @@ export async function tell(job, rendered, told) {
     }
   if (job.expected) {
     const expected = await pixelsOf('/' + job.expected);
-    if (expected.width !== width || expected.height !== height) errors.push(`${job.expected} is ${expected.width} x ${expected.height}`);
+    if (expected.width !== width || expected.height !== height) console.error(`${job.expected} is ${expected.width} x ${expected.height}`);
     else Object.assign(told, difference(picture.data, expected.data, width, height));
   }
   if (job.picture) {
     const context = canvasOf(width, height);
     context.putImageData(picture, 0, 0);
-    const blob = await new Promise(done => context.canvas.toBlob(done, 'image/png'));
-    await post('/picture?to=' + encodeURIComponent(job.picture), blob);
+    told.picture = context.canvas.toDataURL();
   }
 }
 
-export async function work(one) {
-  try {
-    const page = location.pathname.replace(/.*\/|\.html/g, '');
-    for (const job of await (await fetch('/jobs?page=' + page)).json()) {
-      const told = {name: job.name}, begun = performance.now();
-      errors = [];
-      try {
-        await one(job, told);
-      } catch (error) {
-        errors.push(error.stack ?? String(error));
-      }
-      await post('/told', JSON.stringify({...told, errors, seconds: +((performance.now() - begun) / 1000).toFixed(1)}));
+// `one` does a job, and adds to what is told of it.
+export function work(one) {
+  globalThis.work = async job => {
+    const told = {name: job.name};
+    try {
+      await one(job, told);
+    } catch (error) {
+      console.error(error.stack ?? error);
     }
-  } catch (error) {
-    await post('/wrong', String(error.stack));
-  }
-  const next = await (await fetch('/next')).text();
-  if (next) location = next;
+    return told;
+  };
 }
