@@ -392,7 +392,7 @@ void run_steps(Phase phase, StepContext& context, const std::function<void()>& a
     if (step.phase != phase || !step.applies(context.facts) || &step - all_steps + 1 == step_tuning->left_out) continue;
     const std::clock_t start = std::clock();
     step.run(context);
-    if (watcher) watcher(step, context.facts, double(std::clock() - start) / CLOCKS_PER_SEC);
+    if (watcher) watcher(step, context, double(std::clock() - start) / CLOCKS_PER_SEC);
     if (after_each) after_each();
   }
 }

@@ -146,8 +146,9 @@ struct Step {
 /// All steps, in the order in which they run.
 std::span<const Step> synthesis_steps();
 
-/// Called by benchmarks with what has run, on which level, and how many CPU seconds of all threads it took.
-using StepWatcher = std::function<void(const Step&, const LevelFacts&, double)>;
+/// Called by benchmarks and tests with what has run, what it has left behind, and how many CPU seconds of all threads
+/// it took.
+using StepWatcher = std::function<void(const Step&, const StepContext&, double)>;
 /// From now on every step that has run is told to `watch`, on the thread that ran it. Not thread-safe: call it before
 /// anything is synthesized.
 void watch_steps(StepWatcher watch);

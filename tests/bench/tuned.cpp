@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   StepTimes taken;
-  if (times) watch_steps([&](const Step& s, const LevelFacts& f, double seconds) { taken.add(s, f, seconds); });
+  if (times) watch_steps([&](const Step& s, const StepContext& c, double seconds) { taken.add(s, c.facts, seconds); });
   const int status = run_command_line(int(rest.size()), rest.data());
   taken.print();
   return status;

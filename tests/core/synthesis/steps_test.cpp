@@ -12,18 +12,6 @@
 
 namespace terrazzo {
 
-namespace {
-
-/// The names of the steps that apply, in order.
-std::string applying(const LevelFacts& facts) {
-  std::string names;
-  for (const Step& s : synthesis_steps())
-    if (s.phase != Phase::coarsest && s.applies(facts)) names += (names.empty() ? "" : " ") + std::string(s.name);
-  return names;
-}
-
-}  // namespace
-
 TEST_CASE("steps stand in the order of their phases, each named after its file") {
   const auto steps = synthesis_steps();
   CHECK(std::is_sorted(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.phase < b.phase; }));
@@ -34,37 +22,6 @@ TEST_CASE("steps stand in the order of their phases, each named after its file")
     const std::string file = std::string(s.name) + ".h";
     CHECK((std::filesystem::exists(rooms / "steps" / file) || std::filesystem::exists(rooms / "state" / file)));
   }
-}
-
-TEST_CASE("which steps run is decided by the facts of a level") {
-  const LevelFacts plain{.level = 2, .levels = 6};
-  CHECK(applying(plain) == "proximity_penalty initialize graphcut_repair piece_limits correction coherence_repair");
-  LevelFacts coarse = plain;
-  coarse.level = 4;
-  CHECK(applying(coarse) == "usage_penalty proximity_penalty initialize piece_limits correction");
-  const LevelFacts small{.level = 2, .levels = 3}, finer{.level = 1, .levels = 3}, tiny{.level = 1, .levels = 2};
-  CHECK(applying(small) ==
-        "usage_penalty proximity_penalty initialize graphcut_repair piece_limits correction coherence_repair");
-  CHECK(applying(finer) == "proximity_penalty initialize correction");
-  CHECK(applying(tiny) == "proximity_penalty initialize correction");
-  LevelFacts draft = plain;
-  draft.quality = Quality::draft;
-  CHECK(applying(draft) == "proximity_penalty initialize piece_limits correction");
-  const LevelFacts lattice{.level = 1, .levels = 6, .regular = true};
-  CHECK(applying(lattice) == "initialize piece_relocation alignment seams correction");
-  const LevelFacts bricks{.level = 0, .levels = 6, .regular = true, .may_have_bricks = true};
-  CHECK(applying(bricks) == "initialize alignment course_layout seams correction");
-  const LevelFacts tiles{.level = 0, .levels = 6, .regular = true, .has_elements = true, .elements_on_lattice = true};
-  CHECK(applying(tiles) == "initialize alignment element_layout seams correction");
-  const LevelFacts kept{.level = 1, .levels = 6, .kept = true};
-  CHECK(applying(kept) == "proximity_penalty initialize fixed_pixels seams graphcut_repair correction");
-  const LevelFacts kept_elements{.level = 0, .levels = 6, .kept = true, .has_elements = true};
-  CHECK(applying(kept_elements) == "proximity_penalty initialize fixed_pixels element_layout correction");
-  const LevelFacts kept_coarse{.level = 2, .levels = 6, .kept = true};
-  CHECK(applying(kept_coarse) ==
-        "proximity_penalty initialize fixed_pixels graphcut_repair correction coherence_repair");
-  const LevelFacts steered{.level = 2, .levels = 6, .steered = true};
-  CHECK(applying(steered) == "initialize correction");
 }
 
 TEST_CASE("every step is explained in the guide, and has its section of experiments") {
