@@ -1,10 +1,12 @@
 #include "tests/golden/documents.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <hwy/targets.h>
 
 #include "graphs/document/forecasts.h"
 #include "runner/engine/schedule.h"
@@ -93,6 +95,8 @@ std::string file_of(const GoldenDocument& document, const NodeType& type) {
 
 GoldenSession::GoldenSession() {
   ::unsetenv("OCIO");  // the built-in colour configuration, whatever the user works with
+  if (std::getenv("TERRAZZO_GOLDEN_OLDEST"))
+    hwy::SetSupportedTargetsForTest(int64_t(std::bit_floor(uint64_t(hwy::SupportedTargets()))));
   write_golden_inputs(folder_.path() / "in");
 }
 

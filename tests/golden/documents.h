@@ -36,7 +36,8 @@ struct GoldenCase {
   bool decided = false;  ///< analysis or synthesis, or comes after it
 };
 
-/// Runs documents in a folder of its own with the golden inputs. Results do not depend on where that is.
+/// Runs documents in a folder of its own with the golden inputs. Results do not depend on where that is, nor on whether
+/// TERRAZZO_GOLDEN_OLDEST asks for the least of the instruction sets.
 class GoldenSession {
  public:
   GoldenSession();

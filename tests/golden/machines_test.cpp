@@ -1,8 +1,9 @@
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
-#include <optional>
+#include <fstream>
+#include <sstream>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -13,7 +14,8 @@
 #include "test_paths.h"
 #include "tests/golden/documents.h"
 
-/// Golden results do not depend on what the processor can do.
+/// Golden results do not depend on what the processor can do. Instruction sets between the oldest and the best are left
+/// to the tests of what is compiled for each.
 using namespace terrazzo;
 using namespace terrazzo::test;
 
@@ -25,15 +27,6 @@ using Digests = std::map<std::string, std::string>;  // by case, node type and o
 
 void add(const std::vector<GoldenLine>& lines, Digests& out) {
   for (const GoldenLine& l : lines) out[fmt::format("{} ({}), {}", l.name, l.type, l.port)] = l.content.digest.hex();
-}
-
-Digests digests_of(const std::vector<std::string>& groups) {
-  Digests out;
-  const GoldenSession session;
-  for (const std::string& group : groups)
-    for (const GoldenDocument& document : documents_of(group))
-      for (const GoldenCase& c : session.run(document)) add(c.lines, out);
-  return out;
 }
 
 /// What is in the golden files of a folder.
@@ -68,17 +61,21 @@ Digest library_function_digest() {
 constexpr const char* newer_instructions =
     "glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX512BW,-AVX2,-AVX,-FMA,-FMA4,-SSE4_1,-SSE4_2,-SSSE3,-ERMS,-BMI2,-MOVBE";
 
-/// Runs this program again, with the C library kept from some instructions unless `tunables` is null; it records its
-/// golden results in `folder`.
-int record_apart(const fs::path& folder, const char* tunables) {
+/// Runs this program again, on the oldest processors as far as their instructions can be taken away, if asked to; it
+/// records its golden results in `folder`.
+int record_apart(const fs::path& folder, bool oldest) {
   fs::create_directories(folder);
   const pid_t pid = ::fork();
   if (pid == 0) {
-    if (tunables) ::setenv("GLIBC_TUNABLES", tunables, 1);
+    if (oldest) {
+      ::setenv("GLIBC_TUNABLES", newer_instructions, 1);
+      ::setenv("TERRAZZO_GOLDEN_OLDEST", "1", 1);
+    }
     ::setenv("TERRAZZO_GOLDEN_RECORD", folder.c_str(), 1);
     const std::string log = (folder / "log").string();
     if (!std::freopen(log.c_str(), "w", stdout)) ::_exit(126);
-    ::execl("/proc/self/exe", "terrazzo_tests", "-ts=golden", "-tc=golden results:*,what the C library gives", nullptr);
+    ::execl("/proc/self/exe", "terrazzo_tests", "-ts=golden", "-tc=golden results:*,which instructions are in use",
+            nullptr);
     ::_exit(127);
   }
   int status = -1;
@@ -96,61 +93,67 @@ std::string text_of(const fs::path& path) {
 }
 
 /// What usually comes out on this machine: what is recorded or, if that was recorded with other libraries or before a
-/// change so that `now` differs from it, what `make` makes.
-Digests usual(const Digests& now, const std::function<Digests()>& make) {
+/// change so that `now` differs from it, what this program makes.
+Digests usual(const Digests& now, const fs::path& scratch) {
   const fs::path folder = fs::path(TERRAZZO_SOURCE_DIR) / "tests" / "golden";
   const bool same_libraries = read_golden(folder / "image.txt").libraries == library_versions();
   Digests recorded = recorded_in(folder);
-  return same_libraries && differences(now, recorded).empty() ? recorded : make();
+  if (same_libraries && differences(now, recorded).empty()) return recorded;
+  CHECK(record_apart(scratch, false) == 0);
+  return recorded_in(scratch);
+}
+
+std::string instructions_in_use() {
+  const int64_t best = hwy::SupportedTargets() & -hwy::SupportedTargets();
+  return fmt::format("{}\n{}\n", hwy::TargetName(best), library_function_digest().hex());
+}
+
+/// The path without its ending and, of kernels, without that.
+std::string tested_stem(const fs::path& source) {
+  const std::string stem = source.stem().string();
+  return stem.ends_with("_kernel") ? stem.substr(0, stem.size() - 7) : stem;
 }
 
 }  // namespace
 
 TEST_SUITE_BEGIN("golden");
 
-TEST_CASE("golden results are the same on every instruction set") {
-  const std::vector<std::string> groups = {"analysis", "synthesis"};  // whose nodes have code of their own for each
-  const auto best = [&] {
-    hwy::SetSupportedTargetsForTest(0);
-    return digests_of(groups);
-  };
-  std::optional<Digests> expected;
-  // The lowest bit is the best one, which the other tests run on.
-  for (int64_t left = hwy::SupportedTargets() & (hwy::SupportedTargets() - 1); left != 0; left &= left - 1) {
-    const int64_t target = left & -left;
-    CAPTURE(std::string(hwy::TargetName(target)));
-    hwy::SetSupportedTargetsForTest(target);
-    const Digests now = digests_of(groups);
-    CHECK(now.size() > 100);
-    if (!expected) expected = usual(now, best);
-    for (const std::string& name : differences(now, *expected)) FAIL_CHECK(name << " differs");
-  }
-  hwy::SetSupportedTargetsForTest(0);
+// For the next one, which has it run elsewhere.
+TEST_CASE("which instructions are in use" * doctest::skip(!std::getenv("TERRAZZO_GOLDEN_RECORD"))) {
+  const GoldenSession session;
+  std::ofstream out(fs::path(std::getenv("TERRAZZO_GOLDEN_RECORD")) / "instructions");
+  out << instructions_in_use();
+  CHECK(out.flush());
 }
 
-// Helps the next one; says something by itself only where a golden record is made.
-TEST_CASE("what the C library gives") {
-  if (const char* folder = std::getenv("TERRAZZO_GOLDEN_RECORD"))
-    if (FILE* out = std::fopen((fs::path(folder) / "functions").c_str(), "w")) {
-      std::fputs(library_function_digest().hex().c_str(), out);
-      std::fclose(out);
-    }
-  CHECK(library_function_digest() == library_function_digest());
-}
-
-TEST_CASE("golden results do not depend on the C library's choice of instructions") {
+TEST_CASE("golden results are the same on the oldest processors, whose C library computes in other ways") {
   const TemporaryFolder folder;
-  const fs::path restricted = folder.path() / "restricted";
-  CHECK_MESSAGE(record_apart(restricted, newer_instructions) == 0, text_of(restricted / "log"));
-  const Digests now = recorded_in(restricted);
-  const Digests expected = usual(now, [&] {
-    CHECK(record_apart(folder.path() / "usual", nullptr) == 0);
-    return recorded_in(folder.path() / "usual");
-  });
+  const fs::path oldest = folder.path() / "oldest";
+  CHECK_MESSAGE(record_apart(oldest, true) == 0, text_of(oldest / "log"));
+  const Digests now = recorded_in(oldest), expected = usual(now, folder.path() / "usual");
+  CHECK(now.size() > 1000);
   CHECK(now.size() == expected.size());
   for (const std::string& name : differences(now, expected)) FAIL_CHECK(name << " differs");
   // Else this has shown nothing.
-  if (__builtin_cpu_supports("fma")) CHECK(text_of(restricted / "functions") != library_function_digest().hex());
+  std::istringstream in_use(text_of(oldest / "instructions")), here(instructions_in_use());
+  std::string target, functions, best_target, best_functions;
+  in_use >> target >> functions;
+  here >> best_target >> best_functions;
+  if (std::popcount(uint64_t(hwy::SupportedTargets())) > 1) CHECK(target != best_target);
+  if (__builtin_cpu_supports("fma")) CHECK(functions != best_functions);
+}
+
+TEST_CASE("code that is compiled for several instruction sets has a test on each of them") {
+  const fs::path root = TERRAZZO_SOURCE_DIR;
+  int found = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / "core")) {
+    if (entry.path().extension() != ".cpp" || text_of(entry.path()).find("HWY_EXPORT(") == std::string::npos) continue;
+    found++;
+    const fs::path room = entry.path().parent_path().lexically_relative(root);
+    const fs::path test = root / "tests" / room / (tested_stem(entry.path()) + "_test.cpp");
+    CHECK_MESSAGE(text_of(test).find("hwy::SetSupportedTargetsForTest(") != std::string::npos, test.string());
+  }
+  CHECK(found >= 4);
 }
 
 TEST_SUITE_END();
