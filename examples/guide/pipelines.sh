@@ -100,14 +100,17 @@ folder() {
 }
 
 if [[ $chosen == *" exports "* ]]; then
-  for source in "${sources[@]}"; do
-    for preset in "${presets[@]}"; do
-      relief=0
-      [ "$preset" != blender ] || relief=0.02
-      run examples/guide/pipelines.json --set material="$made/downloads/$(folder "$source")" --set preset="$preset" \
-        --set relief=$relief --set out="$made/$source/$preset"
+  {
+    echo "material,preset,relief,out"
+    for source in "${sources[@]}"; do
+      for preset in "${presets[@]}"; do
+        relief=0
+        [ "$preset" != blender ] || relief=0.02
+        echo "$made/downloads/$(folder "$source"),$preset,$relief,$made/$source/$preset"
+      done
     done
-  done
+  } >"$made/exports.csv"
+  run examples/guide/pipelines.json --table "$made/exports.csv"
 fi
 
 [[ $chosen == *" pictures "* ]] || exit 0
