@@ -56,7 +56,7 @@ py::dict outline_of(const Job& job) {
 
 py::list problems_in(const Job& job, bool warnings) {
   const Job own = job;
-  const auto [errors, doubts] =
+  const auto [errors, lint] =
       for_job(own, [&] { return std::pair(own.check(), warnings ? own.warnings() : std::vector<Problem>()); });
   py::list out = problems_of(errors, own, "error");
   out += problems_of(lint, own, "warning");
