@@ -13,6 +13,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "core/synthesis/synthesize.h"
 #include "test_paths.h"
 #include "tests/drawn_stones.h"
 #include "tests/drawn_tiles.h"
