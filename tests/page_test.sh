@@ -36,7 +36,8 @@ async function open(page, width, before = '') {
   checks.about(`${page} at ${width}`);
   await browser.open(`file://${process.cwd()}/${page}`, {
     width, before,
-    until: `document.body.dataset.errors || document.body.dataset.ready && (document.body.dataset.lit || !document.getElementById('viewer'))`,
+    until: `document.body.dataset.errors ||
+      document.body.dataset.ready && (document.body.dataset.lit || !document.getElementById('viewer'))`,
   });
   const told = {...await browser.evaluate('({...document.body.dataset})'), console: browser.console};
   checks.equal(told, {ready: 'yes', errors: '', overflow: '0'});

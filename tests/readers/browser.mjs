@@ -56,7 +56,8 @@ export class Browser {
     process.on('exit', () => browser.#kill());
     browser.#process.stdio[4].setEncoding('utf8').on('data', text => browser.#read(text));
     const {targetInfos} = await browser.#call('Target.getTargets');
-    const {targetId} = targetInfos.find(target => target.type === 'page') ?? await browser.#call('Target.createTarget', {url: 'about:blank'});
+    const {targetId} = targetInfos.find(target => target.type === 'page') ??
+      await browser.#call('Target.createTarget', {url: 'about:blank'});
     browser.#session = (await browser.#call('Target.attachToTarget', {targetId, flatten: true})).sessionId;
     for (const domain of ['Page', 'Runtime', 'Log']) await browser.#call(domain + '.enable');
     return browser;
