@@ -69,6 +69,12 @@ while IFS=: read -r file target; do
     complain "$file cites $target, which has no such heading"
 done < <(grep -roE 'experiments\.md#[a-z0-9-]+' --include='*.h' --include='*.cpp' core nodes graphs runner || true)
 
+# Fields of descriptors and rows have the names that the page on adding them gives.
+while read -r field; do
+  grep -qw -- "$field" core/node/node.h core/synthesis/steps.h ||
+    complain "examples/guide/adding-a-node.md lists the field $field, which neither node.h nor steps.h has"
+done < <(grep -E '^\| `' examples/guide/adding-a-node.md | cut -d'|' -f2 | grep -oE '[a-z_]+')
+
 while IFS=$'\t' read -r room _; do
   grep -qF "\`$room\`" README.md || complain "README.md does not list the room $room of tests/rooms.txt"
 done < <(cat tests/rooms.txt)

@@ -7,7 +7,7 @@
 
 namespace terrazzo {
 
-/// Bytes as text, as data URIs hold them (RFC 4648).
+/// Encodes bytes in base64 (RFC 4648), as for data URIs.
 inline std::string base64(std::span<const uint8_t> bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;

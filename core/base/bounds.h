@@ -7,8 +7,7 @@
 
 namespace terrazzo {
 
-/// The smallest rectangle around all pixels of a surface of which `test(y * width + x)` holds; empty if it does of
-/// none.
+/// The smallest rectangle around all pixels for which `test(y * width + x)` holds; empty if there are none.
 template <typename Test>
 Rect bounds(Size size, const Test& test) {
   int left = size.width, right = 0, top = size.height, bottom = 0;

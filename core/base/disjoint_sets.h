@@ -7,7 +7,7 @@
 
 namespace terrazzo {
 
-/// Disjoint sets of the numbers below a count (Tarjan 1975, with path halving); the smallest member stands for each
+/// Disjoint sets of the numbers below a count (Tarjan 1975, with path halving). The smallest member represents each
 /// set, whatever the order of joining.
 class DisjointSets {
  public:

@@ -8,9 +8,9 @@
 
 namespace terrazzo {
 
-/// Something a user can mend: a wrong value, an unreadable file, inputs that do not fit together. The message says what
-/// was expected and what was found; `about` names the port or parameter, if one is to blame, or a part of one
-/// ("weights.height", "maps.0"). Whoever runs a node adds the graph file and the node's name.
+/// An error that a user can fix: a wrong value, an unreadable file, inputs that do not fit together. The message says
+/// what was expected and what was found. `about` names the responsible port or parameter, if any, or a part of one
+/// ("weights.height", "maps.0"). The runner adds the graph file and the node's name.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
@@ -21,7 +21,7 @@ class Error : public std::runtime_error {
   std::string about_;
 };
 
-/// Several things to mend at once, for those who can say them one by one; to all others it is the first of them.
+/// Several errors at once. Handlers that catch Error see only the first one.
 class Errors : public Error {
  public:
   explicit Errors(std::vector<Error> all) : Error(all.front()), all_(std::move(all)) {}
@@ -31,7 +31,7 @@ class Errors : public Error {
   std::vector<Error> all_;
 };
 
-/// Calls every check, whatever the others throw; throws Errors with all that they threw.
+/// Calls all checks, even if some throw, then throws Errors with everything that was thrown.
 template <typename... Checks>
 void check_all(const Checks&... checks) {
   std::vector<Error> found;

@@ -17,7 +17,7 @@ struct Size {
 /// "256x128"
 std::string describe(Size size);
 
-/// Whether the one is the other at another scale, give or take what rounding to whole pixels does.
+/// Whether the sizes have the same aspect ratio, up to rounding to whole pixels.
 bool same_shape(Size a, Size b);
 
 /// A rectangle of pixels; (x, y) is its top left corner, y grows downwards.

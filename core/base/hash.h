@@ -7,7 +7,7 @@
 
 namespace terrazzo {
 
-/// A 128-bit XXH3 content digest. Equal content, equal digest, on every machine.
+/// A 128-bit XXH3 content digest. Equal content has an equal digest on every machine.
 struct Digest {
   uint64_t high = 0;
   uint64_t low = 0;
@@ -37,7 +37,7 @@ class Hasher {
   Hasher& add(double value);
   /// Raw bytes, preceded by their count.
   Hasher& bytes(const void* data, size_t size);
-  /// Raw bytes without a count: for content fed in pieces whose total length is known otherwise.
+  /// Raw bytes without a count, for content fed in pieces whose total length is added separately.
   Hasher& stream(const void* data, size_t size);
   Digest digest() const;
 
@@ -54,15 +54,15 @@ inline uint64_t mix_bits(uint64_t v) {
   return v ^ (v >> 31);
 }
 
-/// What random_bits() gives for all of its counters, of what it gives for all but these last ones.
+/// Extends `bits`, a result of random_bits(), by further counters.
 template <typename... Counters>
 uint64_t more_random_bits(uint64_t bits, Counters... counters) {
   ((bits = mix_bits(bits ^ (static_cast<uint64_t>(counters) + 0x9e3779b97f4a7c15ULL))), ...);
   return bits;
 }
 
-/// A counter-based random number: a function of its arguments alone, the same everywhere, so that work can be done in
-/// any order and on any number of threads. (The finalizer of SplitMix64 applied in a chain; Steele et al. 2014.)
+/// A counter-based random number that depends only on its arguments, so work can be done in any order and on any number
+/// of threads. The same on every machine. (A chain of SplitMix64 finalizers; Steele et al. 2014.)
 template <typename... Counters>
 uint64_t random_bits(uint64_t seed, Counters... counters) {
   return more_random_bits(mix_bits(seed + 0x9e3779b97f4a7c15ULL), counters...);

@@ -5,14 +5,14 @@
 
 namespace terrazzo {
 
-/// The path in its shortest form and without a slash at its end, so that its last part has a name.
+/// The lexically normal path without a trailing slash, so that its last part has a name.
 inline std::filesystem::path without_trailing_slash(const std::filesystem::path& path) {
   const std::filesystem::path shortest = path.lexically_normal();
   return shortest.has_filename() ? shortest : shortest.parent_path();
 }
 
-/// Where a file lies that is renamed to `path`: the same for all ways to say it, through whatever links to folders. A
-/// link of that very name is not followed, since renaming takes its place.
+/// The canonical location of a file that is renamed to `path`. Resolves links to folders, but not a link at `path`
+/// itself, since renaming replaces it.
 inline std::filesystem::path place_of_file(const std::filesystem::path& path) {
   std::error_code unreadable;
   const std::filesystem::path normal = std::filesystem::absolute(path, unreadable).lexically_normal();

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-/// Elementary functions made of additions, multiplications, divisions and square roots alone, so that every machine
-/// gets the same bits. Relative errors are below 1e-10 for exp2 and exp, 1e-11 for the logarithms, 1e-9 for pow, roots,
-/// sines and angles (portable_math_test.cpp compares them with long doubles). All are pure.
+/// Elementary functions that use only additions, multiplications, divisions and square roots, so that results are
+/// bit-exact on every machine. Relative errors are below 1e-10 for exp2 and exp, 1e-11 for the logarithms, 1e-9 for
+/// pow, roots, sines and angles (portable_math_test.cpp compares them with long doubles). All are pure.
 namespace terrazzo::portable {
 
 inline int64_t floor_int(double x) {
@@ -55,7 +55,7 @@ inline double pow(double x, double p) {
 }
 
 /// x^(1/n) for x > 0: a first guess from the exponent bits, within 7 %, then two steps of Halley's method, each of
-/// which triples the good digits.
+/// which triples the correct digits.
 template <int n>
 double root(double x) {
   constexpr int64_t one = 0x3ff0000000000000;
@@ -87,7 +87,7 @@ inline double cos_turns(double turns) {
 inline double atan2(double y, double x) {
   constexpr double pi = 3.14159265358979324;
   if (x == 0 && y == 0) return 0;
-  // The tangent of a half and of a quarter of the angle to the x axis; the series of so small a one soon ends.
+  // The tangents of half and a quarter of the angle to the x axis: the series converges fast for small angles.
   const double t = std::abs(y) / (std::sqrt(x * x + y * y) + std::abs(x));
   const double q = t / (1 + std::sqrt(1 + t * t)), q2 = q * q;
   double sum = 0;

@@ -5,7 +5,7 @@
 
 namespace terrazzo {
 
-/// The text with control characters, but for line ends and tabs, as \xNN: on a terminal they could do anything.
+/// Escapes control characters as \xNN, except line ends and tabs: on a terminal they could do anything.
 inline std::string printable(std::string_view text) {
   constexpr std::string_view digits = "0123456789abcdef";
   std::string out;

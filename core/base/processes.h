@@ -6,14 +6,14 @@
 
 namespace terrazzo {
 
-/// What this machine is called, where several share a file system.
+/// The machine's name, which distinguishes machines on a shared file system.
 std::string host_name();
 
-/// Names the processes whose numbers mean something here: those of this host that are counted together with this one.
-/// Eight hexadecimal digits.
+/// Identifies this process's PID namespace and host, in eight hexadecimal digits. PIDs are comparable only if it is
+/// equal.
 std::string pid_namespace_id();
 
-/// Whether a process of the neighbourhood runs, or has stopped and may go on.
+/// Whether a process of this PID namespace is running or stopped.
 bool is_running(pid_t process);
 
 }  // namespace terrazzo

@@ -6,7 +6,7 @@
 
 namespace terrazzo {
 
-/// A word as a shell takes it, in quotes where it needs them.
+/// Quotes a word for a shell if necessary.
 inline std::string shell_word(const std::string& word) {
   const auto is_plain = [](unsigned char c) {
     return std::isalnum(c) || std::string_view("_-./:=,+@%").find(char(c)) != std::string_view::npos;

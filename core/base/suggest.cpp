@@ -33,20 +33,20 @@ size_t edit_distance(std::string_view a, std::string_view b, size_t limit) {
   return above[b.size()];
 }
 
-/// Without what people leave out or put in between words.
+/// Without separators between words.
 std::string letters_of(std::string_view name) {
   std::string out = lowercase(name);
   std::erase_if(out, [](char c) { return c == '_' || c == '-' || c == ' '; });
   return out;
 }
 
-/// One is the other's beginning, as in "bool" and "boolean", and enough of it.
+/// Whether one name is a sufficiently long prefix of the other, as "bool" of "boolean".
 bool is_short_form(std::string_view a, std::string_view b) {
   const size_t shared = std::min(a.size(), b.size());
   return shared >= 3 && 3 * shared >= std::max(a.size(), b.size()) && a.substr(0, shared) == b.substr(0, shared);
 }
 
-/// How many mistakes a word of so many letters may have: with more, another one is meant.
+/// The most typing errors in a word of this length; with more, another word is meant.
 size_t most_mistakes(size_t letters) {
   if (letters < 3) return 0;
   return letters < 6 ? 1 : letters < 12 ? 2 : 3;
@@ -70,14 +70,13 @@ bool have_other_numbers(std::string_view a, std::string_view b) {
   return std::ranges::any_of(a, is_number) && std::ranges::any_of(b, is_number) && number_in(a) != number_in(b);
 }
 
-/// As it sounds to people who write it as in their own language.
+/// A phonetic form, for spellings from other languages.
 std::string sounds_of(std::string name) {
   for (size_t at; (at = name.find("ph")) != std::string::npos;) name.replace(at, 2, "f");
   return name;
 }
 
-/// The mistakes that make one name of the other; nothing if these are too many to be mistakes. An ending that both
-/// have does not make them more alike.
+/// The typing errors between two names; nullopt if there are too many. A common extension does not count as similarity.
 std::optional<size_t> mistakes(std::string_view typed, std::string_view known) {
   if (const std::string_view ending = ending_of(typed); !ending.empty() && ending == ending_of(known)) {
     typed.remove_suffix(ending.size());

@@ -6,19 +6,19 @@
 
 namespace terrazzo {
 
-/// The name most like `wrong`: one with the same letters, whatever their case and what joins words (- or _), else by
-/// edit distance. The first of several equally near ones; empty if none is near enough to be meant.
+/// The closest match for `wrong`: a name that differs only in case and word separators (- or _), else the nearest by
+/// edit distance. The first of several equally near ones; empty if none is near enough.
 std::string nearest(std::string_view wrong, const std::vector<std::string>& names);
 
-/// ` (did you mean "x"?)`, or nothing if no name is near: for messages that list the valid names themselves, or where
-/// these are too many.
+/// ` (did you mean "x"?)`, or empty if no name is near. For messages that list the valid names themselves, or where
+/// there are too many.
 std::string did_you_mean(std::string_view wrong, const std::vector<std::string>& names);
 
-/// The end of a message about an unknown name: ` (did you mean "x"?)`, or the valid names if none is near, or
-/// nothing if there are none.
+/// The end of a message about an unknown name: ` (did you mean "x"?)`, or the list of valid names if none is near, or
+/// empty if there are none.
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& names);
 
-/// `"a", "b" or "c"`, each once; shortened if there are many.
+/// `"a", "b" or "c"` without duplicates; shortened if there are many.
 std::string listed(const std::vector<std::string>& all);
 
 }  // namespace terrazzo

@@ -7,7 +7,7 @@
 
 namespace terrazzo {
 
-/// What a long computation owes its caller: to say how far it is, and to stop when told. Thread-safe.
+/// The progress reporting and cancellation of a long computation. Thread-safe.
 class Task {
  public:
   Task() = default;
@@ -31,9 +31,9 @@ class Task {
   std::function<void(double)> progress_;
 };
 
-/// Makes a task the one that this thread works for, for as long as the object lives. Pixels are computed wherever they
-/// are asked for, deep inside code that was given no task: what computes them asks here whether to go on. A loop that
-/// pulls pixels on other threads says so on each of them.
+/// While it lives, makes `task` the current task of this thread. Pixels are computed on demand, deep inside code that
+/// has no task parameter; such code checks the current task for cancellation. A loop that pulls pixels on other threads
+/// must set the task on each of them.
 class CurrentTask {
  public:
   /// `task` must outlive the object.
@@ -42,7 +42,7 @@ class CurrentTask {
   CurrentTask(const CurrentTask&) = delete;
   CurrentTask& operator=(const CurrentTask&) = delete;
 
-  /// The task this thread works for; one that is never cancelled if nobody has said.
+  /// The current task of this thread; if none is set, one that is never cancelled.
   static const Task& task() {
     static const Task nobody;
     return current_ ? *current_ : nobody;

@@ -6,7 +6,7 @@
 
 namespace terrazzo {
 
-/// With A to Z made small; everything else, UTF-8 included, stays.
+/// Converts A to Z to lower case; everything else, including UTF-8, stays.
 inline std::string lowercase(std::string_view text) {
   std::string out(text);
   for (char& c : out)
@@ -20,12 +20,12 @@ inline bool is_digit(char c) {
 inline bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
-/// What names in graphs are made of.
+/// Letters, digits and "_": the characters of names in graphs.
 inline bool is_word(char c) {
   return is_digit(c) || is_letter(c) || c == '_';
 }
 
-/// Whether a name matches a pattern with the wildcards * and ?; case does not count.
+/// Whether a name matches a pattern with the wildcards * and ?; case-insensitive.
 inline bool matches_pattern(std::string_view name, std::string_view pattern) {
   const std::string text = lowercase(name), wanted = lowercase(pattern);
   size_t at = 0, next = 0, after_star = std::string::npos, star_ends = 0;
@@ -36,7 +36,7 @@ inline bool matches_pattern(std::string_view name, std::string_view pattern) {
     } else if (next < wanted.size() && (wanted[next] == '?' || wanted[next] == text[at])) {
       at++;
       next++;
-    } else if (after_star != std::string::npos) {  // the last star takes one more
+    } else if (after_star != std::string::npos) {  // the last star matches one more character
       at = ++star_ends;
       next = after_star;
     } else {
@@ -46,7 +46,7 @@ inline bool matches_pattern(std::string_view name, std::string_view pattern) {
   return wanted.find_first_not_of('*', next) == std::string::npos;
 }
 
-/// The text as it stands in HTML and SVG, between tags or in a quoted attribute.
+/// Escapes a text for HTML and SVG, between tags or in a quoted attribute.
 inline std::string markup(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -64,12 +64,12 @@ inline std::string markup(std::string_view text) {
   return out;
 }
 
-/// "1 file", "3 files": of things with a plain plural.
+/// "1 file", "3 files"; for regular plurals.
 inline std::string counted(int64_t count, std::string_view thing) {
   return std::to_string(count).append(" ").append(thing).append(count == 1 ? "" : "s");
 }
 
-/// How notes begin that are warnings.
+/// The prefix of notes that are warnings.
 inline constexpr std::string_view warning_mark = "warning: ";
 inline bool is_warning(std::string_view note) {
   return note.starts_with(warning_mark);

@@ -16,10 +16,10 @@ namespace terrazzo {
 namespace {
 
 constexpr rlim_t usual_stack = rlim_t{8} << 20;
-/// Half of it is in reserve: single runs have come through with 64 KiB.
+/// Includes a reserve: some runs succeeded with 64 KiB.
 constexpr rlim_t least_stack = rlim_t{512} << 10;
 
-/// Threads that do nothing until they are told to end.
+/// Idle threads that wait until they are told to end.
 class IdleThreads {
  public:
   IdleThreads() = default;
@@ -31,7 +31,7 @@ class IdleThreads {
     for (const pthread_t thread : threads_) ::pthread_join(thread, nullptr);
   }
 
-  /// 0, or why the system starts no more.
+  /// 0, or the error that prevents further threads.
   int start_one() {
     pthread_t thread{};
     const int error = ::pthread_create(&thread, nullptr, &IdleThreads::wait, &over_);
@@ -85,7 +85,7 @@ void require_stack() {
   if (allowed < least_stack)
     throw Error(fmt::format("the limit of the stack (ulimit -s) is {} KiB, at least {} are needed: raise it",
                             allowed >> 10, least_stack >> 10));
-  // What new threads get was read from the limit when the program started.
+  // The default for new threads was read from the limit at program start.
   pthread_attr_t attributes;
   if (::pthread_getattr_default_np(&attributes) != 0) return;
   ::pthread_attr_setstacksize(&attributes, allowed);

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-/// Tuning constants: numbers that trade one good against another and were found by measuring. Each is a field of its
-/// step's tuning structure, described where it is defined, and can be overridden in a benchmark run without
+/// Tuning constants: numbers that trade one goal against another and were determined by measurement. Each is a field of
+/// its step's tuning structure, is described where it is defined, and can be overridden in a benchmark run without
 /// recompiling:
 ///
 ///     struct SeamsTuning {
@@ -23,37 +23,37 @@
 ///     });
 ///     ... seams_tuning->reach ...
 ///
-/// The least and the most that a field takes (1 and 96) keep a run from crashing or going on and on: code that divides
-/// by a constant need not expect 0.
+/// The limits of a field (1 and 96) keep runs from crashing or never ending: code that divides by a constant need not
+/// check for 0.
 ///
-/// Reading is as cheap as reading a variable; inner loops copy what they need. Overriding is for a process that has
-/// not begun to work yet; reading is thread-safe.
+/// Reading is as cheap as reading a variable; inner loops copy the values they need. Override constants before any work
+/// begins; reading is thread-safe.
 namespace terrazzo {
 
-/// A constant as tools see it.
+/// The description of a constant, for tools.
 struct TuningConstant {
   std::string name;      ///< "seams.reach"
-  std::string unit;      ///< "pixels"; empty: a plain number
-  std::string trades;    ///< what more and less of it bring
-  std::string measured;  ///< a heading of tests/bench/experiments.md, or "not measured: " and why it is what it is
-  double least = 0;      ///< what an override may give it; beyond, the program might crash
+  std::string unit;      ///< "pixels"; empty: dimensionless
+  std::string trades;    ///< the effects of higher and lower values
+  std::string measured;  ///< a heading of tests/bench/experiments.md, or "not measured: " and the reason for the value
+  double least = 0;      ///< the range of overrides; values outside might crash the program
   double most = 1e9;
   std::variant<int*, double*> value;
 
   double number() const;
-  /// Whether it takes fewer values than most constants do.
+  /// Whether its range differs from the default.
   bool is_limited() const { return least != TuningConstant().least || most != TuningConstant().most; }
 };
 
 /// All constants of the program, by name.
 std::vector<const TuningConstant*> tuning_constants();
 
-/// Gives a constant another value. Throws Error, with the nearest name, if there is none of that name, if an integer is
-/// to take a fraction, and if the constant does not take the value.
+/// Overrides a constant. Throws Error if the name is unknown (with a suggestion), if the value is out of range, or if
+/// an integer would get a fraction.
 void override_tuning(std::string_view name, double value);
 
-/// What differs from its default, "name=value" each in order of names; empty in a usual run. Part of every cache key,
-/// so that results of such runs stay among themselves.
+/// The overridden constants as "name=value", sorted by name; empty in normal runs. Part of every cache key, so that
+/// such runs do not share results with others.
 std::string overridden_tuning();
 
 namespace detail {
@@ -61,8 +61,8 @@ void add_constants(std::string_view group, const std::vector<TuningConstant>& co
 [[noreturn]] void reject_incomplete(std::string_view group);
 }  // namespace detail
 
-/// A tuning structure of ints and doubles (doubles first: then a field that is not described is noticed), one static
-/// object of which describes its fields. Throws std::logic_error if a field is left out.
+/// A tuning structure of ints and doubles, with a description of each field; used as a static object. Doubles must come
+/// first, so that missing descriptions are detected. Throws std::logic_error if a field is not described.
 template <typename T>
 class Tunable {
  public:

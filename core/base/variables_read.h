@@ -6,8 +6,8 @@
 
 namespace terrazzo {
 
-/// The variables of the environment that results depend on: what code on this thread notes, for as long as the object
-/// lives. Whoever asks a node for the files it reads puts these variables into the node's key too.
+/// While it lives, collects the environment variables that code on this thread reports by note(). Active while
+/// files_read is called, so that these variables become part of the node's key.
 class VariablesRead {
  public:
   VariablesRead() : before_(std::exchange(current_, this)) {}
@@ -18,7 +18,7 @@ class VariablesRead {
   static void note(const std::string& name, const std::string& value) {
     if (current_) current_->all_.insert_or_assign(name, value);
   }
-  /// Values by name; variables that are not set are not among them.
+  /// Values by name. Unset variables are missing.
   const std::map<std::string, std::string>& all() const { return all_; }
 
  private:

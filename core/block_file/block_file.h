@@ -12,7 +12,7 @@
 #include "core/block_file/sample_codec.h"
 #include "core/file/file_io.h"
 
-/// The container that serialized values lie in. Little endian:
+/// The container format of serialized values. Little endian:
 ///   header  magic "TZVALUE\0", format version, value type, digest, seconds, place and checksum of the contents, and a
 ///           checksum of all that
 ///   blocks  one after the other, each compressed by itself with zstd if that makes it smaller
@@ -54,7 +54,8 @@ struct BlockStream {
   std::vector<StoredBlock> blocks;
 };
 
-/// Writes a block file; blocks are coded in parallel. If finish() is not reached the file is removed. Throws Error.
+/// Writes a block file; blocks are encoded in parallel. Removes the file unless finish() is called. Throws Error. Not
+/// thread-safe.
 class BlockFileWriter {
  public:
   BlockFileWriter(std::filesystem::path path, const Task& task);
@@ -64,10 +65,11 @@ class BlockFileWriter {
 
   /// Begins a stream and returns its number.
   uint32_t begin_stream(StreamKind kind);
-  /// Adds to the stream begun last; every call but a stream's last must bring a multiple of block_elements().
+  /// Appends to the last begun stream. Every call except the last one of a stream must add a multiple of
+  /// block_elements().
   void add_bytes(const uint8_t* bytes, uint64_t count);
   void add_samples(const float* samples, uint64_t count);
-  /// With `sync` the file is on the disk when it returns.
+  /// With `sync`, waits until the file is on disk.
   void finish(const BlockFileHeader& header, const std::vector<uint8_t>& description, bool sync);
 
  private:
@@ -82,12 +84,12 @@ class BlockFileWriter {
   std::vector<BlockStream> streams_;
 };
 
-/// An open block file. Small files are held in memory and closed. Immutable, so thread-safe.
+/// An open block file. Small files are loaded into memory and closed. Immutable; thread-safe.
 class BlockFile {
  public:
   /// Opens and verifies every checksum. Throws DamagedFile, or Error if the file cannot be read.
   static std::shared_ptr<const BlockFile> open(const std::filesystem::path& path);
-  /// Verifies the header and the contents alone; blocks are verified when they are read.
+  /// Verifies only the header and the contents; blocks are verified when they are read. Throws as open.
   static std::shared_ptr<const BlockFile> open_contents(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
@@ -112,7 +114,7 @@ class BlockFile {
   std::vector<BlockStream> streams_;
 };
 
-/// The header alone. Throws DamagedFile or Error.
+/// Reads only the header. Throws DamagedFile or Error.
 BlockFileHeader read_block_file_header(const std::filesystem::path& path);
 
 }  // namespace terrazzo

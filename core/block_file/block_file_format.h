@@ -5,7 +5,7 @@
 
 #include "core/block_file/block_file.h"
 
-/// What the writer and the reader of block files share.
+/// Constants shared by the writer and reader of block files.
 namespace terrazzo::block_format {
 
 inline constexpr std::array<char, 8> magic = {'T', 'Z', 'V', 'A', 'L', 'U', 'E', '\0'};

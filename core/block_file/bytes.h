@@ -11,19 +11,19 @@
 
 namespace terrazzo {
 
-/// A file that is not what it should be: damaged, truncated, of another format or of a newer version.
+/// The file is damaged, truncated, of another format or of a newer version.
 class DamagedFile : public Error {
  public:
   using Error::Error;
 };
 
-/// A file that was right for an older terrazzo.
+/// The file was written by an older version.
 class OutdatedFile : public DamagedFile {
  public:
   using DamagedFile::DamagedFile;
 };
 
-/// Puts numbers (little endian), texts and digests one after the other.
+/// Serializes numbers (little endian), texts and digests.
 class ByteWriter {
  public:
   template <typename T>
@@ -43,7 +43,7 @@ class ByteWriter {
   std::vector<uint8_t> bytes_;
 };
 
-/// Takes them out again. Every function throws DamagedFile rather than read past the end.
+/// Deserializes them. Every function throws DamagedFile instead of reading past the end.
 class ByteReader {
  public:
   ByteReader(const void* data, size_t size) : at_(static_cast<const uint8_t*>(data)), left_(size) {}
@@ -55,7 +55,7 @@ class ByteReader {
     std::memcpy(&value, take(sizeof(T)), sizeof(T));
     return value;
   }
-  /// A number that must lie below `end`.
+  /// A number below `end`; throws DamagedFile otherwise.
   template <typename T>
   T get_below(T end) {
     const T value = get<T>();

@@ -6,8 +6,8 @@
 
 namespace terrazzo {
 
-/// How a run of float samples is stored: in the narrowest form that gives back every bit. Integers stand for k / max or
-/// for k * (1 / max) (readers of image files differ in which of the two they compute, and in the last bit).
+/// The storage of float samples: the narrowest encoding that restores every bit. Integers encode k / max or k * (1 /
+/// max): readers of image files compute one or the other, which differ in the last bit.
 enum class SampleCoding : uint8_t { u8_divided, u8_scaled, u16_divided, u16_scaled, half, full };
 inline constexpr int sample_coding_count = 6;
 
@@ -19,7 +19,7 @@ struct CodedSamples {
   std::vector<uint8_t> bytes;
 };
 
-/// Never loses a bit.
+/// Lossless.
 CodedSamples code_samples(const float* samples, size_t count);
 
 /// `bytes` holds `count` samples; need not be aligned.

@@ -59,9 +59,9 @@ bool is_abandoned(const fs::directory_entry& entry) {
   return !failure && fs::file_time_type::clock::now() - written > trusted_age;
 }
 
-/// The system's number of the error with which a file, or a folder, could not be made in a folder that is there; 0 if
-/// it could. Permissions do not tell: root has them all, and /proc takes nothing even so. A file without a name is as
-/// good as one and leaves the folder's time alone; not all file systems have them.
+/// errno of creating a file or folder in an existing folder; 0 if possible. Permissions are not reliable: root has them
+/// all, and /proc accepts no files even so. An unnamed file serves as a test without changing the folder's time, but
+/// not all file systems support it.
 int error_of_making(bool file, const fs::path& folder) {
   const int nameless = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
   if (nameless >= 0) {
@@ -81,14 +81,14 @@ int error_of_making(bool file, const fs::path& folder) {
 
 namespace {
 
-/// The nearest folder of a path that is there.
+/// The nearest existing folder of a path.
 fs::path existing_above(fs::path folder) {
   std::error_code failure;
   while (!fs::exists(folder, failure) && folder.has_relative_path()) folder = folder.parent_path();
   return folder.empty() ? fs::path(".") : folder;
 }
 
-/// Why the file system takes no such names; empty if it does. `there` is a folder that exists.
+/// Why the file system rejects such names; empty if it accepts them. `there`: an existing folder.
 std::string too_long(const fs::path& there, const fs::path& path) {
   const long asked = ::pathconf(there.c_str(), _PC_NAME_MAX);
   const size_t most = asked > 0 ? size_t(asked) : 255;
@@ -140,8 +140,7 @@ fs::path temporary_beside(const fs::path& target) {
 
 namespace {
 
-/// Where a link leads, and the link that is there, and so on; the last one need not exist. Throws FileError if they
-/// have no end.
+/// Follows a chain of links; the last target need not exist. Throws FileError for cycles.
 fs::path behind_links(const fs::path& path) {
   constexpr int most_links = 40;  // as many as Linux follows
   std::error_code none;

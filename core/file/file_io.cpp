@@ -93,7 +93,7 @@ std::string read_file(const std::filesystem::path& path, uint64_t most) {
   constexpr size_t piece = size_t{1} << 16;
   const File file = open_to_read(path);
   std::string text;
-  for (;;) {  // what the system says of the size does not hold for the files in /proc
+  for (;;) {  // the reported size is wrong for files in /proc
     const size_t before = text.size();
     text.resize(before + piece);
     const size_t got = file.read_at(before, text.data() + before, piece, path);

@@ -12,19 +12,19 @@
 
 #include "core/file/file_io.h"
 
-/// Telling by the file system alone that a file has not changed.
+/// Detects unchanged files by metadata only.
 namespace terrazzo {
 
-/// Identifies a version of a file: while it is equal, what was found in the file is still true.
+/// Identifies a version of a file: while the stamp is equal, facts about the content remain valid.
 struct FileStamp {
   uint64_t bytes = 0;
   int64_t modified_ns = 0;  ///< since the epoch
-  int64_t changed_ns = 0;   ///< of the inode: moves even when a tool sets the modification time back
+  int64_t changed_ns = 0;   ///< of the inode: changes even if a tool resets the modification time
   uint64_t inode = 0;
   bool operator==(const FileStamp&) const = default;
 
-  /// Whether a change after `at_ns` is certain to give another stamp: two changes may fall into one tick of a file
-  /// system's clock, so what changed just before may change unseen.
+  /// Whether any change after `at_ns` is certain to alter the stamp. Two changes may fall into one tick of the file
+  /// system's clock, so a file that has just changed may change again unnoticed.
   bool is_settled(int64_t at_ns) const;
 };
 
@@ -33,15 +33,15 @@ int64_t ns_of(const timespec& t);
 /// Wall-clock time, since the epoch.
 int64_t now_ns();
 
-/// None if it is no regular file.
+/// Nullopt if it is no regular file.
 std::optional<FileStamp> stamp_of(const std::filesystem::path& path);
 std::optional<FileStamp> stamp_of(const File& file);
 
-/// What was found in files, for as long as these stay as they are. Of the process; bounded. Thread-safe.
+/// A bounded in-memory cache of facts about files, valid while the files are unchanged. Thread-safe.
 template <typename Fact>
 class FileFacts {
  public:
-  /// What is known of the file under this name, else what `find` returns. What it throws is not remembered.
+  /// The cached fact `name` about the file, else the result of `find`. Exceptions are not cached.
   template <typename Find>
   Fact of(const std::filesystem::path& path, const std::string& name, const Find& find) {
     const std::optional<FileStamp> stamp = stamp_of(path);

@@ -5,8 +5,8 @@
 
 namespace terrazzo {
 
-/// What a file is that is no image, as far as its first bytes tell: "a PDF document", "a ZIP archive", "text". Empty
-/// for images, and where they tell nothing.
+/// Describes the content of a file that is no image, by its first bytes: "a PDF document", "a ZIP archive", "text".
+/// Empty for images and unknown content.
 std::string other_content(const std::filesystem::path& path);
 
 }  // namespace terrazzo

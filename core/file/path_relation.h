@@ -4,7 +4,7 @@
 
 namespace terrazzo {
 
-/// Whether a path names the folder, or something in it at any depth. By the names alone: resolve links before.
+/// Whether a path is the folder or lies below it. Compares names only; resolve links first.
 bool lies_in(const std::filesystem::path& folder, const std::filesystem::path& path);
 
 }  // namespace terrazzo

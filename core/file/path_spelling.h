@@ -5,8 +5,8 @@
 
 namespace terrazzo {
 
-/// What to do about a path that is written as on Windows, or whose backslashes a JSON text has taken for escapes:
-/// `write "scans/brick"`. Empty if it is written as here, or if what it names, relative to `base`, has such a name.
+/// Advice on a path in Windows spelling, or one whose backslashes JSON has read as escapes: `write "scans/brick"`.
+/// Empty if the spelling is fine, or if such a file exists relative to `base`.
 std::string path_advice(const std::filesystem::path& base, const std::string& text);
 
 }  // namespace terrazzo

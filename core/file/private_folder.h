@@ -5,11 +5,11 @@
 
 namespace terrazzo {
 
-/// A folder for this process alone, with a name of `temporary_beside`; it and all in it go with this object. Only the
-/// user may look into it.
+/// A temporary folder of this process, readable only by the user, with a name from `temporary_beside`. The destructor
+/// removes it with its content.
 class PrivateFolder {
  public:
-  /// Makes it in `parent`, and `parent` if that is missing. `stem` is for people. Throws FileError if it cannot.
+  /// Creates it in `parent`, which is created if missing. `stem`: a readable part of the name. Throws FileError.
   PrivateFolder(const std::filesystem::path& parent, const std::string& stem);
   ~PrivateFolder();
   PrivateFolder(const PrivateFolder&) = delete;

@@ -7,9 +7,9 @@
 
 namespace terrazzo {
 
-/// What is asked, and may throw, before this thread reads a file or lists a folder that a graph names, where that is
-/// more than the `files_read` of a node: for as long as the object lives. `named` is told, before that, which paths are
-/// not of the graph: `by` a value of the command line, as messages call it.
+/// While it lives, `check` is called before this thread reads a file or lists a folder that a graph names beyond the
+/// `files_read` of its nodes; it may throw. `named` is called before that for paths that come from the command line
+/// instead of the graph; `by` is the command line's value, for messages.
 class ReadGuard {
  public:
   using Check = std::function<void(const std::filesystem::path& path)>;

@@ -24,7 +24,7 @@ namespace {
 }  // namespace
 
 ScratchFile& ScratchFile::shared() {
-  static ScratchFile& file = *new ScratchFile;  // outlives everything that lies in it
+  static ScratchFile& file = *new ScratchFile;  // outlives all its users
   return file;
 }
 
@@ -56,7 +56,7 @@ std::optional<uint64_t> ScratchFile::take_free(uint64_t bytes) {
 std::optional<uint64_t> ScratchFile::take(uint64_t bytes) {
   const std::lock_guard lock(mutex_);
   if (const auto found = take_free(bytes)) return found;
-  // Room is made sure of now: later, whoever computes would have to stop.
+  // Reserves the space now: a failure later would stop a computation.
   if (!open() || ::posix_fallocate(file_, off_t(end_), off_t(bytes)) != 0) return std::nullopt;
   const uint64_t at = end_;
   end_ += bytes;

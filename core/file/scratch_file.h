@@ -7,11 +7,11 @@
 
 namespace terrazzo {
 
-/// Room on disk for what does not fit in memory: one file in the system's folder for temporary files (TMPDIR), without
-/// a name, so that nothing is left of it when the program ends however it ends. Thread-safe.
+/// Disk space for data that does not fit in memory: one unnamed file in the system's folder for temporary files
+/// (TMPDIR), which vanishes however the program ends. Thread-safe.
 class ScratchFile {
  public:
-  /// The one of this process; made when it is needed first.
+  /// The file of this process, created on first use.
   static ScratchFile& shared();
 
   ScratchFile() = default;
@@ -19,14 +19,14 @@ class ScratchFile {
   ScratchFile& operator=(const ScratchFile&) = delete;
   ~ScratchFile();
 
-  /// Room for so many bytes, at least 1: where it begins. None if the disk has not as much, or cannot be written to.
+  /// Allocates `bytes` (at least 1) and returns their offset. Nullopt if the disk is full or not writable.
   std::optional<uint64_t> take(uint64_t bytes);
-  /// Gives it back; the file shrinks when its end is not in use.
+  /// Frees a region. The file shrinks if its end is unused.
   void give_back(uint64_t at, uint64_t bytes);
-  /// Throw Error if the disk fails.
+  /// Throws Error if the disk fails.
   void write(uint64_t at, const void* data, uint64_t bytes);
   void read(uint64_t at, void* data, uint64_t bytes) const;
-  /// Of the file, at present.
+  /// The current size of the file in bytes.
   uint64_t size() const;
 
  private:
@@ -36,7 +36,7 @@ class ScratchFile {
   mutable std::mutex mutex_;
   int file_ = -1;
   uint64_t end_ = 0;
-  std::map<uint64_t, uint64_t> free_;  ///< bytes by where they begin, no two side by side
+  std::map<uint64_t, uint64_t> free_;  ///< size by offset; adjacent regions are merged
 };
 
 }  // namespace terrazzo

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-/// Archives in the tar format of POSIX.1-2001 (ustar, with pax headers for long names): the usual tools read them.
+/// Archives in the tar format of POSIX.1-2001 (ustar, with pax headers for long names): common tools can read them.
 namespace terrazzo {
 
-/// Writes an archive under a temporary name; nothing of it is left unless it is finished. Throws FileError. The same
-/// content gives the same bytes: no times, no owners.
+/// Writes an archive under a temporary name and removes it unless finish() is called. The same content gives the same
+/// bytes: times and owners are left out. Throws FileError.
 class TarWriter {
  public:
   explicit TarWriter(const std::filesystem::path& target);
@@ -21,7 +21,7 @@ class TarWriter {
 
   void add(const std::string& name, std::string_view bytes);
   void add_file(const std::string& name, const std::filesystem::path& file);
-  /// Ends the archive and gives it its name.
+  /// Completes the archive and renames it to the target.
   void finish();
 
  private:
@@ -41,11 +41,11 @@ struct TarEntry {
   uint64_t bytes = 0;
 };
 
-/// Whether a file begins as an archive does; false if it cannot be read.
+/// Whether a file begins like an archive; false if it cannot be read.
 bool is_tar(const std::filesystem::path& file);
 
-/// The files in an archive. Throws Error for what is none, is cut off, has a wrong checksum, or holds anything but
-/// regular files and folders.
+/// The files in an archive. Throws Error if it is no archive, is truncated, has a wrong checksum, or contains anything
+/// but regular files and folders.
 std::vector<TarEntry> tar_entries(const std::filesystem::path& archive);
 
 /// Writes an entry's bytes to `target`, whose folder must exist. Throws FileError, or Error if the archive has changed.

@@ -39,7 +39,7 @@ fs::path WriteGuard::hold(const fs::path& folder) {
     there = there.has_parent_path() ? there.parent_path() : fs::path(".");
   }
   if (!held.ok()) throw_system_error("write into", folder, errno);
-  // Where it is now counts, not where the name led when it was first looked at.
+  // Checks the folder's current location, not the one at the first look-up.
   std::error_code unknown;
   fs::path place = fs::read_symlink(path_of(held), unknown);
   if (unknown) throw Error(fmt::format("cannot tell where {} is: {}", folder.string(), unknown.message()));

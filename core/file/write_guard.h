@@ -9,8 +9,7 @@
 
 namespace terrazzo {
 
-/// What is asked, and may throw, before this thread makes a folder or a file for a result: for as long as the object
-/// lives.
+/// While it lives, `check` is called before this thread creates a folder or a file for a result; it may throw.
 class WriteGuard {
  public:
   using Check = std::function<void(const std::filesystem::path& target)>;
@@ -24,8 +23,8 @@ class WriteGuard {
     if (current_ && current_->check_) current_->check_(target);
   }
 
-  /// Makes a folder with those above it. Returns a path that means this very folder for as long as the guard lives,
-  /// whatever its name comes to lead to; without a guard it is the folder itself. Throws Error.
+  /// Creates a folder and its parents. Returns a path that refers to this folder while the guard lives, even if its
+  /// name is later redirected by a link; without a guard returns `folder`. Throws Error.
   static std::filesystem::path made_folder(const std::filesystem::path& folder);
 
  private:

@@ -6,7 +6,7 @@
 
 namespace terrazzo {
 
-/// How two images are put together; names as paint programs use them.
+/// Blend modes, named as in paint programs.
 enum class BlendMode : uint8_t {
   normal,      ///< the top
   multiply,    ///< base * top
@@ -19,7 +19,8 @@ enum class BlendMode : uint8_t {
   max,
 };
 
-/// A base, and a top laid over it where the mask is white. Top and mask may have one channel for all of the base's.
+/// A base, and a top blended over it where the mask is 1. Top and mask may have a single channel that applies to all
+/// channels of the base.
 struct BlendInputs {
   ImagePtr base;
   ImagePtr top;
@@ -27,12 +28,12 @@ struct BlendInputs {
   double opacity = 1;  ///< factor on the mask
 };
 
-/// Values, blended when pulled; colours stored as srgb_texture in linear light if `linear`, else as stored. The result
-/// is described as the base.
+/// Blends values when pulled. If `linear`, srgb_texture colours are blended in linear light, else as stored. The result
+/// has the base's description.
 ImagePtr blend_values(const BlendInputs& inputs, BlendMode mode, bool linear, const Digest& recipe);
 
-/// Normals in the base's convention. `detail`: the top is laid over the base (reoriented normal mapping), flattened
-/// where the mask is dark; else the top replaces the base, and between the two vectors are mixed and made unit length.
+/// Blends normals when pulled, in the base's convention. With `detail` the top is added to the base (reoriented normal
+/// mapping), flattened where the mask is dark; else the mask interpolates between the two and the result is normalised.
 ImagePtr blend_normals(const BlendInputs& inputs, bool detail, const Digest& recipe);
 
 }  // namespace terrazzo

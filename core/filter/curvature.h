@@ -7,15 +7,14 @@
 /// where the surface is convex: 1 / R on a sphere of radius R, half as much on a cylinder. Thread-safe.
 namespace terrazzo {
 
-/// How many pixels around a region count for its leanings from heights, and for its curvature from leanings.
+/// How many pixels around a region its leanings from heights, and its curvature from leanings, depend on.
 inline constexpr int curvature_reach = 1;
 
 /// The leaning of a surface: n_x and n_y of its normals, y down the image, two values per pixel of `region`, which lies
-/// inside the image. `height_scale`: how many pixels tall a height of 1 is. Beside a border that clamps, slopes are
-/// those on this side.
+/// inside the image. `height_scale`: the height of value 1 in pixels. At a clamped border, slopes are one-sided.
 void leanings_from_height(const PixelView& height, const Rect& region, double height_scale, Outside outside,
                           float* out);
-/// The same of `count` encoded normals of `channels` values, 3 or more.
+/// The same from `count` encoded normals of `channels` values, 3 or more.
 void leanings_from_normals(const float* normals, int channels, NormalY normal_y, int64_t count, float* out);
 
 /// One value per pixel of `region`.

@@ -9,9 +9,9 @@ namespace terrazzo {
 /// thread-safe.
 class Curve {
  public:
-  /// At least one point, x ascending strictly. `smooth`: cubic pieces whose slopes are the weighted harmonic means of
-  /// those beside them, so that the curve rises and falls only where its points do (Fritsch & Butland, A method for
-  /// constructing local monotone piecewise cubic interpolants, 1984); else straight lines.
+  /// Needs at least one point, with strictly ascending x. `smooth`: a monotone piecewise cubic, whose slopes are
+  /// weighted harmonic means of the adjacent secants (Fritsch & Butland, A method for constructing local monotone
+  /// piecewise cubic interpolants, 1984); else piecewise linear.
   Curve(std::vector<std::pair<double, double>> points, bool smooth);
 
   double at(double x) const;

@@ -6,21 +6,21 @@
 
 namespace terrazzo {
 
-/// What makes an exemplar a bad one, as far as a look at its colours tells.
+/// Faults of an exemplar that its colours reveal.
 struct ExemplarFaults {
   double one_colour = 0;   ///< share of the pixels that are within 2/255 of the most frequent colour
-  double brightening = 0;  ///< by how much the mean grows from one side to the opposite one, as a share of the darker
-  double unevenness = 0;   ///< of the means of blocks around that trend, likewise
+  double brightening = 0;  ///< increase of the mean from one side to the opposite one, relative to the darker side
+  double unevenness = 0;   ///< deviation of block means from that trend, likewise relative
   std::string_view bright_side = "left", dark_side = "right";
 
-  // The limits trade false alarms against faults that are missed: none of twelve photographed exemplars of all kinds
-  // comes near them (tests have both sides).
+  // The limits trade false alarms against missed faults. None of twelve photographed exemplars of all kinds comes near
+  // them (tests cover both sides).
   bool is_mostly_one_colour() const { return one_colour > 0.5; }
-  /// A trend that stands out from what the texture does itself.
+  /// A brightness trend that exceeds the texture's own variation.
   bool is_lit_from_a_side() const { return brightening > 0.25 && brightening > 3 * unevenness; }
 };
 
-/// Looks at every pixel of an image once; only the first three channels count.
+/// Reads every pixel once; uses only the first three channels.
 ExemplarFaults exemplar_faults(const Image& image);
 
 }  // namespace terrazzo

@@ -19,14 +19,14 @@ constexpr int cycles = 12;
 constexpr double longest_loses = 1e-5;
 constexpr int border = 2;  ///< how far around a region slopes are read
 
-/// How the rise from a pixel to the next is made from slopes.
+/// The weights by which the difference between neighbouring pixels is computed from slopes.
 struct RiseFilter {
   float near;  ///< weight of the slopes at either end
   float far;   ///< of the slopes one pixel further
   float side;  ///< what the slopes beside each of these take from it, on either side
 };
 
-/// Along, the weights are exact for cubics: of the derivative, or of the central difference of a filter. Across, they
+/// Along the axis the weights are exact for cubics, for the derivative or a filter's central difference. Across it they
 /// undo the filter's smoothing up to third order.
 RiseFilter rise_filter(std::optional<SlopeFilter> measured) {
   if (!measured) return {13.0f / 24, -1.0f / 24, 0};
@@ -53,8 +53,8 @@ class SlopePlane {
     *last = 2 * last[-step] - last[-2 * step];
   }
 
-  /// Fills the border. Where nothing wraps, slopes go on as they last changed in the direction in which they are
-  /// measured; across it they stay, as those of filters do that see the surface's border pixels go on.
+  /// Fills the border. Without wrapping, slopes are extrapolated linearly along their axis; across it they are
+  /// constant, like those of filters that repeat the surface's border pixels.
   void fill_border(bool wraps, bool measures_x) {
     const Beyond along = wraps ? Beyond::other_side : Beyond::line, across = wraps ? Beyond::other_side : Beyond::same;
     for (int y = 0; y < size_.height; y++) extend(at(0, y), size_.width, 1, measures_x ? along : across);
@@ -80,7 +80,7 @@ class SlopePlane {
   std::vector<float> values_;
 };
 
-/// The slopes of a surface: how much it rises per pixel to the right, and down the image.
+/// The slopes of a surface: its rise per pixel to the right and down the image.
 struct Slopes {
   SlopePlane right, down;
 };
@@ -118,7 +118,7 @@ float rise(const float* slope, ptrdiff_t along, ptrdiff_t across, const RiseFilt
          f.far * (sharpened(slope - along) + sharpened(slope + 2 * along));
 }
 
-/// The right-hand side of the Poisson equation: what rises to a pixel, less what rises from it.
+/// The right-hand side of the Poisson equation: the rise to a pixel minus the rise from it.
 std::vector<float> forces_of(const Slopes& slopes, Size size, const IntegrationOptions& options) {
   const RiseFilter filter = rise_filter(options.filter);
   const bool wraps = options.outside == Outside::wrap;

@@ -4,19 +4,18 @@
 
 #include "core/image/image.h"
 
-/// Mip chains: an image at half its size, a quarter, and so on down to one pixel.
+/// Mip chains: an image at half its size, a quarter and so on, down to one pixel.
 namespace terrazzo {
 
-/// The image and all levels below it. Each has half the sides of the one above, rounded down but at least 1, and its
-/// pixels are averages of what they cover there, around the edges as if the image repeated: in linear light for
-/// colours, as vectors that are made unit length again for normals, and as stored for other maps; of labels and masks
-/// they are samples. Levels are made from unrounded values of the one above. `weights`, of `opacity_weights`, says how
-/// much colours count; below the image itself, pixels of which nothing is seen then take the colour of what is seen
-/// nearest to them, since renderers blend it with their neighbours'. All pixels lie in memory or in a scratch file
-/// afterwards. Throws Cancelled with the task that the thread works for. Thread-safe.
+/// The image followed by all its mip levels. Each level has half the sides of the previous one, rounded down but at
+/// least 1. Its pixels average the covered area, wrapping around at the edges: colours in linear light, normals as
+/// vectors that are renormalised, other maps as stored. Labels and masks are sampled. Levels are computed from
+/// unrounded values. `weights` (see opacity_weights) weight colours; in the smaller levels, fully transparent pixels
+/// take the colour of the nearest visible ones, since renderers blend them with their neighbours. Computes all pixels,
+/// into memory or a scratch file. Throws Cancelled by the current task. Thread-safe.
 std::vector<ImagePtr> mip_levels(const ImagePtr& image, const ImagePtr& weights = nullptr);
 
-/// How many levels an image of that size has, itself included.
+/// The number of levels of an image of this size, including itself.
 int mip_level_count(Size size);
 
 }  // namespace terrazzo

@@ -70,7 +70,7 @@ float encoded_z(float x, float y) {
   return std::sqrt(std::max(0.0f, 1 - u * u - v * v)) * 0.5f + 0.5f;
 }
 
-/// All that is asked of the pixels.
+/// All statistics that are needed of the pixels.
 class ChannelLook {
  public:
   explicit ChannelLook(const Image& image) : image_(image), channels_(image.channels()), moments_(channels_ + 1) {
@@ -94,7 +94,7 @@ class ChannelLook {
            normal_channels_tuning->rare * double(image_.size().area());
   }
   bool is_constant(int c) const { return deviation(c) <= normal_channels_tuning->constant; }
-  /// Constant, and at one of the values that stand for an unused channel.
+  /// Constant, with a value that is common for unused channels.
   bool is_empty(int c) const { return is_constant(c) && (is_near(c, 0) || is_near(c, 0.5) || is_near(c, 1)); }
   bool is_near(int c, double value) const { return std::abs(mean(c) - value) <= normal_channels_tuning->near; }
   bool is_opaque() const { return deviation(channels_ - 1) < 1e-6; }
@@ -120,7 +120,7 @@ double evidence(const Image& xy, const Image* height) {
   return std::max(std::abs(e.along_x), std::abs(e.along_y));
 }
 
-/// Whether the second of two channels is x, and the first y; nullopt if the pixels do not say.
+/// Whether the second of two channels is x, and the first y; nullopt if the pixels are inconclusive.
 std::optional<bool> are_swapped(const ImagePtr& image, int first, int second, const Image* height) {
   const auto two = [&](int x, int y) { return chosen_channels(image, image->info(), {x, y}, false); };
   for (const Image* by : {height, static_cast<const Image*>(nullptr)}) {

@@ -6,16 +6,16 @@
 
 namespace terrazzo {
 
-/// Where a picture has structure, whatever it shows: its brightness (of normals their slope) and its edges on a small
-/// grid.
+/// The structure of a picture on a small grid, comparable between kinds of maps: brightness (for normals their slope)
+/// and edges.
 struct Structure {
   Size size;
   std::vector<float> values, edges;
 };
 Structure structure_of(const ImagePtr& image, Size grid);
 
-/// How well the structures of two maps of one surface coincide, 0..1: the best of the correlations of values and edges
-/// of one with those of the other. Maps of a surface reach 0.06 to 1, maps of which one is turned mostly below 0.1.
+/// How well the structures of two maps match, 0..1: the best correlation between values or edges of one and those of
+/// the other. Maps of the same surface reach 0.06 to 1; if one is rotated, mostly less than 0.1.
 double agreement(const Structure& a, const Structure& b);
 
 /// The grid on which two pictures are compared.

@@ -58,13 +58,14 @@ const Tunable<ComputedPixelsTuning> computed_pixels_tuning(
          "not measured: taken over from the code before constants were listed"},
     });
 
-constexpr auto patience = std::chrono::milliseconds(50);  ///< until a waiting thread looks whether it is cancelled
+constexpr auto patience =
+    std::chrono::milliseconds(50);  ///< the interval at which a waiting thread checks for cancellation
 
 int rows_of(Size size, int channels, int64_t values) {
   return int(std::max<int64_t>(computed_pixels_tuning->strip_rows, values / (int64_t{size.width} * channels)));
 }
 
-/// The pulls of all threads together, of a few images each, are to take a part of the memory budget only.
+/// Limits the memory of all threads' pulls, of a few images each, to a part of the budget.
 int64_t most_values_at_once() {
   constexpr uint64_t share = 64;
   return std::min<int64_t>(computed_pixels_tuning->most_values_at_once, int64_t(memory_budget() / share));
@@ -76,7 +77,7 @@ int longest_pull() {
   return computed_pixels_tuning->longest_pull;
 }
 
-/// All pixels, as far as they have been computed. Threads take strips until there are none left.
+/// The pixels during computation. Threads take strips until none are left.
 struct ComputedPixels::Filling {
   Filling(Size size, int channels)
       : pixels(size, channels),
@@ -100,8 +101,8 @@ struct ComputedPixels::Filling {
   const int strips;
   std::mutex mutex;
   std::condition_variable changed;
-  int next = 0;               ///< the first strip that nobody has taken
-  int done = 0;               ///< how many have been computed
+  int next = 0;               ///< the first strip not taken yet
+  int done = 0;               ///< number of computed strips
   std::vector<int> returned;  ///< taken by threads that were cancelled
   std::exception_ptr failure;
 };
@@ -120,7 +121,7 @@ std::shared_ptr<const ComputedPixels> ComputedPixels::of(const Image& image) {
   return std::dynamic_pointer_cast<const ComputedPixels>(image.source());
 }
 
-/// Decides for the sources whether their pixels are to be kept, now that there is one more reader.
+/// Decides whether the sources' pixels are to be kept, given one more reader.
 void ComputedPixels::choose_kept() {
   std::set<std::shared_ptr<const ComputedPixels>> sources;
   for (const ImagePtr& image : operation_->sources)
@@ -195,7 +196,7 @@ void ComputedPixels::help(Filling& filling) const {
     try {
       compute_strip(filling, strip);
     } catch (const Cancelled&) {
-      // Others may go on with it.
+      // Other threads may continue with it.
       const std::lock_guard lock(filling.mutex);
       filling.returned.push_back(strip);
       filling.changed.notify_all();
@@ -211,7 +212,7 @@ void ComputedPixels::help(Filling& filling) const {
   }
 }
 
-/// Until the strips that other threads have taken are computed.
+/// Waits until the strips taken by other threads are computed.
 void ComputedPixels::await(Filling& filling) const {
   std::unique_lock lock(filling.mutex);
   while (filling.done < filling.strips) {
@@ -234,7 +235,7 @@ void ComputedPixels::finish() const {
   unneeded.swap(operation_);
 }
 
-/// The next thread that asks starts anew.
+/// The next reader starts over.
 void ComputedPixels::give_up(const std::shared_ptr<Filling>& filling) const {
   const std::lock_guard lock(mutex_);
   if (filling_ == filling && filling->failure) filling_.reset();

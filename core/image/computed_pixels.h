@@ -7,32 +7,31 @@
 #include "core/image/image.h"
 #include "core/image/pull_plan.h"
 
-/// Images that are computed when they are asked for, and what that costs. Such images make up a graph without cycles;
-/// its edges lead from an image to those that it is made from.
+/// Images computed on demand. They form a directed acyclic graph whose edges lead from an image to its sources.
 ///
-/// A region is not pulled through the graph by calls that call each other: it would be computed anew for every reader,
-/// and there would be as many calls on the stack as images in a row. A PullPlan (core/image/pull_plan.h) first asks
-/// back to front what is needed of each image, then computes that, once, front to back. As in Halide and libvips, what
-/// an image needs is told apart from how it is made.
+/// Regions are not pulled by recursion: that would compute a region again for every reader, and the stack would grow
+/// with the length of a chain. Instead a PullPlan (core/image/pull_plan.h) first determines, from the result back to
+/// the sources, which regions of each image are needed, and then computes each once, from the sources forward. As in
+/// Halide and libvips, an operation states the regions it reads separately from how it computes them.
 ///
-/// Regions grow from image to image where operations look around them, images have many readers, and rows of images can
-/// be of any length. So some images on the way keep their pixels: they are computed as a whole when somebody needs them
-/// first, into memory or a scratch file, and from then on need no sources. Which ones is decided while the graph is
-/// built, so that no pull goes back over more than `longest_pull()` images, none spends much on the surroundings of its
-/// strips, and none is computed for many readers. A chain of n images costs time linear in n, and holds few of them.
+/// Neighbourhood operations enlarge regions from image to image, images may have many readers, and chains may be of any
+/// length. Some images therefore keep their pixels: the first read computes them as a whole, into memory or a scratch
+/// file, and later reads need no sources. They are chosen while the graph is built, such that no pull spans more than
+/// `longest_pull()` images, strips overlap little, and images with many readers are computed once. A chain of n images
+/// takes time linear in n and keeps few of them in memory.
 namespace terrazzo {
 
-/// How many computed images a pull goes over at most, but for images with more sources than that.
+/// The most computed images that a pull spans, except for images with more sources than that.
 int longest_pull();
 
 /// The pixels of one computed image. Thread-safe.
 class ComputedPixels final : public PulledImage {
  public:
   static std::shared_ptr<const ComputedPixels> make(Size size, int channels, Operation operation);
-  /// The source of an image that is computed; null for others.
+  /// The pixels of a computed image; null for other images.
   static std::shared_ptr<const ComputedPixels> of(const Image& image);
 
-  /// Stops with Cancelled when the task that the thread works for is cancelled.
+  /// Throws Cancelled if the thread's task is cancelled (see CurrentTask).
   void read(const Rect& region, float* out) const override;
 
   Size size() const override { return size_; }
@@ -55,7 +54,7 @@ class ComputedPixels final : public PulledImage {
 
   const Size size_;
   const int channels_;
-  int pull_length_ = 1;  ///< how many images a pull goes over
+  int pull_length_ = 1;  ///< how many images a pull spans
   mutable std::atomic<int> readers_{0};
   mutable std::atomic<bool> to_be_kept_{false};
   mutable std::atomic<bool> is_kept_{false};

@@ -18,7 +18,7 @@ constexpr int strip_rows = 32;
 struct Range {
   float min = std::numeric_limits<float>::max();
   float max = std::numeric_limits<float>::lowest();
-  /// Computed pixels may be anything; what is not finite counts for nothing.
+  /// Computed pixels may have any value; non-finite ones are ignored.
   void include(float v) {
     if (!std::isfinite(v)) return;
     min = std::min(min, v);
@@ -117,7 +117,7 @@ std::vector<Distribution> Distribution::of(const Image& image, const Task& task)
   for (const std::vector<Bin>& channel : bins_of(image, ranges_of(image, task), task)) {
     std::vector<Atom> atoms;
     for (const Bin& b : channel) {
-      // One value stays exact; several share the middle of what was seen.
+      // A bin with one value keeps it exactly; others use the middle of their values' range.
       const double middle = 0.5 * (double(b.values.min) + b.values.max);
       if (b.count) atoms.push_back({float(middle), b.count});
     }

@@ -8,8 +8,8 @@
 
 namespace terrazzo {
 
-/// How often each value occurs in one channel of an image. Values are gathered in 65536 equal steps of the channel's
-/// range, so the values of 8- and 16-bit maps stay apart and exact. Immutable; the same for any number of threads.
+/// A histogram of one channel of an image. Values are binned into 65536 equal steps of the channel's range, so the
+/// values of 8- and 16-bit maps stay distinct and exact. Immutable; thread-safe. The same for any number of threads.
 class Distribution {
  public:
   struct Atom {
@@ -17,9 +17,9 @@ class Distribution {
     uint64_t count = 0;
   };
 
-  /// One per channel. Looks at all pixels twice, in parallel, strip by strip.
+  /// One per channel. Reads all pixels twice, in parallel, strip by strip. Throws Cancelled.
   static std::vector<Distribution> of(const Image& image, const Task& task);
-  /// All of them as one distribution, instead of one per channel.
+  /// Merges several distributions into one.
   static Distribution merged(const std::vector<Distribution>& parts);
 
   /// Ascending in value; at least one.
@@ -29,12 +29,12 @@ class Distribution {
   double mean() const;
   double deviation() const;
 
-  /// The fraction of pixels below an atom, half of its own included; ascending.
+  /// For each atom the fraction of pixels below it, counting half of its own; ascending.
   const std::vector<double>& ranks() const { return ranks_; }
   /// The value at a rank in [0, 1], linear between atoms.
   double quantile(double rank) const;
-  /// The value that parts low from high with the greatest variance between the two (Otsu, A threshold selection method
-  /// from gray-level histograms, 1979): halfway between the atoms on either side.
+  /// The threshold that maximises the between-class variance (Otsu, A threshold selection method from gray-level
+  /// histograms, 1979): halfway between the atoms on either side.
   double otsu_threshold() const;
 
  private:
@@ -43,7 +43,7 @@ class Distribution {
   std::vector<double> ranks_;
 };
 
-/// A curve through points of ascending x, linear in between and constant outside.
+/// A piecewise linear curve through points of ascending x, constant outside.
 class PiecewiseLinear {
  public:
   PiecewiseLinear(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)) {}
@@ -53,8 +53,8 @@ class PiecewiseLinear {
   std::vector<double> x_, y_;
 };
 
-/// The curve that gives values distributed like `from` the distribution `to`: each goes to the value of equal rank
-/// (exact histogram specification by quantiles).
+/// The curve that maps values distributed like `from` to the distribution `to`, each to the value of equal rank
+/// (histogram specification by quantiles).
 PiecewiseLinear matching_curve(const Distribution& from, const Distribution& to);
 
 }  // namespace terrazzo

@@ -10,11 +10,11 @@
 
 namespace terrazzo {
 
-/// Pixels held in memory with any number of channels, interleaved: what analysis and metrics work on.
+/// Pixels in memory with any number of interleaved channels, for analysis and metrics.
 struct Planes {
   Size size;
   int channels = 0;
-  bool wraps = false;         ///< the image tiles: what lies outside is the other side; else the border continues
+  bool wraps = false;         ///< the image tiles: coordinates outside wrap around; else they are clamped to the border
   std::vector<float> values;  ///< size.area() * channels
 
   static Planes zeros(Size size, int channels, bool wraps = false) {
@@ -22,29 +22,29 @@ struct Planes {
   }
   const float* at(int x, int y) const { return values.data() + (size_t(y) * size.width + x) * channels; }
   float* at(int x, int y) { return values.data() + (size_t(y) * size.width + x) * channels; }
-  /// The column or row that stands for one outside.
+  /// The column or row inside the image for any coordinate: wrapped or clamped.
   int column(int x) const { return wraps ? wrap(x, size.width) : std::clamp(x, 0, size.width - 1); }
   int row(int y) const { return wraps ? wrap(y, size.height) : std::clamp(y, 0, size.height - 1); }
 };
 
-/// An image's first `channels` channels; if it has fewer, its first one repeated.
+/// A region of the image's first `channels` channels. If it has fewer, its first channel is repeated.
 Planes to_planes(const Image& image, const Rect& region, int channels);
 
-/// What lies beyond the border of an image that is filtered: what Planes::wraps says, or its mirror image (edge pixels
-/// repeat).
+/// How a filter extends an image beyond its border: as Planes::wraps says, or mirrored (edge pixels repeat).
 enum class Beyond : uint8_t { as_it_wraps, mirrored };
 
-/// A Gaussian blur, cut off at four sigma; of sigma 0 the image itself. Its time grows with the area times sigma.
-/// Throws Cancelled.
+/// A Gaussian blur, truncated at four sigma (in pixels); sigma 0 returns the image itself. Takes time proportional to
+/// the area times sigma. Throws Cancelled.
 Planes blurred(const Planes& image, double sigma, Beyond beyond, const Task& task);
 
-/// A Gaussian blur of any sigma at the same cost, nearly: three box filters. Throws Cancelled.
+/// An approximate Gaussian blur by three box filters, in time nearly independent of sigma. Throws Cancelled.
 Planes box_blurred(Planes image, double sigma, const Task& task);
 
-/// Each level half the one before (blurred with sigma 0.9, every second pixel kept), finest first. Throws Cancelled.
+/// A pyramid, finest level first. Each level is half the size of the previous one (blurred with sigma 0.9, every second
+/// pixel kept). Throws Cancelled.
 std::vector<Planes> gaussian_pyramid(Planes finest, int levels, const Task& task);
 
-/// Linear interpolation when growing, an area-weighted mean when shrinking.
+/// Resizes: linear interpolation when growing, an area-weighted mean when shrinking.
 Planes resampled(const Planes& image, Size size);
 
 /// The mean and the covariance of the channels.

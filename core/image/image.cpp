@@ -132,8 +132,7 @@ ImagePtr Image::from_halfs(ImageInfo info, std::vector<uint16_t> pixels) {
 
 namespace {
 
-/// Lets go of what may be the last reference to the first of many images in a row, without a call for each of them on
-/// the stack.
+/// Releases what may be the last reference to a long chain of images without recursion.
 void release_later(std::shared_ptr<const PixelSource> source) {
   static thread_local std::vector<std::shared_ptr<const PixelSource>>* pending = nullptr;
   if (!source) return;
@@ -141,7 +140,7 @@ void release_later(std::shared_ptr<const PixelSource> source) {
   std::vector<std::shared_ptr<const PixelSource>> released;
   pending = &released;
   while (source) {
-    source.reset();  // what it is made from joins the others
+    source.reset();  // its sources join the queue
     if (released.empty()) continue;
     source = std::move(released.back());
     released.pop_back();

@@ -39,39 +39,37 @@ inline std::string_view name_of(Semantic s) {
 }
 std::optional<Semantic> semantic_from(std::string_view name);
 bool is_color(Semantic semantic);
-/// Whether a map of that meaning has one value at a pixel.
+/// Whether maps of this semantic have one channel of values.
 bool is_one_value(Semantic semantic);
 
-/// The depth an image had in its file (`export` keeps it) or should be written with.
+/// The bit depth that an image had in its file (`export` keeps it) or is to be written with.
 enum class Depth : uint8_t { u8, u16, f16, f32 };
 std::string_view name_of(Depth depth);
 
 /// Which way the green channel of a tangent-space normal map points: OpenGL (up) or DirectX (down).
 enum class NormalY : uint8_t { up, down };
 
-/// Everything about an image but its pixels.
+/// The description of an image: everything except its pixels.
 struct ImageInfo {
   Size size;
   int channels = 1;  ///< 1..4
   Semantic semantic = Semantic::data;
   std::string color_space = "raw";  ///< a name that core/image_io/color.h knows; "raw" is never converted
   Depth depth = Depth::f32;
-  NormalY normal_y =
-      NormalY::up;  ///< only meaningful for Semantic::normal; pixels stay as they came, this tells how to read them
+  NormalY normal_y = NormalY::up;  ///< only for Semantic::normal: how to interpret the pixels, which stay as read
   bool operator==(const ImageInfo&) const = default;
   void add_to(Hasher& hasher) const;
-  /// Throws Error unless an image may be so.
+  /// Throws Error if the description is invalid.
   void check() const;
 };
 
-/// A way to get at pixels: from memory, from a file, or computed when asked for.
+/// A source of pixels: memory, a file, or a computation on demand.
 class PixelSource {
  public:
   virtual ~PixelSource() = default;
-  /// Writes the region row by row, channels interleaved. `region` lies inside the image. Safe to call from any number
-  /// of threads at once.
+  /// Writes the region row by row, channels interleaved. `region` lies inside the image. Thread-safe.
   virtual void read(const Rect& region, float* out) const = 0;
-  /// All pixels, if they lie in memory as floats; else null.
+  /// All pixels if they are in memory as floats; else null.
   virtual const float* in_memory() const { return nullptr; }
 };
 
@@ -84,8 +82,7 @@ struct PixelBlock {
   std::unique_ptr<float[]> pixels;
 };
 
-/// What an operation reads an image's pixels through: the image, or blocks of it that have been computed already. Must
-/// not outlive either.
+/// An operation's view of a source image: the image itself, or precomputed blocks of it. Must not outlive either.
 class PixelView {
  public:
   PixelView(const Image& image);  // NOLINT(google-explicit-constructor): every image can be read
@@ -96,7 +93,7 @@ class PixelView {
   /// As Image::read; the region must lie inside one of the blocks, if there are any.
   void read(const Rect& region, float* out) const;
   std::vector<float> read(const Rect& region) const;
-  /// The region's pixels without a copy, if they lie in memory as floats one after the other; else null.
+  /// The region's pixels without a copy if they are contiguous floats in memory; else null.
   const float* in_place(const Rect& region) const;
 
  private:
@@ -107,41 +104,41 @@ class PixelView {
   const std::vector<PixelBlock>* blocks_ = nullptr;
 };
 
-/// How the pixels of an image are made from those of others.
+/// How to compute an image from source images.
 struct Operation {
   std::vector<ImagePtr> sources;
-  /// The parts of a source that a region of the result is made from, each inside the source; none: the same region.
+  /// The parts of a source that a region of the result depends on, each inside the source. Default: the same region.
   std::function<std::vector<Rect>(size_t source, const Rect& region)> reads{};
-  /// Makes the pixels of a region. Reads of each source only what lies inside one of the parts that `reads` names. Safe
-  /// to call from any number of threads at once; must not wait for work on other threads.
+  /// Computes the pixels of a region. May read a source only inside the parts that `reads` returns. Must be thread-safe
+  /// and must not wait for work on other threads.
   std::function<void(std::span<const PixelView> sources, const Rect& region, float* out)> compute;
-  /// About how many values are multiplied, added or looked up for each value of the result. Weighs what it costs to
-  /// compute pixels twice; says nothing about the result.
+  /// The approximate number of operations per value of the result: the cost of computing pixels twice. Does not affect
+  /// the result.
   double work = 1;
-  /// Whether the pixels are computed as a whole and kept in any case: for those that take much of their surroundings to
-  /// compute a single row. Says nothing about the result.
+  /// Always compute the pixels as a whole and keep them: for operations with large neighbourhoods. Does not affect the
+  /// result.
   bool keeps = false;
 };
 
-/// An immutable picture: a description and a way to read it region by region. Values of maps read from 8- and 16-bit
-/// files are in [0, 1] and survive the way to a file of the same depth exactly; normals are stored encoded
-/// (n * 0.5 + 0.5), in the convention of `info().normal_y`.
+/// An immutable, thread-safe image: a description and a source of pixels, read region by region. Values from 8- and
+/// 16-bit files are in [0, 1] and are written back exactly to a file of the same depth. Normals are stored encoded (n *
+/// 0.5 + 0.5), in the convention of `info().normal_y`.
 class Image {
  public:
-  /// Pixels held in memory, `info.size.area() * info.channels` floats.
+  /// An image in memory, of `info.size.area() * info.channels` floats.
   static ImagePtr from_floats(ImageInfo info, std::vector<float> pixels);
-  /// The same, kept as IEEE half floats (bit patterns).
+  /// The same for IEEE half floats, as bit patterns.
   static ImagePtr from_halfs(ImageInfo info, std::vector<uint16_t> pixels);
-  /// Pixels computed from other images' when they are asked for, see core/image/computed_pixels.h. `recipe` must cover
-  /// everything they depend on: it stands in for the content in the digest.
+  /// An image computed from others on demand, see core/image/computed_pixels.h. `recipe` must cover everything that the
+  /// pixels depend on: it replaces their content in the digest.
   static ImagePtr computed(ImageInfo info, const Digest& recipe, Operation operation);
-  /// The same for pixels that are made from no other image, or only from images that lie in memory.
+  /// The same for pixels that depend on no other image, or only on images in memory.
   static ImagePtr computed(ImageInfo info, const Digest& recipe, std::shared_ptr<const PixelSource> source);
   static ImagePtr computed(ImageInfo info, const Digest& recipe,
                            std::function<void(const Rect& region, float* out)> read);
-  /// Pixels that were kept under a digest before, read from where they lie.
+  /// An image whose digest is already known, such as one stored in the cache.
   static ImagePtr with_digest(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSource> source);
-  /// The same pixels under another description; size and channels must not change.
+  /// The same pixels with another description. Size and channels must not change.
   static ImagePtr redescribed(const ImagePtr& image, ImageInfo info);
   Image(const Image&) = delete;
   Image& operator=(const Image&) = delete;
@@ -155,14 +152,15 @@ class Image {
   const Digest& digest() const { return digest_; }
 
   /// Reads a region that lies inside the image; `out` holds region.area() * channels() floats. Thread-safe. Throws
-  /// Cancelled if pixels have to be computed and the task that the thread works for (see CurrentTask) is cancelled.
+  /// Cancelled if pixels must be computed and the thread's task (see CurrentTask) is cancelled; Error if they cannot be
+  /// computed (see PixelError).
   void read(const Rect& region, float* out) const { source_->read(region, out); }
   std::vector<float> read(const Rect& region) const;
   /// The whole image as floats.
   std::vector<float> pixels() const { return read(whole(size())); }
-  /// All pixels without a copy if they lie in memory as floats; else null.
+  /// All pixels without a copy if they are in memory as floats; else null.
   const float* in_memory() const { return source_->in_memory(); }
-  /// Where the pixels come from; the same for images that differ in their description only.
+  /// The source of the pixels, shared by images that differ only in their description.
   const std::shared_ptr<const PixelSource>& source() const { return source_; }
 
  private:
@@ -172,10 +170,10 @@ class Image {
   std::shared_ptr<const PixelSource> source_;
 };
 
-/// Reads a region that may stick out of the image; outside it the border pixels continue, or the image wraps around.
+/// How an image continues outside its borders: border pixels repeat, or the image wraps around.
 enum class Outside : uint8_t { clamp, wrap };
 std::vector<float> read_padded(const PixelView& image, const Rect& region, Outside outside);
-/// The parts of an image of that size that read_padded reads.
+/// The parts of an image of this size that read_padded reads.
 std::vector<Rect> padded_parts(Size size, const Rect& region, Outside outside);
 
 /// Pulls an image strip by strip (full-width bands of rows, top to bottom): the way to look at every pixel without

@@ -5,11 +5,11 @@
 
 #include "core/image/image.h"
 
-/// What is known of an image before its pixels are, and the checks that need no more: nodes make them while a graph is
-/// planned and again when they run, with the same messages. Thread-safe.
+/// What is known of an image before its pixels are computed, and checks that need nothing else. Nodes use them both
+/// while a graph is planned and when they run, so messages are the same. Thread-safe.
 namespace terrazzo {
 
-/// The description of an image as far as it is known; what is empty is not.
+/// The known part of an image's description. Empty members are unknown.
 struct ImageFacts {
   std::optional<Size> size{};     ///< in pixels
   std::optional<int> channels{};  ///< 1..4
@@ -19,28 +19,29 @@ struct ImageFacts {
 };
 ImageFacts facts_of(const ImageInfo& info);
 
-/// Whether an image of that description may be what the facts say.
+/// Whether the description agrees with the facts.
 bool agrees(const ImageFacts& facts, const ImageInfo& info);
 
-/// "a height map of 256x128 pixels and 1 channel"; without what is not known, "an image of 3 channels".
+/// "a height map of 256x128 pixels and 1 channel"; unknown facts are left out: "an image of 3 channels".
 std::string describe(const ImageFacts& image);
 
-/// The channels that carry values (see core/image/pixel_space.h), if that is known.
+/// The number of channels that carry values (see core/image/pixel_space.h), if known.
 std::optional<int> value_channels(const ImageFacts& image);
 
-/// Throws Error about `port` if the image certainly has another number of channels than one.
+/// Throws Error about `port` if the image is known to have more than one channel.
 void require_one_channel(const std::string& port, const ImageFacts& image);
-/// Throws Error about `port` if the image certainly holds normals, whose channels mean nothing by themselves.
+/// Throws Error about `port` if the image is known to hold normals, whose channels mean nothing individually.
 void require_no_normals(const std::string& port, const ImageFacts& image);
-/// Throws Error about `port` if the image is certainly no normal map of three channels or more.
+/// Throws Error about `port` if the image is known not to be a normal map of at least three channels.
 void require_normals(const std::string& port, const ImageFacts& image);
-/// Throws Error about `port` if the images certainly differ in size.
+/// Throws Error about `port` if the sizes are known to differ.
 void require_same_size(const std::string& port, const ImageFacts& image, const std::string& other_port,
                        const ImageFacts& other);
-/// Throws Error about `port` if the image certainly has another shape than what it belongs to, to a pixel.
+/// Throws Error about `port` if the image's aspect ratio is known to differ by more than a pixel from that of `size`,
+/// the size of `of`.
 void require_shape(const std::string& port, const ImageFacts& image, const std::string& of, std::optional<Size> size);
 
-/// The same for images that are there.
+/// The same for images.
 inline std::string describe(const Image& image) {
   return describe(facts_of(image.info()));
 }

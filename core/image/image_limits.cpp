@@ -20,11 +20,11 @@ std::atomic<uint64_t> pixels_in_memory{0};
 
 constexpr uint64_t mib = uint64_t{1} << 20;
 
-/// What reading takes at its peak: the file's values, of 16 bits at most or kept as they are, and the same as floats.
+/// Peak memory of reading: the file's values, of at most 16 bits or kept as they are, plus floats.
 constexpr int64_t bytes_per_value = 6;
-/// Of what is read into a temporary file, that times the budget: it takes room on the disk and time, hardly memory.
+/// Multiple of the budget for images read into a temporary file, which take disk space and time but hardly memory.
 constexpr int64_t budgets_on_disk = 16;
-/// Of the budget. The rest is for what nodes compute, and for what decoders and encoders hold.
+/// Share of the budget. The rest is for nodes, decoders and encoders.
 constexpr uint64_t share_of_pixels = 4, share_of_kept = 8, share_of_a_file = 8;
 constexpr uint64_t least_most_bytes = 256 * mib;
 

@@ -8,8 +8,8 @@
 
 namespace terrazzo {
 
-/// Pixels could not be computed. They are computed when somebody asks for them, so whoever sees this error need not be
-/// the one who made the image.
+/// Pixels could not be computed. Since they are computed on demand, the reader that gets this error is not necessarily
+/// the node that made the image: maker() names that node.
 class PixelError : public Error {
  public:
   PixelError(std::string maker, const std::string& message) : Error(message), maker_(std::move(maker)) {}
@@ -19,8 +19,8 @@ class PixelError : public Error {
   std::string maker_;
 };
 
-/// Who makes the images that this thread makes, for as long as the object lives: what their operations throw becomes a
-/// PixelError of this maker.
+/// While it lives, names the maker of all images created on this thread. Errors from their operations become a
+/// PixelError with this name.
 class PixelMaker {
  public:
   explicit PixelMaker(std::string name) : name_(std::move(name)), before_(std::exchange(current_, this)) {}
@@ -28,7 +28,7 @@ class PixelMaker {
   PixelMaker(const PixelMaker&) = delete;
   PixelMaker& operator=(const PixelMaker&) = delete;
 
-  /// Empty if nobody has said.
+  /// The current maker; empty if there is none.
   static std::string name();
 
  private:
@@ -37,7 +37,7 @@ class PixelMaker {
   PixelMaker* before_;
 };
 
-/// The operation, throwing PixelError for the current maker; as it is if there is none.
+/// Wraps the operation to throw PixelError for the current maker. Returns it unchanged if there is none.
 Operation blaming_maker(Operation operation);
 
 }  // namespace terrazzo

@@ -67,7 +67,7 @@ PullPlan::PullPlan(const PulledImage& image, Until until) {
       if (source >= 0) steps_[source].readers++;
 }
 
-/// Depth first, with a stack of its own: images may lie in a row by the thousands.
+/// Depth first with an explicit stack: chains may have thousands of images.
 void PullPlan::order(const PulledImage& image, Until until) {
   struct Open {
     Step step;
@@ -120,7 +120,7 @@ void PullPlan::keep_pixels() {
   steps_.clear();
 }
 
-/// Works out what is needed of each image for a region of the last.
+/// Determines the needed parts of each image for a region of the last one.
 void PullPlan::demand(const Rect& region) {
   for (Step& step : steps_) {
     step.parts.clear();

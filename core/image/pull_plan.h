@@ -8,22 +8,21 @@
 
 namespace terrazzo {
 
-/// A computed image as a pull sees it, see core/image/computed_pixels.h. Thread-safe.
+/// The interface of computed images to pull plans, see core/image/computed_pixels.h. Thread-safe.
 class PulledImage : public PixelSource {
  public:
   virtual Size size() const = 0;
   virtual int channels() const = 0;
   /// Null once the pixels are kept.
   virtual std::shared_ptr<const Operation> operation() const = 0;
-  /// Whether its pixels are to be kept, whether they are or not yet.
+  /// Whether its pixels are kept once they are computed.
   virtual bool to_be_kept() const = 0;
-  /// Computes all pixels and keeps them. Those that it is made from and that are to be kept must be, already. Threads
-  /// that ask for the same work together.
+  /// Computes and keeps all pixels. Sources that are to be kept must already be. Concurrent callers share the work.
   virtual void keep() const = 0;
 };
 
-/// What has to be computed, and in which order, to pull regions of a computed image: the image itself and all those it
-/// is made from, up to ones whose pixels can be had. For one thread; any number of plans may use the same images.
+/// What to compute, and in which order, to pull regions of a computed image: the image itself and its sources, back to
+/// images whose pixels are available. Not thread-safe; any number of plans may use the same images.
 class PullPlan {
  public:
   /// Where a plan ends.
@@ -34,32 +33,32 @@ class PullPlan {
   /// `image` must outlive the plan.
   PullPlan(const PulledImage& image, Until until);
 
-  /// How many images it computes.
+  /// The number of images that it computes.
   size_t length() const { return steps_.size(); }
-  /// Whether it computes images whose pixels are to be kept.
+  /// Whether it computes any image that is to be kept.
   bool passes_by_kept() const;
-  /// Computes and keeps the images whose pixels are to be kept, one after the other. The plan is used up by that: it
-  /// lets go of each image as soon as it is done with.
+  /// Computes and keeps the pixels of all images that are to be kept, one after the other. Consumes the plan: each
+  /// image is released as soon as it is done.
   void keep_pixels();
   /// Computes a region of the image.
   void pull(const Rect& region, float* out);
-  /// The most values that it computes of one image for a region, or a quarter of those that it reads from disk for one.
+  /// The most values that a pull of the region computes for any one image. Values read from disk count a quarter.
   int64_t most_values(const Rect& region);
-  /// How many times more work it is to pull the image by strips of so many rows than to compute every image once.
+  /// The work of pulling the image in strips of `rows` rows, relative to computing every image once.
   double work_by_strips(int rows);
 
  private:
   struct Step {
     std::shared_ptr<const PulledImage> image;
     std::shared_ptr<const Operation> operation;
-    std::vector<int> sources;   ///< their steps; -1 for what is read as it is
-    std::vector<Rect> parts{};  ///< that are needed of it
+    std::vector<int> sources;   ///< index of their steps; -1 for sources that are read directly
+    std::vector<Rect> parts{};  ///< the needed parts of the image
     std::vector<PixelBlock> blocks{};
-    int readers = 0;       ///< among the steps, counted as often as they read it
-    int open_readers = 0;  ///< that have not been computed yet
+    int readers = 0;       ///< number of reads by other steps
+    int open_readers = 0;  ///< reads still to come
   };
 
-  /// Reading again what strips have in common takes longer than computing it again.
+  /// Rereading the overlap of strips takes longer than recomputing it.
   static constexpr int64_t read_for_one = 4;
 
   static int64_t values_read(const Step& step);

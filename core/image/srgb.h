@@ -5,8 +5,8 @@
 
 #include "core/base/portable_math.h"
 
-/// The sRGB transfer function (IEC 61966-2-1), odd below zero, with the same bits on every machine. For finite values;
-/// relative error below 1e-9. Thread-safe.
+/// The sRGB transfer function (IEC 61966-2-1), extended to negative values as an odd function; bit-exact on every
+/// machine. For finite values; relative error below 1e-9. Thread-safe.
 namespace terrazzo {
 
 inline double decode_srgb(double encoded) {
@@ -22,10 +22,10 @@ inline double encode_srgb(double linear) {
   return std::copysign(1.055 * std::sqrt(std::sqrt(size) * portable::root<3>(size)) - 0.055, linear);  // x^(5/12)
 }
 
-/// The decoded values of 8-bit files, which are most of those that are ever decoded.
+/// The decoded values of all bytes: most decoded values come from 8-bit files.
 const std::array<double, 256>& srgb_of_bytes();
 
-/// The same for one channel of a pixel, quicker where it comes from an 8-bit file.
+/// The same for one channel of a pixel, faster for values from 8-bit files.
 inline double decode_srgb(float encoded) {
   if (encoded >= 0 && encoded <= 1) {
     const int byte = int(encoded * 255 + 0.5f);

@@ -9,14 +9,15 @@
 
 namespace terrazzo {
 
-/// What a colour configuration depends on besides its own text.
+/// The files and variables that a colour configuration depends on, besides its own text.
 struct ColorFiles {
-  std::vector<std::filesystem::path> files;      ///< that are there, in the order in which they were found
+  std::vector<std::filesystem::path> files;      ///< existing files, in the order in which they were found
   std::map<std::string, std::string> variables;  ///< of the environment, by name
 };
 
-/// Finds the files that a configuration names as OpenColorIO finds them, and those that CLF and CTF files name in turn.
-/// Opens only regular files that ReadGuard allows. Throws Error for a file in which it cannot tell what it names.
+/// Finds the files that a configuration names, by OpenColorIO's search rules, and those that CLF and CTF files
+/// reference in turn. Opens only regular files that ReadGuard allows. Throws Error for a file whose references it
+/// cannot parse.
 ColorFiles find_color_files(const ColorConfiguration& config);
 
 }  // namespace terrazzo

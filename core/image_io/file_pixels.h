@@ -7,14 +7,14 @@
 #include "core/image/image.h"
 #include "core/image/image_limits.h"
 
-/// Pixels of image files that do not fit into their share of the memory budget.
+/// Pixels of image files that exceed their share of the memory budget.
 namespace terrazzo {
 
-/// How an image lies in a file.
+/// The layout of an image's pixels in a file.
 struct PixelLayout {
-  Depth depth = Depth::u8;  ///< of the values that are kept
-  Rect stored;              ///< in the image's coordinates; what is not stored is 0
-  Size size;                ///< of the image as stored, before it is turned
+  Depth depth = Depth::u8;  ///< of the stored values
+  Rect stored;              ///< in the image's coordinates; pixels outside are 0
+  Size size;                ///< of the image as stored, before its orientation is applied
   int orientation = 1;      ///< as in EXIF
   int channels = 1;
 
@@ -22,8 +22,8 @@ struct PixelLayout {
   Size upright() const { return is_turned() ? Size{size.height, size.width} : size; }
 };
 
-/// An image's stored values in a scratch file, from which they are read as floats, upright: of 8 bits k / 255, of 16
-/// bits k / 65535. Thread-safe for reading once all are written. Throws Error if the disk fails.
+/// An image's stored values in a scratch file. They are read as upright floats: 8-bit values as k / 255, 16-bit values
+/// as k / 65535. Thread-safe for reading once all are written. Throws Error if the disk fails.
 class FilePixels : public PixelSource {
  public:
   /// Null if there is no room on disk.
@@ -32,18 +32,18 @@ class FilePixels : public PixelSource {
   FilePixels(const FilePixels&) = delete;
   FilePixels& operator=(const FilePixels&) = delete;
 
-  /// Stored rows from `first` on, values of the layout's depth.
+  /// Writes stored rows from `first` on; values of the layout's depth.
   void write_rows(int first, int rows, const void* values);
-  /// Stored pixels as they are, whole rows or parts of them.
+  /// Reads stored pixels as floats without applying the orientation.
   void read_stored_floats(const Rect& region, float* out) const;
-  /// Replaces one value, counted from the first stored pixel. The depth must be of floats.
+  /// Replaces one value; `x` and `y` count from the first stored pixel. The depth must be a float type.
   void replace(int x, int y, int channel, float value);
-  /// From now on the last channel comes as 1.
+  /// Makes later reads return 1 for the last channel.
   void make_opaque() { is_opaque_ = true; }
-  /// From now on values come as v * 0.5 + 0.5, as normals are encoded.
+  /// Makes later reads return v * 0.5 + 0.5, the encoding of normals.
   void encode() { encodes_ = true; }
   void read(const Rect& region, float* out) const override;
-  /// The image of all that has been written; digest as Image::from_halfs gives for halfs, else Image::from_floats.
+  /// An image of the written pixels, with the digest of Image::from_halfs for halfs, else of Image::from_floats.
   static ImagePtr image(const ImageInfo& info, const std::shared_ptr<const FilePixels>& pixels);
 
  private:
@@ -60,18 +60,18 @@ class FilePixels : public PixelSource {
   void read_as(const Rect& region, float* out, const Convert& convert) const;
 
   const PixelLayout layout_;
-  const uint64_t at_;  ///< where they begin in the scratch file
+  const uint64_t at_;  ///< offset in the scratch file
   bool encodes_ = false, is_opaque_ = false;
 };
 
-/// An image of pixels that `source` has and that are read once now, strip by strip, for the digest: the same as
-/// Image::from_floats gives.
+/// An image of the source's pixels, which are read once now, strip by strip, to compute the digest. The digest equals
+/// that of Image::from_floats.
 ImagePtr image_of_source(ImageInfo info, std::shared_ptr<const PixelSource> source);
 
-/// The same, but read whole now if the pixels fit into their share of the memory budget.
+/// The same, but keeps the pixels in memory if they fit into their share of the memory budget.
 ImagePtr held_or_read(ImageInfo info, std::shared_ptr<const PixelSource> source);
 
-/// Some channels of an image, in that order, each value v as 1 - v if `inverted`; see held_or_read.
+/// The given channels of an image, in that order, with values 1 - v if `inverted`. Kept in memory as by held_or_read.
 ImagePtr chosen_channels(const ImagePtr& image, ImageInfo info, const std::vector<int>& channels, bool inverted);
 
 }  // namespace terrazzo

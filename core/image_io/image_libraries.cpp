@@ -21,8 +21,8 @@ std::filesystem::path libraries_path() {
   return module_path("terrazzo_libraries.so", "the module for JPEG, TIFF and EXR files");
 }
 
-/// Lets go of those pages of loaded libraries that are as they are in the files: code and tables. They come back when
-/// they are used; most of them were needed for loading only.
+/// Releases unmodified pages of loaded libraries: code and tables. They are paged in again on use; most were needed
+/// only for loading.
 void release_library_pages() {
   const auto release = [](dl_phdr_info* library, size_t, void*) {
     const auto page = uintptr_t(::sysconf(_SC_PAGESIZE));
@@ -39,7 +39,7 @@ void release_library_pages() {
   ::dl_iterate_phdr(release, nullptr);
 }
 
-/// What the module brings along takes 120 MiB while it is loaded, a quarter of it this library's tables of symbols.
+/// The module's libraries take 120 MiB while loading, a quarter of it for this library's symbol tables.
 void load_largest_first() {
   ::dlopen("libopenvdb.so.10.0", RTLD_LAZY | RTLD_LOCAL);
   release_library_pages();

@@ -33,10 +33,10 @@ const Tunable<ImageReadTuning> image_read_tuning(
                        "not measured: what filters undershoot zero by is no sign", -1, 0},
                   });
 
-/// The stored pixels in the depth asked for. Throws Cancelled with the task that the thread works for.
+/// The stored pixels in the requested depth. Throws Cancelled by the current task.
 template <typename T>
 std::vector<T> read_stored(const fs::path& path, const OpenFile& file, Depth as) {
-  // More at a time keeps decoders busy that use several threads; less is sooner told of a cancelled task.
+  // Larger: keeps multi-threaded decoders busy; smaller: reacts faster to cancellation.
   constexpr int64_t values_at_once = int64_t{1} << 23;
   const Task& task = CurrentTask::task();
   task.check();
@@ -136,7 +136,8 @@ void warn_of_signed_normals(const fs::path& path, const Warn& warn) {
                    path.filename().string()));
 }
 
-/// Where all parts have the same window the layer is not named, so that whoever reads several of them says it once.
+/// If all parts have the same window the message does not name the layer, so that readers of several layers report it
+/// once.
 void warn_of_window(const fs::path& path, const StoredImage& header, const std::string& layer, const Warn& warn) {
   warn(
       fmt::format("{}{}{}: its data window, {}, is larger than its display window; the display window of {} was read: "

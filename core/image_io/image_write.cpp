@@ -74,8 +74,8 @@ class Converter {
   std::vector<float> floats_;
 };
 
-/// The file that an image library writes to. The libraries lose what the operating system says (a PNG on a full disk
-/// counts as written), so it is kept here.
+/// The output file of an image library. The libraries drop errors of the operating system (a PNG on a full disk counts
+/// as written), so they are recorded here.
 class WrittenFile final : public ByteSink {
  public:
   explicit WrittenFile(const std::filesystem::path& path)
@@ -91,7 +91,7 @@ class WrittenFile final : public ByteSink {
       return false;
     }
   }
-  /// Throws what the operating system said, if it refused anything.
+  /// Throws the recorded operating system error, if any.
   void check() const {
     if (failure_ != 0) throw_system_error("write", path_, failure_);
   }
@@ -118,8 +118,8 @@ class WrittenBytes final : public ByteSink {
 
 using Fail = std::function<void(const std::string& reason)>;
 
-/// Writes to `sink`, or to the file `name` if there is none; `fail` is told why the encoder cannot go on, and throws.
-/// Returns what was clipped.
+/// Writes to `sink`, or to the file `name` if there is none. Calls `fail` with the encoder's error, which throws.
+/// Returns the clipping.
 Clipping write_through(const Image& image, const std::string& name, ByteSink* sink, const WriteOptions& options,
                        const std::function<void(double)>& progress, const Fail& fail) {
   const EncodedImage target = encoded(image, options);

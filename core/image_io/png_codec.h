@@ -7,13 +7,13 @@
 
 namespace terrazzo {
 
-/// A decoder for PNG files that needs nothing but libpng, which is loaded quickly. Palettes and low depths are
-/// expanded, transparent colours become alpha, and values come as they are stored, whatever gamma or profile is named,
-/// as with image_libraries(). Null if the file is no PNG, or has EXIF data that may say which side is up: those read
-/// it. Throws Error with libpng's reason for a damaged header.
+/// A decoder for PNG files that needs only libpng, which loads fast. As with image_libraries(), palettes and low depths
+/// are expanded, transparent colours become alpha, and values are returned as stored, regardless of gamma or profile.
+/// Null if the file is no PNG, or has EXIF data that may hold an orientation: use image_libraries() for those. Throws
+/// Error with libpng's reason if the header is damaged.
 std::unique_ptr<ImageDecoder> open_png(const std::filesystem::path& path);
 
-/// An encoder for PNG files, which needs nothing but libpng either. The same pixels give the same bytes.
+/// An encoder for PNG files that needs only libpng. The same pixels give the same bytes.
 std::unique_ptr<ImageEncoder> create_png(const EncodedImage& image, ByteSink& sink);
 
 }  // namespace terrazzo

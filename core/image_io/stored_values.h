@@ -11,52 +11,52 @@
 #include "core/image/image.h"
 #include "core/image_io/format_facts.h"
 
-/// From the values that a decoder gives to those that the file means. Not thread-safe.
+/// Corrects decoded values: inversion, premultiplied alpha, non-finite pixels. Not thread-safe.
 namespace terrazzo {
 
-/// What is to be known of an image before its values are read.
+/// What must be known of an image before its values are read.
 struct StoredMeaning {
   FormatFacts facts{};
   Rect stored;  ///< in the image's coordinates
   int channels = 1;
-  bool is_float = false;              ///< values may be not finite
-  double integer_range = 0;           ///< the largest value that came as 1, of 32-bit integers; else 0
-  bool is_colour = false;             ///< an even number of channels ends with alpha
-  bool may_be_premultiplied = false;  ///< by convention of the format, which files do not say
+  bool is_float = false;              ///< values may be non-finite
+  double integer_range = 0;           ///< for 32-bit integers, the stored value that is decoded as 1; else 0
+  bool is_colour = false;             ///< the last of two or four channels is alpha
+  bool may_be_premultiplied = false;  ///< by convention of the format; files do not state it
   bool can_be_averaged = true;        ///< see core/image/pixel_space.h
 };
 
-/// Mends values as they come, and remembers what can only be judged when all have come.
+/// Corrects values as they arrive, and collects what can only be judged once all have arrived.
 class StoredValues {
  public:
   explicit StoredValues(StoredMeaning meaning) : meaning_(std::move(meaning)) {}
 
-  /// The next values, whole pixels in the order of the file: inverts what is stored inverted, and divides colours by
-  /// the alpha that they are multiplied by. Halfs are told from 16-bit integers by `is_float`.
+  /// Corrects the next values, whole pixels in file order: undoes inversion and unpremultiplies colours. 16-bit values
+  /// are halfs if `is_float`, else integers.
   void mend(std::span<uint8_t> values);
   void mend(std::span<uint16_t> values);
   void mend(std::span<float> values);
 
-  /// Alpha of colours is 0 everywhere: nothing would be seen.
+  /// The alpha of a colour image is 0 everywhere.
   bool is_invisible() const { return has_alpha() && meaning_.is_colour && pixels_ > 0 && !any_alpha_; }
 
-  /// A channel of a pixel that is not finite, and what it should be.
+  /// A non-finite channel of a pixel, and its replacement.
   struct Hole {
-    int x = 0, y = 0;  ///< of the stored pixels
+    int x = 0, y = 0;  ///< in stored pixels
     int channel = 0;
     float value = 0;
   };
-  /// Those that are not finite, each with the mean of the finite values around it (in masks the first of them): those
-  /// of the smallest square that holds any. `read` gives stored pixels as floats. Throws Error with a part of a
-  /// sentence if there are too many, or too far from finite ones.
+  /// All non-finite values. The replacement is the mean of the finite values in the smallest square around the pixel
+  /// that contains any; in masks the first of them. `read` returns stored pixels as floats. Throws Error with a clause
+  /// if there are too many, or if finite values are too far away.
   std::vector<Hole> filled_holes(const std::function<void(const Rect&, float*)>& read) const;
 
-  /// What the user should know, a part of a sentence.
+  /// A note for the user, as a clause.
   struct Remark {
     std::string text{};
-    bool is_loss = false;  ///< of values
+    bool is_loss = false;  ///< about lost values
   };
-  /// Throws Error with a part of a sentence if the values are no shades but counts or ids.
+  /// Notes about all values. Throws Error with a clause if the values seem to be counts or ids.
   std::vector<Remark> remarks() const;
 
  private:
@@ -66,10 +66,10 @@ class StoredValues {
   void note_hole(int64_t pixel, int channel);
 
   StoredMeaning meaning_;
-  int64_t pixels_ = 0;          ///< that have come
-  int64_t without_colour_ = 0;  ///< alpha is 0, and colours are multiplied by it
-  int64_t brighter_ = 0;        ///< colours are larger than alpha
-  int64_t translucent_ = 0;     ///< alpha is between 0 and 1
+  int64_t pixels_ = 0;          ///< received so far
+  int64_t without_colour_ = 0;  ///< pixels with premultiplied colours and alpha 0
+  int64_t brighter_ = 0;        ///< pixels with colours larger than alpha
+  int64_t translucent_ = 0;     ///< pixels with alpha between 0 and 1
   bool any_alpha_ = false;
   std::array<float, 4> largest_{};  ///< of each channel
   int64_t holed_pixels_ = 0, last_holed_ = -1;

@@ -9,7 +9,7 @@
 
 namespace terrazzo {
 
-/// Numbers and texts at places of a file; past its end everything is 0, and texts are shorter.
+/// Reads numbers and texts at offsets of a file. Past its end numbers are 0 and texts are shorter.
 class FileNumbers {
  public:
   /// `path` must outlive it. Throws FileError if the file cannot be opened.

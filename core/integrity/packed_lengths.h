@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-/// How many bytes packed data stands for, told without unpacking it: it has no checksum, but an altered byte mostly
-/// gives another number. Nullopt if the data cannot be what it says.
+/// The unpacked length of compressed data, without unpacking it. The data has no checksum, but a damaged byte mostly
+/// changes the length. Nullopt if the data is invalid.
 namespace terrazzo {
 
 /// LZW as in TIFF 6.0, section 13: codes of 9 to 12 bits, high bits first. Ends with the end-of-information code or

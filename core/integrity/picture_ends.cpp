@@ -17,7 +17,7 @@ namespace terrazzo {
 
 namespace {
 
-/// What stands before the first byte that is zero.
+/// The text before the first zero byte.
 std::string until_zero(const std::string& bytes) {
   return bytes.substr(0, bytes.find('\0'));
 }
@@ -176,7 +176,7 @@ bool hdr_has_its_end(const FileNumbers& file) {
   const std::string all = file.text(0, file.size());
   const size_t blank = all.find("\n\n"), line = all.find("-Y ", blank), x = all.find("+X ", line);
   if (blank == all.npos) return false;
-  if (line != blank + 2 || x == all.npos) return true;  // turned: not told here
+  if (line != blank + 2 || x == all.npos) return true;  // rotated: unknown here
   const auto number = [&](size_t at) {
     size_t v = 0;
     std::from_chars(all.data() + at, all.data() + all.size(), v);

@@ -7,7 +7,8 @@
 
 #include "core/material/material.h"
 
-/// Checks of a material's maps by name and size only, so that messages are the same before and during a run.
+/// Checks of a material's maps that need only names and sizes, so that messages are the same before and during a run.
+/// Thread-safe.
 namespace terrazzo {
 
 std::vector<std::string> names_of(const std::vector<Map>& maps);
@@ -17,15 +18,15 @@ std::vector<std::string> names_of(const std::vector<Map>& maps);
 void require_maps(const std::string& param, const std::vector<std::string>& wanted,
                   const std::vector<std::string>& known, const std::string& whose = "the material");
 
-/// What is known of a material.
+/// The known maps of a material.
 struct KnownMaps {
   std::string name{};
-  std::vector<std::string> maps{};  ///< that it certainly has
-  /// Maps that it may also have; nullopt if not known.
+  std::vector<std::string> maps{};  ///< certain maps
+  /// Further maps that it may have; nullopt if unknown.
   std::optional<std::vector<std::string>> possible_maps{};
 };
 
-/// Throws Error about `port`, naming the differences, if materials certainly have other maps than the first.
+/// Throws Error about `port`, naming the differences, if a material's maps are known to differ from the first's.
 void require_same_maps(const std::string& port, const std::vector<KnownMaps>& materials);
 
 /// Throws Error about `port`, listing maps and sizes, unless all have one aspect ratio.

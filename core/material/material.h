@@ -11,20 +11,21 @@
 
 namespace terrazzo {
 
-/// One map of a material. Graphs, file patterns and weights refer to it by name: the semantic's, with a suffix if a
+/// One map of a material. Graphs, file patterns and weights refer to it by name: its semantic, with a suffix if a
 /// material has several ("mask_moss").
 struct Map {
   std::string name;
   ImagePtr image;
 };
 
-/// What a map of that name is: a semantic's name, or one with a suffix as in mask_moss.
+/// The semantic of a map by its name, with or without a suffix; nullopt if there is none.
 std::optional<Semantic> semantic_of_map(const std::string& map);
 
-/// How large a surface is in the world, in metres.
+/// The largest width and height of a PhysicalSize.
 inline constexpr double largest_extent = 1e6;  ///< metres
+/// The physical size of a surface in metres.
 struct PhysicalSize {
-  double width = 0;  ///< 0: not known
+  double width = 0;  ///< 0: unknown
   double height = 0;
 
   bool is_known() const { return width > 0 && height > 0; }

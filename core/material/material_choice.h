@@ -5,30 +5,31 @@
 
 #include "core/material/map_candidates.h"
 
-/// Which material of a folder the candidates belong to. Each function changes the candidates in place and is called in
-/// this order. Reads no files.
+/// Groups the candidates of a folder into materials and chooses one. The functions change the candidates in place and
+/// are called in this order. They read no files.
 namespace terrazzo {
 
-/// Settles what two files of one stem mean: words such as "texture" in front count only where the stems would clash
-/// without them (rock_color, texture_rock_color), and so do words behind a keyword that stands there plain as well
+/// Resolves clashes between stems. A leading filler word such as "texture" counts only if the stems would be equal
+/// without it (rock_color, texture_rock_color). A word after the keyword counts only if the plain keyword also occurs
 /// (basecolor, basecolor-boosted).
 void settle_stems(std::vector<Candidate>& maps);
 
-/// A picture named just like a material that has no base colour, and of the size of its maps, is its base colour.
+/// Uses a picture named like a material, and of the size of its maps, as base colour if the material has none.
 void add_colors_named_like_materials(Candidates& candidates);
 
-/// Marks maps whose names say no material, unlike most others', and leaves out those whose size the others don't have.
+/// Marks maps whose names contain no material name although most others' do. Removes those whose size differs from the
+/// others'.
 void leave_out_strangers(Candidates& candidates);
 
-/// What a folder holds, and what is meant of it.
+/// The materials in a folder, and the requested ones.
 struct MaterialChoice {
   std::vector<FolderMaterial> all{};
   std::vector<FolderMaterial> meant{};
-  std::string name{};     ///< of the material, if one was asked for
-  bool is_clear = false;  ///< whether it is clear which is meant
+  std::string name{};     ///< of the requested material, if any
+  bool is_clear = false;  ///< whether the request is unambiguous
 };
 
-/// Leaves out the candidates of other materials than `name` means; empty: there is only one.
+/// Removes candidates that do not belong to the material `name`; empty: the only material.
 MaterialChoice keep_one_material(Candidates& candidates, const std::string& name);
 
 }  // namespace terrazzo

@@ -6,28 +6,28 @@
 #include "core/material/recognised_map.h"
 #include "core/naming/file_stems.h"
 
-/// Recognises the maps of a material by file name: the conventions of ambientCG, Poly Haven, Substance, Quixel
-/// Megascans, Unreal, Unity and glTF, and plain names. Works on lists; reads no files.
+/// Recognises the maps of a material by file name, in the conventions of ambientCG, Poly Haven, Substance, Quixel
+/// Megascans, Unreal, Unity and glTF, and in plain words. Works on lists of names; reads no files. Thread-safe.
 namespace terrazzo {
 
 struct Recognition {
   std::vector<RecognisedMap> maps;          ///< in the order of Semantic, then by name
   std::vector<std::string> notes;           ///< what was chosen, inverted, split or left out; one sentence each
-  std::vector<std::string> ignored;         ///< images that are not recognised
-  std::string name{};                       ///< of the material, if one was asked for
-  std::vector<FolderMaterial> materials{};  ///< all that the files make, by name
+  std::vector<std::string> ignored;         ///< unrecognised images
+  std::string name{};                       ///< of the requested material, if any
+  std::vector<FolderMaterial> materials{};  ///< all materials in the folder, by name
 };
 
-/// What the user says of the files.
+/// The user's settings.
 struct RecognitionOptions {
-  std::string name{};               ///< which material is meant, see materials_named; empty: there is only one
-  std::vector<std::string> data{};  ///< patterns of files to keep as data where their names say no map
+  std::string name{};               ///< the requested material, see materials_named; empty: the only one
+  std::vector<std::string> data{};  ///< patterns of files to keep as data if their names contain no map keyword
 };
 
-/// The last known word of a name counts. Files of one material are kept together; where they make several and the
-/// wishes do not say which, or name none of them, there are no maps. Of several files for one map it prefers those that
-/// share their stem with most other files, then direct maps over packed or inverted ones, OpenGL normals over DirectX,
-/// more pixels, and EXR, TIFF and PNG over lossy formats. The order of `files` does not matter.
+/// The last keyword of a name determines the map. Returns no maps if the files form several materials and `wishes`
+/// names none or no existing one. Among several files for one map it prefers, in this order: stems shared with most
+/// other files, direct maps over packed or inverted ones, OpenGL normals over DirectX, more pixels, and EXR, TIFF and
+/// PNG over lossy formats. The order of `files` does not matter.
 Recognition recognise_maps(std::vector<MapFile> files, const RecognitionOptions& wishes = {});
 
 }  // namespace terrazzo

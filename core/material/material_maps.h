@@ -6,31 +6,30 @@
 #include "core/image/image.h"
 #include "core/material/recognised_map.h"
 
-/// From the pixels of a file to its maps.
+/// Extracts maps from the pixels of a file. Thread-safe.
 namespace terrazzo {
 
-/// How many channels the map has that comes of a file with `file_channels`.
+/// The number of channels of the map from a file with `file_channels` channels.
 int channels_of_map(const RecognisedMap& source, int file_channels);
 
-/// Throws Error about "maps" unless a file with `file_channels` channels has those that `source` names.
+/// Throws Error about "maps" unless a file with `file_channels` channels has the channels that `source` names.
 void require_channels(const RecognisedMap& source, int file_channels);
 
-/// The map that `source` describes: its channels of the file, inverted if it says so. Grey maps stored in colour are
-/// reduced to one channel; alpha is dropped. Adds to `notes` what the user should know. Throws Error if the file lacks
-/// the channels.
+/// Extracts the map that `source` describes: selects its channels and inverts them if needed. Reduces grey maps stored
+/// as colour to one channel and drops alpha. Adds notes for the user. Throws Error if the file lacks the channels.
 ImagePtr map_of_file(const RecognisedMap& source, const ImagePtr& file, const std::string& color_space,
                      std::vector<std::string>& notes);
 
-/// Whether the first three channels are the same, but for compression noise; false if there are fewer.
+/// Whether the first three channels are equal up to compression noise; false if there are fewer.
 bool is_grey(const Image& image);
 
-/// Whether every pixel is the same.
+/// Whether all pixels are equal.
 bool is_constant(const Image& image);
 
-/// Whether all but the alpha of a file with alpha is the same everywhere, and alpha is not.
+/// Whether the image has a varying alpha channel and all other channels are constant.
 bool is_only_alpha(const Image& image);
 
-/// A file's alpha channel as a map of that meaning; null if there is none or it is 1 everywhere.
+/// A file's alpha channel as a map with this semantic; null if there is none or it is 1 everywhere.
 ImagePtr alpha_of(const ImagePtr& file, Semantic semantic, bool inverted = false);
 
 }  // namespace terrazzo

@@ -32,7 +32,7 @@ const Tunable<MixTuning> mix_tuning("mix",
                                       "nearer to the true one; costs time",
                                       "not measured: a row in 16 of 1024, and stones are higher than a few rows", 1}});
 
-// --- Where the materials are
+// --- Areas of the materials
 
 /// The map in the materials' size; values between two labels stand for neither, so those of many are not interpolated.
 ImagePtr map_at_size(const ImagePtr& map, Size size, size_t materials, const MixOptions& options) {
@@ -43,7 +43,7 @@ ImagePtr map_at_size(const ImagePtr& map, Size size, size_t materials, const Mix
   return resampled(map, size, "triangle", outside, recipe.digest());
 }
 
-/// The region with what lies within `by` of it, as far as there is something.
+/// The region grown by `by`, clipped to the image.
 Rect surroundings(const Rect& region, int by, Size size, const MixOptions& options) {
   Rect out = grown(region, by);
   if (!options.wraps_x) out = intersect(out, {0, out.y, size.width, out.height});
@@ -94,9 +94,9 @@ std::vector<double> parts_of(const Image& map, size_t materials) {
   return parts;
 }
 
-// --- What is mixed
+// --- Mixed pixels
 
-/// What all maps of a mix share.
+/// Data shared by all maps of a mix.
 struct MixLayers {
   BorderShape shape;
   std::vector<ImagePtr> distances{};
@@ -194,7 +194,7 @@ class MixedPixels {
   BorderShape shape_;
   size_t count_, distances_, heights_;
   ImageInfo info_;
-  bool sinks_;  ///< heights of what has sunk
+  bool sinks_;  ///< the map is a height map, whose intruders are lowered
 };
 
 ImagePtr mixed_image(const MixLayers& layers, const ImageInfo& info, const std::vector<ImagePtr>& maps, bool sinks) {

@@ -18,7 +18,7 @@ struct Correlogram {
 /// Per channel; subtract the mean first. `lags`: at most the image's size. Throws Cancelled.
 std::vector<Correlogram> correlograms(const Planes& image, Size lags, const Task& task);
 
-/// Of all channels together, each counting by its variance; subtract the means first. Throws Cancelled.
+/// The variance-weighted mean over all channels; subtract the means first. Throws Cancelled.
 Correlogram pooled_correlogram(const Planes& image, Size lags, const Task& task);
 
 /// Mean absolute difference of the images' autocorrelations, averaged over channels, at lags up to a quarter of the
@@ -30,9 +30,9 @@ double autocorrelation_difference(const Planes& exemplar, const Planes& output, 
 /// repetition.
 double repetition(const Planes& exemplar, const Planes& output, const Task& task);
 
-/// The lag at which what lies apart no longer has to do with one another: the radial mean of the channels'
-/// autocorrelations falls below 1/e of what it is one pixel away. Undulations longer than an eighth of the shorter side
-/// do not count. At most a quarter of that side. About a quarter of the width of stones that differ in colour.
+/// The lag in pixels at which the radial mean of the channels' autocorrelations falls below 1/e of its value at one
+/// pixel. Ignores variations longer than an eighth of the shorter side. At most a quarter of that side. For stones of
+/// different colours, about a quarter of their width.
 int correlation_length(const Planes& image, const Task& task);
 
 }  // namespace terrazzo

@@ -7,14 +7,14 @@
 
 namespace terrazzo {
 
-/// From an output pixel to the exemplar pixel it shows.
+/// The offset from an output pixel to the exemplar pixel it shows.
 struct Shift {
   int x = 0;
   int y = 0;
   bool operator==(const Shift&) const = default;
 };
 
-/// Regions copied in one piece: pixels of equal shift that touch, or lie two apart in a row or column.
+/// Regions copied as a whole: connected pixels of equal shift, where gaps of one pixel in a row or column are bridged.
 struct CopiedRegions {
   double typical_side = 0;  ///< square root of the area, averaged over pixels; in pixels
   double largest_area = 0;  ///< in pixels

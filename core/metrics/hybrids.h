@@ -7,23 +7,23 @@
 
 namespace terrazzo {
 
-/// A result's elements, and how many of them are put together from several of the exemplar's. One counts as whole if
-/// 85 % of its area come from one element in one piece; a piece may be bent by a pixel or two from one pixel to the
-/// next.
+/// A result's elements, and how many of them combine several elements of the exemplar. An element counts as whole if 85
+/// % of its area comes from one element in one connected piece; within a piece, offsets may change by a pixel or two
+/// between neighbours.
 struct HybridElements {
-  int elements = 0;      ///< of the result that are not cut by its border
-  double by_area = 0;    ///< the share of their area that hybrids take up, 0..1
-  double by_number = 0;  ///< the share of them that are hybrids, 0..1
+  int elements = 0;      ///< elements of the result not cut by its border
+  double by_area = 0;    ///< share of hybrids by area, 0..1
+  double by_number = 0;  ///< share of hybrids by number, 0..1
 };
 
-/// The elements that a picture tells apart by its first channel: pixels of one value are one element. `size`: the
-/// exemplar's, at which the picture is read by nearest samples. Throws Error about "labels" if there are more than
-/// most_elements values; Cancelled.
+/// The elements in a label image: pixels with equal values in its first channel form one element. `size`: the
+/// exemplar's size, to which the image is resampled by nearest neighbour. Throws Error about "labels" if there are more
+/// than most_elements values; Cancelled.
 Elements labelled_elements(const ImagePtr& labels, Size size, const Task& task);
 
-/// Where the result's elements lie is told by how deep in an element of the exemplar each pixel lies: between two
-/// elements there is a line where none is deep, and where there is none, two that touch are one. `elements`: of the
-/// exemplar that the uv map was made from, at its size. Throws Error about "labels" if it has another size; Cancelled.
+/// Finds the result's elements by each pixel's depth inside an exemplar element: shallow pixels separate elements, and
+/// elements without such a boundary count as one. `elements`: of the uv map's exemplar, at its size. Throws Error about
+/// "labels" if it has another size; Cancelled.
 HybridElements hybrid_elements(const UvMap& uv, const Elements& elements, const Task& task);
 
 }  // namespace terrazzo

@@ -5,7 +5,7 @@
 
 namespace terrazzo {
 
-/// Figures about a result from its uv map alone.
+/// Figures about a result, computed from its uv map.
 struct LayoutFigures {
   double seam_share = 0;       ///< share of pairs of neighbours that are not neighbours in the exemplar, 0..1
   double seam_difference = 0;  ///< mean appearance difference across those seams, in standard deviations; 0 if none

@@ -9,8 +9,8 @@
 
 namespace terrazzo {
 
-/// How well an output reproduces its exemplar's texture, from pixels alone and without learned weights. Dimensionless;
-/// lower is better. Read them together: plain tiling wins all but verbatim and repeat.
+/// How well an output reproduces its exemplar's texture, measured on pixels without learned weights. Dimensionless;
+/// lower is better. Read them together: plain tiling wins in all but verbatim and repeat.
 struct QualityFigures {
   double swd = 0;           ///< see sliced_wasserstein; mean over a Gaussian pyramid
   double cooccurrence = 0;  ///< see cooccurrence_distance; mean over up to 3 levels
@@ -23,14 +23,14 @@ struct QualityFigures {
   double repeat = 0;     ///< see repetition
 };
 
-/// Pixels a side of the smallest image that can be measured.
+/// The smallest side, in pixels, of an image that can be measured.
 inline constexpr int smallest_measured = 16;
-/// Pixels a side; of larger images only the top left part is measured.
+/// In pixels; of images with longer sides only the top left part is measured.
 inline constexpr int largest_measured = 2048;
 
-/// What to measure, and what is known of the exemplar.
+/// What to measure, and known facts about the exemplar.
 struct QualityParts {
-  bool verbatim = true;  ///< not needed with a uv map; stays 0 then
+  bool verbatim = true;  ///< measure `verbatim`; unnecessary with a uv map
   double element = 0;    ///< side of its typical element in pixels; 0: four times its correlation_length
   bool wraps = false;    ///< it tiles
 };
@@ -50,7 +50,7 @@ struct ComparedPlanes {
 /// are not comparable.
 ComparedPlanes compared_planes(const Material& exemplar, const Material& output, const std::vector<std::string>& maps);
 
-/// `maps`, checked, or all maps that both have, in the exemplar's order. Throws Error about "maps".
+/// The validated `maps`, or, if empty, all common maps in the exemplar's order. Throws Error about "maps".
 std::vector<std::string> compared_maps(const Material& exemplar, const Material& output,
                                        const std::vector<std::string>& maps);
 

@@ -5,25 +5,25 @@
 
 #include "core/image/image.h"
 
-/// The vocabulary of core/material_files: which words in file names stand for which maps.
+/// The vocabulary of file names: which words stand for which maps.
 namespace terrazzo {
 
-/// Where a word counts.
+/// The positions at which a word is a keyword.
 enum class WordStrength : uint8_t {
   full,     ///< anywhere: "roughness"
   ending,   ///< only as the last word before numbers: "rough", which may also be part of an asset's name
   initial,  ///< only as the last word and after another: "N" in T_Wall_N
 };
 
-/// One map in a file: all of it, or some of its channels.
+/// One map in a file: the whole file, or some of its channels.
 struct WordPart {
   Semantic semantic = Semantic::data;
-  std::string_view map;       ///< the map's name, where it is not the semantic's
+  std::string_view map;       ///< the map's name if it differs from the semantic's
   std::string_view channels;  ///< empty: the file is this map alone
   bool inverted = false;
 };
 
-/// A word, or several written together, in lower case without separators.
+/// A word, or several joined words, in lower case without separators.
 struct MapWord {
   std::string_view word;
   WordStrength strength;
@@ -55,7 +55,7 @@ constexpr WordPart metallic_in(std::string_view c) {
   return {Semantic::metallic, "", c};
 }
 
-/// For each word the entry that needs the most channels comes first.
+/// Entries of the same word are ordered by the channels they need, most first.
 inline constexpr auto map_words = [] {
   using enum Semantic;
   constexpr auto full = WordStrength::full, ending = WordStrength::ending, initial = WordStrength::initial;

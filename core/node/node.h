@@ -16,8 +16,8 @@
 #include "core/node/value.h"
 
 /// The node interface. A node type is one descriptor; validation, the JSON schema, the printed reference and the cache
-/// key are all made from it. Nodes are pure: their outputs depend on inputs, parameters and the files that
-/// `files_read` names, and on nothing else.
+/// key are all derived from it. Nodes are pure: their outputs depend only on inputs, parameters and the files that
+/// `files_read` names.
 namespace terrazzo {
 
 /// Texts by name: {"r": "ambient_occlusion.r"}.
@@ -26,8 +26,8 @@ using Texts = std::vector<std::string>;
 
 using ParamAlternatives = std::variant<bool, int64_t, double, std::string, Size, Numbers, Texts, NumberMap, TextMap>;
 
-/// Alternatives are in the order of ParamType; choices and paths are texts. A structure, so that copying and destroying
-/// nine alternatives is compiled once: it took a tenth of a node's compile time.
+/// Alternatives are in the order of ParamType; choices and paths are texts. A struct with out-of-line copy and
+/// destructor: instantiating those of the variant in every file took a tenth of a node's compile time.
 struct ParamValue : ParamAlternatives {
   using ParamAlternatives::ParamAlternatives;
   ParamValue(const ParamValue& other);
@@ -52,12 +52,12 @@ enum class ParamType : uint8_t {
 };
 std::string_view name_of(ParamType type);
 
-/// What "library:NAME" stands for as the value of a path: a part of a named analysis.
+/// Which part of a named analysis "library:NAME" stands for as the value of a path.
 enum class LibraryFile : uint8_t {
-  none,      ///< it is refused
+  none,      ///< such values are refused
   analysis,  ///< the file
   material,  ///< the folder of the analysed maps
-  kept,      ///< itself: it goes on to the parameter of a node
+  kept,      ///< the text itself, passed on to a node's parameter
 };
 
 struct Param {
@@ -75,7 +75,7 @@ struct Param {
 /// All of a node's parameters by name: defaults filled in, checked against the descriptor.
 using Params = std::map<std::string, ParamValue>;
 
-/// Feeds parameters into a key: by name and value, independent of order and of how the document wrote them.
+/// Feeds parameters into a key by name and value, independent of their order and spelling in the document.
 void add_to(Hasher& hasher, const Params& params);
 
 struct Port {
@@ -93,55 +93,70 @@ struct NodeStep {
   std::string help;  ///< what it does
 };
 
-/// What becomes of a node's outputs.
+/// How a node's outputs are cached.
 enum class Persist : uint8_t {
   payload,  ///< slow: outputs are stored in the cache
-  digest,   ///< fast: only the outputs' digests are stored; they are recomputed when a reader runs
+  digest,   ///< fast: only the outputs' digests are stored; they are recomputed when a node that reads them runs
   derived,  ///< lazy: outputs are computed on demand, named by the node's key, and never stored
 };
 
 /// A file that a sink will write.
 struct FutureFile {
-  std::string param;  ///< the parameter that says where
+  std::string param;  ///< the parameter that gives its location
   std::filesystem::path folder;
-  std::string name;    ///< empty if not known yet; the file is then in `folder`, or deeper
+  std::string name;    ///< empty if not known yet: the file is then somewhere below `folder`
   std::string what{};  ///< its content, for messages
 };
 
-/// What is known of a value before it is there; what is empty is not known.
+/// What is known of a value before it is computed. Empty members are unknown.
 struct Forecast {
-  std::vector<std::string> maps{};  ///< that a material certainly has
-  /// Maps that it may also have; nullopt if not known.
+  std::vector<std::string> maps{};  ///< maps that a material certainly has
+  /// Maps that it may also have; nullopt if unknown.
   std::optional<std::vector<std::string>> possible_maps{};
-  std::map<std::string, ImageFacts> images{};  ///< of maps by name, certain and possible ones; of an image under ""
-  /// Pixels of a uv map; for features, appearance and index those of the exemplar.
+  std::map<std::string, ImageFacts> images{};  ///< of certain and possible maps by name; an image has the name ""
+  /// The size of a uv map in pixels; for features, appearance and index that of the exemplar.
   std::optional<Size> size{};
-  int values = 0;                   ///< that features, appearance and index have at a pixel of the maps; 0: not known
-  std::optional<Size> exemplar{};   ///< that a uv map was made for
-  std::vector<FutureFile> files{};  ///< of a sink
+  int values = 0;                   ///< channels per pixel of features, appearance and index; 0: unknown
+  std::optional<Size> exemplar{};   ///< size of the exemplar that a uv map refers to
+  std::vector<FutureFile> files{};  ///< that a sink will write
 };
-/// By connected port, one for each wire.
+/// By connected port, one forecast per wire.
 using InputForecasts = std::map<std::string, std::vector<Forecast>>;
-/// By output port; ports of which nothing is known may be left out.
+/// By output port. Ports about which nothing is known may be left out.
 using OutputForecasts = std::map<std::string, Forecast>;
 
-/// All that there is to know of a value that is there.
+/// Everything about a computed value.
 Forecast forecast_of(const Value& value);
-/// What is known of a value once it has come through a wire to a port of another type, see `converts`.
+/// The forecast of a value after a wire has converted it to the type of an input port, see `converts`.
 Forecast converted(const Forecast& forecast, ValueType from, ValueType to);
-/// Empty unless the value may be what the forecast says; else what differs, such as `an image of 64x64 pixels and 1
-/// channel, where an image of 3 channels was foreseen`.
+/// Empty if the value agrees with the forecast; else the difference, such as `an image of 64x64 pixels and 1 channel,
+/// where an image of 3 channels was foreseen`.
 std::string contradiction(const Forecast& forecast, const Value& value);
 
 class NodeContext;
 
-/// Where a node type comes from that is not terrazzo's own.
+/// The plug-in or program that a node type comes from.
 struct NodeOrigin {
-  std::string name{};     ///< of the plug-in or program; empty: terrazzo
-  std::string version{};  ///< as it says itself
-  Digest content{};       ///< of what the code is in, as far as that is known
+  std::string name{};     ///< empty: terrazzo itself
+  std::string version{};  ///< as the plug-in or program states it
+  Digest content{};       ///< of the file that holds the code, if known
 };
 
+/// A node type: its interface and its hooks. Only `compute` is required.
+///
+/// | hook         | called                                                                    | may read files        |
+/// |--------------|---------------------------------------------------------------------------|-----------------------|
+/// | check        | while a document is read, once the node's parameters are known            | no                    |
+/// | files_read   | while a plan is made, for the keys                                        | to find further files |
+/// | infer        | while a plan is made, after the node's sources; again just before compute | no                    |
+/// | preflight    | while a plan is made, right after infer                                   | those of files_read   |
+/// | memory_ahead | while a plan is made, after preflight, if a budget is set                 | no                    |
+/// | lint         | by the command `check`, once the graph is valid                           | those of files_read   |
+/// | memory_hint  | during a run, once all inputs are computed, before the node may start     | headers of files_read |
+/// | compute      | during a run, unless the results are cached                               | those of files_read   |
+///
+/// Expressions that ask for a node's results call infer and preflight earlier, while the document is read. Hooks must
+/// be thread-safe and deterministic. Except for compute, they must be fast.
 struct NodeType {
   std::string name;
   int version = 1;       ///< raise it whenever the same inputs would give other outputs
@@ -153,31 +168,26 @@ struct NodeType {
   std::vector<Param> params;
   std::vector<NodeStep> steps{};  ///< in the order in which they run; empty for most nodes
   Persist persist = Persist::payload;
+  /// Sets every output.
   std::function<void(NodeContext&)> compute;
-  /// The files that the node reads; their content is part of the key. Missing files may be listed: the key then says
-  /// "missing", and compute reports them.
+  /// The files that the node reads; their content is part of the key. The list may include missing files: compute
+  /// reports them.
   std::function<std::vector<std::filesystem::path>(const Params&)> files_read;
-  /// Estimated bytes that compute needs besides its inputs, for the memory budget.
+  /// An estimate of the bytes that compute needs besides its inputs, for the memory budget.
   std::function<size_t(const NodeContext&)> memory_hint;
-  /// Bytes that compute takes at least, at its peak, as far as that is known before anything runs; else 0. A budget
-  /// that is smaller is refused then.
+  /// A lower bound for compute's peak memory in bytes; 0 if unknown. The plan refuses a smaller budget.
   std::function<uint64_t(const Params&, const InputForecasts&)> memory_ahead;
-  /// Checks of several parameters together; one message per problem, starting with the parameter's name in quotes.
-  /// Called when a document is checked, before anything runs.
+  /// Checks parameters against each other. One message per problem, starting with the parameter's name in quotes.
   std::function<std::vector<std::string>(const Params&)> check;
-  /// The rule of shapes: what is known of the outputs, given the parameters and what is known of the inputs. Throws
-  /// Error, or Errors, about the port or parameter for what certainly cannot work; what is not known is no mistake.
-  /// Called while a document is checked and a plan is made, and once more right before compute with all that the inputs
-  /// are, so that compute need not check them again. A pure function: reads no files; thread-safe.
+  /// What is known of the outputs, given the parameters and what is known of the inputs. Throws Error or Errors about
+  /// the port or parameter for what is certain to fail; unknown facts are not errors. Just before compute all facts
+  /// about the inputs are known, so compute need not check them again.
   std::function<OutputForecasts(const Params&, const InputForecasts&)> infer;
-  /// Runs while a plan is made, after `infer`, so that mistakes are found before hours of work: throws Error, or
-  /// Errors, for what compute would refuse (such as a missing folder), and returns what else is certain: what is known
-  /// of its material, or of its only output, and the files of a sink. Must be fast; may read files that `files_read`
-  /// names.
+  /// Throws Error or Errors for what compute would refuse, such as a missing folder. Returns what else is known of the
+  /// node's material, or of its first output if it has none, and the files that a sink will write.
   std::function<Forecast(const Params&, const InputForecasts&)> preflight;
-  /// What is allowed and probably unintended, for the command `check`: one message each, starting with the name of a
-  /// parameter or port in quotes if it is about one. May read files that `files_read` names; ports that are open are
-  /// not there.
+  /// Warnings about valid but probably unintended settings. One message each, starting with the parameter's or port's
+  /// name in quotes if it is about one. Unconnected ports are missing from the forecasts.
   std::function<std::vector<std::string>(const Params&, const InputForecasts&)> lint;
   NodeOrigin origin{};
 
@@ -194,7 +204,7 @@ struct StagedFile {
   std::filesystem::path target;
 };
 
-/// What compute works with: inputs, parameters and outputs. Not thread-safe, except for `task()`; a node may use many
+/// The inputs, parameters and outputs of one call of compute. Not thread-safe, except for `task()`; a node may use many
 /// threads internally.
 class NodeContext {
  public:
@@ -238,20 +248,20 @@ class NodeContext {
 
   /// Every declared output must be set before compute returns.
   void output(std::string_view port, Value value);
-  /// Something the user should know (what was recognised or ignored); printed, and stored with the result.
+  /// Tells the user something (what was recognised or ignored). Printed, and stored with the result.
   void note(std::string message) { notes_.push_back(std::move(message)); }
   /// The same for likely mistakes and losses of quality; shown prominently.
   void warn(const std::string& message) { notes_.push_back(std::string(warning_mark) + message); }
 
-  /// For sinks: a temporary name beside `target` to write to. Creates folders, and removes what killed runs left in
-  /// them. The runner renames all staged files once compute has returned, and removes them and the folders if it
-  /// throws.
+  /// For sinks: a temporary name beside `target` to write to. Creates folders and removes temporary files that killed
+  /// runs left in them. The runner renames all staged files once compute has returned, and removes them and the folders
+  /// if it throws.
   std::filesystem::path stage(const std::filesystem::path& target);
 
   // For the runner.
-  /// Checks the inputs by the type's `infer`, and calls its compute.
+  /// Calls the type's `infer` to check the inputs, then its compute.
   void compute();
-  /// What `infer` said of the outputs in `compute`.
+  /// The forecasts that `infer` returned in `compute`.
   const OutputForecasts& inferred() const { return inferred_; }
   std::map<std::string, Value>& outputs() { return outputs_; }
   const std::vector<std::string>& notes() const { return notes_; }

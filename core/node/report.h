@@ -12,7 +12,7 @@ namespace terrazzo {
 class Report;
 using ReportPtr = std::shared_ptr<const Report>;
 
-/// Figures and small pictures, in the order they were given. Immutable.
+/// Figures and small pictures, in the order in which they were added. Immutable; thread-safe.
 class Report {
  public:
   struct Figure {

@@ -22,7 +22,7 @@ void save_value(const Value& value, const std::filesystem::path& path, const Tas
 /// Thread-safe.
 Value load_value(const std::filesystem::path& path);
 
-/// What a value file says about itself.
+/// The header of a value file.
 struct ValueFileSummary {
   ValueType type = ValueType::image;
   Digest digest;
@@ -31,8 +31,8 @@ struct ValueFileSummary {
 /// Verifies only the header and the length of the file. Throws as load_value.
 ValueFileSummary summarize_value_file(const std::filesystem::path& path);
 
-/// The size of the exemplar that a saved index was made from, without reading more than that. Throws as load_value, for
-/// what it sees of the file.
+/// The size of the exemplar that a saved index was made from, without reading more than that. Throws as load_value for
+/// damage in the parts that it reads.
 Size exemplar_of_index_file(const std::filesystem::path& path);
 
 }  // namespace terrazzo

@@ -13,7 +13,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Runs a factory on data from a file: what it objects to is the file's fault.
+/// Runs a factory on data from a file and converts its errors to DamagedFile.
 template <typename Make>
 auto checked(const Make& make) {
   try {
@@ -27,7 +27,7 @@ auto checked(const Make& make) {
   }
 }
 
-/// Takes values out of a block file. Everything in it may be the work of an enemy.
+/// Reads values from a block file. Treats all content as hostile.
 class ValueReader {
  public:
   explicit ValueReader(std::shared_ptr<const BlockFile> file) : file_(std::move(file)), in_(file_->description()) {}
@@ -172,7 +172,7 @@ class ValueReader {
     return checked([&] { return Features::make(s, std::move(images), wraps, repeated, mask, std::move(parts)); });
   }
 
-  /// `count` items. Memory grows with what is really in the file, whatever it says.
+  /// `count` items. Allocates only as much as the file really contains.
   template <typename T>
   std::vector<T> array(uint64_t count) {
     const BlockStream& s = stream(in_.get<uint32_t>(), StreamKind::bytes);
@@ -322,7 +322,7 @@ class ValueReader {
   ByteReader in_;
 };
 
-/// Runs `read`, naming the file in what it finds wrong with it.
+/// Runs `read` and adds the file's name to its errors.
 template <typename Read>
 auto naming(const std::filesystem::path& path, const Read& read) {
   try {

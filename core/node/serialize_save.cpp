@@ -39,7 +39,7 @@ struct CountSamples {
   }
 };
 
-/// Puts values into a block file: bulk data into streams, everything else into the description.
+/// Writes values to a block file: bulk data into streams, everything else into the description.
 class ValueWriter {
  public:
   ValueWriter(BlockFileWriter& file, const Task& task, uint64_t samples)

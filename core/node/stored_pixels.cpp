@@ -9,7 +9,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Rows whose blocks are kept, so that tiles side by side do not decode the same blocks again.
+/// Rows whose blocks are kept, so that adjacent tiles do not decode the same blocks again.
 constexpr uint64_t kept_rows = 256;
 constexpr uint64_t least_kept_blocks = 4, most_kept_blocks = 64;
 
@@ -30,7 +30,7 @@ class StoredPixels : public PixelSource {
   }
 
  private:
-  /// A block that is decoded by whoever needs it first, while others wait for it.
+  /// A block decoded by its first reader while others wait.
   struct Slot {
     std::mutex decoding;
     bool decoded = false;

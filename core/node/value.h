@@ -40,7 +40,7 @@ const Digest& digest_of(const Value& value);
 inline bool converts(ValueType from, ValueType to) {
   return from == to || (from == ValueType::image && to == ValueType::material);
 }
-/// `value` as the type asked for; `converts` must hold.
+/// `value` converted to the type `to`; `converts` must hold.
 inline Value converted(const Value& value, ValueType to) {
   if (type_of(value) == to) return value;
   return Material::of(std::get<ImagePtr>(value));

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Eigen as everything here uses it: the vocabulary of small linear algebra. Include this header (or linear_algebra.h
-/// for decompositions), never Eigen's own: it makes results the same bits on every machine.
-/// - Nothing is vectorized or parallelized by Eigen, so sums have one order whatever the processor offers. (The whole
+/// Eigen, configured so that results are bit-exact on every machine. Include this header (or linear_algebra.h for
+/// decompositions), never Eigen's own. - Nothing is vectorized or parallelized by Eigen, so sums have one order
+/// whatever the processor offers. (The whole
 ///   library is compiled without contraction into fused multiply-adds.)
 /// - Products of large dynamic matrices are summed in blocks whose size depends on the processor's caches. So they are
 ///   avoided: use fixed sizes, matrices times vectors, or lazyProduct(). Decompositions that need them go through
@@ -28,7 +28,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Eigen::VectorXd;
 
-/// The area that two vectors span: positive if `b` lies counter-clockwise of `a`.
+/// The signed area spanned by two vectors: positive if `b` is counter-clockwise of `a`.
 inline double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }

@@ -8,8 +8,8 @@ namespace terrazzo {
 /// The smallest power of two that is at least n.
 int padded_length(int n);
 
-/// The discrete Fourier transform of power-of-two length (Cooley & Tukey 1965), the same bits on every machine: its
-/// twiddle factors come from square roots, not from a library's sine. Immutable; thread-safe.
+/// The discrete Fourier transform of power-of-two length (Cooley & Tukey 1965). Bit-exact on every machine: twiddle
+/// factors are computed by square roots instead of a library's sine. Immutable; thread-safe.
 class Fft {
  public:
   explicit Fft(int length);
@@ -27,8 +27,8 @@ class Fft {
 /// A grid of width * height complex numbers, row by row, transformed along both axes.
 void transform_2d(std::vector<std::complex<double>>& grid, int width, int height, bool inverse);
 
-/// The same in less time if only the first `filled_rows` rows hold anything but 0, and only the first `wanted_columns`
-/// columns of the result are asked for; others are left undefined.
+/// A faster version for grids that are 0 beyond the first `filled_rows` rows, if only the first `wanted_columns`
+/// columns of the result are needed; other columns are undefined.
 void transform_2d(std::vector<std::complex<double>>& grid, int width, int height, bool inverse, int filled_rows,
                   int wanted_columns);
 

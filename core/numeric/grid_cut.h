@@ -7,20 +7,19 @@
 
 namespace terrazzo {
 
-/// The cheapest cut that separates a source from a sink, in a graph of pixels that are joined to at most four others.
-/// Two search trees grow from the terminals and are mended after each way that is found (Boykov & Kolmogorov, An
-/// experimental comparison of min-cut/max-flow algorithms, 2004). Sides are numbered so that side (s + 2) % 4 leads
-/// back. Not thread-safe.
+/// The minimum cut between a source and a sink in a graph of pixels with at most four neighbours each. Two search trees
+/// grow from the terminals and are repaired after each augmenting path (Boykov & Kolmogorov, An experimental comparison
+/// of min-cut/max-flow algorithms, 2004). Sides are numbered so that side (s + 2) % 4 leads back. Not thread-safe.
 class GridCut {
  public:
   /// Begins a new graph.
   void reset(int nodes);
-  /// Makes a node's being on the sink's side cost more (that much less, if negative) than its being on the source's.
+  /// Adds `cost` for assigning the node to the sink's side; a negative cost favours the sink's side.
   void prefer_source(int node, int64_t cost) { nodes_[size_t(node)].excess += cost; }
-  /// What it costs that `node` is on the source's side and `other`, which lies on its side `side`, is not: from 0 to
-  /// 2^30. Once a pair and direction; both directions of a pair must be given.
+  /// Sets the cost, 0 to 2^30, of `node` on the source's side with `other`, its neighbour on side `side`, on the sink's
+  /// side. Call once for each of the two directions of a pair.
   void join(int node, int side, int other, int64_t cost);
-  /// Finds the cut. Of several that cost the same, the one with the fewest nodes on the source's side.
+  /// Finds the minimum cut; among equal ones, the one with the fewest nodes on the source's side.
   void solve();
   bool on_source_side(int node) const { return nodes_[size_t(node)].tree == Tree::source; }
 
@@ -56,7 +55,7 @@ class GridCut {
 
   std::vector<Node> nodes_;
   std::vector<int> active_, orphans_;
-  int32_t time_ = 0;  // ways found so far
+  int32_t time_ = 0;  // augmenting paths found so far
 };
 
 }  // namespace terrazzo

@@ -7,8 +7,8 @@
 
 namespace terrazzo {
 
-/// The mean and the covariance of vectors of n numbers, as they are added: their sums and those of their products, in
-/// double and in the order of the calls. Not for numbers whose mean is many orders beyond their deviation.
+/// Accumulates the mean and covariance of vectors of n numbers, as sums of values and products in double, in the order
+/// of calls. Unsuitable if the mean exceeds the deviation by many orders of magnitude.
 template <int n = Eigen::Dynamic>
 class Moments {
  public:
@@ -19,7 +19,7 @@ class Moments {
   explicit Moments(int dimensions) requires(n == Eigen::Dynamic)
       : sum_(Vector::Zero(dimensions)), products_(Matrix::Zero(dimensions, dimensions)) {}
 
-  /// Adds a vector of so many floats or doubles.
+  /// Adds a vector of n floats or doubles.
   template <typename T>
   void add(const T* values) {
     count_++;
@@ -32,12 +32,12 @@ class Moments {
   void add(double value) requires(n == 1) { add(&value); }
 
   int64_t count() const { return count_; }
-  /// 0 if there are none, as are all that follow.
+  /// This and all following results are 0 if nothing was added.
   double mean(int i = 0) const { return sum_[i] / divisor(); }
   double covariance(int i, int j) const {
     return products_(std::min(i, j), std::max(i, j)) / divisor() - mean(i) * mean(j);
   }
-  /// Of all that there are: sums of squares over their count.
+  /// The population variance.
   double variance(int i = 0) const { return std::max(0.0, covariance(i, i)); }
 
   Vector mean_vector() const { return sum_ / divisor(); }

@@ -9,8 +9,8 @@
 namespace terrazzo {
 
 /// A kd-tree over points (Bentley 1975) with the bounded-error search of Arya & Mount (1998). Immutable once built;
-/// searches are thread-safe. Not nanoflann's: of 24-dimensional patches its searches took fifteen times as long, since
-/// it sums distances point by point to the end, where these leaves hold 16 points side by side and give up together.
+/// searches are thread-safe. Nanoflann was fifteen times slower for 24-dimensional patches: it computes full distances
+/// point by point, whereas these leaves process 16 points in parallel and stop early together.
 class NearestPoints {
  public:
   struct Match {
@@ -22,8 +22,8 @@ class NearestPoints {
   /// `points`: rows of `dimensions` numbers, at least one row.
   NearestPoints(const std::vector<float>& points, int dimensions);
 
-  /// A point at most 1 + slack times as far from the query as the nearest one. Among points seen at the same distance
-  /// the first one wins. `left_out`: tells by their index which points do not count; empty: all do.
+  /// Finds a point at most 1 + slack times as far from the query as the nearest one. The first of several points at the
+  /// same distance wins. `left_out`: excludes points by index; empty: none.
   Match find(const float* query, double slack, const std::function<bool(uint32_t)>& left_out = {}) const;
 
  private:

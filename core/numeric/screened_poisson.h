@@ -6,12 +6,12 @@
 #include "core/base/task.h"
 
 /// The screened Poisson equation on a grid of cells: in every cell, the sum over its neighbours of (v - v there) *
-/// length of the common side / distance, plus v * (area * screen + hold), is the cell's force. A single force fades out
-/// within about 1 / sqrt(screen); a large hold with a force as much larger gives a cell its value. Cells are as wide as
-/// their column and as high as their row says, so that grids of any size, wrapping or not, have a coarser one.
+/// length of the common side / distance, plus v * (area * screen + hold), is the cell's force. The response to a single
+/// force decays within about 1 / sqrt(screen). A large hold with a proportional force fixes a cell's value. Columns and
+/// rows have individual widths and heights, so that grids of any size, wrapping or not, can be coarsened.
 ///
-/// All arithmetic is in floats in a fixed order, and no cell sees what the same step made of another: the same bits
-/// with any number of threads, and whatever part of a grid is looked at.
+/// All arithmetic is in floats in a fixed order, and steps read only values of the previous step: results do not depend
+/// on the number of threads or on the part of the grid that is computed.
 namespace terrazzo {
 
 /// Cells along one direction of a grid.
@@ -24,20 +24,20 @@ struct CellAxis {
 
   /// Cells of width 1.
   static CellAxis of_pixels(int count, bool wraps);
-  /// Every two cells as one; the last may be one alone.
+  /// Merges pairs of cells; a last cell may remain single.
   CellAxis coarser() const;
   int count() const { return int(widths.size()); }
 };
 
-/// How a cell's value is interpolated from those of the coarser axis: linearly between centres, constant beyond the
-/// last one of an axis that does not wrap.
+/// The interpolation weights of a cell from the coarser axis: linear between centres, constant beyond the last centre
+/// of an axis that does not wrap.
 struct CoarseShare {
   int near = 0, far = 0;
   float far_share = 0;
 };
 std::vector<CoarseShare> coarse_shares(const CellAxis& fine, const CellAxis& coarse);
 
-/// A row of cells and its surroundings.
+/// A row of cells and its neighbours.
 struct CellRow {
   int count;
   const float *widths, *links;           ///< of the columns; as in CellAxis
@@ -47,13 +47,13 @@ struct CellRow {
   const float* holds;  ///< what a cell's value weighs in its equation beyond its area times screen
   float screen;
 };
-/// What the cells' forces are beyond those that would give them their values.
+/// The residuals: the forces minus those that the values produce.
 void residuals(const CellRow& row, float* out);
-/// Each value moved by `step` times what would make its own equation true.
+/// A relaxation step: moves each value by `step` times the change that solves its own equation.
 void relaxed(const CellRow& row, float step, float* out);
 
-/// Steps for `relaxed`, one after the other, that reduce most what coarser grids cannot show: those of the Chebyshev
-/// polynomial over the eigenvalues from 1/2 to 2.
+/// Steps for consecutive calls of `relaxed` that best reduce the high frequencies, which coarser grids cannot
+/// represent: those of the Chebyshev polynomial for eigenvalues from 1/2 to 2.
 std::vector<float> smoothing_steps(int count);
 
 /// Solves the equation by V-cycles of the multigrid method (Brandt 1977), in time proportional to the number of cells.
@@ -61,12 +61,13 @@ class ScreenedPoisson {
  public:
   ScreenedPoisson(CellAxis x, CellAxis y, double screen);
 
-  /// Holds cells, by so much each, row by row; none if it is not called. To be called before `improve`.
+  /// Sets the holds of all cells, row by row; 0 by default. Call before `improve`.
   void hold(std::vector<float> holds);
-  /// The forces that the values have, 0 at first. Whoever adds to them what they lack has them made good by `improve`.
+  /// The forces of the current values, initially 0. Add the missing forces before calling `improve`.
   float* forces(int row);
   const float* values(int row) const { return levels_.front().row(row); }
-  /// One V-cycle brings the values, 0 at first, nearer to those of the forces; these then become what the values have.
+  /// Moves the values, initially 0, towards the solution for the forces by one V-cycle; then sets the forces to those
+  /// of the new values. Throws Cancelled.
   void improve(const Task& task);
   /// Frees everything but the values.
   void finish();

@@ -79,7 +79,7 @@ class Neighbours {
     const auto at = place_of(with);
     return at != all_.end() && at->with == with ? &*at : nullptr;
   }
-  /// Adds to what is there; the sum.
+  /// Adds to the existing value; returns the sum.
   Shared add(const Shared& s) {
     const auto at = place_of(s.with);
     if (at == all_.end() || at->with != s.with) return *all_.insert(at, s);

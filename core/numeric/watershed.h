@@ -7,14 +7,14 @@
 
 namespace terrazzo {
 
-/// An image parted into regions.
+/// A segmentation of an image.
 struct Regions {
   std::vector<uint32_t> at;  ///< the region of each pixel, row by row: 0 to count - 1
   int count = 0;
 };
 
 /// The catchment basins of a relief, flooded from each of its minima (Meyer, Topographic distance and watershed lines,
-/// 1994): every pixel belongs to the basin from which it is reached first. `wraps`: the relief goes on around the
+/// 1994): every pixel belongs to the basin from which it is reached first. `wraps`: the relief wraps around the
 /// borders. Deterministic. Thread-safe.
 Regions catchment_basins(const std::vector<uint8_t>& relief, Size size, bool wraps);
 
@@ -22,7 +22,7 @@ Regions catchment_basins(const std::vector<uint8_t>& relief, Size size, bool wra
 inline constexpr uint32_t no_region = ~0U;
 Regions flooded(const std::vector<uint8_t>& relief, Size size, bool wraps, std::vector<uint32_t> seeds);
 
-/// 1 on either side of the borders between regions, each named by any number per pixel.
+/// 1 for pixels on both sides of borders between regions, given by arbitrary labels per pixel.
 template <typename Name>
 std::vector<uint8_t> border_pixels(const std::vector<Name>& regions, Size size, bool wraps) {
   std::vector<uint8_t> border(regions.size(), 0);
@@ -38,7 +38,7 @@ std::vector<uint8_t> border_pixels(const std::vector<Name>& regions, Size size, 
   return border;
 }
 
-/// What two regions have in common.
+/// The common border of two regions.
 struct RegionBorder {
   uint32_t a = 0, b = 0;  ///< a < b
   int64_t length = 0;     ///< pairs of pixels, one on either side
@@ -49,15 +49,15 @@ struct RegionBorder {
 std::vector<RegionBorder> region_borders(const Regions& regions, const std::vector<uint8_t>& relief, Size size,
                                          bool wraps);
 
-/// When neighbouring regions are joined: while the mean of their common border is lower than what applies to them.
+/// Neighbouring regions are joined if the mean of their border is below a threshold.
 struct JoiningRule {
-  double least = 0;           ///< for two of which one is small
-  double least_of_large = 0;  ///< for two that both have `large` pixels; at most `least`
+  double least = 0;           ///< threshold if at least one region is small
+  double least_of_large = 0;  ///< threshold if both have at least `large` pixels; at most `least`
   int64_t large = 0;
-  int64_t smallest = 0;  ///< a region of fewer pixels is joined in any case, across its lowest border
+  int64_t smallest = 0;  ///< smaller regions are always joined, across their lowest border
 };
 
-/// Regions joined across their lowest borders, the lowest first; the mean of a border is that of all of its pixels.
+/// Joins regions across their borders, lowest first. Borders that merge get the mean over all their pixels.
 Regions joined(const Regions& regions, const std::vector<RegionBorder>& borders, const JoiningRule& rule);
 
 }  // namespace terrazzo

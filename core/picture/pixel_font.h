@@ -5,25 +5,25 @@
 #include <string_view>
 #include <vector>
 
-/// A built-in font of 5x7 dots for captions in pictures. Small letters are shown as capitals; any character that the
-/// font lacks is a hollow box. Text is UTF-8. Thread-safe.
+/// A built-in font of 5x7 dots for captions in pictures. Lower-case letters are shown as capitals, missing characters
+/// as hollow boxes. Text is UTF-8. Thread-safe.
 namespace terrazzo {
 
 inline constexpr int glyph_height = 7;
-/// Dots from the beginning of one character to that of the next, one of them empty.
+/// The distance between the starts of adjacent characters in dots, including one empty dot.
 inline constexpr int glyph_advance = 6;
 
-/// How many characters the text has.
+/// The number of characters in the text.
 int character_count(std::string_view text);
 
-/// The text if it has at most `most` characters, else its beginning and two dots; nothing if not even they fit.
+/// The text truncated to `most` characters, with two dots at the end; empty if not even the dots fit.
 std::string shortened(std::string_view text, int most);
 
-/// The text in at most `most_lines` lines of at most `most` characters, broken at spaces; words, and a last line, that
-/// are too long are shortened. No lines if the text is empty, or nothing of it fits.
+/// The text in at most `most_lines` lines of at most `most` characters, broken at spaces; long words and a long last
+/// line are shortened. Empty if the text is empty or nothing fits.
 std::vector<std::string> wrapped(std::string_view text, int most, int most_lines);
 
-/// Calls `dot(x, y)` for every dot that is set, counted from the top left of the first character.
+/// Calls `dot(x, y)` for every set dot, with coordinates from the top left of the first character.
 void for_each_dot(std::string_view text, const std::function<void(int x, int y)>& dot);
 
 }  // namespace terrazzo

@@ -7,8 +7,8 @@
 
 namespace terrazzo {
 
-/// The dark ground on which contact sheets are drawn; colours are sRGB, three channels of 0..1. Different pixels may be
-/// written from different threads.
+/// The dark background of contact sheets; colours are sRGB, three channels of 0..1. Different pixels may be written
+/// from different threads.
 class SheetCanvas {
  public:
   static constexpr int channels = 3;
@@ -22,7 +22,7 @@ class SheetCanvas {
   void fill(const Rect& area, float grey) {
     for (int y = area.y; y < area.bottom(); y++) std::fill_n(at(area.x, y), size_t(area.width) * channels, grey);
   }
-  /// As an 8-bit sRGB image; the canvas is used up.
+  /// Converts the canvas to an 8-bit sRGB image and consumes it.
   ImagePtr finished() && {
     const ImageInfo info{.size = size_,
                          .channels = channels,

@@ -6,14 +6,14 @@
 
 namespace terrazzo {
 
-/// How blocks are laid in courses.
+/// The layout of blocks in courses.
 struct CourseSpec {
   double length = 0.2;                ///< mean length of a block, in units of the canvas
   double height = 0.1;                ///< mean height of a course, in units of the canvas
-  std::vector<double> heights = {1};  ///< the heights that courses come in, relative to each other
-  double height_spread = 0;           ///< 0..1: how much courses stray from these
-  double length_spread = 0.4;         ///< 0..1: how much lengths differ
-  double tall_share = 0;              ///< 0..1: how many pairs of courses have blocks as high as both
+  std::vector<double> heights = {1};  ///< the possible heights of courses, relative to each other
+  double height_spread = 0;           ///< 0..1: random deviation from these heights
+  double length_spread = 0.4;         ///< 0..1: variation of lengths
+  double tall_share = 0;              ///< 0..1: share of pairs of courses with blocks as high as both
 };
 
 /// Rectangular blocks that fill the canvas in courses, some of them two courses high. Immutable.

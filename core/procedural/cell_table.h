@@ -7,8 +7,8 @@
 
 namespace terrazzo {
 
-/// One thing per cell of a grid over a canvas, made once and then looked up for every point; it continues for a few
-/// cells around the canvas, as the same things where the canvas wraps. Positions of cells are in cells. Immutable.
+/// Precomputed objects, one per cell of a grid over a canvas, with a margin of a few cells around it; on a wrapping
+/// canvas the margin repeats the objects. Positions are in cells. Immutable.
 template <typename T>
 class CellTable {
  public:

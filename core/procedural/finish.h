@@ -5,14 +5,14 @@
 #include "core/material/material.h"
 #include "core/procedural/surface.h"
 
-/// From a described surface to a material's maps.
+/// Parameters for converting a surface to a material's maps.
 namespace terrazzo {
 
 struct Finish {
   Size size;
   bool wraps = true;
-  double relief = 10;   ///< pixels between heights 0 and 1
-  double reach = 40;    ///< pixels from which neighbours can still shade a point
+  double relief = 10;   ///< height difference between 0 and 1 in pixels
+  double reach = 40;    ///< radius of occlusion in pixels
   double cavity = 0.3;  ///< how much of the occlusion also darkens the colour
 };
 

@@ -6,10 +6,9 @@
 
 namespace terrazzo {
 
-/// Which element of the surface lies at the middle of every pixel: elements are numbered in the order in which reading
-/// left to right, top to bottom comes upon them, and number i is written as i / (count - 1). One channel, 16 bits,
-/// guidance. Each element is one region whose pixels share sides, around the border if `wraps`: what pixels cut off of
-/// it, such as the tip of a narrow corner, goes to its neighbours.
+/// Labels the element of the surface at every pixel's centre. Elements are numbered in reading order, and number i is
+/// stored as i / (count - 1). One channel, 16 bits, guidance. Each element is a 4-connected region, across the border
+/// if `wraps`: disconnected parts, such as the tip of a narrow corner, are assigned to neighbours.
 ImagePtr element_labels(const Surface& surface, Size size, bool wraps, const Task& task);
 
 }  // namespace terrazzo

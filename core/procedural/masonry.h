@@ -4,21 +4,21 @@
 
 namespace terrazzo {
 
-/// A brick as seen from a point: where the point lies on it, from its centre, along and across; lengths in units of the
-/// canvas. The half sides reach to the middle of the joints.
+/// The position of a point on its brick, relative to the brick's centre, in units of the canvas. The half sides extend
+/// to the middle of the joints.
 struct Brick {
   double x, y;
   double half_width, half_height;
   uint64_t bits;
 };
 
-/// How bricks are laid: lengths in units of the canvas, with the joint; the joint's width as a fraction of the height.
+/// The dimensions of bricks including joints, in units of the canvas; the joint's width is a fraction of the height.
 struct Course {
   double height, length;
   double joint = 0.17;
 };
 
-/// What bricks and the mortar between them look like, however they are laid. Immutable.
+/// The appearance of bricks and mortar, independent of the bond. Immutable.
 class Masonry {
  public:
   Masonry(const Canvas& canvas, const PatternSpec& spec, const Palette& palette, const Course& course);
@@ -35,7 +35,7 @@ class Masonry {
   PatternSpec spec_;
   Palette palette_;
   double unit_;       ///< the height of a course
-  double per_brick_;  ///< bricks per unit: the frequency of details that come once per brick
+  double per_brick_;  ///< bricks per unit: the frequency of per-brick details
   double mortar_;     ///< the width of a joint
 };
 

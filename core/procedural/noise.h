@@ -7,11 +7,11 @@
 #include "core/base/hash.h"
 #include "core/image/image.h"
 
-/// Lattice noises over counter-based hashes: a value depends on position and seed alone, so any window of a noise is
-/// the same, bit for bit, as that window of the whole. All functions are thread-safe.
+/// Lattice noises over counter-based hashes: a value depends only on position and seed, so any window of a noise equals
+/// the same window of the whole, bit for bit. All functions are thread-safe.
 namespace terrazzo {
 
-/// How many lattice cells the noise repeats after, across and down; 0: it never does.
+/// The period of a noise in lattice cells, across and down; 0: none.
 struct Period {
   int x = 0;
   int y = 0;
@@ -34,8 +34,8 @@ inline uint64_t lattice_bits(uint64_t seed, int64_t x, int64_t y) {
 double value_noise(double x, double y, uint64_t seed, Period period);
 /// Gradient noise (Perlin, Improving noise, 2002), here with gradients evenly spread over the circle; in [-1, 1].
 double gradient_noise(double x, double y, uint64_t seed, Period period);
-/// Gradient noise on a triangular lattice, without the square one's preference for its axes; in [-1, 1]. Periods down
-/// must be even.
+/// Gradient noise on a triangular lattice, without the axis-aligned artefacts of a square one; in [-1, 1]. Vertical
+/// periods must be even.
 double simplex_noise(double x, double y, uint64_t seed, Period period);
 
 /// The nearest of the random points that lie one in each lattice cell (Worley 1996).
@@ -46,7 +46,7 @@ struct CellPoint {
   double dx = 0;       ///< from the nearest point to (x, y)
   double dy = 0;
 };
-/// `jitter` in [0, 1]: how far points stray from their cell's centre.
+/// `jitter` in [0, 1]: how far points deviate from their cell's centre.
 CellPoint cell_noise(double x, double y, uint64_t seed, Period period, double jitter = 1);
 
 enum class NoiseBasis : uint8_t { value, gradient, simplex, cells, cell_edges };
@@ -81,8 +81,8 @@ class NoiseField {
   double total_ = 0;
 };
 
-/// The noise as an image of one channel, computed when pulled, in steps of 1/65535. `recipe` stands for the spec in the
-/// digest; `info` gives size and meaning.
+/// The noise as an image of one channel, computed when pulled, in steps of 1/65535. `recipe` must cover the spec, see
+/// Image::computed. `info` gives size and semantic.
 ImagePtr noise_image(const NoiseSpec& spec, ImageInfo info, const Digest& recipe);
 
 }  // namespace terrazzo

@@ -7,10 +7,10 @@
 namespace terrazzo {
 
 /// Slabs broken out of larger ones: the cells of a packing, each cut by straight lines until its parts are small
-/// enough. Parts are convex, and the cuts end at each other as cracks do. Immutable.
+/// enough. Parts are convex, and cuts end at other cuts like cracks. Immutable.
 class SlabCuts {
  public:
-  /// `unit`: the mean size of a slab in units of the canvas; `uneven` in [0, 1]: how much slabs differ.
+  /// `unit`: the mean size of a slab in units of the canvas; `uneven` in [0, 1]: the variation of slab sizes.
   SlabCuts(const Canvas& canvas, double unit, double uneven, uint64_t salt);
 
   struct Place {

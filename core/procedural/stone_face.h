@@ -4,13 +4,13 @@
 
 namespace terrazzo {
 
-/// How stones are worked and laid. Lengths are fractions of a stone's mean size.
+/// The appearance of stones and joints. Lengths are fractions of a stone's mean size.
 struct StoneLook {
   double joint = 0.1;     ///< width of the joints
-  double rounding = 0.2;  ///< how far from the edge the face curves down
-  double edge = 0.03;     ///< how ragged the edges are
-  double hollow = 0.4;    ///< how deep the joints lie, of the whole height
-  double rough = 0.2;     ///< relief of the face, of the whole height
+  double rounding = 0.2;  ///< distance from the edge at which the face curves down
+  double edge = 0.03;     ///< raggedness of the edges
+  double hollow = 0.4;    ///< depth of the joints as a fraction of the height
+  double rough = 0.2;     ///< relief of the face as a fraction of the height
   double facets = 0;      ///< share of that relief in split planes
   double riven = 0;       ///< share of that relief in the steps of split layers
   double tooled = 0;      ///< strength of the mason's chisel marks
@@ -24,7 +24,7 @@ struct StonePlace {
   uint64_t bits;    ///< random bits of the stone
 };
 
-/// What stones and the mortar between them look like, however they are laid. Immutable.
+/// The appearance of stones and mortar, independent of the layout. Immutable.
 class StoneFace {
  public:
   /// `unit`: the mean size of a stone in units of the canvas.
@@ -47,7 +47,7 @@ class StoneFace {
   double unit_;
 };
 
-/// The scale, but at most one piece per pixel: finer ones could not be seen, and would take memory without end.
+/// The scale, limited to one piece per pixel: finer pieces would be invisible and take unbounded memory.
 double visible_scale(const PatternSpec& spec);
 
 }  // namespace terrazzo

@@ -24,7 +24,7 @@ class StonePacking {
     double x, y, radius;
     uint64_t id;  ///< counts from 0; the same for the copies of a stone on a wrapping canvas
   };
-  /// Where a point lies on the stone that it belongs to.
+  /// The position of a point on its stone.
   struct Place {
     uint64_t id;
     double x, y;      ///< from the stone's disc
@@ -52,7 +52,7 @@ class StonePacking {
 
   double unit_;
   double bucket_size_;
-  double margin_;  ///< how far stones go on around the canvas
+  double margin_;  ///< how far stones extend beyond the canvas
   int64_t columns_, rows_;
   std::vector<std::vector<Stone>> buckets_;
   std::vector<Stone> stones_;

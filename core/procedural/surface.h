@@ -7,11 +7,10 @@
 #include "core/base/geometry.h"
 #include "core/procedural/noise.h"
 
-/// What the pattern types share: a canvas of wrapping noises, colours, and the surface that each type describes point
-/// by point.
+/// The basis of pattern types: a canvas with wrapping noises, colours, and the interface of surfaces.
 namespace terrazzo {
 
-/// An sRGB-encoded colour, 0..1. Patterns mix colours as they are encoded, which is near to how they are seen.
+/// An sRGB-encoded colour, 0..1. Patterns mix encoded colours, which approximates perception.
 struct Rgb {
   double r = 0, g = 0, b = 0;
 };
@@ -34,7 +33,7 @@ Rgb saturated(const Rgb& color, double saturation);
 /// The colours of one look of a pattern.
 struct Palette {
   std::string name;
-  std::vector<Rgb> pieces;  ///< the colours that bricks, stones, yarns ... are made in
+  std::vector<Rgb> pieces;  ///< the colours of bricks, stones, yarns, ...
   Rgb joint;                ///< mortar, grout, earth between stones
   Rgb stain;                ///< dirt, moss, patina
 };
@@ -43,10 +42,10 @@ struct PatternSpec {
   std::string type = "bricks";
   Size size{512, 512};
   uint64_t seed = 1;
-  double scale = 0;           ///< pieces across the image; 0: the type's own number
-  double irregularity = 0.5;  ///< 0..1: how much pieces differ in place, size and shape
+  double scale = 0;           ///< pieces across the image; 0: the type's default
+  double irregularity = 0.5;  ///< 0..1: variation of position, size and shape
   double wear = 0.5;          ///< 0..1: chips, pits, stains
-  double relief = 1;          ///< depth as a multiple of the type's natural one
+  double relief = 1;          ///< depth as a multiple of the type's default
   std::string palette{};      ///< empty: the type's first
   bool tileable = true;
 };
@@ -58,8 +57,8 @@ struct SurfacePoint {
   double roughness = 0.7;  ///< 0..1
 };
 
-/// The plane a pattern is drawn on: u in [0, 1) from left to right, v in [0, aspect) downwards, in the same unit. Where
-/// it wraps, everything drawn from its noises and grids repeats exactly at the borders.
+/// The plane of a pattern: u in [0, 1) from left to right, v in [0, aspect) downwards, in the same unit. If it wraps,
+/// its noises and grids repeat exactly at the borders.
 class Canvas {
  public:
   Canvas(Size size, bool wraps, uint64_t seed);
@@ -69,7 +68,7 @@ class Canvas {
   double pixel() const { return pixel_; }  ///< the width of a pixel
   uint64_t seed() const { return seed_; }
 
-  /// A noise of `across` cells per unit, in [-1, 1]. `salt` tells the noises of one pattern apart.
+  /// A noise of `across` cells per unit, in [-1, 1]. `salt` distinguishes the noises of one pattern.
   double noise(double u, double v, double across, uint64_t salt) const;
   /// Octaves of noise, each twice as fine as the one before and `gain` times as strong, in [-1, 1]; octaves finer than
   /// two pixels are left out.
@@ -100,7 +99,7 @@ class Grid {
   double cell_height() const { return cell_height_; }
   /// Random bits of a cell, the same for cells that are one cell of the wrapped surface.
   uint64_t bits(int64_t column, int64_t row, uint64_t salt) const;
-  /// A number that no other cell has, the same for cells that are one cell of the wrapped surface.
+  /// A unique number of a cell, the same for cells that are one cell of the wrapped surface.
   uint64_t id(int64_t column, int64_t row) const;
 
  private:
@@ -113,7 +112,7 @@ class Grid {
   Period period_;
 };
 
-/// Several random numbers out of one cell's bits.
+/// A sequence of random numbers from one cell's bits.
 class Dice {
  public:
   explicit Dice(uint64_t bits) : bits_(bits) {}
@@ -135,13 +134,13 @@ Rgb pick_color(const std::vector<Rgb>& colors, Dice& dice);
 /// Signed distance to a rectangle of the given half sides with corners rounded to `radius`; negative inside.
 double rounded_box(double x, double y, double half_width, double half_height, double radius);
 
-/// A pattern type: the surface at every point of a canvas. Immutable, so any number of threads may ask.
+/// A pattern's surface, evaluated point by point. Immutable; thread-safe.
 class Surface {
  public:
   virtual ~Surface() = default;
   virtual SurfacePoint at(double u, double v) const = 0;
-  /// Which element (brick, stone, board ...) the point belongs to; joints belong to the nearer of their neighbours. An
-  /// element that goes on over the border of a wrapping canvas has one number. 0 everywhere if there are no elements.
+  /// The element (brick, stone, board ...) at a point; joints belong to the nearest element. An element that crosses
+  /// the border of a wrapping canvas has one number. 0 everywhere if there are no elements.
   virtual uint64_t element(double, double) const { return 0; }
 };
 

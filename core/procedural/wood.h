@@ -4,14 +4,14 @@
 
 namespace terrazzo {
 
-/// One board: its random numbers, and the place of a point on it, in widths of a board.
+/// A board's random bits, and the position of a point on it, in widths of a board.
 struct Board {
   double x, y;  ///< along from its left end, across from its middle
   double length;
   uint64_t bits;
 };
 
-/// What boards of plain-sawn wood and the gaps between them look like, however they are laid. Immutable.
+/// The appearance of boards of plain-sawn wood and their gaps, independent of the layout. Immutable.
 class Wood {
  public:
   /// `width` of a board in units of the canvas.

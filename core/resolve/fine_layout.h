@@ -8,7 +8,7 @@
 
 namespace terrazzo {
 
-/// From an output pixel to the exemplar pixel it shows, in pixels of the resolved exemplar.
+/// The offset from an output pixel to the exemplar pixel it shows, in pixels of the resolved exemplar.
 struct Offset {
   int x = 0;
   int y = 0;
@@ -30,7 +30,7 @@ class FineLayout {
   }
   Size exemplar() const { return exemplar_; }
   double radius() const { return radius_; }
-  /// How many pixels of the uv map a fine pixel sees to each side of its own.
+  /// The number of uv map pixels on each side that a fine pixel depends on.
   int reach() const { return reach_; }
   const UvMap& uv() const { return *uv_; }
 
@@ -42,13 +42,13 @@ class FineLayout {
   double distance_y(int owner, int y) const { return y_.centre(y) - (owner + 0.5); }
 
   /// The offsets of `count` pixels of row `y` of the uv map, from column `left` on; both may lie outside. Wraps if the
-  /// output does, else border pixels' pieces continue.
+  /// output does; else the pieces at the border continue.
   void offsets(int left, int y, int count, Offset* out) const;
 
   /// The exemplar pixels shown by part of an output row, which must lie inside.
   void shown(int x, int y, int count, Offset* out) const;
 
-  /// Wraps exemplar coordinates that an offset led to; false if they lie outside.
+  /// Wraps exemplar coordinates reached by an offset; false if they lie outside.
   bool inside(int& x, int& y) const;
   /// The same for a pixel's own offset, which rounding may move one fine pixel outside; clamps it.
   void settle(int& x, int& y) const;
@@ -71,7 +71,7 @@ class FineLayout {
   int reach_;
 };
 
-/// The offsets around a region of the output, and where no seam is near. Not thread-safe.
+/// The offsets around a region of the output, with a mask of pixels far from seams. Not thread-safe.
 class LayoutWindow {
  public:
   LayoutWindow(const FineLayout& layout, const Rect& region);

@@ -9,21 +9,21 @@
 
 namespace terrazzo {
 
-/// Whether pieces of such a map can be joined: one-channel heights.
+/// Whether a map can be joined: only one-channel heights.
 bool can_join(const ImageInfo& info);
 
 /// A height map resolved through a layout, with pieces raised and lowered so that they meet (gradient-domain
 /// compositing: Perez, Gangnet & Blake, Poisson image editing, 2003; screened as in Bhat et al., Fourier analysis of
 /// the 2D screened Poisson equation, 2008).
 ///
-/// Target gradients are the exemplar's within pieces; across a seam, of the slopes between those of both pieces'
-/// continuations, the one nearest to the actual step, so that a cliff of either piece remains. The screening term, a
-/// weak pull to the exemplar's heights, limits corrections to about `reach` pixels of the uv map around a seam. Heights
-/// are clamped to the exemplar's range.
+/// Target gradients are the exemplar's within pieces. Across a seam, the target is the value nearest to the actual step
+/// in the range between the slopes of both pieces' continuations, so that a cliff of either piece remains. The
+/// screening term, a weak pull to the exemplar's heights, limits corrections to about `reach` pixels of the uv map
+/// around a seam. Heights are clamped to the exemplar's range.
 ///
-/// The coarse solution is computed at once, in 2.7 bytes per output pixel, of which 1 stays; the rest on demand, the
-/// same bits whatever region is read. Wraps as the layout does. Values that are not finite stay and have no influence.
-/// Kept heights stay bit for bit; everything else adapts to them. Throws Cancelled.
+/// The coarse solution is computed immediately, in 2.7 bytes per output pixel, of which 1 remains; the rest is computed
+/// on demand, bit-exact for any region. Wraps as the layout. Non-finite values stay and are ignored. Kept heights stay
+/// bit for bit; everything else adapts to them. Throws Cancelled.
 ImagePtr joined_heights(const ImagePtr& map, const std::shared_ptr<const FineLayout>& layout, double reach,
                         const KeptHeights& kept, const Task& task);
 

@@ -10,11 +10,11 @@ namespace terrazzo {
 /// Heights of an earlier result that must not change.
 struct KeptHeights {
   ImagePtr heights{};  ///< one channel, at the result's scale; null: nothing is kept
-  int x = 0, y = 0;    ///< of their top left pixel in the result; what lies outside is ignored
+  int x = 0, y = 0;    ///< position of their top left pixel in the result; pixels outside are ignored
   ImagePtr holes{};  ///< nothing is kept where its first channel exceeds 0.5; stretched over the result; null: no holes
 };
 
-/// The same, in memory. Immutable; thread-safe.
+/// Kept heights in memory. Immutable; thread-safe.
 class KeptLookup {
  public:
   /// `result`: its size.

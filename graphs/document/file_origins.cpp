@@ -10,9 +10,8 @@ namespace {
 
 using ParameterNames = std::set<std::string>;
 
-/// The document's parameters of type path behind those that a node names. Instead of a loop's variable, which cannot
-/// be set, they are those that the loop is made from; of a subgraph's parameter those that its node names, if it says
-/// it.
+/// The document's path parameters behind those that a node names. A loop's variable, which cannot be set, is replaced
+/// by the parameters of the loop's source; a subgraph's parameter by those that its node names, if it sets it.
 ParameterNames files_behind(const NodeDraft& node, const ParameterNames& named) {
   ParameterNames own;
   for (const std::string& name : named) {
@@ -32,14 +31,14 @@ ParameterNames files_behind(const NodeDraft& node, const ParameterNames& named) 
   return out;
 }
 
-/// A long chain of nodes must not hand on ever more names; nobody reads a message that lists more.
+/// Limits the names that a long chain of nodes accumulates; nobody reads a longer list.
 void add_first(const ParameterNames& names, ParameterNames& to) {
   constexpr size_t most = 16;
   for (const std::string& name : names)
     if (to.size() < most) to.insert(name);
 }
 
-/// Collects what can be set, each once.
+/// Collects settable values without duplicates.
 class SettablesBehind {
  public:
   void add(const NodeDraft& node, const ParameterNames& named) {

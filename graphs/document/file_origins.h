@@ -8,15 +8,15 @@
 
 namespace terrazzo {
 
-/// Tells every path parameter and every port (see GraphNode::files_by) from which of the document's own parameters its
-/// files are: those that can be set. `order` is topological.
+/// Records for every path parameter and port which of the document's own parameters its files come from
+/// (GraphNode::files_by). `order` is topological.
 void trace_files(Drafts& drafts, const std::vector<size_t>& order);
 
-/// Tells every path parameter what else can be set that its value is made from (NodeDraft::set_by).
+/// Records for every path parameter which settable values its own value is derived from (NodeDraft::set_by).
 void trace_settables(Drafts& drafts);
 
-/// What can be set, in this level and those around it, that these parameters of the level are made from, themselves
-/// included.
+/// The settable values, in this level and enclosing ones, that these parameters of the level are derived from,
+/// including themselves.
 std::vector<Settable> settables_behind(const Level& level, const std::set<std::string>& parameters);
 
 }  // namespace terrazzo

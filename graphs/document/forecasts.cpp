@@ -9,7 +9,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Of what may not be read nothing may become known either.
+/// Forecasts must not reveal anything about files that may not be read.
 void check_reads(const GraphNode& node) {
   if (!ReadGuard::is_set() || node.type->is_sink()) return;
   for (const Param& p : node.type->params) {
@@ -37,7 +37,7 @@ const Forecast* Forecasts::add(const GraphNode& node) {
   if (type.infer) outputs = type.infer(node.params, inputs);
   Forecast whole;
   if (type.preflight) whole = type.preflight(node.params, inputs);
-  // Of several outputs a preflight is about the material.
+  // If there are several outputs, preflight describes the material.
   auto main = std::ranges::find(type.outputs, ValueType::material, &Port::type);
   if (main == type.outputs.end()) main = type.outputs.begin();
   if (main != type.outputs.end()) {

@@ -7,17 +7,17 @@
 
 namespace terrazzo {
 
-/// What is known of the results of nodes before anything runs, as the rules and preflights of their types say.
+/// What is known of nodes' results before anything runs, according to their types' infer and preflight.
 class Forecasts {
  public:
-  /// Looks ahead at a checked node, after all that it reads. Null if its type cannot tell. Throws what these
-  /// throw: Error, or Errors.
+  /// Adds a checked node; its sources must come first. Null if its type has neither hook. Throws what the hooks throw:
+  /// Error or Errors.
   const Forecast* add(const GraphNode& node);
   /// Null if nothing is known.
   const Forecast* find(const std::string& node) const;
-  /// The same of one output.
+  /// The same for one output.
   const Forecast* find_output(const Wire& output) const;
-  /// What is known of all that comes into a node; empty forecasts where nothing is.
+  /// The forecasts of a node's inputs; empty forecasts where nothing is known.
   InputForecasts inputs_of(const GraphNode& node) const;
 
  private:

@@ -10,30 +10,30 @@
 #include "graphs/document/nodes.h"
 #include "graphs/document/subgraphs.h"
 
-/// The nodes of a graph with those of its subgraphs: a tree of levels. Each level has parameters and names of its own.
+/// The nodes of a graph and its subgraphs as a tree of levels. Each level has its own parameters and names.
 namespace terrazzo {
 
-/// Parameters as expressions see them: those of a level, or, in a round of a loop, the loop's variables before these.
+/// The parameters visible to expressions: those of a level or, in an iteration of a loop, the loop's variables first.
 struct NodeScope {
-  std::vector<GraphParameter> parameters;  ///< of a round only the variables
+  std::vector<GraphParameter> parameters;  ///< in an iteration only the loop's variables
   std::unique_ptr<GraphScope> scope;
   std::unique_ptr<Substitution> substitution;
 };
 
-/// What a name in a level's section `nodes` stands for; several in a loop.
+/// The instance of a name in a level's section `nodes`; a loop has several.
 struct NodeInstance {
   NodeDraft* draft = nullptr;
-  Level* inner = nullptr;  ///< null if it is no graph, is muted, or could not be read
+  Level* inner = nullptr;  ///< null if the node is no graph, is muted, or could not be read
 };
 
-/// A graph that is being read: the document, or one use of a subgraph.
+/// A graph being read: the document, or one use of a subgraph.
 struct Level {
   const Subgraph* graph = nullptr;
   Level* outer = nullptr;
-  NodeDraft* use = nullptr;  ///< the node in `outer` that it is
-  std::string path;          ///< begins the names of its nodes: "walls/"
+  NodeDraft* use = nullptr;  ///< its node in `outer`
+  std::string path;          ///< prefix of its nodes' names: "walls/"
   NodeScope names;
-  std::vector<std::unique_ptr<NodeScope>> rounds;  ///< of all its loops
+  std::vector<std::unique_ptr<NodeScope>> rounds;  ///< the iterations of all its loops
   NodeReading reading;
   std::vector<std::pair<std::string, std::vector<NodeInstance>>> items;  ///< by name, in the document's order
   std::map<std::string, size_t> positions;                               ///< in `items`

@@ -13,11 +13,11 @@ namespace terrazzo {
 
 namespace {
 
-constexpr size_t most_nodes = 100000;  // small files can hold graphs within graphs that are more than any memory
-constexpr int deepest = 30;            // graphs within graphs
-// What names and expressions put into them included; a document itself is at most this long.
+constexpr size_t most_nodes = 100000;  // nested graphs can expand small files beyond any memory
+constexpr int deepest = 30;            // nesting of graphs
+// Including values inserted by names and expressions; also the limit of a document's own length.
 constexpr size_t most_text = size_t{64} << 20;
-constexpr size_t most_parameters = 200000;  // of subgraphs: each use has its own
+constexpr size_t most_parameters = 200000;  // of subgraphs; every use has its own
 
 RoutedOverride routed(const Override* override, const std::string& path) {
   const size_t bracket = path.find('['), closed = bracket == path.npos ? 0 : path.find(']', bracket);
@@ -33,7 +33,7 @@ size_t bytes_of_values(const Params& params) {
   return sum;
 }
 
-/// Whether this draft has been told its value for the parameter and could not read it yet.
+/// Whether the draft has a value for the parameter that could not be read yet.
 bool is_waiting(const NodeDraft& use, const std::string& parameter) {
   return std::ranges::find(use.waiting, parameter, &NodeEntry::name) != use.waiting.end();
 }
@@ -41,7 +41,7 @@ bool is_waiting(const NodeDraft& use, const std::string& parameter) {
 void bind(GraphParameter& p, const NodeDraft& use) {
   const std::string& name = p.param.name;
   if (!use.node.places.contains(name)) {
-    // The default of a `seed` may come from the graph around it.
+    // The default of a `seed` may come from the enclosing graph.
     const auto value = use.node.params.find(name);
     if (value != use.node.params.end() && p.param.type != ParamType::path) p.value = value->second;
     return;

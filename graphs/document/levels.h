@@ -12,10 +12,10 @@
 
 #include "graphs/document/level.h"
 
-/// Reads the nodes of a graph with those of its subgraphs.
+/// Reads the nodes of a graph and its subgraphs.
 namespace terrazzo {
 
-/// An override on its way to its node, in the level that has "walls" for "walls[brick]/layout".
+/// An override of "walls[brick]/layout" in the level of the node "walls", on its way down.
 struct RoutedOverride {
   const Override* override = nullptr;
   std::string name;   ///< "walls[brick]"
@@ -23,7 +23,7 @@ struct RoutedOverride {
   std::string rest;   ///< "layout"
 };
 
-/// Reads levels. Keeps all that has been read.
+/// Reads levels and owns the result. Not thread-safe.
 class Levels {
  public:
   Levels(Subgraphs& graphs, const KnownTypes& types, std::vector<Problem>& problems)
@@ -33,28 +33,28 @@ class Levels {
   /// Overrides must outlive this.
   Level& read(std::unique_ptr<Level> root, const std::vector<Override>& overrides);
 
-  /// Nodes that run; muted ones and those that are graphs are not among them.
+  /// The nodes that run: neither muted nor graphs.
   Drafts& nodes() { return nodes_; }
   /// The nodes that are graphs or muted.
   Drafts& others() { return others_; }
   const Drafts& nodes() const { return nodes_; }
   const Drafts& others() const { return others_; }
   const std::vector<std::unique_ptr<Level>>& all() const { return levels_; }
-  /// By the path that begins its nodes' names; null if there is none.
+  /// The level with this path (the prefix of its nodes' names); null if there is none.
   const Level* find(const std::string& path) const {
     const auto at = by_path_.find(path);
     return at == by_path_.end() ? nullptr : at->second;
   }
-  /// Whether there is more than may be; the rest has not been read then, and a problem says so.
+  /// Whether a size limit was reached. The rest is then unread, and a problem has been reported.
   bool is_full() const { return is_full_; }
-  /// Files and folders that loops were made from.
+  /// Files and folders that loops depend on.
   const std::vector<LoopSource>& made_from() const { return made_from_; }
-  /// Parameters that loops need and that have no value.
+  /// Parameters without a value that loops need.
   const std::set<std::string>& unset_for_loops() const { return unset_for_loops_; }
 
-  /// Reads what the nodes of this level, and the graphs around it, wait for, as far as all they ask for is known.
+  /// Reads deferred parameters in this level and enclosing ones, once the nodes that they query are in `known`.
   void read_deferred(Level& level, const std::set<std::string>& known);
-  /// Tells every scope where to ask for forecasts.
+  /// Sets the source of forecasts for every scope.
   void set_forecasts(const GraphScope::Forecasts& forecasts);
 
  private:
@@ -78,12 +78,12 @@ class Levels {
   std::deque<Port> output_ports_;
   std::vector<LoopSource> made_from_;
   std::set<std::string> unset_for_loops_;
-  size_t text_ = 0;        ///< bytes in the values of nodes
+  size_t text_ = 0;        ///< bytes in the nodes' values
   size_t parameters_ = 0;  ///< of subgraphs
   bool is_full_ = false;
 };
 
-/// Gives the parameters of a level the values that its node says, as far as they are known.
+/// Sets the parameters of a level from its node's values, as far as they are known.
 void bind_parameters(Level& level);
 
 }  // namespace terrazzo

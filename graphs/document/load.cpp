@@ -32,7 +32,7 @@ fs::path working_folder() {
   return failure ? fs::path("/") : folder;
 }
 
-/// A document on its way to a graph. All problems are collected; `finish` throws them.
+/// Loads a document. Collects all problems; `finish` throws them.
 class Loader {
  public:
   Loader(std::string_view text, const fs::path& path, const LoadOptions& options)
@@ -60,7 +60,7 @@ class Loader {
     if (!problems_.empty()) throw GraphError(file_, std::move(problems_));
   }
 
-  /// Gives all problems since the last call this code.
+  /// Sets the code of all problems since the last call.
   void coded(const char* code) {
     set_code(problems_, coded_, code);
     coded_ = problems_.size();
@@ -100,7 +100,7 @@ class Loader {
     root.names.substitution = std::make_unique<Substitution>(*root.names.scope);
     levels_.read(std::move(owned), overrides);
     coded("node");
-    if (levels_.is_full()) finish();  // what more is wrong would be sought in all that was read so far
+    if (levels_.is_full()) finish();  // further checks would process everything read so far
     std::vector<Problem> conversions;
     for (const std::unique_ptr<Level>& level : levels_.all()) check_wires(*level, problems_, conversions);
     connect(levels_, problems_);
@@ -130,7 +130,7 @@ class Loader {
     set_code(conversions, 0, "conversion");
     out.conversions = std::move(conversions);
     out.warnings = warnings_about(levels_, subgraphs_, root, order);
-    // What a pack says of its inputs stands in for parameters that nodes use.
+    // A pack's settings for its inputs replace parameters that nodes use.
     if (!options.pack.empty())
       std::erase_if(out.warnings, [](const Problem& p) { return p.code == "unused-parameter"; });
     const std::set<std::string> left = options.keep_going ? without_faulty(order, wanted) : wanted;
@@ -142,7 +142,7 @@ class Loader {
         out.graph.nodes.push_back(std::move(drafts[i].node));
       }
     out.graph.made_from = subgraphs_.files();
-    // A new file changes the time of the folder it is in.
+    // A new file changes its folder's modification time.
     for (const LoopSource& l : levels_.made_from())
       out.graph.made_from.push_back(l.kind == "table" ? l.path : l.path.parent_path());
     out.loops = levels_.made_from();
@@ -153,7 +153,7 @@ class Loader {
   }
 
  private:
-  /// Those of the command line count most, then settings files, then presets.
+  /// In order of precedence: command line, settings files, presets.
   std::vector<Override> overrides_from(const std::vector<Preset>& presets, const std::vector<std::string>& texts,
                                        const LoadOptions& options) {
     std::vector<Override> out = chosen_presets(presets, options.presets, problems_);
@@ -176,7 +176,7 @@ class Loader {
     return out;
   }
 
-  /// Where the results come from that an expression asks for: through inputs and subgraphs.
+  /// The source of results that an expression queries, resolved through inputs and subgraphs.
   WireSources sources_behind(const std::string& asked) const {
     const size_t name = asked.rfind('/') + 1;  // 0 if there is none
     const Level* level = levels_.find(asked.substr(0, name));
@@ -185,7 +185,7 @@ class Loader {
     return level ? sources_of(*level, {asked.substr(name), "", {}, ""}, diagnostics) : WireSources{};
   }
 
-  /// The one node whose results an expression asks for. Throws Error if that is not one.
+  /// The node whose results an expression queries. Throws Error if there is not exactly one.
   std::string node_behind(const std::string& asked) const {
     const WireSources found = sources_behind(asked);
     if (found.wires.size() > 1) throw Error(fmt::format("\"{}\" is a loop, of {} rounds", asked, found.wires.size()));
@@ -193,7 +193,7 @@ class Loader {
     return found.wires.front().node;
   }
 
-  /// In a node, instead of names as expressions have them, those of the nodes behind.
+  /// Replaces the names in a node's queries by those of the resolved nodes.
   void resolve_queried_nodes(NodeDraft& draft) const {
     std::set<std::string> nodes;
     for (const std::string& name : draft.asked) {
@@ -205,7 +205,7 @@ class Loader {
     draft.asked = std::move(nodes);
   }
 
-  /// Evaluates what is made from the forecasts of nodes: node by node, so that each can ask for earlier ones.
+  /// Evaluates values that query forecasts, node by node, so that each can query earlier ones.
   void read_deferred(const std::vector<size_t>& order, Level& root) {
     Drafts& drafts = levels_.nodes();
     std::vector<std::string> asked;
@@ -215,7 +215,7 @@ class Loader {
     std::map<std::string, const NodeDraft*> by_name;
     for (const NodeDraft& d : drafts) by_name[d.node.name] = &d;
     const std::set<std::string> needed = needed_nodes(drafts, asked);
-    std::set<std::string> incomplete = {never_known};  // what is wrong or is to be set has been said or will be
+    std::set<std::string> incomplete = {never_known};  // problems and unset values are reported elsewhere
     std::set<std::string> known;
     Forecasts forecasts;
     levels_.set_forecasts([&](const std::string& name) -> const Forecast& {
@@ -243,7 +243,7 @@ class Loader {
     levels_.set_forecasts({});
   }
 
-  /// The document's own parameters that no node has asked for, as far as all is known that they ask for.
+  /// The document's own parameters that no node uses, as far as their queries are known.
   void evaluate_rest(Level& root, const std::set<std::string>& incomplete) {
     GraphScope& scope = *root.names.scope;
     for (const GraphParameter& p : root.names.parameters) {
@@ -262,7 +262,7 @@ class Loader {
     return std::ranges::any_of(levels_.nodes(), waits) || std::ranges::any_of(levels_.others(), waits);
   }
 
-  /// Whether all is known that can be; what the node's preflight finds wrong is a problem.
+  /// Whether the forecast succeeded; errors of the node's hooks become problems.
   bool look_ahead(const NodeDraft& draft, Forecasts& forecasts, const std::set<std::string>& incomplete) {
     const GraphNode& node = draft.node;
     if (!is_complete(draft)) return false;
@@ -282,8 +282,7 @@ class Loader {
     return false;
   }
 
-  /// What is wrong with sources that these nodes are or need. Whether others have mistakes, which are left out with
-  /// them.
+  /// Reports problems of these nodes' sources. Returns whether other nodes have errors; they are left out.
   bool report_sources(const std::set<std::string>& nodes) {
     bool is_part = false;
     for (Problem& p : of_sources_) {
@@ -295,7 +294,7 @@ class Loader {
     return is_part;
   }
 
-  /// The nodes that can be made without the faulty ones among those that are asked; these stay, for the run to tell of.
+  /// The nodes that can run without the faulty queried ones; the faulty ones stay, so that the run reports them.
   std::set<std::string> without_faulty(const std::vector<size_t>& order, const std::set<std::string>& wanted) {
     const std::set<std::string> asked = asked_too(levels_.nodes(), wanted);
     std::set<std::string> faulty;
@@ -305,7 +304,7 @@ class Loader {
     return nodes_left(levels_.nodes(), order, wanted, faulty);
   }
 
-  /// Where all nodes run, also what none of them needs: it is there to be set.
+  /// If all nodes run, includes unused parameters: they are there to be set.
   void require_set(const std::vector<GraphParameter>& parameters, const std::vector<Port>& inputs,
                    const std::set<std::string>& wanted) {
     const Drafts& drafts = levels_.nodes();
@@ -322,7 +321,7 @@ class Loader {
                              "nothing comes into it: a graph with inputs runs as a node of another graph"});
   }
 
-  /// The nodes that nothing has been said against, and that have all they need but for what others are to give.
+  /// The nodes without problems whose values are complete except for queried results.
   std::vector<GraphNode> faultless(const std::vector<size_t>& order) {
     const Drafts& drafts = levels_.nodes();
     std::set<std::string> faulty;
@@ -335,17 +334,17 @@ class Loader {
     return out;
   }
 
-  /// Stands for a node that is asked for and whose results cannot be known, for reasons that have been reported.
+  /// Represents a queried node whose results cannot be known, for reasons that have been reported.
   static constexpr const char* never_known = "?";
 
   std::string file_;
   fs::path path_, folder_;
   JsonValue document_;
   std::vector<Problem> problems_;
-  std::vector<Problem> of_sources_;  ///< what looking ahead has found: of some nodes nobody may want to hear it
-  size_t coded_ = 0;                 ///< how many of them have their code
+  std::vector<Problem> of_sources_;  ///< problems found by looking ahead, some of which may be about unneeded nodes
+  size_t coded_ = 0;                 ///< number of problems that have a code
   std::vector<std::string> given_;
-  std::vector<Override> given_to_pack_;  ///< what a pack is told by others than itself
+  std::vector<Override> given_to_pack_;  ///< overrides that do not come from the pack itself
   KnownTypes types_;
   Subgraphs subgraphs_;
   Levels levels_;

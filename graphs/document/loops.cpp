@@ -24,7 +24,7 @@ namespace {
 
 const std::vector<std::string> kinds = {"files", "folders", "table", "values"};
 
-/// What a text of a table is: a number if it reads as one.
+/// A table cell as a value: a number if it can be parsed as one.
 JsonValue value_in_cell(const std::string& text) {
   const ParsedJson parsed = parse_json(text);
   const bool is_plain = parsed.value && (parsed.value->is_number() || parsed.value->kind == JsonValue::Kind::boolean);
@@ -46,14 +46,14 @@ std::optional<ParamType> common_type(const std::vector<JsonValue>& values) {
   return std::nullopt;
 }
 
-/// As a part of a node's name.
+/// Converts a text to a part of a node's name.
 std::string label_of(const std::string& text) {
   std::string out;
   for (const char c : text) out += static_cast<unsigned char>(c) < ' ' || c == '/' || c == '[' || c == ']' ? '_' : c;
   return out;
 }
 
-/// The part of a pattern in front of the first name with a wildcard.
+/// The part of a pattern before the first name with a wildcard.
 fs::path fixed_part(const fs::path& pattern) {
   fs::path out;
   for (const fs::path& part : pattern) {
@@ -63,7 +63,7 @@ fs::path fixed_part(const fs::path& pattern) {
   return out;
 }
 
-/// What a misspelt folder, or files taken for folders, leave a loop with.
+/// The problem of an empty loop: a misspelt folder, or files where folders are expected.
 std::string nothing_like(const fs::path& pattern, bool folders, size_t others) {
   std::string message = fmt::format("no {} is named like {}", folders ? "folder" : "file", pattern.string());
   if (others > 0)
@@ -78,10 +78,10 @@ std::string nothing_like(const fs::path& pattern, bool folders, size_t others) {
   return message;
 }
 
-/// Lists what is named like a pattern, where ReadGuard allows it; throws what that throws.
+/// Lists the paths that match a pattern, where ReadGuard allows it; throws as ReadGuard.
 std::vector<fs::path> paths_like(const fs::path& pattern) {
   ReadGuard::check(fixed_part(pattern));
-  static thread_local std::exception_ptr refused;  // glob, which is C, is told only that it failed
+  static thread_local std::exception_ptr refused;  // exceptions must not pass through glob, which is C
   refused = nullptr;
   glob_t found{};
   found.gl_opendir = [](const char* folder) -> void* {
@@ -158,7 +158,7 @@ class LoopReader {
     failed_ = true;
   }
 
-  /// The key that says over what; null after a problem.
+  /// The key that names the loop's source; null after a problem.
   const JsonMember* read_keys() {
     place_ = loop_.place;
     const JsonMember* out = nullptr;

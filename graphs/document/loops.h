@@ -9,39 +9,39 @@
 #include "graphs/values/parameters.h"
 #include "graphs/values/substitution.h"
 
-/// `foreach`: one node, or subgraph, for each of several files, folders, values or rows of a table.
+/// `foreach`: repeats a node or subgraph for each of several files, folders, values or table rows.
 ///
 ///     "foreach": {"folders": "scans/*", "as": "scan"}
 namespace terrazzo {
 
-/// One round of a loop.
+/// One iteration of a loop.
 struct LoopRound {
-  std::string label;                      ///< unlike that of all others: "brick"
-  std::vector<GraphParameter> variables;  ///< scan, scan_name and scan_index; of a table its columns
+  std::string label;                      ///< unique in the loop: "brick"
+  std::vector<GraphParameter> variables;  ///< scan, scan_name and scan_index; for a table its columns
 };
 
-/// Something that can be set: a parameter of the graph (`node` is empty) or of a node, or what a loop goes over.
+/// A settable value: a parameter of the graph (`node` is empty) or of a node, or a loop's source.
 struct Settable {
-  std::string node{};  ///< with its path
-  std::string name;    ///< "foreach" of a loop
+  std::string node{};  ///< with its level's path
+  std::string name;    ///< "foreach" for a loop's source
   std::string path{};  ///< its value, if that is a path
 };
-/// By path parameter of a node: what else can be set that its value is made from.
+/// By path parameter of a node: the settable values that it is derived from.
 using SetBy = std::map<std::string, std::vector<Settable>>;
 
-/// What a loop was made from.
+/// The files or folders that a loop iterates over.
 struct LoopSource {
-  std::string node{};          ///< its name, with its path
+  std::string node{};          ///< the node's name, with its level's path
   std::string kind;            ///< "files", "folders" or "table"
-  std::filesystem::path path;  ///< of files and folders what they are to be named like; absolute
+  std::filesystem::path path;  ///< for files and folders their pattern; absolute
   std::string as;
-  std::vector<std::string> names{};  ///< of the files and folders found, in the order of the rounds
-  std::vector<Settable> set_by{};    ///< what can be set that it was made from
+  std::vector<std::string> names{};  ///< of the files and folders found, in the order of iteration
+  std::vector<Settable> set_by{};    ///< the settable values that it is derived from
 };
 
-/// The rounds that `loop` describes; relative paths lie in `folder`. Files that it read, and folders that it listed,
-/// are added to `made_from`, without the node's name. Empty after a problem, or if something is lacking, which is added
-/// to `lacking`.
+/// The iterations that `loop` describes; relative paths start at `folder`. Adds files that it read and folders that it
+/// listed to `made_from`, without the node's name. Nullopt after a problem, or if a value is missing, which is added to
+/// `lacking`.
 std::optional<std::vector<LoopRound>> read_loop(const JsonValue& loop, const std::filesystem::path& folder,
                                                 Substitution& substitution, Diagnostics& diagnostics, Lacking& lacking,
                                                 std::vector<LoopSource>& made_from);

@@ -18,7 +18,7 @@ void merge_members(std::vector<Override>& overrides, const std::vector<GraphPara
       map_parameters.emplace(p.param.name, &p);
   struct Merged {
     JsonValue map;
-    Override* last = nullptr;  ///< which says all of it in the end
+    Override* last = nullptr;  ///< receives the merged map
   };
   std::map<std::string, Merged> maps;
   for (Override& o : overrides) {

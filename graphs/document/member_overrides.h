@@ -7,7 +7,7 @@
 
 namespace terrazzo {
 
-/// Makes "weights.height=2" the whole map, where `weights` is no node but a parameter of the graph.
+/// Turns "weights.height=2" into an override of the whole map if `weights` is a parameter of the graph and not a node.
 void merge_members(std::vector<Override>& overrides, const std::vector<GraphParameter>& parameters,
                    const NodeTypes& nodes, std::vector<Problem>& problems);
 

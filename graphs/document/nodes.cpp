@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-/// The order of nodes does not matter, nor do other nodes. 31 bits: every tool that shows it can hold it.
+/// Independent of other nodes and their order. 31 bits, which every tool can represent.
 int64_t derived_seed(int64_t graph_seed, const std::string& node) {
   const std::string hex = Hasher().add("seed of a node").add(graph_seed).add(node).digest().hex();
   return int64_t(std::stoul(hex.substr(0, 8), nullptr, 16) & 0x7FFFFFFF);
@@ -95,7 +95,7 @@ class NodeReader {
       report(comment.place, "expected a text for \"comment\", found " + found(comment));
   }
 
-  /// Of "weights.height=2" the whole map, if `weights` is one. False if it is not.
+  /// Applies "weights.height=2" to the whole map. False if `weights` is no map.
   bool add_member(const Override& o, std::vector<NodeEntry>& entries) {
     const size_t dot = o.name.find('.');
     const Param* param = dot == o.name.npos ? nullptr : type().find_param(o.name.substr(0, dot));
@@ -256,14 +256,14 @@ class NodeReader {
     try {
       if (type().check)
         for (const std::string& message : type().check(draft_.node.params)) report(place_of(message), message);
-      // Many ask for these files, and none of them expects that it fails.
+      // Many callers use files_read and do not expect it to throw.
       if (is_foreign && type().files_read) type().files_read(draft_.node.params);
     } catch (const Error& e) {
       report(draft_.node.place_of(e.about()), e.what());
     }
   }
 
-  /// Where the parameter stands that a message begins with, in quotes; else the node.
+  /// The place of the quoted parameter at the beginning of a message; else that of the node.
   Place place_of(const std::string& message) const {
     const size_t end = message.find('"', 1);
     return draft_.node.place_of(message.starts_with('"') && end != message.npos ? message.substr(1, end - 1) : "");

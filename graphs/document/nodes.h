@@ -16,10 +16,10 @@
 #include "graphs/values/override.h"
 #include "graphs/values/substitution.h"
 
-/// The nodes of a graph, each by itself. Wires are in wires.h, the graphs that nodes may be in level.h.
+/// Reads the nodes of a graph one by one. Wires are in wires.h, graphs used as nodes in level.h.
 namespace terrazzo {
 
-/// A wire as a node names it: "@node" or "@node.port".
+/// A wire as written in a node: "@node" or "@node.port".
 struct WireEnd {
   std::string node;
   std::string port;  ///< empty for the node's first output
@@ -32,7 +32,7 @@ struct PortWires {
   const Port* port = nullptr;
   std::vector<WireEnd> wires;
   Diagnostics diagnostics;
-  bool has_faults = false;  ///< not all of its wires could be read
+  bool has_faults = false;  ///< some of its wires could not be read
 };
 
 /// One key of a node, from the document or, if `by` is set, from the command line.
@@ -41,30 +41,30 @@ struct NodeEntry {
   Place place;
   const JsonValue* value = nullptr;
   const Override* by = nullptr;
-  std::shared_ptr<JsonValue> merged{};  ///< a map in which an override has set one member; instead of both
+  std::shared_ptr<JsonValue> merged{};  ///< a map with one member set by an override; replaces `value` and `by`
 };
 
 struct Level;
 struct NodeReading;
 
-/// A node read and checked, but for its wires.
+/// A node that has been read and checked, except for its wires.
 struct NodeDraft {
-  std::string local;  ///< its name in its graph; `node.name` has the path before it
+  std::string local;  ///< its name in its graph; `node.name` is prefixed with the level's path
   GraphNode node;     ///< `type` is null if it is unknown; `inputs` are still empty
   std::vector<PortWires> ports;
-  std::set<std::string> unset;       ///< the graph's parameters that it needs and that have no value
-  std::set<std::string> asked;       ///< nodes whose forecasts its parameters are made from, with their paths
-  std::vector<NodeEntry> waiting{};  ///< parameters that are made from them, not read yet
+  std::set<std::string> unset;       ///< parameters of the graph without a value that it needs
+  std::set<std::string> asked;       ///< nodes whose forecasts its parameters query, with their paths
+  std::vector<NodeEntry> waiting{};  ///< parameters that query forecasts, not read yet
   bool muted = false;                ///< it does not run; its input passes through
-  std::set<std::string> named{};     ///< nodes of its graph that expressions in its ports name, chosen or not
-  Level* level = nullptr;            ///< the graph, or use of a subgraph, that it stands in
+  std::set<std::string> named{};     ///< nodes of its graph named by expressions in its ports, selected or not
+  Level* level = nullptr;            ///< the graph, or use of a subgraph, that contains it
   const NodeReading* reading = nullptr;
   Substitution* substitution = nullptr;
-  std::map<std::string, std::set<std::string>> names_by{};  ///< of its parameters: the graph's that they name
-  SetBy set_by{};                                           ///< if it is asked for, see trace_settables
-  std::set<std::string> loop_names{};                       ///< of a round: those that say over what its loop goes
+  std::map<std::string, std::set<std::string>> names_by{};  ///< by parameter: the graph's parameters that it names
+  SetBy set_by{};                                           ///< filled by trace_settables
+  std::set<std::string> loop_names{};  ///< in an iteration: the parameters that determine its loop's source
 };
-/// Their addresses stay.
+/// A deque, so that addresses stay valid.
 using Drafts = std::deque<NodeDraft>;
 
 /// Node types by name.
@@ -78,31 +78,31 @@ struct KnownTypes {
 /// Context for reading the nodes of one graph.
 struct NodeReading {
   const KnownTypes* known = nullptr;
-  const std::vector<std::string>* graph_names = nullptr;  ///< that are types too
+  const std::vector<std::string>* graph_names = nullptr;  ///< graphs that can be used as types
   std::filesystem::path graph_folder;                     ///< absolute
-  std::optional<int64_t> seed;  ///< of the graph; nodes that give no seed derive theirs from it and their name
-  std::string seed_path;        ///< before their names, where the seed is that of a graph further out
+  std::optional<int64_t> seed;  ///< of the graph; nodes without a seed derive theirs from it and their name
+  std::string seed_path;        ///< prefix of their names if the seed is that of an enclosing graph
 };
 
-/// What every node may have, whatever its type: "comment", "foreach", "mute", "type".
+/// The keys that every node may have: "comment", "foreach", "mute", "type".
 const std::vector<std::string>& common_node_keys();
 
-/// Reads a node, which must outlive the draft, as must the overrides, which replace what its entries say. The draft
-/// comes with its names, level, reading and substitution; with its type if that is a graph.
+/// Reads a node. `overrides` replace its entries; both must outlive the draft. The caller sets the draft's names,
+/// level, reading and substitution, and its type if that is a graph.
 void read_node(NodeDraft& draft, const JsonValue& value, const std::vector<const Override*>& overrides,
                std::vector<Problem>& problems);
 
-/// Reads what waits for forecasts, once these are known.
+/// Reads the parameters in NodeDraft::waiting once their forecasts are known.
 void read_waiting(NodeDraft& draft, std::vector<Problem>& problems);
 
 /// Whether a text in a document is a wire: it begins with one "@".
 bool is_wire(const JsonValue& value);
 /// The two parts of "@node.port"; the second is empty for "@node".
 std::pair<std::string, std::string> wire_parts(const std::string& text);
-/// The wire that a text is. A dot without an output behind it is a problem.
+/// Parses a wire. A dot without an output after it is a problem.
 WireEnd wire_end(const JsonValue& text, Diagnostics& diagnostics);
-/// The wire, or list of wires, that `given` stands for, where it may be an expression; `named` gets the nodes it names.
-/// Empty after a problem, or if something is lacking.
+/// Evaluates `given`, which may be an expression, to a wire or a list of wires. Adds the nodes it names to `named`, and
+/// missing parameters to `unset`. Nullopt after a problem, or if a value is missing.
 std::optional<JsonValue> expand_wires(const JsonValue& given, Substitution& substitution, Diagnostics& diagnostics,
                                       std::set<std::string>& named, std::set<std::string>& unset);
 

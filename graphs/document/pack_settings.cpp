@@ -37,21 +37,21 @@ bool is_set(const std::vector<Override>& given, std::string_view node, std::stri
   return std::ranges::any_of(given, [&](const Override& o) { return sets(o, node, name); });
 }
 
-/// Whether a file name pattern names only places that lie in the folder: what "/a/b{map}.png" names lies in "/a".
+/// Whether all paths of a file name pattern lie in the folder: those of "/a/b{map}.png" lie in "/a".
 bool is_in(const fs::path& folder, const std::string& pattern) {
   const size_t open = pattern.find('{');
   return lies_in(folder,
                  open == std::string::npos ? fs::path(pattern) : fs::path(pattern.substr(0, open)).parent_path());
 }
 
-/// The same of a place that has been set, which may also be how the names of files begin.
+/// The same for a path that was set, which may also be a prefix of file names.
 bool is_at(const fs::path& place, const std::string& pattern) {
   if (is_in(place, pattern)) return true;
   const bool begins = pattern.starts_with(place.string());
   return begins && pattern.find('/', place.string().size()) == std::string::npos;
 }
 
-/// What is not as it should be in the sources of a pack; null if all is.
+/// The first invalid part of a pack's sources; null if all are valid.
 const JsonValue* no_sources(const JsonValue& sources) {
   if (!sources.is_object()) return &sources;
   for (const JsonMember& m : sources.members) {
@@ -62,8 +62,8 @@ const JsonValue* no_sources(const JsonValue& sources) {
   return nullptr;
 }
 
-/// Without its sources a pack's inputs stay what they are, whatever they are made from is set to: only what its
-/// settings name can be set by itself.
+/// Without sources.json the inputs cannot follow the parameters they were derived from, so only the names in
+/// settings.json can be set.
 void refuse_others(const std::vector<Override>& settings, const std::vector<Override>& others,
                    std::vector<Problem>& problems) {
   for (const Override& o : others) {

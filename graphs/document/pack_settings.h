@@ -7,13 +7,13 @@
 
 namespace terrazzo {
 
-/// What an unpacked pack says about its inputs, but for what one of `others` replaces: an input that is made from a
-/// parameter goes with it.
+/// An unpacked pack's settings for its inputs, except those replaced by `others`: overriding a parameter also drops the
+/// inputs derived from it.
 std::vector<Override> pack_settings(const std::filesystem::path& pack, const std::vector<Override>& others,
                                     std::vector<Problem>& problems);
 
-/// What the nodes of a pack would write outside of `folder` and of the paths that `given`, which does not come from the
-/// pack, sets.
+/// Problems for files that a pack's nodes would write outside `folder` and outside the paths set by `given`, the
+/// overrides that do not come from the pack.
 std::vector<Problem> writes_elsewhere(const Drafts& drafts, const std::filesystem::path& folder,
                                       const std::vector<Override>& given);
 

@@ -27,7 +27,7 @@ std::string listed_value_types() {
   return listed(std::vector<std::string>(value_type_names.begin(), value_type_names.end()));
 }
 
-/// Reads what an entry of `inputs` or `outputs` says about the port.
+/// Reads the port's description in an entry of `inputs` or `outputs`.
 class PortReader {
  public:
   PortReader(const JsonMember& member, const std::string& where, std::vector<Problem>& problems)
@@ -260,7 +260,7 @@ void Subgraphs::read_inputs(Subgraph& graph, const JsonValue& section) {
   }
 }
 
-/// What the graph's wires may come from.
+/// The possible sources of the graph's wires.
 void Subgraphs::read_sources(Subgraph& graph) {
   if (const JsonValue* nodes = graph.json->find("nodes"))
     for (const JsonMember& m : nodes->members) {
@@ -272,7 +272,7 @@ void Subgraphs::read_sources(Subgraph& graph) {
         for (size_t i = before; i < problems_.size(); i++)
           if (problems_[i].where.empty() && problems_[i].place.line == type->place.line)
             problems_[i].where = "node " + in_quotes(m.name);
-        // One that is still being read is part of itself, which is reported where it is used.
+        // A graph that is still being read contains itself, which is reported where it is used.
         if (inner && !inner->is_wrong && std::ranges::find(open_, inner) == open_.end())
           known = &graph.types.emplace_back(type_of_use(*inner, {}));
       }
@@ -287,7 +287,7 @@ void Subgraphs::read_sources(Subgraph& graph) {
   for (size_t i = 0; i < graph.sources.size(); i++) graph.positions.emplace(graph.sources[i].first, i);
 }
 
-/// Null if the wire leads nowhere, which is reported where it is used, or if that is not known.
+/// Null if the wire has no source, which is reported where it is used, or if the source is unknown.
 const Port* Subgraphs::port_behind(const Subgraph& graph, const JsonValue& wire) const {
   std::vector<Problem> ignored;
   Diagnostics diagnostics(ignored, "");

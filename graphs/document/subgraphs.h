@@ -13,34 +13,34 @@
 #include "graphs/text/migrate.h"
 #include "graphs/values/parameters.h"
 
-/// Graphs as the types of nodes: a file ("walls.json"), an entry of the section `graphs` of the same file ("walls"), or
-/// a graph that comes with the program ("stock:material").
+/// Graphs used as node types: a file ("walls.json"), an entry of the section `graphs` of the same file ("walls"), or a
+/// graph that comes with the program ("stock:material").
 namespace terrazzo {
 
-/// An output of a graph: {"from": "@node.port", "type": "image", "help": "..."}, or only the wire.
+/// An output of a graph: {"from": "@node.port", "type": "image", "help": "..."}, or just the wire.
 struct GraphOutput {
   Port port;
   JsonValue from;
 };
 
-/// A graph that is, or may be, used as a node. Its nodes are not read yet.
+/// A graph that can be used as a node. Its nodes are not read yet.
 struct Subgraph {
-  std::string title{};  ///< as it is spelled
-  std::string file{};   ///< that its text is in, for messages; empty: the main document
+  std::string title{};  ///< as spelled in the document
+  std::string file{};   ///< file of its text, for messages; empty: the main document
   std::filesystem::path folder{};
   const JsonValue* json = nullptr;         ///< with `nodes`, `parameters`, ...
-  const Subgraph* document = nullptr;      ///< whose section `graphs` it can use
-  std::vector<std::string> graph_names{};  ///< of its section `graphs`
+  const Subgraph* document = nullptr;      ///< the document whose section `graphs` it can use
+  std::vector<std::string> graph_names{};  ///< names in its section `graphs`
   std::string summary{}, help{};
   std::vector<GraphParameter> parameters{};
   std::vector<Port> inputs{};
   std::vector<GraphOutput> outputs{};
-  bool is_wrong = false;  ///< an output has a problem, which has been reported: wires from it are not looked at
+  bool is_wrong = false;  ///< a problem with an output has been reported: wires from it are not checked
 
-  /// What its wires can come from: its nodes, with a null type if that is unknown or wrong, and its inputs.
+  /// The possible sources of its wires: its nodes, with a null type if that is unknown or invalid, and its inputs.
   NodeTypes sources{};
   std::map<std::string, size_t> positions{};  ///< in `sources`
-  std::deque<NodeType> types{};               ///< of nodes that are graphs, and of inputs
+  std::deque<NodeType> types{};               ///< types of nodes that are graphs, and of inputs
 
   /// Null if there is none of that name.
   const NodeTypes::value_type* find_source(const std::string& name) const {
@@ -49,14 +49,14 @@ struct Subgraph {
   }
 };
 
-/// The category of the types of nodes that are graphs.
+/// The category of graphs used as node types.
 inline constexpr std::string_view graph_category = "graph";
 
 /// The keys of a document, and of an entry of its section `graphs`.
 const std::vector<std::string>& document_keys();
 const std::vector<std::string>& subgraph_keys();
 
-/// Finds graphs, and reads each once.
+/// Finds graphs and reads each once. Not thread-safe.
 class Subgraphs {
  public:
   Subgraphs(const KnownTypes& types, const std::vector<Migration>& migrations, std::vector<Problem>& problems)
@@ -65,12 +65,12 @@ class Subgraphs {
   /// The document itself, which must outlive this; `file` is absolute.
   Subgraph& read_main(const JsonValue& document, const std::filesystem::path& file);
 
-  /// The graph that a node of `from` has as its type; null if the text names none, or after a problem.
+  /// The graph that `type` of a node in `from` names; null if it names none, or after a problem.
   const Subgraph* find(const JsonValue& type, const Subgraph& from);
-  /// Whether a type is spelled as one that stands in a file or comes with the program.
+  /// Whether a type names a graph file or a stock graph.
   static bool is_file(std::string_view type) { return type.ends_with(".json") || type.starts_with("stock:"); }
 
-  /// The files that have been read, and the names of the section `graphs` that nothing uses.
+  /// The files that have been read, and the unused names of the section `graphs`.
   std::vector<std::filesystem::path> files() const;
   std::vector<std::pair<std::string, Place>> unused() const;
 
@@ -90,12 +90,12 @@ class Subgraphs {
   std::deque<JsonValue> documents_;
   std::deque<Subgraph> graphs_;
   std::map<std::string, Subgraph*> by_key_;
-  std::vector<const Subgraph*> open_;  ///< being read
+  std::vector<const Subgraph*> open_;  ///< currently being read
   std::vector<std::filesystem::path> files_;
 };
 
-/// The type of a node that is this graph: its inputs, outputs and parameters. A default that is an expression is not
-/// part of it: such parameters are there if `given` has them.
+/// The node type of this graph: its inputs, outputs and parameters. A type cannot hold defaults that are expressions:
+/// such parameters are included only if `given` contains them.
 NodeType type_of_use(const Subgraph& graph, const std::vector<std::string>& given);
 
 }  // namespace terrazzo

@@ -15,14 +15,14 @@ std::set<std::string> used_parameters(const Level& level) {
   for (const auto& round : level.rounds)
     out.insert(round->substitution->used().begin(), round->substitution->used().end());
   level.names.scope->add_what_they_use(out);
-  // One that counts only in a default is used, though an override may have taken the default's place.
+  // A parameter that only a default uses counts as used, even if an override replaces the default.
   for (const GraphParameter& p : level.graph->parameters)
     if (p.formula)
       for (const auto& [name, offset] : p.formula->expression->parameters()) out.insert(name);
   return out;
 }
 
-/// Nodes that outputs lead to, or that an expression may choose, with all that they read by name.
+/// Nodes that outputs refer to or that an expression may select, with all their sources by name.
 std::set<std::string> names_given(const Levels& levels, const Level& root) {
   std::set<std::string> out;
   std::vector<std::string> open;
@@ -31,7 +31,7 @@ std::set<std::string> names_given(const Levels& levels, const Level& root) {
   const auto add_named = [&](const NodeDraft& d) { open.insert(open.end(), d.named.begin(), d.named.end()); };
   std::ranges::for_each(levels.nodes(), add_named);
   std::ranges::for_each(levels.others(), add_named);
-  // A subgraph may choose between what comes into it.
+  // A subgraph may select among its inputs.
   for (const NodeDraft& d : levels.others())
     if (d.level == &root)
       for (const PortWires& p : d.ports)

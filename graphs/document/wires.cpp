@@ -10,7 +10,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr size_t most_wires = 1000000;  // loops that read loops may have more than any memory
+constexpr size_t most_wires = 1000000;  // loops that read loops may exceed any memory
 
 using Positions = std::map<std::string, size_t, std::less<>>;
 
@@ -71,7 +71,7 @@ class WireChecker {
     return output;
   }
 
-  /// Hints look at all nodes, so that only those problems get one that may be shown.
+  /// Hints search all nodes, so only problems that may be shown get one.
   bool is_worth_a_hint() { return hints_++ < most_problems_shown; }
 
   std::string nearest_nodes(const std::string& wrong) {
@@ -90,7 +90,7 @@ class WireChecker {
     return false;
   }
 
-  /// Which wires would fit: those of the node itself, if it has any, else those of all nodes.
+  /// Suggests fitting wires: from the node itself if there are any, else from all nodes.
   std::string fitting_outputs(ValueType wanted, const std::string& node, const std::string& reader) {
     if (!is_worth_a_hint()) return "";
     std::vector<std::string> own, all;
@@ -142,7 +142,7 @@ class WireFollower {
       if (input != level.graph->inputs.end() && !input->optional) out_.open.insert(end.node);
       return;
     }
-    // One that must be given and is not has been reported.
+    // A missing required wire has been reported.
     const Port* input = level.use->node.type->find_input(end.node);
     out_.is_faulty |= input && !input->optional && !level.use->node.places.contains(end.node);
     for (const PortWires& p : level.use->ports) {
@@ -173,7 +173,7 @@ class WireFollower {
     }
   }
 
-  /// What a muted node gives: what comes into its first port of that type.
+  /// The output of a muted node: the input of its first port of the same type.
   void pass_through(const Level& level, const NodeDraft& muted, ValueType type, const WireEnd& end) {
     for (const Port& port : muted.node.type->inputs)
       for (const PortWires& p : muted.ports)
@@ -271,8 +271,8 @@ class Walk {
     }
   }
 
-  /// Each step of the path reads the next one, and the last one reads `closing` again. The problem stands at the first
-  /// of them in the document; that is not looked for where there are more than will be shown.
+  /// Reports a cycle: each step reads the next one, and the last one reads `closing`. The problem's place is that of
+  /// the first of them in the document, unless there are more cycles than will be shown.
   void report_cycle(const std::vector<Step>& path, size_t closing) {
     const auto begin = path.begin() + ptrdiff_t(place_in_path_[closing]);
     size_t first = closing;
@@ -283,7 +283,7 @@ class Walk {
         {node.place, "node " + in_quotes(node.name), reads_ + names_along(begin, path.end()), node.name, node.file});
   }
 
-  /// "a -> c -> b -> a" of steps that read one another; of a long way the middle is left out.
+  /// "a -> c -> b -> a"; the middle of a long cycle is left out.
   std::string names_along(std::vector<Step>::const_iterator begin, std::vector<Step>::const_iterator end) const {
     constexpr ptrdiff_t shown_at_each_end = 10;
     const ptrdiff_t left_out = end - begin - 2 * shown_at_each_end;
@@ -355,7 +355,7 @@ std::vector<size_t> execution_order(const Drafts& drafts, std::vector<Problem>& 
 
 namespace {
 
-/// These nodes and all that they read; if `asks`, all that their parameters ask for as well.
+/// These nodes and all their sources; if `asks`, also the nodes that their parameters query.
 std::set<std::string> closure(const Drafts& drafts, std::vector<std::string> names, bool asks) {
   const Positions positions = positions_of(drafts);
   std::set<std::string> out;

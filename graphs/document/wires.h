@@ -9,37 +9,36 @@
 /// The wires between the nodes of a document.
 namespace terrazzo {
 
-/// Checks every wire of a level, from its own nodes' point of view: the other node and its output exist, the type fits.
-/// Wires that do not are taken away, with a problem; the others get the name of their output. Images that become
-/// materials are added to `conversions`.
+/// Checks every wire of a level: its source node and output exist and the type fits. Removes faulty wires, with a
+/// problem; fills in the output names of the others. Adds conversions from image to material to `conversions`.
 void check_wires(Level& level, std::vector<Problem>& problems, std::vector<Problem>& conversions);
 
-/// Where a wire comes from, through inputs and outputs of subgraphs and through muted nodes.
+/// The sources of a wire, resolved through inputs and outputs of subgraphs and through muted nodes.
 struct WireSources {
-  std::vector<Wire> wires;     ///< of nodes that run; several in a loop, none if an optional input is open
-  std::set<std::string> open;  ///< inputs of the document itself that it ends at, and parameters that it needs
-  bool is_faulty = false;      ///< something on its way has a problem, which has been reported
+  std::vector<Wire> wires;     ///< outputs of nodes that run; several for a loop, none if an optional input is open
+  std::set<std::string> open;  ///< inputs of the document where it ends, and parameters without a value that it needs
+  bool is_faulty = false;      ///< a problem along the way has been reported
 };
 
-/// Follows a wire of this level. Wires that lead back to themselves are a problem of `asking`.
+/// Follows a wire of this level. Reports cycles to `asking`.
 WireSources sources_of(const Level& level, const WireEnd& end, Diagnostics& asking);
 
-/// Connects all nodes, once the wires of all levels have been checked. Where a subgraph's input is open, the node that
-/// needs it gets a problem, or, in a graph that is looked at by itself, the name of the input in `unset`.
+/// Connects all nodes after check_wires of all levels. If an input of a subgraph is open, reports a problem for the
+/// node that needs it; if an input of the document itself is open, adds its name to the node's `unset`.
 void connect(Levels& levels, std::vector<Problem>& problems);
 
-/// Positions of all nodes such that every wire comes from an earlier one, as near to the document's order as that
-/// allows. Each cycle is a problem that names the nodes on it.
+/// A topological order of all nodes, as close to the document's order as possible. Reports each cycle as a problem that
+/// names its nodes.
 std::vector<size_t> execution_order(const Drafts& drafts, std::vector<Problem>& problems);
 
-/// The names of what these nodes read, directly or not; they are included if they are there.
+/// The names of these nodes, as far as they exist, and of all their direct and indirect sources.
 std::set<std::string> needed_nodes(const Drafts& drafts, std::vector<std::string> names);
 
-/// The nodes that `only` names, each by its name or that of a node that it is a part of, and what those need; all if
-/// there are no names, or if one of them stands for no node.
+/// The nodes that `only` names, by their own name or that of an enclosing node, and all their sources. All nodes if
+/// `only` is empty or contains an unknown name.
 std::set<std::string> wanted_nodes(const Drafts& drafts, const std::vector<std::string>& only);
 
-/// These nodes, and what their expressions ask for.
+/// These nodes, and the nodes that their expressions query.
 std::set<std::string> asked_too(const Drafts& drafts, const std::set<std::string>& nodes);
 
 }  // namespace terrazzo

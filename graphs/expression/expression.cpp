@@ -12,7 +12,7 @@ namespace expression {
 
 namespace {
 
-/// The size of one map or, as a material has it, of the largest.
+/// The size of one map, or of the largest map of a material.
 ExpressionValue size_in(const Forecast& forecast, const Node& fact) {
   std::map<std::string, Size> sizes;
   for (const auto& [map, facts] : forecast.images)

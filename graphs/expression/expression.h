@@ -9,17 +9,17 @@
 #include "graphs/expression/expression_error.h"
 #include "graphs/expression/expression_value.h"
 
-/// Expressions in the parameters of graphs: "=size.x / 2". A small language without loops, names of its own or side
-/// effects; examples/guide/graph-files.md describes them. Thread-safe.
+/// Expressions in the parameters of graphs: "=size.x / 2". The language has no loops, definitions or side effects; see
+/// examples/guide/graph-files.md. Thread-safe.
 namespace terrazzo {
 
-/// What the names in an expression stand for. What these throw as Error becomes an ExpressionError at the name.
+/// Resolves the names in an expression. An Error thrown by a member becomes an ExpressionError at the name.
 class ExpressionScope {
  public:
   virtual ~ExpressionScope() = default;
   /// A parameter of the graph.
   virtual ExpressionValue parameter(const std::string& name) = 0;
-  /// What is known of a node's results before anything runs.
+  /// The forecast of a node's results.
   virtual const Forecast& forecast(const std::string& node) = 0;
 };
 
@@ -36,11 +36,11 @@ class Expression {
   Expression(Expression&&) noexcept;
   Expression& operator=(Expression&&) noexcept;
 
-  /// The parameters that it names and the nodes whose forecasts it asks for, each with its first offset.
+  /// The parameters that it names and the nodes whose forecasts it queries, each with its first offset.
   const std::map<std::string, size_t>& parameters() const { return parameters_; }
   const std::map<std::string, size_t>& nodes() const { return nodes_; }
 
-  /// Throws ExpressionError. Whole numbers are computed exactly; a result beyond 64 bits is an error.
+  /// Throws ExpressionError. Integer arithmetic is exact; overflow of 64 bits is an error.
   ExpressionValue evaluate(ExpressionScope& scope) const;
 
  private:
@@ -48,7 +48,8 @@ class Expression {
   std::unique_ptr<const expression::Node> root_;  // parsed into the names above
 };
 
-/// Whether a text in a document is an expression: it begins with one "=". Two stand for a text that begins with "=".
+/// Whether a text in a document is an expression: it begins with a single "=". "==" escapes a text that begins with
+/// "=".
 bool is_expression(std::string_view text);
 
 }  // namespace terrazzo

@@ -7,11 +7,11 @@
 
 namespace terrazzo {
 
-/// What is wrong with an expression, and where.
+/// An error in an expression, with its position.
 class ExpressionError : public Error {
  public:
   ExpressionError(size_t offset, const std::string& message) : Error(message), offset_(offset) {}
-  /// Bytes from the beginning of the text that Expression was given.
+  /// In bytes, from the beginning of the text passed to Expression.
   size_t offset() const { return offset_; }
 
  private:

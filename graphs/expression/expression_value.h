@@ -6,7 +6,7 @@
 
 namespace terrazzo {
 
-/// A value and its unit ("pixels", "degrees"; empty: none, or not known).
+/// A value and its unit ("pixels", "degrees"; empty: none, or unknown).
 struct ExpressionValue {
   ParamValue value;
   std::string unit{};

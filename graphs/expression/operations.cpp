@@ -12,7 +12,7 @@ namespace terrazzo::expression {
 
 namespace {
 
-/// A whole number or another: what lists and sizes consist of.
+/// An integer or floating-point number, the element of lists and sizes.
 using Number = std::variant<int64_t, double>;
 
 double real(const Number& n) {
@@ -23,7 +23,7 @@ const int64_t* whole(const Number& n) {
   return std::get_if<int64_t>(&n);
 }
 
-/// A whole number where the value is one, so that results stay exact.
+/// An integer if the value is one, so that results stay exact.
 Number simplest(double v) {
   constexpr double exact = 9007199254740992;  // doubles hold every integer up to here
   if (!std::isfinite(v)) throw Error("the result is not a finite number");
@@ -105,7 +105,7 @@ Number quotient(const Number& a, const Number& b) {
   return simplest(real(a) / real(b));
 }
 
-/// What is left over, always between 0 and the divisor, as artists expect of a pattern that repeats.
+/// The modulus, always between 0 and the divisor, as expected for repeating patterns.
 Number remainder(const Number& a, const Number& b) {
   if (real(b) == 0) throw Error("division by zero");
   if (whole(a) && whole(b)) {
@@ -197,7 +197,7 @@ Elements each(const Elements& e, const std::function<Number(const Number&)>& f) 
   return out;
 }
 
-/// Halves go up, so that no platform or mode of rounding matters.
+/// Rounds halves up, independent of platform and rounding mode.
 double rounded(const std::string& how, double v) {
   return how == "floor" ? std::floor(v) : how == "ceil" ? std::ceil(v) : std::floor(v + 0.5);
 }
@@ -215,7 +215,7 @@ ExpressionValue round_to(const std::string& how, const std::vector<ExpressionVal
   return {value_of(pairwise(elements_of(v, how), elements_of(step, how), to_step)), unit};
 }
 
-/// A value as it stands in a longer text.
+/// A value formatted as part of a text.
 std::string plain_text(const ExpressionValue& v) {
   if (const auto* text = std::get_if<std::string>(&v.value)) return *text;
   if (const auto* whole = std::get_if<int64_t>(&v.value)) return fmt::format("{}", *whole);

@@ -6,11 +6,11 @@
 
 #include "graphs/expression/expression_value.h"
 
-/// What operators and functions do with values. All throw Error without a place; who calls them knows it.
+/// Operators and functions on values. All throw Error without a position; callers add it.
 ///
-/// Numbers are whole (64 bits, exact) or not; true division gives a whole number where it can. Sizes and lists of
-/// numbers are worked on element by element, a single number with each. Units of sums and comparisons must agree; a
-/// number without a unit goes with any.
+/// Numbers are integers (64 bits, exact) or floating point; division gives an integer if the result is one. Operators
+/// apply to sizes and lists of numbers element by element; a single number is combined with each element. Units must
+/// agree in sums and comparisons; a number without a unit agrees with any.
 namespace terrazzo::expression {
 
 ExpressionValue negated(const ExpressionValue& v);
@@ -20,18 +20,18 @@ ExpressionValue member_of(const ExpressionValue& v, const std::string& name);
 bool truth(const ExpressionValue& v, const std::string& of_what);
 
 ExpressionValue called(const std::string& function, const std::vector<ExpressionValue>& arguments);
-/// What is wrong with the name, with a suggestion; empty if there is such a function.
+/// An error message with a suggestion; empty if the function exists.
 std::string unknown_function(const std::string& name);
 
-/// Texts and lists may become this long: a few that are made from one another can stand for more than any memory.
+/// The longest text or list: a few that are built from one another can grow beyond any memory.
 inline constexpr size_t most_text_bytes = size_t{1} << 20;
-/// What a value takes in memory, roughly.
+/// The approximate size of a value in memory.
 size_t bytes_of(const ParamValue& value);
 
-/// What a value is, for messages: "the number 3", "a size".
+/// Describes a value for messages: "the number 3", "a size".
 std::string described(const ExpressionValue& v);
 
-/// The unit of a parameter or value as expressions compare it: its first word; none where it names several.
+/// The unit that expressions compare: the first word of a parameter's unit; empty if it names several.
 std::string plain_unit(const std::string& unit);
 
 }  // namespace terrazzo::expression

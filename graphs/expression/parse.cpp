@@ -16,7 +16,7 @@ constexpr size_t longest = 10000;  // bytes
 constexpr int deepest = 60;        // parts within parts
 constexpr int most_parts = 1000;   // of an expression; evaluation of a long sum goes as deep
 
-/// The binary operators, those that bind least first.
+/// The binary operators by ascending precedence.
 const std::array<std::vector<std::string_view>, 6> levels = {{
     {"||"},
     {"&&"},

@@ -11,18 +11,19 @@
 
 namespace terrazzo::expression {
 
-/// A part of an expression as the parser hands it to evaluation.
+/// A node of the parsed expression.
 struct Node {
   enum class Kind : uint8_t {
     constant,   ///< `value`
     parameter,  ///< `name`
-    fact,       ///< of the graph's node `name`: `member` is "size", "count" or "maps"; of the map in `detail` if any
-    member,     ///< `member` of the first part: x, y, or a name in a map
-    list,       ///< of all parts
-    call,       ///< of the function `name` with all parts
-    unary,      ///< `name` is - or !
-    binary,     ///< `name` is the operator
-    choice,     ///< condition ? second : third
+    fact,  ///< a forecast of the graph's node `name`: `member` is "size", "count" or "maps"; of the map `detail` if not
+           ///< empty
+    member,  ///< `member` of the first part: x, y, or a name in a map
+    list,    ///< of all parts
+    call,    ///< of the function `name` with all parts
+    unary,   ///< `name` is - or !
+    binary,  ///< `name` is the operator
+    choice,  ///< condition ? second : third
   };
   Kind kind = Kind::constant;
   size_t offset = 0;  ///< in the text

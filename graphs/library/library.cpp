@@ -51,7 +51,7 @@ std::vector<std::string> names_in(const fs::path& library) {
   return out;
 }
 
-/// Whether a name is made of words as require_library_name says.
+/// Whether a name is valid, see require_library_name.
 bool is_entry_name(std::string_view name) {
   bool begins = true;
   for (const char c : name) {
@@ -61,7 +61,7 @@ bool is_entry_name(std::string_view name) {
   return !begins;
 }
 
-/// The name that a file of this content gets beside its entry.
+/// The name of a file with this content beside its entry.
 fs::path stored_name(const LibraryEntry& entry, const fs::path& file, const std::string& ending) {
   const std::optional<Digest> content = content_digest(file);
   if (!content) throw_system_error("read", file, errno);
@@ -69,15 +69,14 @@ fs::path stored_name(const LibraryEntry& entry, const fs::path& file, const std:
   return at.parent_path() / fmt::format("{}.{}{}", at.stem().string(), content->hex().substr(0, 12), ending);
 }
 
-/// Whether a file has a name that stored_name gives, for the entry whose file is `entry`.
+/// Whether stored_name could have made a file's name, for the entry with the file `entry`.
 bool belongs_to(const fs::path& file, const fs::path& entry) {
   const fs::path stem = file.stem();  // red.0123456789ab
   return (file.extension() == ".analysis" || file.extension() == ".png") && stem.stem() == entry.stem() &&
          stem.extension().string().size() == 13;
 }
 
-/// Removes the files of an entry but for those that it has now: of entries that it replaced, or of processes that were
-/// killed.
+/// Removes stale files of an entry, from replaced entries or killed processes.
 void remove_files_of(const fs::path& entry, const std::vector<fs::path>& kept) {
   std::vector<fs::path> old;
   std::error_code failure;
@@ -86,8 +85,8 @@ void remove_files_of(const fs::path& entry, const std::vector<fs::path>& kept) {
   for (const fs::path& file : old) fs::remove(file, failure);
 }
 
-/// Keeps other processes from changing a library while it lives: one that replaced an entry would remove the files that
-/// another is just adding.
+/// While it lives, prevents other processes from changing a library: a process that replaces an entry would remove
+/// files that another is just adding.
 class LibraryLock {
  public:
   explicit LibraryLock(const fs::path& library) {
@@ -103,7 +102,7 @@ class LibraryLock {
                       "ended",
                       library.string()));
   }
-  /// False where the file system has no locks.
+  /// False if the file system has no locks.
   bool is_held() const { return is_held_; }
 
  private:
@@ -111,7 +110,7 @@ class LibraryLock {
   bool is_held_ = false;
 };
 
-/// Moves a file, which may lie on another file system, to its place.
+/// Moves a file to its place, possibly from another file system.
 void bring(const fs::path& from, const fs::path& to) {
   const fs::path temporary = temporary_beside(to);
   std::error_code failure;
@@ -242,7 +241,7 @@ void Library::remove(const std::string& name) const {
   const fs::path file = entry_file(*library, name);
   if (!fs::remove(file, failure) && failure) throw_system_error("remove", file, failure.value());
   remove_files_of(file, {});
-  // Its folders, as far as they are empty now.
+  // Also removes folders that are now empty.
   for (fs::path folder = file.parent_path(); folder != *library && fs::remove(folder, failure);)
     folder = folder.parent_path();
 }

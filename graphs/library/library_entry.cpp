@@ -14,7 +14,7 @@ using nlohmann::ordered_json;
 
 constexpr int format = 1;
 
-/// Relative if it lies in the library, which may lie elsewhere on other machines.
+/// Relative if it is inside the library, whose path may differ between machines.
 std::string seen_from(const fs::path& library, const fs::path& path) {
   const fs::path inside = path.lexically_relative(library);
   return (inside.empty() || *inside.begin() == ".." ? path : inside).generic_string();

@@ -16,24 +16,24 @@ struct LibraryEntry {
   std::string name;  ///< "brick/red"
   std::string summary;
   std::vector<std::string> tags;
-  std::filesystem::path library;        ///< the folder it lies in
+  std::filesystem::path library;        ///< the folder that contains it
   std::filesystem::path analysis;       ///< the file that load_analysis reads
   Digest content;                       ///< of that file
   std::filesystem::path picture;        ///< empty if there is none
-  std::filesystem::path material;       ///< the folder of the analysed maps; empty if it is not known
-  std::map<std::string, Digest> files;  ///< the content of the maps' files, by name, when they were analysed
+  std::filesystem::path material;       ///< the folder of the analysed maps; empty if unknown
+  std::map<std::string, Digest> files;  ///< digests of the maps' files at the time of analysis, by name
   std::map<std::string, int> versions;  ///< of the node types that made the analysis
-  std::vector<std::string> settings;    ///< with which the maps were analysed, as for --set
-  std::vector<std::string> maps;        ///< that were analysed
+  std::vector<std::string> settings;    ///< settings of the analysis, as for --set
+  std::vector<std::string> maps;        ///< the analysed maps
   Size size;                            ///< of the exemplar
-  std::string added;                    ///< the day, "2026-11-25"
+  std::string added;                    ///< date, "2026-11-25"
 };
 
-/// An entry as the JSON file that describes it. Files beside it go by name; the material's folder is relative to the
-/// library if it lies in it.
+/// Formats an entry as its JSON file. Files beside it are given by name; the material's folder is relative if it lies
+/// inside the library.
 std::string entry_as_json(const LibraryEntry& entry);
 
-/// The way back. `text`: of the file of the entry `name` in `library`. Throws Error that says what is wrong with it.
+/// The inverse. `text`: the content of the file of entry `name` in `library`. Throws Error if it is invalid.
 LibraryEntry entry_from_json(std::string_view text, const std::string& name, const std::filesystem::path& library);
 
 /// The file that describes an entry.

@@ -8,17 +8,17 @@
 
 namespace terrazzo {
 
-/// Collects the problems of one part of a document, and says where they are.
+/// Collects the problems of one part of a document, with their places.
 class Diagnostics {
  public:
   Diagnostics(std::vector<Problem>& all, std::string where) : all_(all), where_(std::move(where)) {}
 
-  /// Values from the command line have no place in the file.
+  /// Drops places, since values from the command line have none.
   Diagnostics& from_command_line() {
     has_places_ = false;
     return *this;
   }
-  /// Added to every message; says where the value came from.
+  /// A suffix for every message that tells where the value comes from.
   void set_origin(std::string origin) { origin_ = std::move(origin); }
 
   void add(Place place, const std::string& message) {

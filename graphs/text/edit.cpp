@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view spaces = " \t\r\n";
 
-/// Where a place is in the text; columns count characters, and a byte order mark is none.
+/// The offset of a place in the text. Columns count characters, without a byte order mark.
 size_t offset_of(std::string_view text, Place place) {
   size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
   for (int line = 1; line < place.line; line++) at = text.find('\n', at) + 1;
@@ -23,7 +23,7 @@ size_t offset_of(std::string_view text, Place place) {
   return at;
 }
 
-/// Behind the text that begins with the quote at `at`.
+/// The offset after the string that begins with the quote at `at`.
 size_t end_of_text(std::string_view text, size_t at) {
   for (at++; at < text.size() && text[at] != '"'; at++)
     if (text[at] == '\\') at++;
@@ -34,7 +34,7 @@ size_t end_of_comment(std::string_view text, size_t at) {
   return std::min(text.find('\n', at), text.size());
 }
 
-/// Behind the value that begins at `at`.
+/// The offset after the value that begins at `at`.
 size_t end_of_value(std::string_view text, size_t at) {
   if (text[at] == '"') return end_of_text(text, at);
   if (text[at] != '{' && text[at] != '[') return std::min(text.find_first_of(",]}/ \t\r\n", at), text.size());
@@ -56,7 +56,7 @@ size_t end_of_value(std::string_view text, size_t at) {
   return at;
 }
 
-/// Behind white space and comments.
+/// The offset after white space and comments.
 size_t next_token(std::string_view text, size_t at) {
   while (at < text.size()) {
     if (text.substr(at, 2) == "//")
@@ -69,7 +69,7 @@ size_t next_token(std::string_view text, size_t at) {
   return at;
 }
 
-/// The text with one more member, the last, in an object that begins at `begin`.
+/// Appends a member to the object that begins at `begin`.
 std::string with_member(std::string text, const JsonValue& object, size_t begin, const std::string& member) {
   if (object.members.empty()) return text.insert(begin + 1, member);
   const JsonMember& last = object.members.back();

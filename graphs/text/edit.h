@@ -8,9 +8,9 @@
 
 namespace terrazzo {
 
-/// The text of a document with a value at `path`, the names of members from the outside in. All other bytes, comments
-/// too, stay as they are; what is not there yet comes last in its object, in the style of its neighbours. Throws Error
-/// if the text is no JSON or something on the path is no object.
+/// Sets the value at `path` in the text of a document. `path` lists member names from the outside in. All other bytes,
+/// including comments, stay. New members are appended to their object, in the style of its other members. Throws Error
+/// if the text is no JSON, or if a parent on the path is no object.
 std::string with_value(const std::string& text, const std::vector<std::string>& path, const JsonValue& value);
 
 }  // namespace terrazzo

@@ -34,7 +34,7 @@ class Writer {
     int indent;
   };
 
-  /// `behind` is what will stand after it on its line.
+  /// `behind`: the text after it on its line.
   void value(const JsonValue& v, Depth depth, size_t used, size_t behind) {
     if (!v.is_object() && !v.is_list()) {
       out += compact(v);

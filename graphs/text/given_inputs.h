@@ -9,8 +9,8 @@
 
 namespace terrazzo {
 
-/// Makes a node of these types of each input that the document declares, by the inputs' names, so that the graph runs
-/// by itself. Other names are left alone. Returns those that were used.
+/// Replaces the document's declared inputs by nodes, with the types given by input name, so that the graph can run on
+/// its own. Ignores unknown names and returns the used ones.
 std::vector<std::string> give_inputs(JsonValue& document, const std::map<std::string, const NodeType*>& types);
 
 }  // namespace terrazzo

@@ -118,7 +118,7 @@ std::string escaped(const std::string& name) {
 
 std::string pointer_to(const JsonValue& document, Place place) {
   std::string out;
-  // The last part that begins at the place or before it holds it.
+  // The last part that begins at or before the place contains it.
   for (const JsonValue* v = &document; v;) {
     const JsonValue* inside = nullptr;
     std::string step;

@@ -13,7 +13,7 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-/// A recursive descent over text whose UTF-8 has been verified. The first syntax error ends it, as a Problem thrown.
+/// A recursive descent parser for valid UTF-8. Throws the first syntax error as a Problem.
 class Parser {
  public:
   Parser(std::string_view text, size_t start) : text_(text), at_(start), counted_(start) {}
@@ -42,7 +42,7 @@ class Parser {
   char peek() const { return at_end() ? '\0' : text_[at_]; }
   bool next_is(std::string_view s) const { return text_.substr(at_, s.size()) == s; }
 
-  /// Counts on from the last call: a file may be one long line.
+  /// Continues counting from the last call, since a file may be one long line.
   Place place() {
     for (; counted_ < at_; counted_++) column_ += (static_cast<uint8_t>(text_[counted_]) & 0xC0) != 0x80;
     return {line_, column_};
@@ -83,7 +83,7 @@ class Parser {
     }
   }
 
-  /// Stops before the last character of the comment, which the caller steps over.
+  /// Stops before the last character of the comment, which the caller skips.
   void skip_comment() {
     size_t end = std::min(text_.find('\n', at_), text_.size());
     std::string_view comment = text_.substr(at_, end - at_);
@@ -104,7 +104,7 @@ class Parser {
     if (blank == Blank::above && !all.empty() && all.back().empty()) all.pop_back();
     return all;
   }
-  /// The comment that stands on `line`, behind what has just been read.
+  /// The comment on `line` after the value that was just read.
   std::string take_comment_on(int line) {
     if (comments_.empty() || comments_.front().line != line) return "";
     std::string text = std::move(comments_.front().text);
@@ -235,7 +235,7 @@ class Parser {
     return point;
   }
 
-  /// Reads a comma or the closing bracket. True if another entry must follow.
+  /// Reads a comma or the closing bracket. Returns true if another entry must follow.
   bool more_follow(JsonValue& container, JsonValue& last, char close, std::string_view entry) {
     const int line = line_;
     skip_space();
@@ -254,14 +254,14 @@ class Parser {
     return peek() == close ? end_of(container) : true;  // a comma at the end is taken, as comments are
   }
 
-  /// Steps over the closing bracket.
+  /// Skips the closing bracket.
   bool end_of(JsonValue& container) {
     for (std::string& c : take_comments(Blank::above)) container.comments_inside.push_back(std::move(c));
     at_++;
     return false;
   }
 
-  /// Steps over the opening bracket. False if the container is empty, and then it has been closed.
+  /// Skips the opening bracket. Returns false if the container is empty; it is then closed.
   bool open(JsonValue& container, char close) {
     at_++;
     skip_space();
@@ -313,7 +313,7 @@ class Parser {
   int column_ = 1;  ///< of the character at counted_
   size_t counted_;
   std::vector<Comment> comments_;  ///< not taken yet; a blank line is one without text
-  bool is_blank_ = false;          ///< nothing stands on the line so far
+  bool is_blank_ = false;          ///< the line is empty so far
 };
 
 std::optional<Problem> encoding_problem(std::string_view text) {

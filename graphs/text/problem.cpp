@@ -30,7 +30,7 @@ std::vector<Problem> in_order(std::vector<Problem> problems) {
   std::stable_sort(problems.begin(), problems.end(), [&](const Problem& a, const Problem& b) {
     return std::pair(a.place.line == 0, key(a)) < std::pair(b.place.line == 0, key(b));
   });
-  // A subgraph that is used twice has its mistakes twice; of a loop, every round that has one is named.
+  // Uses of the same subgraph report the same problem; for a loop every affected iteration is named.
   std::map<std::tuple<std::string, int, int, std::string>, size_t> said;
   std::vector<Problem> out;
   std::map<size_t, std::vector<std::string>> more_rounds;
@@ -46,7 +46,7 @@ std::vector<Problem> in_order(std::vector<Problem> problems) {
   return out;
 }
 
-/// Where in the command line to look for the files that a port or parameter is about.
+/// A hint on the command line values from which a port's or parameter's files come.
 std::string files(const GraphNode& node, const std::string& about, const char* how) {
   const auto by = node.files_by.find(about);
   if (by == node.files_by.end() || by->second.empty()) return "";

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The file that a wrong path may have meant.
+/// A suggestion for a wrong path.
 std::string file_suggestion(const fs::path& path) {
   std::vector<std::string> names;
   std::error_code ended;

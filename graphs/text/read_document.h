@@ -9,11 +9,11 @@
 
 namespace terrazzo {
 
-/// The text of a document. Throws GraphError if there is none, it cannot be read, or it is absurdly large; `what` it is
-/// says the message.
+/// Reads the text of a document. Throws GraphError if the file is missing, unreadable or far too large. `what`: the
+/// kind of file, for messages.
 std::string read_document(const std::filesystem::path& path, const std::string& what = "graph file");
 
-/// A JSON document beside a graph. What is wrong with it becomes problems, with its name, line and column.
+/// Reads a JSON document beside a graph. Errors become problems with its name, line and column.
 std::optional<JsonValue> read_json_document(const std::filesystem::path& path, const std::string& what,
                                             std::vector<Problem>& problems);
 

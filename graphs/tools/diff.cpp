@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-/// The sections of a graph that hold entries by name, and what one of these is called.
+/// The sections of a graph with named entries, and the singular for messages.
 const std::map<std::string, std::string> entry_names = {{"parameters", "parameter"}, {"presets", "preset"},
                                                         {"graphs", "graph"},         {"inputs", "input"},
                                                         {"nodes", "node"},           {"outputs", "output"}};
@@ -109,13 +109,13 @@ class Comparison {
         say(where, fmt::format("{}{} is new: {}", name_of(m.name), type_of(m.value), shown(m.value)));
   }
 
-  /// Nodes that are gone and have come back, the same in all but their names and those of others that were renamed.
+  /// Renamed nodes: removed and added nodes that are equal except for names.
   static std::map<std::string, std::string> renamed_nodes(const JsonValue& before, const JsonValue& after) {
     std::map<std::string, std::string> out;
     const JsonValue* a = before.find("nodes");
     const JsonValue* b = after.find("nodes");
     if (!a || !b) return out;
-    // From the sources on: what reads a renamed node is compared with the new name in it.
+    // In topological order, so that readers of a renamed node are compared with the new name.
     for (bool found = true; found;) {
       found = false;
       const JsonValue known = out.empty() ? *a : *with_names(before, out).find("nodes");

@@ -7,8 +7,8 @@
 
 namespace terrazzo {
 
-/// What differs between two graph documents, in words, one line each: 'node "layout": quality "draft" -> "best"'. The
-/// order of entries, comments and spaces do not count. A node that is only called something else is said to be renamed.
+/// Describes the differences between two graph documents, one line each: 'node "layout": quality "draft" -> "best"'.
+/// Ignores the order of entries, comments and spaces. Detects renamed nodes.
 std::vector<std::string> differences(const JsonValue& before, const JsonValue& after);
 
 }  // namespace terrazzo

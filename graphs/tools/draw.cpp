@@ -15,7 +15,7 @@ namespace {
 
 constexpr double title_height = 40, row_height = 17, title_char = 8.6, port_char = 6.8, padding = 12,
                  legend_height = 26, path_height = 13, line_height = 17, picture_side = 64, stripe_width = 5;
-/// Between the boxes of a subgraph and its frame; above them is its name.
+/// The distance between a subgraph's boxes and its frame; the name is above them.
 constexpr double frame_gap = 5, frame_title = 13;
 
 /// In the order of ValueType.
@@ -48,7 +48,7 @@ struct Box {
   double ports_bottom() const { return ports_top() + row_height * double(std::max(inputs.size(), outputs.size())) + 6; }
 };
 
-/// Where the name within the subgraph begins. What stands in brackets, as in "walls [out=a/b]", is no path.
+/// The offset of the name within the subgraph. Text in brackets, as in "walls [out=a/b]", is no path.
 size_t path_length(const std::string& name) {
   const size_t slash = name.substr(0, name.find(" [")).rfind('/');
   return slash == name.npos ? 0 : slash + 1;

@@ -13,7 +13,7 @@ namespace terrazzo {
 
 namespace {
 
-/// The section of that name, made before `nodes` if there is none.
+/// The section with this name, created before `nodes` if missing.
 JsonValue& section(JsonValue& document, const std::string& name) {
   if (JsonValue* known = document.find(name)) return *known;
   const auto nodes = std::ranges::find(document.members, "nodes", &JsonMember::name);
@@ -74,7 +74,7 @@ class Grouping {
         .fact = [&](const std::string& from) { return moved_.contains(from) ? from : input_for(from, ""); },
         .parameter =
             [&](const std::string& name) {
-              // What is no parameter of the graph is a variable of the node's own loop.
+              // Other names are variables of the node's own loop.
               if (declaration(name)) used_.insert(name);
               return JsonValue::of("$" + name);
             }};
@@ -177,7 +177,7 @@ class Grouping {
     out.set("nodes", std::move(nodes));
     if (!outputs_.empty()) {
       JsonValue outputs = JsonValue::empty_object();
-      // What expressions ask for comes first: they see only that.
+      // Queried outputs come first, since expressions see only the first output.
       std::stable_partition(outputs_in_order_.begin(), outputs_in_order_.end(),
                             [&](const auto& end) { return facts_.contains(end.first); });
       for (const auto& end : outputs_in_order_)
@@ -187,7 +187,7 @@ class Grouping {
     return out;
   }
 
-  /// Declared as in the graph, but for what is made from what only the graph has.
+  /// Declared as in the graph, without defaults that depend on other parameters of the graph.
   JsonValue used_parameters() const {
     JsonValue out = JsonValue::empty_object();
     const JsonValue* all = document_.find("parameters");
@@ -216,7 +216,7 @@ class Grouping {
     const auto first =
         std::ranges::find_if(nodes.members, [&](const JsonMember& m) { return moved_.contains(m.name); });
     nodes.members.insert(first, {name_, {}, std::move(node)});
-    // The new node may have the name of one that it takes the place of.
+    // The new node may have the name of a node that it replaces.
     bool is_kept = false;
     std::erase_if(nodes.members, [&](const JsonMember& m) {
       const bool is_new = !is_kept && m.name == name_;

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A document, and what its nodes are.
+/// A document and its parsed subgraph.
 struct OpenDocument {
   OpenDocument(std::string_view text, const fs::path& path) : file(path.string()), json(current_document(text, file)) {
     main = &graphs.read_main(json, fs::absolute(path));

@@ -8,21 +8,21 @@
 #include "graphs/document/subgraphs.h"
 #include "graphs/text/json.h"
 
-/// Nodes into a subgraph, and back. Comments and the order of everything else stay.
+/// Moves nodes into a subgraph, and back. Keeps comments and the order of everything else.
 namespace terrazzo {
 
-/// The document with some of its nodes moved into a new graph `name` of its section `graphs`, and one node of that type
-/// and name in their place. What they need from outside becomes its inputs and parameters, what others read of them its
-/// outputs. Throws GraphError if the document cannot be read, and Error if a graph file cannot say it.
+/// Moves nodes into a new graph `name` in the section `graphs` and puts a node of that type and name in their place.
+/// Wires and parameters from outside become its inputs and parameters; outputs that others read become its outputs.
+/// Throws GraphError if the document is invalid, and Error if the result cannot be expressed in a graph file.
 std::string grouped(std::string_view text, const std::filesystem::path& file, const std::string& name,
                     const std::vector<std::string>& nodes);
 
-/// The document with the nodes of a subgraph in the place of `node`, which is one. The entry of `graphs` goes once no
-/// node is of that type. Throws as grouped does.
+/// Replaces `node`, a use of a subgraph, by the subgraph's nodes. Removes the entry of `graphs` once no node uses it.
+/// Throws as grouped.
 std::string ungrouped(std::string_view text, const std::filesystem::path& file, const std::string& node);
 
-/// A document whose graph `name` lies in a file of its own, and that file's text. `type`: how the document's nodes name
-/// the file.
+/// Moves the graph `name` into a file of its own: the changed document, and the file's text. `type`: the type by which
+/// the document's nodes refer to the file.
 struct GraphInFile {
   std::string document, graph;
 };

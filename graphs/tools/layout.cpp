@@ -56,7 +56,7 @@ class Placer {
     }
     for (size_t i = 0; i < boxes_.size(); i++)
       for (const size_t r : readers[i]) cells_[r].column = std::max(cells_[r].column, cells_[i].column + 1);
-    // A source stands beside its first reader, not at the far left.
+    // Sources are placed next to their first reader, not at the far left.
     for (size_t i = 0; i < boxes_.size(); i++) {
       size_t first = unread;
       for (const size_t r : readers[i]) first = std::min(first, cells_[r].column);
@@ -96,7 +96,7 @@ class Placer {
     }
   }
 
-  /// Sorts each column by where its neighbours in the column before (or after) stand.
+  /// Sorts each column by the positions of its neighbours in the previous (or next) column.
   void order_columns() {
     std::vector<double> rank(cells_.size());
     const auto renumber = [&](const std::vector<size_t>& column) {
@@ -150,8 +150,8 @@ class Placer {
     for (Cell& c : cells_) c.y += margin - top;
   }
 
-  /// Moves a column's cells to where their wires want them, as nearly as their order and the gaps allow: pooling
-  /// neighbours that would overlap gives the least squared deviation.
+  /// Moves a column's cells to the positions that their wires prefer, subject to their order and gaps. Pooling
+  /// overlapping neighbours minimises the squared deviation.
   void straighten(const std::vector<size_t>& column) {
     struct Block {
       double sum;

@@ -32,7 +32,7 @@ JsonValue object_of(std::map<std::string, JsonValue>& members) {
   return out;
 }
 
-/// Takes the graphs that a document's nodes name by file into its section `graphs`.
+/// Moves graph files that a document's nodes use into its section `graphs`.
 class Embedding {
  public:
   explicit Embedding(JsonValue& document) : document_(document) {
@@ -40,7 +40,7 @@ class Embedding {
       for (const JsonMember& m : graphs->members) taken_.insert(m.name);
   }
 
-  /// Returns what is called otherwise now, as sentences.
+  /// Returns sentences about renamed graphs.
   std::vector<std::string> run(const fs::path& folder) {
     embed_in(*document_.find("nodes"), folder);
     if (JsonValue* graphs = document_.find("graphs"))
@@ -57,12 +57,12 @@ class Embedding {
         type->text = name_of((folder / type->text).lexically_normal());
   }
 
-  /// The name that the graph in a file has here.
+  /// The new name of the graph in a file.
   std::string name_of(const fs::path& file) {
     if (const auto known = names_.find(file); known != names_.end()) return known->second;
     std::string name = names_[file] = free_name(file.stem().string(), file.string());
     JsonValue graph = current_document(read_document(file), file.string());
-    std::map<std::string, std::string> own;  // the names of its own section `graphs`, here
+    std::map<std::string, std::string> own;  // new names of the entries of its own section `graphs`
     std::vector<JsonMember> inner;
     if (const JsonValue* graphs = graph.find("graphs"))
       for (const JsonMember& m : graphs->members) {
@@ -143,7 +143,7 @@ class Packing {
     out_.bytes += fs::file_size(file, missing);
   }
 
-  /// Where a file or folder lies in the pack; its files, of which `all` are read, go into it.
+  /// The path of a file or folder in the pack. Adds its files, as far as they are in `all`, the files that are read.
   std::string place_of(const fs::path& path, const std::vector<fs::path>& all) {
     const auto [at, is_new] = places_.try_emplace(path);
     if (is_new) at->second = fmt::format("inputs/{}/{}", places_.size(), path.filename().string());
@@ -176,7 +176,7 @@ class Packing {
     for (const fs::path& file : rest) out_.left_out.push_back(file.string());
   }
 
-  /// Without the labels of loops that none of `sources` goes over: "sub/n" of "sub[a]/n".
+  /// Removes the labels of loops that do not iterate over any of `sources`: "sub/n" for "sub[a]/n".
   static std::string in_all_rounds(const std::string& node, const std::vector<Settable>& sources) {
     std::string out;
     for (size_t at = 0; at < node.size();) {
@@ -202,7 +202,7 @@ class Packing {
     if (!names.items.empty()) sources_.insert_or_assign(target, std::move(names));
   }
 
-  /// What a loop finds, and only its names: its nodes have their inputs by settings of their own.
+  /// The names that a loop finds, without content: its nodes get their inputs by their own settings.
   void pack_loop(const LoopSource& loop) {
     const std::string place = fmt::format("loops/{}", loops_++);
     JsonValue given = JsonValue::empty_object();
@@ -219,13 +219,13 @@ class Packing {
     add_setting(loop.node, "foreach", std::move(given), loop.set_by);
   }
 
-  /// A value that the graph was given becomes the default of its parameter, or, of an input, a setting.
+  /// Values given to the graph become defaults of its parameters or, for inputs, settings.
   void set_parameter(JsonValue& document, const GraphParameter& p) {
     if (!p.value) return;
     const bool is_path = p.param.type == ParamType::path;
     if (is_path) {
       const auto place = places_.find(fs::path(std::get<std::string>(*p.value)));
-      // What results are written to is relative to the pack; what is made from others goes with these.
+      // Output paths are relative to the pack; derived values follow their parameters.
       if (place != places_.end() && !written_.contains(p.param.name) && !p.formula) {
         settings_.insert_or_assign(p.param.name, JsonValue::of(place->second));
         return;
@@ -240,7 +240,7 @@ class Packing {
   const LoadedGraph& loaded_;
   TarWriter archive_;
   std::map<std::string, JsonValue> settings_, sources_;  ///< sources of settings: what can be set instead
-  std::set<std::string> written_;                        ///< parameters of the graph that results are written to
+  std::set<std::string> written_;                        ///< parameters of the graph with output paths
   PackedFiles out_;
   std::map<fs::path, std::string> places_;
   std::set<std::string> packed_;

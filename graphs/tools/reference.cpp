@@ -77,7 +77,7 @@ std::string described_step(const NodeStep& s) {
   return described(s.name, s.when, s.help);
 }
 
-/// The order in which work flows; categories that are not among them come last.
+/// In the order of the workflow; other categories come last.
 std::vector<std::string> categories_of(const std::vector<NodeType>& types) {
   std::vector<std::string> all = {"source", "image", "analysis", "synthesis", "sink"};
   for (const NodeType& t : types)
@@ -146,7 +146,7 @@ std::string node_reference(const NodeType& type) {
 std::string graph_reference(const std::string& name, const GraphInterface& graph) {
   std::string out = wrapped(graph.summary.empty() ? "a graph" : graph.summary, name + ": ", 2);
   if (!graph.help.empty()) out += '\n' + wrapped(graph.help, "", 0);
-  std::vector<std::string> groups;  // those without a heading first, the others in the order of the document
+  std::vector<std::string> groups;  // without a heading first, then in the document's order
   groups.emplace_back();
   for (const GraphParameter& p : graph.parameters)
     if (std::find(groups.begin(), groups.end(), p.group) == groups.end()) groups.push_back(p.group);

@@ -10,11 +10,11 @@
 /// The reference of node types, generated from their descriptors.
 namespace terrazzo {
 
-/// One node type for reading: summary, help, ports, and parameters with type, range, unit, choices and default; at most
-/// 80 columns wide.
+/// The documentation of one node type: summary, help, ports, and parameters with type, range, unit, choices and
+/// default; at most 80 columns wide.
 std::string node_reference(const NodeType& type);
 
-/// A graph for those who run it: summary, help, its parameters by group, and its presets.
+/// The documentation of a graph for its users: summary, help, its parameters by group, and its presets.
 std::string graph_reference(const std::string& name, const GraphInterface& graph);
 
 /// All node types by category, one line each.

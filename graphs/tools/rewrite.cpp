@@ -13,7 +13,7 @@ namespace terrazzo {
 
 namespace {
 
-/// A text in parts: plain ones, and names of parameters.
+/// A text split into plain parts and names of parameters.
 struct Part {
   std::string text;
   bool is_parameter = false;
@@ -69,7 +69,7 @@ class Rewriter {
     out.items.clear();
     for (const JsonValue& item : v.items) {
       JsonValue changed = value(item);
-      // A wire that becomes several stands among the others.
+      // A wire that is replaced by several is spliced into the list.
       if (is_wire(item) && changed.is_list())
         out.items.insert(out.items.end(), changed.items.begin(), changed.items.end());
       else
@@ -80,7 +80,7 @@ class Rewriter {
   }
 
  private:
-  /// With the comments of what it takes the place of.
+  /// Takes over the comments of the replaced value.
   static JsonValue in_place_of(const JsonValue& old, JsonValue changed) {
     changed.comments_before = old.comments_before;
     changed.comment_after = old.comment_after;

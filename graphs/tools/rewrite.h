@@ -7,26 +7,26 @@
 
 namespace terrazzo {
 
-/// What becomes of the names in the texts of a document: see rewritten.
+/// How to change the names in the texts of a document, see rewritten.
 struct TextChange {
-  /// A wire "@node.port", also in quotes in an expression; `port` may be empty. Gives the new text.
+  /// A wire "@node.port", also in quotes in an expression; `port` may be empty. Returns the new text.
   std::function<JsonValue(const std::string& node, const std::string& port, const JsonValue& text)> wire;
-  /// A node whose results an expression asks for: "@node.size". Gives the new name, without @.
+  /// A node whose results an expression queries: "@node.size". Returns the new name, without @.
   std::function<std::string(const std::string& node)> fact;
-  /// A parameter of the graph, as `$name` or in an expression. Gives what stands there as a document would write it: a
-  /// value, "$other" or "=expression".
+  /// A parameter of the graph, as `$name` or in an expression. Returns its replacement as in a document: a value,
+  /// "$other" or "=expression".
   std::function<JsonValue(const std::string& name)> parameter;
 };
 
-/// A value of a node with all names in its texts changed. Throws Error where an expression has no way to write what a
-/// parameter becomes.
+/// Changes all names in the texts of a node's value. Throws Error if an expression cannot contain a parameter's
+/// replacement.
 JsonValue rewritten(const JsonValue& value, const TextChange& change);
 
-/// The same for an entry of a section: a node, the declaration of a parameter, an output. What stands in it for people,
-/// and its type, stay.
+/// The same for an entry of a section: a node, the declaration of a parameter, an output. Leaves its type and its
+/// human-readable texts unchanged.
 JsonValue rewritten_entry(const JsonValue& entry, const TextChange& change);
 
-/// A value as it stands in an expression: 'text', other, (expression). Throws Error for a map.
+/// Formats a value for use in an expression: 'text', other, (expression). Throws Error for a map.
 std::string in_expression(const JsonValue& value);
 
 }  // namespace terrazzo

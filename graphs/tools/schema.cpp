@@ -33,7 +33,7 @@ ordered_json number(const char* type, const Param& p) {
   return out;
 }
 
-/// What stands in a text's place: any text but a wire.
+/// Any text except a wire.
 ordered_json text() {
   return {{"type", "string"}, {"pattern", "^($|[^@]|@@)"}};
 }
@@ -91,7 +91,7 @@ ordered_json value_schema(const Param& p) {
   return {};
 }
 
-/// A parameter's schema with its default and description; `$name` or an expression may always stand for the value.
+/// A parameter's schema with its default and description; always allows `$name` or an expression instead of the value.
 ordered_json param_schema(const Param& p) {
   const bool is_text = p.type == ParamType::text || p.type == ParamType::path;
   ordered_json out =
@@ -112,7 +112,7 @@ ordered_json port_schema(const Port& p) {
   return out;
 }
 
-/// What every node may have.
+/// The keys that every node may have.
 ordered_json common_keys_schema() {
   ordered_json one_of = ordered_json::array();
   for (const char* key : {"files", "folders", "table", "values"}) one_of.push_back({{"required", {key}}});
@@ -192,7 +192,7 @@ ordered_json output_schema() {
   return any_of({reference("wire"), described});
 }
 
-/// What a graph's parameter of this type takes as its default, and which keys go with the type.
+/// The schema of defaults and the further keys of a graph's parameter of this type.
 ordered_json parameter_case(const std::string& name, ParamType type) {
   const bool takes_range = type == ParamType::integer || type == ParamType::number || type == ParamType::size ||
                            type == ParamType::numbers || type == ParamType::number_map;

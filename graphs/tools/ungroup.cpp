@@ -53,7 +53,7 @@ class Ungrouping {
     }
   }
 
-  /// What the use gives for a parameter, or its default, as the document around would write it.
+  /// The value of a parameter in the use, or its default, as written in the enclosing document.
   JsonValue parameter(const std::string& name) {
     if (const JsonValue* given = use_.find(name)) return *given;
     const JsonValue* parameters = graph_.json->find("parameters");
@@ -95,7 +95,7 @@ class Ungrouping {
 
   JsonValue inlined(const JsonValue& node) {
     JsonValue out = node;
-    // Ports that read an input which is open are open.
+    // Ports that read an open input stay open.
     std::erase_if(out.members, [&](const JsonMember& m) {
       if (!is_wire(m.value)) return false;
       const std::string from = wire_parts(m.value.text).first;
@@ -104,7 +104,7 @@ class Ungrouping {
     return rewritten_entry(out, inside());
   }
 
-  /// The wire behind an output, seen from the document.
+  /// The wire of an output, in terms of the document.
   JsonValue output(const std::string& port) {
     for (const GraphOutput& o : graph_.outputs)
       if (port.empty() || o.port.name == port) return rewritten(o.from, inside());

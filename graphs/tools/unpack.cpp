@@ -58,7 +58,7 @@ void remove_unused(const fs::path& folder) {
     if (fs::file_time_type::clock::now() - entry.last_write_time(failure) > month) fs::remove_all(entry, failure);
 }
 
-/// Brings the copy of a pack to what the pack holds.
+/// Makes the copy equal to the pack's content.
 class Copy {
  public:
   Copy(const fs::path& pack, const std::vector<TarEntry>& entries, const fs::path& place)
@@ -78,7 +78,7 @@ class Copy {
   }
 
  private:
-  /// What the pack does not hold might be read with what it holds.
+  /// Files that are not in the pack might be read along with its own.
   void remove_others(const fs::path& folder) {
     std::error_code failure;
     std::vector<fs::path> others;
@@ -107,7 +107,7 @@ class Copy {
     return true;
   }
 
-  /// Under a name outside of the copy until it is whole: others may be listing its folders.
+  /// Written outside the copy until complete, since others may be listing its folders.
   void replace(const fs::path& file, const TarEntry& entry) const {
     std::error_code failure;
     fs::create_directories(file.parent_path(), failure);

@@ -8,28 +8,28 @@
 #include "graphs/text/diagnostics.h"
 #include "graphs/text/json.h"
 
-/// Between JSON and parameter values, by a parameter's descriptor.
+/// Converts between JSON and parameter values, according to a parameter's descriptor.
 namespace terrazzo {
 
-/// The value that `json` gives the parameter: type, range, choices and counts checked, a path made absolute (relative
-/// ones lie in `base`, an absolute folder) and normal. Empty after problems, all of which have been added.
+/// Reads a parameter's value: checks type, range, choices and counts, and makes paths absolute (relative ones start at
+/// `base`, an absolute folder) and lexically normal. Nullopt if there are problems, all of which are reported.
 std::optional<ParamValue> read_param(const JsonValue& json, const Param& param, const std::filesystem::path& base,
                                      Diagnostics& diagnostics);
 
-/// The default as a node gets it: paths absolute. The parameter must have one.
+/// The default for a node, with absolute paths. The parameter must have one.
 ParamValue default_of(const Param& param, const std::filesystem::path& base);
 
-/// A value as a document would write it; has no place.
+/// A value as JSON for a document, without a place.
 JsonValue json_of(const ParamValue& value);
 
-/// A value as it reads inside a longer text: numbers in their shortest spelling, sizes as 512x256.
+/// A value formatted for use inside a text: numbers in their shortest spelling, sizes as 512x256.
 std::string text_of(const ParamValue& value);
 
-/// A value from the command line for a parameter: what it means as JSON if that has the right kind, else the text
-/// itself, which for a choice may be in upper or lower case.
+/// Reads a parameter's value from the command line: as JSON if that has the right kind, else as plain text. Choices are
+/// case-insensitive.
 JsonValue read_command_line(const std::string& text, const Param& param);
 
-/// What a parameter takes, for messages and the reference: "a number from 0 to 1".
+/// Describes a parameter's valid values, for messages and the reference: "a number from 0 to 1".
 std::string expectation(const Param& param);
 
 }  // namespace terrazzo

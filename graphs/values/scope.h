@@ -13,48 +13,49 @@
 
 namespace terrazzo {
 
-/// The graph's parameters as expressions see them. Parameters that are expressions themselves are evaluated when they
-/// are first asked for; the problems of each are reported once.
+/// The scope of a graph's expressions: its parameters. Parameters that are expressions themselves are evaluated on
+/// first use; their problems are reported once. Not thread-safe.
 class GraphScope : public ExpressionScope {
  public:
-  /// Gets the path of a node; throws Error if nothing is known of it.
+  /// Returns a node's forecast, given its path; throws Error if there is none.
   using Forecasts = std::function<const Forecast&(const std::string& node)>;
 
-  /// Parameters and problems must outlive the scope. `path` begins the names of its nodes ("walls/").
+  /// Parameters and problems must outlive the scope. `path`: prefix of its nodes' names ("walls/").
   GraphScope(std::vector<GraphParameter>& parameters, const NodeTypes& nodes, const std::string& path,
              std::vector<Problem>& problems);
 
-  /// The names of a round of a loop: its variables, which have values, before what is around it, which must outlive it.
+  /// The scope of a loop's iteration: its variables, which have values, hide names of the enclosing scope, which must
+  /// outlive it.
   GraphScope(std::vector<GraphParameter>& variables, GraphScope& around);
 
-  /// From now on nodes can be asked, until this is set to nothing.
+  /// Allows queries of nodes until set to null.
   void set_forecasts(Forecasts forecasts) { forecasts_ = std::move(forecasts); }
 
-  /// Null if there is none of that name. With its value, if all that it is made from is known by now.
+  /// Null if there is none of that name. Evaluates its value if everything it depends on is known.
   const GraphParameter* find(const std::string& name);
-  /// The same, as far as it is known.
+  /// The same without evaluating it.
   const GraphParameter* look_up(const std::string& name) const { return position(name); }
   bool is_path(const std::string& name) const {
     const GraphParameter* p = look_up(name);
     return p && p->param.type == ParamType::path;
   }
-  /// What this parameter, or the expression, lacks before it can be evaluated.
+  /// What is missing to evaluate the parameter or expression.
   Lacking lacking(const std::string& parameter) const;
   Lacking lacking(const Expression& expression) const;
 
-  /// Evaluates an expression that stands in `value`, a text, for a value with this unit (empty: any). Empty after a
-  /// problem; nothing may be lacking.
+  /// Evaluates an expression from the text `value`, for a value with this unit (empty: any). Nullopt after a problem.
+  /// Nothing may be lacking.
   std::optional<ParamValue> evaluate(const Expression& expression, const JsonValue& value, const std::string& unit,
                                      Diagnostics& diagnostics);
-  /// Whether all that an expression names is there; what is not is a problem.
+  /// Checks that all names in an expression exist; reports those that do not.
   bool check_names(const Expression& expression, const JsonValue& text, Diagnostics& diagnostics) const;
 
-  /// Evaluates every parameter that asks for no node.
+  /// Evaluates every parameter that queries no node.
   void evaluate_parameters();
 
-  /// Of the parameters, in the document's order.
+  /// The parameters' names, in the document's order.
   std::vector<std::string> names() const;
-  /// Adds to some parameters those that their expressions name.
+  /// Adds the parameters that the expressions of these parameters name.
   void add_what_they_use(std::set<std::string>& parameters) const;
 
   ExpressionValue parameter(const std::string& name) override;
@@ -75,10 +76,10 @@ class GraphScope : public ExpressionScope {
   std::vector<std::string> names_;           ///< of the parameters, in the document's order
   std::map<std::string, size_t> positions_;  ///< in parameters_
   GraphScope* around_ = nullptr;
-  std::set<std::string> node_names_;  ///< of a round: those around it
+  std::set<std::string> node_names_;  ///< in an iteration: names of the enclosing scope's nodes
   std::string path_;
   Forecasts forecasts_;
-  mutable size_t hints_ = 0;  ///< given on nodes that are not there
+  mutable size_t hints_ = 0;  ///< suggestions made for unknown nodes
 };
 
 }  // namespace terrazzo

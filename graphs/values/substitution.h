@@ -12,7 +12,7 @@
 /// `$name` and expressions in the nodes of a graph.
 namespace terrazzo {
 
-/// A `$name` or `${name}` in a text, which ends before `end`.
+/// A `$name` or `${name}` in a text; it ends before offset `end`.
 struct ParameterReference {
   std::string name;
   size_t end = 0;
@@ -20,26 +20,25 @@ struct ParameterReference {
 /// Empty if no name follows the $ at `at`.
 std::optional<ParameterReference> reference_at(const std::string& text, size_t at);
 
-/// Puts values where a node says `$name` or "=expression".
+/// Replaces `$name` and "=expression" in a node's values. Not thread-safe.
 class Substitution {
  public:
   explicit Substitution(GraphScope& scope) : scope_(scope) {}
 
-  /// The value for a node's parameter, with every `$name` (or `${name}`) and expression replaced, `$$` and a leading
-  /// `@@` or `==` made plain. A text that is nothing but a `$name` or an expression becomes the value, or the value as
-  /// text if the parameter takes texts. A path that begins a longer text is absolute; further on it stands as it was
-  /// written. Empty after a problem, or if something is lacking.
+  /// Expands the value of a node's parameter: replaces every `$name` (or `${name}`) and expression, and unescapes `$$`
+  /// and a leading `@@` or `==`. A text that is only a `$name` or an expression becomes the value itself, formatted as
+  /// text if the parameter takes texts. A path at the beginning of a longer text is made absolute; elsewhere it stays
+  /// as written. Nullopt after a problem, or if a value is missing.
   std::optional<JsonValue> expand(const JsonValue& value, const Param& param, Diagnostics& diagnostics);
 
-  /// The parameters that a value's texts refer to.
+  /// The parameters that a value's texts name.
   std::set<std::string> names_in(const JsonValue& value) const;
   bool is_path(const std::string& parameter) const { return scope_.is_path(parameter); }
 
-  /// The parameters without a value, and the nodes whose forecasts are asked for, that expand has met since this was
-  /// last asked.
+  /// The unset parameters and queried nodes that expand has met since the last call.
   Lacking take_lacking() { return std::exchange(lacking_, {}); }
 
-  /// Parameters that calls of expand have met.
+  /// All parameters that expand has met.
   const std::set<std::string>& used() const { return used_; }
 
  private:
@@ -52,8 +51,8 @@ class Substitution {
   GraphScope& scope_;
   std::set<std::string> used_;
   Lacking lacking_;
-  size_t put_in_ = 0;  ///< bytes, in the value that is being expanded
-  size_t hints_ = 0;   ///< given on parameters that are not there
+  size_t put_in_ = 0;  ///< bytes inserted into the current value
+  size_t hints_ = 0;   ///< suggestions made for unknown parameters
 };
 
 }  // namespace terrazzo

@@ -42,7 +42,7 @@ FoundLattice given_lattice(const NodeContext& node) {
   return {manual_lattice(node.numbers("first"), node.numbers("second"))};
 }
 
-/// What the parameters say of an exemplar that lies beside others, or of several that repeat alike.
+/// The lattice set by the parameters for an exemplar among several, or for several with equal repeats.
 FoundLattice lattice_of(NodeContext& node, const std::vector<ExemplarView>& views) {
   if (node.text("mode") == "manual") return given_lattice(node);
   return find_lattice(views, node.number("least_certainty"), node.task());
@@ -62,13 +62,13 @@ std::string described(const BroughtTogether& all, double least) {
   return text;
 }
 
-/// What the parameters say of all of an exemplar.
+/// The lattice set by the parameters for a whole exemplar.
 FoundLattice lattice_of_all(NodeContext& node, const Features& features) {
   if (node.text("mode") == "manual") return given_lattice(node);
   return find_lattice(features, node.number("least_certainty"), node.task());
 }
 
-/// Adds the streaks of an exemplar to how it repeats.
+/// Adds the exemplar's streaks to its repeats.
 void add_streaks(NodeContext& node, const Features& features, Repeats& repeats) {
   const Lattice before = repeats.lattice;
   repeats = with_streaks(*features.with(repeats), node.task());

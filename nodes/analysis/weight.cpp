@@ -31,7 +31,7 @@ void compute_weight(NodeContext& node) {
   node.output("features", weighted_features(*material, weights, wraps, node.optional_input<Image>("mask")));
 }
 
-/// What certainly cannot be weighted, each about its weight.
+/// Throws for maps that are known not to be weightable, each about its weight.
 void require_weighted_maps(const Params& params, const Forecast& material) {
   std::vector<Error> missing;
   for (const auto& [name, unused] : std::get<NumberMap>(params.at("weights"))) {

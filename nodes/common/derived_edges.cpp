@@ -29,8 +29,8 @@ MaterialPtr to_compare(const Material& material) {
   return Material::make(material.name(), std::move(maps));
 }
 
-/// Several nodes ask it of the same map; the first finds out. Nothing is forgotten: what was derived need not be what
-/// a comparison finds. For the whole process. Thread-safe.
+/// Edges by map, for the whole process: several nodes need those of the same map. Entries are never dropped, since a
+/// comparison may not reproduce derived edges. Thread-safe.
 class KnownEdges {
  public:
   std::optional<bool> meet(const Digest& material) {

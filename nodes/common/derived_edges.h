@@ -2,18 +2,19 @@
 
 #include "core/node/node.h"
 
-/// What lies beyond the borders of maps from which a node derives others.
+/// How nodes that derive maps from others continue them beyond their borders.
 namespace terrazzo {
 
 /// Parameter "edges" of such nodes: auto, clamp or wrap.
 Param derived_edges_param();
 
-/// Its value for what the node derives from. "auto" compares opposite borders, of large maps at a smaller size, and
-/// says in a note if they meet. Throws Cancelled.
+/// The parameter's value for the source material or image. "auto" compares opposite borders, of large maps at a reduced
+/// size, and adds a note if they match. Throws Cancelled.
 Outside derived_edges_of(NodeContext& node, const Material& material);
 Outside derived_edges_of(NodeContext& node, const ImagePtr& image);
 
-/// Makes it known of what a node has derived, so that no node behind it pulls pixels to find out. Thread-safe.
+/// Remembers the edges of a derived image, so that later nodes need not pull its pixels to compare borders.
+/// Thread-safe.
 void know_edges(const ImagePtr& derived, Outside edges);
 
 }  // namespace terrazzo

@@ -55,7 +55,7 @@ void require_mask_of(const InputForecasts& inputs, const std::string& port, size
 
 namespace {
 
-/// A material of which nothing but sizes can be asked: maps of labels, which no one needs to convert.
+/// A placeholder material of which only sizes are used. Its maps are labels, which need no conversion.
 MaterialPtr stand_in(const Forecast& material, const Texts& maps) {
   std::vector<Map> out;
   for (const std::string& map : maps) {
@@ -81,7 +81,7 @@ std::optional<Forecast> sizes_in_atlas(const std::vector<Forecast>& materials, c
   return forecast_of(make_atlas(exemplars_of(stand_ins), gap, Outside::clamp).material);
 }
 
-/// Where maps that there may be decide the size, it is not known.
+/// If possible maps could determine the size, it is unknown.
 Forecast atlas_sizes(const std::vector<Forecast>& materials, int gap, const ExemplarsOf& exemplars_of) {
   const Forecast& first = materials.front();
   const auto is_known = [](const Forecast& m) { return m.possible_maps.has_value(); };

@@ -28,7 +28,7 @@ Port mask_port() {
 
 namespace {
 
-/// Several nodes ask it of the same exemplar, often at once; the first finds out.
+/// Several nodes need it for the same exemplar, often concurrently; the first computes it.
 bool found_to_tile(const Material& material, const ImagePtr& mask, const Task& task) {
   constexpr size_t most_known = 64;
   static std::mutex mutex;

@@ -2,12 +2,12 @@
 
 #include "core/node/node.h"
 
-/// What nodes that analyse an exemplar share.
+/// Helpers for nodes that analyse an exemplar.
 namespace terrazzo {
 
 /// Parameter "tiles": whether the exemplar tiles.
 Param tiles_param();
-/// Its value for the material. "auto" compares opposite borders; a note says if they match.
+/// The parameter's value for the material. "auto" compares opposite borders and adds a note if they match.
 bool exemplar_tiles(NodeContext& node, const Material& material);
 
 /// Port "mask": where the exemplar may be sampled.

@@ -4,7 +4,7 @@
 #include "nodes/common/derived_edges.h"
 #include "nodes/common/node_helpers.h"
 
-/// What nodes share that search a height map for the horizon.
+/// Helpers for nodes that search a height map for the horizon.
 namespace terrazzo {
 
 /// Parameter "radius".
@@ -13,7 +13,7 @@ Param horizon_radius_param();
 /// From the parameters "height_scale", "radius" and "edges"; see `derived_edges_of`.
 HorizonOptions horizon_options_of(NodeContext& node, const ImagePtr& height);
 
-/// An operation on a height map that reads as far as the horizon is looked for; it lacks `compute`.
+/// An operation on a height map that reads the search radius around each region. The caller sets `compute`.
 Operation horizon_operation(const ImagePtr& height, const HorizonOptions& options);
 
 }  // namespace terrazzo

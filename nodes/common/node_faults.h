@@ -6,7 +6,7 @@
 
 namespace terrazzo {
 
-/// What is wrong with a descriptor that is to be registered; empty if nothing is.
+/// Why a node type cannot be registered; empty if it can.
 std::string fault_of_node_type(const NodeType& type);
 
 }  // namespace terrazzo

@@ -4,10 +4,10 @@
 
 #include "core/node/node.h"
 
-/// What descriptors of image nodes share.
+/// Helpers for node descriptors.
 namespace terrazzo {
 
-/// Parameter "edges": clamp or wrap beyond the image's border.
+/// Parameter "edges": whether images are clamped or wrapped beyond their borders.
 Param edges_param();
 Outside edges_of(const NodeContext& node);
 
@@ -23,14 +23,14 @@ inline constexpr double largest_sample = 1e6;
 /// A parameter that is a pixel value.
 Param sample_param(const std::string& name, double fallback, const std::string& help);
 
-/// What a map may be used as, for parameters.
+/// The choices of parameters that name a semantic.
 std::vector<std::string> semantic_choices();
 
-/// Parameters "size" and "semantic" of nodes that generate an image, and what these and the channels say of it.
+/// Parameters "size" and "semantic" of nodes that generate an image, and the forecast that follows from them.
 Param generated_size_param();
 Param generated_semantic_param(const std::string& fallback, std::vector<std::string> choices = semantic_choices());
 OutputForecasts forecast_of_generated(const Params& params, int channels);
-/// The image that they describe, in the colour space of files with this semantic.
+/// The description of the generated image, in the default colour space of its semantic.
 ImageInfo generated_info(const NodeContext& node, int channels);
 
 /// The same pixel everywhere, computed on demand under the node's key; `info` without channels.
@@ -38,25 +38,26 @@ ImagePtr constant_image(const NodeContext& node, ImageInfo info, const Numbers& 
 
 /// Parameter "metres", the physical size of a surface. `empty`: what an empty list means.
 Param metres_param(const std::string& empty);
-/// What it says of a surface of `size`, whose width alone may be given; not known if it is empty.
+/// The parameter's value for a surface of `size` pixels. `given` may hold only the width; the result is unknown if it
+/// is empty.
 PhysicalSize metres_of(const Numbers& given, Size size);
 
 Port image_port(const std::string& name, const std::string& help);
 Port material_port(const std::string& name, const std::string& help);
 
-/// For rules of shapes: throws Errors if `param`, a list, names maps that the material certainly lacks, each about its
+/// For NodeType::infer: throws Errors if the list `param` names maps that the material is known to lack, each about its
 /// item.
 void preflight_maps(const std::string& param, const std::vector<std::string>& wanted, const Forecast& material,
                     const std::string& whose = "the material");
-/// For rules of shapes: throws Error about `port` if its material's maps certainly differ in aspect ratio.
+/// For NodeType::infer: throws Error about `port` if its material's maps are known to differ in aspect ratio.
 void preflight_one_shape(const std::string& port, const InputForecasts& inputs);
 
-/// For the rules of nodes that analyse maps of their "material" together, where their "mask", if they have one, allows
-/// it: throws Errors for what certainly does not fit. `param` names the maps that are `wanted`.
+/// For NodeType::infer of nodes that jointly analyse maps of "material", optionally restricted by "mask": throws Errors
+/// for inputs that are known not to fit together. `param` lists the `wanted` maps.
 void require_analysable_maps(const std::string& param, const std::vector<std::string>& wanted,
                              const InputForecasts& inputs);
 
-/// The recipe digest of one of several lazy maps: the node's type and parameters, and the source map.
+/// The recipe digest of one of several lazy maps: covers the node's type and parameters, and the source map.
 Digest map_recipe(const NodeContext& node, const Image& map);
 
 /// The material with `change` applied to every map in `maps` (all if empty). Throws Error about "maps" if the material
@@ -64,14 +65,14 @@ Digest map_recipe(const NodeContext& node, const Image& map);
 MaterialPtr with_maps_changed(const MaterialPtr& material, const Texts& maps,
                               const std::function<ImagePtr(const Map&)>& change);
 
-/// Warns of maps that are smaller than the material and so will be scaled up: likely a file of the wrong size. Those
-/// that were already smaller in `known`, if given, have been reported before.
+/// Warns of maps that are smaller than the material and will be scaled up: a file of the wrong size is likely. Skips
+/// maps that are already smaller in `known`, which have been reported before.
 void warn_of_smaller_maps(NodeContext& node, const Material& material, const Material* known = nullptr);
 
 /// Throws Error about `param` unless the material has a map of that name.
 ImagePtr require_map(const std::string& param, const Material& material, const std::string& map);
 
-/// A value per channel from a parameter that holds one for all, or one for each. Throws Error about `param`.
+/// One value per channel, from a parameter with one value for all channels or one for each. Throws Error about `param`.
 std::vector<double> per_channel(const Params& params, const std::string& param, int channels);
 
 }  // namespace terrazzo

@@ -192,7 +192,7 @@ void warn_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
   };
   if (fits(options.size)) return;
   std::string advice = "no size near it would";
-  // The less there is to bend in, the nearer to whole repeats.
+  // The smaller the allowed distortion, the closer the size must be to whole repeats.
   for (const int part : {1, 4, 16}) {
     const Size give{std::max(1, options.size.width / part), std::max(1, options.size.height / part)};
     const Size would = best_wrapping_size(lattice, options.size, options.tile_x, options.tile_y, give);
@@ -234,7 +234,8 @@ void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, b
                             100.0 * double(counts[i]) / double(result.size().area()));
   }
   node.note(fmt::format("the result shows {}{}", shares, parts.size() > most_listed ? ", and others" : ""));
-  if (!all_expected || unused.empty() || result.size().area() < area) return;  // a small one has no room for all
+  if (!all_expected || unused.empty() || result.size().area() < area)
+    return;  // a small result has no room for all parts
   node.warn(
       fmt::format("the result shows nothing of exemplar {}, which does not fit the others; try another seed, or place "
                   "it with a mix map (graphs/mix.json)",

@@ -6,7 +6,7 @@
 #include "core/node/node.h"
 #include "core/synthesis/synthesize.h"
 
-/// What synthesis nodes share.
+/// Helpers for synthesis nodes.
 namespace terrazzo {
 
 Port index_port();
@@ -21,32 +21,33 @@ Param surface_param(std::string name, std::string help, int least);
 Param tileable_param();
 /// Parameter "whole_bricks", of nodes that make whole surfaces.
 Param whole_bricks_param();
-/// The same parameter of nodes that keep pixels: courses are not laid between those.
+/// The same for nodes that keep pixels; courses are not laid between kept pixels.
 Param whole_bricks_between_kept_param();
-/// `own` parameters, followed by those of every synthesis: seed, quality, coherence, evenness, and jitter.
+/// The node's `own` parameters, followed by those of every synthesis node: seed, quality, coherence, evenness and
+/// jitter.
 std::vector<Param> with_synthesis_params(std::vector<Param> own);
-/// Checks them; for NodeType::check.
+/// Checks these parameters; for NodeType::check.
 std::vector<std::string> check_synthesis_params(const Params& params);
 
 /// The values of the parameters above; "size", "tileable" and "whole_bricks" if the node has them.
 SynthesisOptions synthesis_options(const NodeContext& node, const Index& index);
 
-/// For rules of shapes: throws Error about port "uv" if its uv map was certainly not made for the exemplar of "index".
+/// For NodeType::infer: throws Error about port "uv" if its uv map is known to refer to another exemplar than "index".
 void require_same_exemplar(const InputForecasts& inputs);
 
-/// Warns if a result that wraps does not hold (nearly) a whole number of the exemplar's repeats: states the
-/// `consequence` and names the nearest size that does.
+/// Warns if a wrapping result does not fit (nearly) a whole number of the exemplar's repeats: states the `consequence`
+/// and names the nearest size that fits.
 void warn_unless_repeats_fit(NodeContext& node, const Index& index, const SynthesisOptions& options,
                              std::string_view consequence);
 
-/// For exemplars of several parts: notes the share of the result that shows each and, if `all_expected`, warns of parts
-/// that are not shown although there is room.
+/// For exemplars of several parts: notes each part's share of the result. If `all_expected`, warns of parts that are
+/// missing although there is room for them.
 void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, bool all_expected);
 
-/// Warns if a result shows less surface than its exemplar, which is hardly what anyone wants.
+/// Warns if a result shows less surface than its exemplar, which is probably unintended.
 void warn_of_less_surface(NodeContext& node, const Index& index, Size result);
 
-/// A mask of a result: white where it does not show the kept pixels.
+/// A mask of the result: 1 for new pixels, 0 for kept ones.
 ImagePtr new_pixels_mask(const UvMap& result, const ExistingPixels& kept);
 
 }  // namespace terrazzo

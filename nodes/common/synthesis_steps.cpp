@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int levels = 8;  // enough to tell what counts from the finest level from what counts from the coarsest
+constexpr int levels = 8;  // enough to distinguish conditions counted from the finest and from the coarsest level
 
 struct Situation {
   std::string name;

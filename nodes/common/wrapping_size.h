@@ -4,9 +4,9 @@
 
 namespace terrazzo {
 
-/// The size near `size`, over half of it and at most an eighth larger, with which a result on that lattice wraps best
-/// along those axes: a size far off is weighed against cells that must be bent. They are bent within `give`, pixels
-/// along each side, and what a side grows by.
+/// The size near `size`, more than half of it and at most an eighth larger, at which a result on this lattice wraps
+/// best along the given axes. The deviation in size is weighed against the distortion of cells. Cells may be distorted
+/// by `give` pixels along each side, plus the side's growth.
 Size best_wrapping_size(const Lattice& lattice, Size size, bool wraps_x, bool wraps_y, Size give);
 
 }  // namespace terrazzo

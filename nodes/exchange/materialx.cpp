@@ -97,7 +97,7 @@ class MaterialxWriter {
     std::string name = std::string(map) + "_image";
     pugi::xml_node node = add(graph_, "tiledimage", name, type);
     pugi::xml_node input = add_value(node, "file", "filename", file.name);
-    // Colours say so; data must say nothing, or readers convert it.
+    // Colours declare their space; data must not, or readers convert it.
     const std::string& space = file.content->image->info().color_space;
     if (type == std::string_view("color3") && space != "raw") input.append_attribute("colorspace") = space.c_str();
     add_value(node, "uvtiling", "vector2", pair_of(scene_.repeats[0], scene_.repeats[1]));

@@ -15,17 +15,17 @@ namespace {
 
 using Channel = FileContent::Channel;
 
-/// A map as files hold it: normals as the preset has them, colours in sRGB.
+/// A map converted for files: normals in the preset's convention, colours in sRGB.
 ImagePtr conventional(const ImagePtr& map, NormalY wanted) {
   return is_color(map->info().semantic) ? convert_color(map, "srgb_texture") : with_normal_y(map, wanted);
 }
 
-/// Of what may be filtered or displaced 8 bits are too few: they show as steps.
+/// 8 bits are too few for maps that are filtered or used for displacement: steps become visible.
 Depth depth_of(const ImageInfo& info) {
   return info.semantic == Semantic::height ? std::max(info.depth, Depth::u16) : info.depth;
 }
 
-/// The maps of a material by name, each as files hold it.
+/// The maps of a material by name, converted for files.
 class Sources {
  public:
   Sources(const Material& material, NormalY normal_y) {
@@ -45,7 +45,7 @@ std::vector<Channel> channels_for(const PresetFile& file, const Sources& sources
   std::vector<Channel> out;
   for (const ChannelSource& s : file.channels) {
     const ImagePtr map = s.map.empty() ? nullptr : sources.find(s.map);
-    // Colours and normals of one channel show it in all three, as grey.
+    // One-channel colours and normals are repeated in all three channels.
     if (map)
       out.push_back({std::string(s.map), std::min(s.channel, map->channels() - 1), s.inverted, 0});
     else

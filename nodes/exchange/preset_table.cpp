@@ -19,7 +19,7 @@ PresetFile one(std::string_view suffix, std::string_view map) {
   return {suffix, {{map}}, {map}};
 }
 
-/// What a material without the map has: no occlusion, halfway rough, no metal.
+/// Values for missing maps: no occlusion, roughness 0.5, no metal.
 constexpr ChannelSource occlusion{.map = "ambient_occlusion", .otherwise = 1};
 constexpr ChannelSource roughness{.map = "roughness", .otherwise = 0.5};
 constexpr ChannelSource metallic{.map = "metallic", .otherwise = 0};

@@ -49,7 +49,7 @@ void require_one_space(const ImageFacts& base, const ImageFacts& top) {
                             base_space, top_space));
 }
 
-/// The mode, where it is not left to the images.
+/// The mode, unless it depends on the images.
 void require_mode(const std::string& mode, const ImageFacts& base) {
   if (!base.semantic) return;
   if (is_normal_map(base) && mode != "auto" && mode != "detail" && mode != "normal")

@@ -17,14 +17,14 @@ namespace {
 
 const std::vector<std::string> channel_names = {"r", "g", "b", "a"};
 
-/// Where one channel of the result comes from.
+/// The source of one channel of the result.
 struct Source {
   ImagePtr image;  ///< null: a constant
   int channel = 0;
   float constant = 0;
 };
 
-/// Which channel of the image connected to it goes to channel `name`.
+/// The channel of the connected image that goes to channel `name`.
 int source_channel(const Params& params, const std::string& name, const ImageFacts& image) {
   const TextMap& from = std::get<TextMap>(params.at("from"));
   const auto given = from.find(name);

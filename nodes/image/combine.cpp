@@ -46,7 +46,7 @@ ImagePtr constant_mask(Size size) {
   return Image::computed(info, recipe, [](const Rect& region, float* out) { std::fill_n(out, region.area(), 1.0f); });
 }
 
-/// What the user should know of a mix.
+/// Notes for the user about a mix.
 void tell_of(NodeContext& node, const Mix& mix, Size map) {
   std::vector<std::string> shares;
   for (const double part : mix.parts) shares.push_back(fmt::format("{:.0f} %", 100 * part));
@@ -82,7 +82,7 @@ void compute_combine(NodeContext& node) {
   output_atlas(node, exemplars, "fewer materials");
 }
 
-/// What is certain about the maps of all materials.
+/// The facts that are known for the maps of all materials.
 std::vector<KnownMaps> known_maps(const InputForecasts& inputs) {
   std::vector<KnownMaps> materials;
   for (const Forecast& f : inputs.at("materials")) materials.push_back({"", f.maps, f.possible_maps});
@@ -98,7 +98,7 @@ void require_compared_heights(const std::vector<KnownMaps>& materials) {
   }
 }
 
-/// The size that all materials have; nullopt if one's is not known. Throws Error if they certainly differ.
+/// The common size of all materials; nullopt if one is unknown. Throws Error if they are known to differ.
 std::optional<Size> size_of_all(const std::vector<Forecast>& materials) {
   std::vector<Size> known;
   for (const Forecast& m : materials)

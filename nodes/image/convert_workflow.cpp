@@ -17,7 +17,7 @@ namespace {
 
 const std::string base_name = "base_color";
 
-/// The map beside the base colour that goes, and the one that comes in its place.
+/// The map besides the base colour that is replaced, and its replacement.
 struct Swap {
   std::string from, to;
 };
@@ -55,7 +55,7 @@ ImagePtr computed(const NodeContext& node, const Sources& sources, const ImageIn
       const float* b = &base[size_t(i * channels)];
       float* o = out + i * info.channels;
       convert(color_at(b, channels), color_at(&other[size_t(i * others)], others), o);
-      if (info.channels == 4) o[3] = b[3];  // coverage stays
+      if (info.channels == 4) o[3] = b[3];  // alpha stays
     }
     to_stored(info, out, count);
   });

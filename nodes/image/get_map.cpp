@@ -7,7 +7,7 @@ namespace terrazzo {
 
 namespace {
 
-/// The same value everywhere, in place of a map that the material lacks.
+/// A constant image in place of a missing map.
 ImagePtr constant(const NodeContext& node, Size size) {
   ImageInfo info{.size = size};
   info.semantic = semantic_from(node.text("map")).value_or(Semantic::data);

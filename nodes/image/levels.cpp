@@ -39,7 +39,7 @@ std::vector<Level> given_levels(const NodeContext& node, int channels) {
   return levels;
 }
 
-/// Black and white so that `clip` percent of the pixels lie beyond each.
+/// Black and white points such that `clip` percent of the pixels lie beyond each.
 void find_black_and_white(NodeContext& node, const Image& image, std::vector<Level>& levels) {
   std::vector<Distribution> channels = Distribution::of(image, node.task());
   channels.erase(channels.begin() + levels.size(), channels.end());
@@ -99,7 +99,7 @@ std::vector<std::string> check_levels(const Params& params) {
   const Numbers black = numbers("in_black"), white = numbers("in_white");
   if (std::get<std::string>(params.at("auto")) != "off") return {};
   for (size_t c = 0; c < std::max(black.size(), white.size()); c++) {
-    // Whether the counts fit is known with the image.
+    // The counts can only be checked with the image.
     const double b = black[std::min(c, black.size() - 1)], w = white[std::min(c, white.size() - 1)];
     if (b == w) return {fmt::format("\"in_white\": expected a value other than in_black, found {} for both", w)};
   }

@@ -16,7 +16,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Names one of the images on the way to the result.
+/// The digest of an intermediate image.
 Digest recipe_of(const NodeContext& node, const char* step) {
   return Hasher().add(node.key().hex()).add(step).digest();
 }

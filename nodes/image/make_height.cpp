@@ -44,8 +44,8 @@ void clip(NodeContext& node, std::vector<float>& heights) {
                     100 * double(clipped) / double(heights.size())));
 }
 
-/// Whether the surface leans as a whole: then opposite borders lie at different heights, though the normals there are
-/// alike. Less than a tenth comes of rounding, or of how a scan was levelled.
+/// Whether the whole surface is tilted: then opposite borders have different heights although their normals agree. Less
+/// than a tenth is due to rounding, or to the levelling of a scan.
 bool leans(const Image& normal) {
   double x = 0, y = 0;
   for_each_strip(normal, [&](const Rect& strip, const float* v) {

@@ -14,8 +14,8 @@ namespace terrazzo {
 
 namespace {
 
-/// Seen from above, a picture of another shape than the material shows some of it twice or leaves some out, which is
-/// surprising unless the number of repeats has been chosen.
+/// A plane preview with another aspect ratio than the material repeats or crops it, which is unexpected unless the
+/// number of repeats was set.
 void note_other_shape(NodeContext& node, const PreviewSpec& spec, Size material) {
   if (spec.shape != PreviewShape::plane || spec.tilt != 0 || spec.tile != 1) return;
   const int whole = std::max(1, int(std::lround(double(spec.size.width) * material.height / material.width)));

@@ -20,7 +20,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Six decimals: all that means something, and the same text everywhere.
+/// Six decimals: all significant digits, and the same text on every machine.
 double rounded(double v) {
   return std::round(v * 1e6) / 1e6;
 }
@@ -123,7 +123,7 @@ const UvMapPtr& require_uv(const UvMapPtr& uv) {
   return uv;
 }
 
-/// None if the labels do not tell several apart.
+/// Empty unless the labels distinguish several elements.
 std::optional<Elements> given_elements(NodeContext& node, const UvMapPtr& uv) {
   const ImagePtr labels = node.optional_input<Image>("labels");
   if (!labels) return std::nullopt;

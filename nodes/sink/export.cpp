@@ -37,8 +37,8 @@ std::vector<Map> chosen_maps(const NodeContext& node, const Material& material) 
   return chosen;
 }
 
-/// Converts colours as asked for. Kept ones are linear in float files and sRGB in others, as applications assume; for
-/// other spaces users must tell them anyway.
+/// Converts colours to the requested space. "keep" writes linear colours to float files and sRGB to others, as
+/// applications assume; other spaces must be set in the application anyway.
 ImagePtr with_colors(const ImagePtr& image, const std::string& wish, Depth written) {
   const ImageInfo& info = image->info();
   if (!is_color(info.semantic)) return image;
@@ -47,7 +47,7 @@ ImagePtr with_colors(const ImagePtr& image, const std::string& wish, Depth writt
   return usual ? convert_color(image, assumed_color_space(info.semantic, written)) : image;
 }
 
-/// The image as it goes to the file, with the depth it gets there.
+/// The image prepared for the file, with the file's depth.
 MapFileJob job_for(NodeContext& node, const Map& map, const Material& material, const fs::path& target) {
   MapFileJob job{.name = map.name, .image = with_normals(map.image, node.text("normal_y")), .target = target};
   job.has_levels = node.flag("mips");
@@ -67,7 +67,7 @@ void add_material(NodeContext& node, const Material& material, std::vector<MapFi
   const auto target_of = [&](const Map& m) {
     return filled("path", pattern, {m.name, material.name(), m.image->size()});
   };
-  target_of(maps.front());  // says what is wrong with the pattern itself
+  target_of(maps.front());  // throws if the pattern itself is invalid
   std::vector<std::string> names;
   for (const Map& m : maps) names.push_back(m.name);
   require_pattern_for(pattern, names);

@@ -31,7 +31,7 @@ std::string with_tile(const char* param, std::string pattern, std::string& mater
   return pattern;
 }
 
-/// Names come from files, documents and programs; one that leads elsewhere must not be a part of a path.
+/// Names come from files, documents and programs, and must not lead to another folder when inserted into a path.
 void require_part_of_path(const char* param, const char* what, const std::string& name) {
   if (name.find_first_of(std::string_view("/\0", 2)) == std::string::npos &&
       (name.empty() || name.find_first_not_of('.') != std::string::npos))

@@ -8,28 +8,29 @@
 #include "core/image_io/image_file.h"
 #include "core/node/node.h"
 
-/// Where the node `export` writes to, as far as its parameters say. All throw Error naming the parameter.
+/// Output paths of the node `export`, from its parameters. All functions throw Error naming the parameter.
 namespace terrazzo {
 
-/// What stands for the placeholders of a pattern.
+/// The values of a pattern's placeholders.
 struct PathValues {
   std::string map;
   std::string material;
   Size size;
 };
 
-/// Fills {map}, {material}, {width}, {height} and <UDIM>, the tile that the material's name ends in; beside that,
-/// {material} is the name without it. Throws for unknown ones, unmatched braces, and materials that are no tiles.
+/// Fills in {map}, {material}, {width}, {height} and <UDIM>, the tile at the end of the material's name; with <UDIM>,
+/// {material} is the name without the tile. Throws for unknown placeholders, unmatched braces, and materials without a
+/// tile.
 std::string filled(const char* param, const std::string& pattern, const PathValues& values);
 
-/// The format that a path's extension names.
+/// The format of a path's extension.
 FileFormat required_format(const char* param, const std::filesystem::path& path);
 
-/// Throws unless `path` can name a file for each map; `maps` are the names of those to be written, as far as they are
+/// Throws unless `path` gives each map a file of its own. `maps`: the names of the maps to write, as far as they are
 /// known.
 void require_pattern_for(const std::string& path, const std::vector<std::string>& maps);
 
-/// The parameter that says where the uv map goes: `uv_path`, else `path` with "uv" for the map's name.
+/// The parameter with the uv map's path: `uv_path`, else `path`, with "uv" as the map's name.
 const char* param_of_uv(const Params& params);
 
 /// Throws Error about "uv_path" unless the file's format holds a uv map exactly.

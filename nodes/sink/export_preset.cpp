@@ -56,19 +56,19 @@ Texts formats_of(PresetDocument document) {
   }
 }
 
-/// What files are to be named after, without the UDIM tile.
+/// The requested base of file names, without the UDIM tile.
 std::string wanted_name(const std::string& given, const Material& material) {
   return without_udim_tile(given.empty() ? material.name() : given);
 }
 
-/// What they are named after: what every file system, and every reader, takes.
+/// The base of file names, restricted to characters that every file system and reader accepts.
 std::string name_of_files(const std::string& given, const Material& material) {
   std::string out;
   for (const char c : wanted_name(given, material)) out += is_word(c) || c == '-' ? c : '_';
   return out.empty() ? "material" : out;
 }
 
-/// Tells of a material's name that the document cannot have as it is.
+/// Adds a note if the document cannot contain the material's name unchanged.
 void tell_of_identifier(NodeContext& node, PresetDocument document, const std::string& name) {
   const bool has_identifiers = document == PresetDocument::materialx_standard_surface ||
                                document == PresetDocument::materialx_open_pbr || document == PresetDocument::usd;
@@ -77,7 +77,7 @@ void tell_of_identifier(NodeContext& node, PresetDocument document, const std::s
                         identifier(name)));
 }
 
-/// The surface's size: as the parameter says, else as the material knows it; not known if neither does.
+/// The surface's size from the parameter, else from the material; unknown if neither has it.
 PhysicalSize metres_of(const NodeContext& node, const Material& material) {
   const Numbers& given = node.numbers("metres");
   return given.empty() ? material.metres() : metres_of(given, material.size());
@@ -103,7 +103,7 @@ MapFileJob job_for(NodeContext& node, FileContent& content, const Material& mate
   return job;
 }
 
-/// Throws Error about "format" if the files do not fit into it, or about "path" if two have one name.
+/// Throws Error about "format" if the format cannot hold the files, or about "path" if two files have the same name.
 void require_written(const Params& params, const std::vector<FileContent>& contents) {
   std::vector<MapFileJob> jobs;
   for (const FileContent& c : contents) {
@@ -116,7 +116,7 @@ void require_written(const Params& params, const std::vector<FileContent>& conte
   require_distinct(jobs);
 }
 
-/// A material of which nothing but descriptions can be asked, with maps that there will, or may, be.
+/// A placeholder material with descriptions of the certain or possible maps, without pixels.
 MaterialPtr stand_in(const Forecast& material, const Texts& of) {
   std::vector<Map> maps;
   for (const std::string& map : of) {
@@ -144,7 +144,7 @@ OutputForecasts infer_export_preset(const Params& params, const InputForecasts& 
   return {};
 }
 
-/// What would be refused if the material turns out to have all maps that it may have, such as opacity in alpha.
+/// Errors that occur if the material has all its possible maps, such as opacity in alpha.
 Texts lint_of_export_preset(const Params& params, const InputForecasts& inputs) {
   const auto material = inputs.find("material");
   if (material == inputs.end() || !material->second.front().possible_maps) return {};
@@ -159,7 +159,7 @@ Texts lint_of_export_preset(const Params& params, const InputForecasts& inputs) 
   return {};
 }
 
-/// A file that is written as it is.
+/// A file that is written unchanged.
 struct TextFile {
   std::string name;
   std::string bytes;
@@ -206,7 +206,7 @@ MaterialScene scene_of(NodeContext& node, const std::string& name, PhysicalSize 
   return scene;
 }
 
-/// Of one binary file, only what is not in it is written beside it.
+/// With one binary file, only maps that it does not contain are written separately.
 void leave_rest(const MaterialScene& scene, std::vector<MapFileJob>& jobs,
                 std::vector<std::pair<std::string, const FileContent*>>& listed) {
   const auto is_inside = [&](const std::string& file) {
@@ -216,7 +216,7 @@ void leave_rest(const MaterialScene& scene, std::vector<MapFileJob>& jobs,
   std::erase_if(listed, [&](const auto& entry) { return is_inside(entry.first); });
 }
 
-/// Of files that an earlier export wrote and this one does not, mip levels of both included.
+/// Notes files of an earlier export that this one does not write, including mip levels.
 void warn_of_left_over(NodeContext& node, const fs::path& folder, const Texts& before) {
   std::set<std::string> written, names(before.begin(), before.end()), left_over;
   for (const StagedFile& f : node.staged()) written.insert(f.target.filename().string());

@@ -31,8 +31,8 @@ std::string depths_of(FileFormat format) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The format's depth nearest to the map's, lossless if there is one. Halfs in TIFF come only if asked for: many
-/// programs read them as noise or not at all, Blender among them.
+/// The format's depth nearest to the map's, lossless if there is one. Half floats in TIFF are written only on request:
+/// many programs, including Blender, read them as noise or not at all.
 Depth nearest_depth(FileFormat format, Depth have) {
   if (format == FileFormat::tiff && have == Depth::f16) return Depth::f32;
   if (holds(format, have)) return have;
@@ -55,7 +55,7 @@ bool loses(Depth have, Depth written) {
   return have != written && !(have == Depth::u8) && written != Depth::f32;
 }
 
-/// A warning, or a note if it is no more than filter overshoot.
+/// A warning, or a note if it may be just filter overshoot.
 void tell_of_clipping(NodeContext& node, const MapFileJob& job) {
   constexpr float overshoot = 0.01f;
   const Clipping& c = job.clipped;

@@ -8,7 +8,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Any name will do, so a slip would cost whatever lies there.
+/// Any file name is allowed, so a typo could overwrite an unrelated file.
 void require_no_other_kind(const std::filesystem::path& path) {
   std::error_code missing;
   if (!std::filesystem::is_regular_file(path, missing) || std::filesystem::file_size(path, missing) == 0) return;

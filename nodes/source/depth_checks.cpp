@@ -33,7 +33,7 @@ const Tunable<DepthChecksTuning> depth_checks_tuning(
          "not measured: as packing_guess.least_hollow", 0, 1},
     });
 
-/// Whether near is dark, and what tells it.
+/// Whether near is dark, with the evidence.
 struct Judgement {
   bool inverted = false;
   std::string grounds;

@@ -7,17 +7,17 @@
 #include "core/material/material.h"
 #include "core/material/material_files.h"
 
-/// Maps called "depth": of some programs near is bright, as in a height map, of others near is dark.
+/// Maps named "depth": in some programs near is bright, as in a height map, in others near is dark.
 namespace terrazzo {
 
-/// Whether a file's name, or its layer's, says depth.
+/// Whether the name of a file or layer contains "depth".
 bool is_depth(const std::string& file, const std::string& layer);
 
-/// How to turn such a map round if need be, for a note.
+/// A note on how to invert such a map if necessary.
 std::string note_on_depth(const std::string& place, const std::string& map);
 
-/// Inverts heights that are called depth where the normals or the occlusion of the material tell that near is dark, and
-/// adds to `notes` what was judged, or how to say it. `normal_y`: which way green points, if the user says it.
+/// Inverts heights named "depth" if the material's normals or occlusion show that near is dark. Adds notes on the
+/// decision, or on how to set it. `normal_y`: the convention set by the user, if any.
 void settle_depths(std::optional<NormalY> normal_y, const std::vector<RecognisedMap>& sources, std::vector<Map>& maps,
                    std::vector<std::string>& notes);
 

@@ -19,7 +19,7 @@ namespace terrazzo {
 
 namespace {
 
-/// A mask or an opacity map painted as transparency would silently be all white or all black.
+/// A mask or opacity map painted as transparency would otherwise silently become all white or all black.
 void note_transparency(NodeContext& node, const Image& mask) {
   const int channels = mask.channels();
   if (channels != 2 && channels != 4) return;
@@ -33,7 +33,7 @@ void note_transparency(NodeContext& node, const Image& mask) {
         mask.info().semantic == Semantic::mask ? "mask" : "map", channels == 2 ? "g" : "a"));
 }
 
-/// What the parameter `interpret` says; nothing if it is empty. Throws Error.
+/// The value of the parameter `interpret`. Throws Error.
 Interpretation interpretation_in(const Params& params) {
   const std::string& words = std::get<std::string>(params.at("interpret"));
   if (words.empty()) return {};
@@ -50,7 +50,7 @@ ImagePtr inverted(const ImagePtr& image) {
                         });
 }
 
-/// The picture as what it is, by what the user and, of normals, the pixels say.
+/// Converts the image according to the user's interpretation and, for normals, the pixels.
 ImagePtr interpreted(NodeContext& node, const ImagePtr& image, const Interpretation& given) {
   const std::filesystem::path path = node.text("path");
   const std::string name = path.filename().string();
@@ -69,7 +69,7 @@ ImagePtr interpreted(NodeContext& node, const ImagePtr& image, const Interpretat
   return image;
 }
 
-/// The space that the file says, else the usual one.
+/// The colour space that the file states, else the default.
 std::string space_of_file(NodeContext& node, const std::filesystem::path& path, const std::string& layer,
                           Semantic semantic) {
   const FileInfo file = read_image_info(path, layer);

@@ -30,9 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The space that the file, or the sidecar, says; empty if it says none.
+/// The colour space stated by the file or the sidecar; empty if there is none.
 std::string described_color_space(const RecognisedMap& m) {
-  // Of a file that holds colours and something else, such as opacity, only the colours have a space.
+  // In a file with colours and other maps, such as opacity, only the colours have a colour space.
   if (m.color_space.empty() || !is_color(m.semantic)) return "";
   try {
     return canonical_color_space(m.color_space);
@@ -45,7 +45,7 @@ std::string described_color_space(const RecognisedMap& m) {
 /// `with_alpha` receives the map's name if x or y is in the file's alpha channel.
 ImagePtr normals_of(const RecognisedMap& m, const Source& source, const std::string& space,
                     const std::vector<Map>& maps, Texts& with_alpha, std::vector<std::string>& notes) {
-  // Of channels that were chosen there may be x and y alone, in this order.
+  // Selected channels may be just x and y, in this order.
   const ImagePtr chosen = m.channels.empty() ? source.image : map_of_file(m, source.image, space, notes);
   NormalFile file{.place = m.place(), .map = m.map, .names = source.channel_names, .channels = m.interpretation.normal};
   if (!m.channels.empty()) file.names = chosen->channels() == 2 ? Texts{"x", "y"} : Texts();
@@ -60,7 +60,7 @@ ImagePtr normals_of(const RecognisedMap& m, const Source& source, const std::str
   return Image::redescribed(rebuilt.image, info);
 }
 
-/// Which way green points, if the user says it.
+/// The normal convention set by the user, if any.
 std::optional<NormalY> given_normal_y(const NodeContext& node) {
   const std::string& given = node.text("normal_y");
   return given == "auto" ? std::nullopt : std::optional(given == "up" ? NormalY::up : NormalY::down);

@@ -28,8 +28,8 @@ namespace {
 /// A file and a layer of it.
 using FilePlace = std::pair<std::string, std::string>;
 
-/// A link to a missing file counts, and so do pipes and devices, so that reading them complains: without it the
-/// material would silently lack a map.
+/// Includes dangling links, pipes and devices, so that reading them fails: otherwise the material would silently lack a
+/// map.
 bool is_no_folder(const fs::directory_entry& entry) {
   std::error_code failure;
   return !entry.is_directory(failure);
@@ -53,7 +53,7 @@ void require_folder(const fs::path& folder) {
                                   did_you_mean(folder.filename().string(), siblings)));
 }
 
-/// Of files whose names say a map, and which are pictures of a format that is not read.
+/// A message about files with map keywords in picture formats that cannot be read.
 Texts notes_on_other_formats(const fs::path& folder) {
   static const std::set<std::string> unread = {"kra",   "xcf",  "psb", "svg", "clip", "ktx",  "ktx2",
                                                "basis", "astc", "vtf", "jxl", "heic", "heif", "avif",
@@ -73,7 +73,7 @@ Texts notes_on_other_formats(const fs::path& folder) {
   return notes;
 }
 
-/// Files whose names say maps, and whose endings say no image.
+/// Files with map keywords but without an image extension.
 std::string maps_of_other_endings(const Texts& present) {
   std::string out;
   for (const std::string& name : present) {
@@ -124,7 +124,7 @@ std::vector<MapFile> files_to_recognise(const Params& params, const std::set<Fil
     try {
       layers = read_layer_infos(folder / name);
     } catch (const Error&) {
-      // If the file is chosen all the same, reading it says what is wrong.
+      // If the file is chosen anyway, reading it reports the error.
     }
     if (layers.size() == 1 && taken.count({name, ""})) continue;
     for (const FileInfo& i : layers)
@@ -145,7 +145,7 @@ std::string listed(const std::vector<FolderMaterial>& materials) {
   return all;
 }
 
-/// Mixing two materials would look like a result.
+/// Mixing two materials would look like a valid result.
 void require_one_material(const fs::path& folder, const std::string& wanted, const Recognition& found) {
   if (!found.maps.empty() || found.materials.empty()) return;
   if (wanted.empty())
@@ -157,7 +157,7 @@ void require_one_material(const fs::path& folder, const std::string& wanted, con
                                   did_you_mean(wanted, names), listed(found.materials)));
 }
 
-/// What was left out because `wanted` names another.
+/// A note on files left out because `wanted` selects another material.
 void note_other_materials(const Recognition& found, Texts& notes) {
   if (found.name.empty() || found.materials.size() < 2) return;
   Texts others;
@@ -166,7 +166,7 @@ void note_other_materials(const Recognition& found, Texts& notes) {
   notes.push_back(fmt::format("left out, other materials: {}", fmt::join(others, ", ")));
 }
 
-/// The folder's sidecar, unless `name` means another material than that.
+/// The folder's sidecar, unless `name` selects another material.
 std::optional<Sidecar> sidecar_that_counts(const Params& params) {
   const std::string& wanted = std::get<std::string>(params.at("name"));
   std::optional<Sidecar> sidecar = read_sidecar(folder_of(params), wanted);
@@ -208,7 +208,7 @@ void add_described(const Sidecar& sidecar, const std::vector<MapFile>& files, co
   if (!sidecar.name.empty()) out.name = sidecar.name;
 }
 
-/// What the files say of the size of the surface that they show.
+/// The physical size stated by the files.
 PhysicalSize metres_in_descriptions(const std::vector<RecognisedMap>& maps, const std::vector<MapFile>& files) {
   for (const MapFile& f : files) {
     const bool is_used = std::ranges::find(maps, f.name, &RecognisedMap::file) != maps.end();
@@ -230,7 +230,7 @@ void note_unused_patterns(const Params& params, const Recognition& found, Texts&
                       pattern));
 }
 
-/// The maps that the files' names say, without those that the parameters give or leave out.
+/// The maps recognised by file name, without those that the parameters set or exclude.
 void add_recognised(const Params& params, const std::vector<MapFile>& files, const TextMap& given, FoundMaterial& out,
                     Texts& notes) {
   const fs::path folder = folder_of(params);
@@ -268,7 +268,7 @@ Texts notes_on_folders(const fs::path& folder) {
   return notes;
 }
 
-/// Sidecars, and what sites put beside the maps.
+/// Sidecars and metadata files of download sites.
 std::vector<fs::path> documents_of_material(const fs::path& folder) {
   std::vector<fs::path> files = site_documents(folder);
   std::error_code failure;
@@ -277,7 +277,7 @@ std::vector<fs::path> documents_of_material(const fs::path& folder) {
   return files;
 }
 
-/// What the parameter `interpret` says of maps.
+/// The parameter `interpret` by map.
 void interpret(const Params& params, std::vector<RecognisedMap>& maps) {
   const auto given = params.find("interpret");
   if (given == params.end()) return;

@@ -150,7 +150,7 @@ std::string text_of(const fs::path& path) {
   return read_file(path, most);
 }
 
-/// What nlohmann-json says, without its number for the error.
+/// The message of nlohmann-json without its error number.
 std::string reason_of(const nlohmann::json::exception& e) {
   const std::string text = e.what();
   const size_t end = text.find("] ");

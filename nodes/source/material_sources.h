@@ -12,7 +12,7 @@
 /// The files of a material, each read once.
 namespace terrazzo {
 
-/// A file and, of an EXR file, a layer.
+/// A file and, for EXR, a layer.
 using Place = std::pair<std::string, std::string>;
 inline Place place_of(const RecognisedMap& m) {
   return {m.file, m.layer};
@@ -20,15 +20,15 @@ inline Place place_of(const RecognisedMap& m) {
 
 struct Source {
   ImagePtr image;
-  std::vector<std::string> channel_names;  ///< as the file has them; may be empty
+  std::vector<std::string> channel_names;  ///< as in the file; may be empty
 };
 using Sources = std::map<Place, Source>;
 
-/// Reads the files that hold the maps, several at a time; what readers say becomes notes. Where orientation tags
-/// differ, pictures come as they fit each other (nodes/source/turned_files.h).
+/// Reads the files of the maps in parallel; readers' messages become notes. If orientation tags differ, images are
+/// oriented to match each other (nodes/source/turned_files.h).
 Sources read_sources(NodeContext& node, const std::filesystem::path& folder, const std::vector<RecognisedMap>& maps);
 
-/// The sizes in which they come, as far as that is known without pixels. Files that cannot be read are left out.
+/// The sizes of the images, as far as they are known without pixels. Leaves out unreadable files.
 std::map<Place, Size> sizes_of_sources(const std::filesystem::path& folder, const std::vector<RecognisedMap>& maps);
 
 }  // namespace terrazzo

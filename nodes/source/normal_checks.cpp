@@ -15,7 +15,7 @@ std::string_view name_of_convention(NormalY y) {
   return y == NormalY::up ? "up (OpenGL)" : "down (DirectX)";
 }
 
-/// The convention judged by pixels, and on which grounds.
+/// The convention according to the pixels, with the evidence.
 struct NormalJudgement {
   std::optional<NormalY> normal_y;
   std::string grounds;
@@ -45,7 +45,7 @@ NormalY detect_convention(const Image& normal, const ImagePtr& height, std::vect
   return NormalY::up;
 }
 
-/// A name is believed, but not silently if the pixels speak against it.
+/// The name takes precedence, with a warning if the pixels contradict it.
 void check_named_convention(const RecognisedMap& source, const Image& normal, const ImagePtr& height,
                             std::vector<std::string>& notes) {
   const NormalJudgement found = judged(normal, height);
@@ -58,7 +58,7 @@ void check_named_convention(const RecognisedMap& source, const Image& normal, co
         *found.normal_y == NormalY::up ? "up" : "down"));
 }
 
-/// What else than green's direction may be wrong with normals.
+/// Other errors of normals than the green convention.
 void warn_of_misfits(const std::string& map, const Image& normal, const ImagePtr& height,
                      std::vector<std::string>& notes) {
   if (const double blue = mean_blue(normal); blue < 0.5)

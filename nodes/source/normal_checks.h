@@ -8,9 +8,9 @@
 
 namespace terrazzo {
 
-/// Settles which way green points in the normal maps: `wish` ("auto", "up", "down"), else what `sources` say, else the
-/// pixels. Adds to `notes` what was judged, and warnings where the normals do not fit the height map: turned, swapped,
-/// flipped.
+/// Determines the convention of the normal maps: from `wish` ("auto", "up", "down"), else from `sources`, else from the
+/// pixels. Adds notes on the decision, and warnings if the normals do not fit the height map because they are rotated,
+/// swapped or flipped.
 void settle_normals(const std::string& wish, const std::vector<RecognisedMap>& sources, std::vector<Map>& maps,
                     std::vector<std::string>& notes);
 

@@ -8,12 +8,12 @@
 
 namespace terrazzo {
 
-/// A file, or channels of one, that holds normals.
+/// A file, or some channels of one, with normals.
 struct NormalFile {
   std::string place;                         ///< for messages
-  std::string map{};                         ///< its name in the material; empty: it is read as a single map
-  std::vector<std::string> names{};          ///< of the channels, as the file has them
-  std::optional<NormalChannels> channels{};  ///< what the user says
+  std::string map{};                         ///< its name in the material; empty: read as a single map
+  std::vector<std::string> names{};          ///< channel names in the file
+  std::optional<NormalChannels> channels{};  ///< set by the user
 };
 
 struct RebuiltNormals {
@@ -21,8 +21,8 @@ struct RebuiltNormals {
   bool uses_alpha = false;  ///< x or y is in the last of two or four channels
 };
 
-/// The normals with z rebuilt, where the pixels of `image` have none, which is told in `notes`. `height`: of the same
-/// surface; may be null. Throws Error about "path" for what is no normal map, or may be one of several kinds.
+/// Rebuilds z if `image` has none, and adds a note. `height`: of the same surface; may be null. Throws Error about
+/// "path" if the image is no normal map, or if its layout is ambiguous.
 RebuiltNormals rebuilt_normals(const ImagePtr& image, const NormalFile& file, const Image* height,
                                std::vector<std::string>& notes);
 

@@ -32,7 +32,7 @@ bool has(const std::vector<Map>& maps, std::string_view name) {
   return std::ranges::find(maps, name, &Map::name) != maps.end();
 }
 
-/// The one map that the name means of a picture in one channel; nullopt if it is sure to mean a packed file.
+/// The single map that the name means for a one-channel image; nullopt if the name clearly means a packed file.
 std::optional<std::string> map_of_grey_picture(const RecognisedMap& m) {
   const std::vector<RecognisedMap> as_grey = recognise_map({.name = m.file, .size = {}, .channels = 1});
   const bool is_one = m.layer.empty() && m.said_by.empty() && as_grey.size() == 1 && as_grey.front().channels.empty();
@@ -125,7 +125,7 @@ void settle_packings(const std::vector<RecognisedMap>& sources, const ImageOf& i
 
 namespace {
 
-/// Neither the same everywhere nor a copy of one of `used`.
+/// Whether a channel is neither constant nor a copy of one of `used`.
 bool holds_more(const Image& file, int channel, const std::set<int>& used) {
   constexpr float noise =
       8.0f / 255;  // higher: faint maps are lost silently; lower: what JPEG makes of constants warns
@@ -143,7 +143,7 @@ bool holds_more(const Image& file, int channel, const std::set<int>& used) {
   return most - least > noise && std::ranges::none_of(used, [&](int c) { return is_copy[size_t(c)]; });
 }
 
-/// The channels that maps of a file take, and those that its name gives to maps.
+/// The channels of a file that maps use, and those that its name assigns to maps.
 std::set<int> used_channels(const RecognisedMap& place, int channels, const std::vector<RecognisedMap>& found) {
   std::vector<RecognisedMap> maps =
       recognise_map({.name = place.file, .size = {}, .channels = channels, .layer = place.layer});

@@ -8,38 +8,38 @@
 #include "core/material/material.h"
 #include "core/material/material_files.h"
 
-/// What the pixels of files say against their names, and what hides in alpha channels.
+/// Checks packed files' names against their pixels, and finds maps in alpha channels.
 namespace terrazzo {
 
-/// The file, or layer, that holds a map.
+/// Returns the image of the file or layer that holds a map.
 using ImageOf = std::function<ImagePtr(const RecognisedMap&)>;
 
-/// Whether `settle_packings` may leave the map out.
+/// Whether `settle_packings` may remove the map.
 bool may_be_left_out(const RecognisedMap& map);
 
-/// Leaves out of `maps` what a packed file does not hold after all: alpha that is full everywhere, and the other map of
-/// a grey picture whose name may mean one map alone (brushed_metallic_roughness). Warns of other grey pictures that are
-/// taken for packed ones, and tells of channels that are not used.
+/// Removes maps that a packed file does not really hold: alpha that is 1 everywhere, and the second map of a grey image
+/// whose name may mean a single map (brushed_metallic_roughness). Warns of other grey images that are read as packed,
+/// and adds notes on unused channels.
 void settle_packings(const std::vector<RecognisedMap>& sources, const ImageOf& image_of, std::vector<Map>& maps,
                      std::vector<std::string>& notes);
 
-/// Warns of channels that hold something and that no map takes, of the files that names part into channels. `sources`:
-/// what names say; `found`: all maps.
+/// Warns of non-constant channels of packed files that no map uses. `sources`: maps according to the files' names;
+/// `found`: all maps.
 void tell_of_unused_channels(const std::vector<RecognisedMap>& sources, const std::vector<RecognisedMap>& found,
                              const ImageOf& image_of, std::vector<std::string>& notes);
 
-/// An opacity map or a mask is in the alpha channel where that alone differs from pixel to pixel.
+/// Takes an opacity map or mask from the alpha channel if only that channel varies.
 void settle_only_alpha(RecognisedMap& map, const Image& file, std::vector<std::string>& notes);
 
-/// Leaves out maps whose names say no material and whose pictures have nothing in common with those of the others.
+/// Removes maps whose names lack a material name and whose pixels do not correlate with the other maps.
 void leave_out_unrelated(const std::vector<RecognisedMap>& sources, std::vector<Map>& maps,
                          std::vector<std::string>& notes);
 
-/// What usually hides in a map's alpha channel: opacity in a base colour's; gloss in that of specular and of metallic
-/// maps, as Unity takes them; height in that of normals, as for parallax.
+/// The map that is commonly stored in another map's alpha channel: opacity with base colour; gloss with specular and
+/// metallic, as in Unity; height with normals, as for parallax mapping.
 std::optional<Semantic> hidden_in_alpha(const RecognisedMap& map);
 
-/// Adds what hides in the alpha channel of a file to `maps`. A height counts only if the normals follow its slopes.
+/// Adds the map in a file's alpha channel to `maps`. Accepts a height only if the normals follow its slopes.
 void add_alpha(const RecognisedMap& source, const ImagePtr& file, std::vector<Map>& maps,
                std::vector<std::string>& notes);
 

@@ -39,7 +39,7 @@ std::string ignored(const OrientedFile& f, const std::string& why) {
                      f.info.orientation, why, advice_to_interpret(f.map, "as_tagged"));
 }
 
-/// How the agreement with one of the other files speaks.
+/// The evidence from the agreement with another file.
 struct Vote {
   double tagged = 0, stored = 0;
   std::string other;
@@ -49,7 +49,7 @@ struct Vote {
   }
 };
 
-/// The clearest one; nullopt if there is none, or clear ones contradict each other.
+/// The strongest evidence; nullopt if there is none, or if it is contradictory.
 std::optional<Vote> verdict(const std::vector<Vote>& votes) {
   std::optional<Vote> best;
   for (const Vote& v : votes) {
@@ -102,7 +102,7 @@ void settle_orientations_by_shape(std::vector<OrientedFile>& files, std::vector<
 void settle_orientations_by_pixels(std::vector<OrientedFile>& files, std::vector<ImagePtr>& pictures,
                                    const std::function<ImagePtr(size_t)>& read_as_stored,
                                    std::vector<std::string>& notes) {
-  std::map<int, std::vector<size_t>> open;  // by tag: what one camera or program did holds for all
+  std::map<int, std::vector<size_t>> open;  // by tag: files from one camera or program are decided together
   for (size_t i = 0; i < files.size(); i++)
     if (files[i].is_open) open[files[i].info.orientation].push_back(i);
   for (const auto& [orientation, group] : open) {

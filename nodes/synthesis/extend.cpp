@@ -39,7 +39,7 @@ void compute_extend(NodeContext& node) {
   node.output("uv", synthesize(*index, options, node.task()));
 }
 
-/// Throws Error unless what is kept fits into the result.
+/// Throws Error unless the kept pixels fit into the result.
 void require_room(const Params& params, Size kept) {
   const Size size = std::get<Size>(params.at("size"));
   const Numbers& at = std::get<Numbers>(params.at("at"));

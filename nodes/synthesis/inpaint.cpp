@@ -16,7 +16,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Half the width of each hole, where that is widest.
+/// Half the maximum width of each hole.
 class HalfWidths {
  public:
   HalfWidths(const std::vector<uint8_t>& hole, Size size, bool wraps) : holes_(hole.size()), widest_(hole.size()) {
@@ -42,7 +42,7 @@ class HalfWidths {
   std::vector<int64_t> widest_;
 };
 
-/// Which pixels stay. Up to `margin` pixels from a hole, and no farther than the hole is wide, they may give way.
+/// The pixels to keep. Pixels within `margin` of a hole, but no farther than the hole's width, may be replaced.
 std::vector<Keep> kept_around(const std::vector<uint8_t>& hole, Size size, bool wraps, double margin) {
   std::vector<Keep> keep(hole.size(), Keep::always);
   for (size_t i = 0; i < hole.size(); i++)
@@ -57,8 +57,8 @@ std::vector<Keep> kept_around(const std::vector<uint8_t>& hole, Size size, bool 
   return keep;
 }
 
-/// What is there: the pixels of `uv`, or the exemplar itself, outside the holes. Up to `margin` pixels from a hole they
-/// may give way.
+/// The existing pixels outside the holes, from `uv` or the exemplar itself. Pixels within `margin` of a hole may be
+/// replaced.
 ExistingPixels outside_holes(const UvMap* uv, const ImagePtr& holes, Size size, bool wraps, double margin) {
   std::vector<uint8_t> hole;
   hole.reserve(size_t(size.area()));
@@ -89,7 +89,7 @@ void compute_inpaint(NodeContext& node) {
   const auto uv = node.optional_input<UvMap>("uv");
   const auto holes = node.input<Image>("mask");
   SynthesisOptions options = synthesis_options(node, *index);
-  options.whole_bricks = false;  // what is kept of an exemplar ends in elements that cannot go on
+  options.whole_bricks = false;  // kept pixels end in cut elements that cannot be continued
   if (uv) {
     options.size = uv->size();
     options.tile_x |= uv->wraps().x;

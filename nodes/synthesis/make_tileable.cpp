@@ -63,7 +63,7 @@ void compute_make_tileable(NodeContext& node) {
   const auto index = node.input<Index>("index");
   if (index->appearance()->wraps()) return leave(node, *index);
   SynthesisOptions options = synthesis_options(node, *index);
-  options.whole_bricks = false;  // what is kept of an exemplar ends in elements that cannot go on
+  options.whole_bricks = false;  // kept pixels end in cut elements that cannot be continued
   const std::string& directions = node.text("directions");
   options.tile_x = directions != "y";
   options.tile_y = directions != "x";
@@ -102,7 +102,7 @@ void compute_make_tileable(NodeContext& node) {
 
 OutputForecasts infer_make_tileable(const Params& params, const InputForecasts& inputs) {
   const std::optional<Size> exemplar = inputs.at("index").front().size;
-  // One that repeats may become a little larger or smaller.
+  // The size may change slightly to fit whole repeats.
   const bool stays = std::get<std::string>(params.at("fit")) == "size";
   const std::optional<Size> size = stays ? exemplar : std::nullopt;
   return {{"uv", {.size = size, .exemplar = exemplar}},

@@ -77,7 +77,7 @@ std::vector<std::string> check_resolve_uv(const Params& params) {
   return problems;
 }
 
-/// How many values are held of all maps of the material together, and at each pixel of the result.
+/// The number of values held for all maps of the material, and per pixel of the result.
 struct Held {
   double values = 0, per_result_pixel = 0;
 
@@ -122,7 +122,7 @@ uint64_t memory_ahead_of_resolve_uv(const Params& params, const InputForecasts& 
          uint64_t(uv.size->area()) * sizeof(ExemplarPixel);
 }
 
-/// Throws Error about "material" if it is certainly not the one that was analysed.
+/// Throws Error about "material" if it is known not to be the analysed one.
 void require_analysed(const Material& material, const UvMap& uv, const Task& task) {
   if (!uv.fingerprint()) return;
   const std::optional<Likeness> found = likeness(*uv.fingerprint(), material, task);

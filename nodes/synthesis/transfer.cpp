@@ -49,7 +49,7 @@ std::vector<Control> controls_of(const NodeContext& node) {
   return controls;
 }
 
-/// Of a painted layout, soft edges of strokes are no mistake.
+/// Soft edges of brush strokes in a painted layout are intended.
 constexpr double most_unknown = 0.05;
 
 void warn_of_labels(NodeContext& node, const std::vector<Control>& controls, Size exemplar) {
@@ -65,7 +65,7 @@ void warn_of_labels(NodeContext& node, const std::vector<Control>& controls, Siz
   }
 }
 
-/// Targets need not be as large as the result, but few mean to have theirs bent.
+/// Targets may differ in size from the result, but a different aspect ratio is probably unintended.
 void tell_of_stretched(NodeContext& node, const std::vector<Control>& controls, Size result) {
   for (const Control& control : controls)
     if (const Size target = control.target->size(); target.area() > 1 && !same_shape(target, result))

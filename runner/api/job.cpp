@@ -21,7 +21,8 @@ namespace {
 
 constexpr const char* digest_param = "digest";
 
-/// A node whose output is a value that a program has given. The value's digest is its only parameter, and so its key.
+/// A node that outputs a value given by a program. The value's digest is its only parameter and thus determines its
+/// key.
 NodeType given_type(const std::string& name, const Port& output, const Value& value) {
   NodeType t;
   t.name = "given " + name;
@@ -34,7 +35,7 @@ NodeType given_type(const std::string& name, const Port& output, const Value& va
   return t;
 }
 
-/// Puts the value in place of what the node would do.
+/// Replaces the node by one that outputs the value.
 void replace_node(GraphNode& node, const Value& value, std::deque<NodeType>& types) {
   if (node.type->outputs.size() != 1)
     throw Error(node.name, fmt::format("node \"{}\" has {} outputs; a value can only be given in place of one",
@@ -66,7 +67,7 @@ const std::vector<Problem>& CheckedJob::warnings() const {
 
 Job Job::open(const std::filesystem::path& graph) {
   Job job = from_text(read_document(graph), graph);
-  job.parameters();  // throws for what is no graph
+  job.parameters();  // throws if the text is no graph
   return job;
 }
 
@@ -124,7 +125,7 @@ std::vector<JobParameter> Job::parameters() const {
 
 std::vector<Problem> Job::check() const {
   try {
-    make_plan(checked().graph(), nullptr);  // looks at the files too
+    make_plan(checked().graph(), nullptr);  // also checks files
     return {};
   } catch (const GraphError& e) {
     return e.problems();

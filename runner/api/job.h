@@ -9,27 +9,27 @@
 #include "core/node/node.h"
 #include "graphs/text/problem.h"
 
-/// A graph and the values that it is to run with, for programs. The same as `terrazzo run GRAPH --set ...`: the same
-/// messages, the same keys, the same bytes.
+/// A graph and the values to run it with, for programs. Equivalent to `terrazzo run GRAPH --set ...`: the same
+/// messages, cache keys and bytes.
 namespace terrazzo {
 
 /// A parameter that a graph declares.
 struct JobParameter {
   Param param;
   std::string group{};              ///< the heading it is listed under; may be empty
-  std::optional<ParamValue> value;  ///< as it is set now; empty if it must still be set
+  std::optional<ParamValue> value;  ///< its current value; empty if it must still be set
 };
 
-/// A node as the document has it: an entry of its section `nodes`.
+/// A node in the document: an entry of its section `nodes`.
 struct JobNode {
   std::string name;
-  std::string type;      ///< as it is spelled: of a node type, or of a graph that is used as one
-  bool is_known = true;  ///< false: there is no such type, or its graph cannot be read
+  std::string type;      ///< as the document spells it: a node type, or a graph used as one
+  bool is_known = true;  ///< false: the type does not exist, or its graph cannot be read
   std::vector<Param> params{};
   std::vector<Port> inputs{}, outputs{};
 };
 
-/// What a document declares, as far as it can be read: what is wrong with it is left out.
+/// The valid declarations of a document; faulty ones are left out.
 struct JobOutline {
   std::vector<JobParameter> parameters;  ///< with the document's values
   std::vector<JobNode> nodes;
@@ -39,7 +39,7 @@ struct JobOutline {
 class CheckedJob {
  public:
   const Graph& graph() const;
-  /// What is allowed and probably unintended, and conversions that were put in.
+  /// Valid but probably unintended settings, and implicit conversions.
   const std::vector<Problem>& warnings() const;
 
  private:
@@ -53,47 +53,49 @@ class Job {
  public:
   /// Reads a graph file. Throws GraphError if it cannot be read or is no graph.
   static Job open(const std::filesystem::path& graph);
-  /// The same for text in memory; relative paths in it are relative to the folder of `as`, which need not exist.
+  /// The same for text in memory. Relative paths in it start at the folder of `as`, which need not exist. Throws
+  /// GraphError if the text is no graph.
   static Job from_text(std::string text, const std::filesystem::path& as = "graph.json");
 
-  /// Sets a parameter of the graph, or "node.parameter", to a value. Paths are relative to the working folder. What is
-  /// wrong with it is found by check() and checked().
+  /// Sets a parameter of the graph, or "node.parameter", to a value. Paths are relative to the working folder. check()
+  /// and checked() report invalid names and values.
   Job& set(const std::string& name, const ParamValue& value);
-  /// The same for a value as the command line has it: "512x512", "[1, 2]", "=2 * seed", "@node".
+  /// The same for a value as spelled on the command line: "512x512", "[1, 2]", "=2 * seed", "@node".
   Job& set_text(const std::string& name, const std::string& value);
-  /// Takes back what has been set under this name.
+  /// Undoes set() and set_text() for this name.
   Job& unset(const std::string& name);
-  /// Sets what a preset of the graph says. Values that are set count more.
+  /// Applies a preset of the graph. Values from set() take precedence.
   Job& preset(const std::string& name);
-  /// Sets what a file says, an object of values by name. Counts more than presets, less than values that are set.
+  /// Applies a settings file: a JSON object of values by name. Takes precedence over presets, but not over set().
   Job& settings(const std::filesystem::path& file);
-  /// Gives a value in memory to an input that the graph declares, or in place of the output of a node that has one; the
-  /// node does not run then. Its digest is in the keys, so that results are reused for the same value. checked() throws
-  /// Error if there is no such input or node, or if it is of another type.
+  /// Feeds a value in memory into an input that the graph declares, or replaces a node that has a single output; that
+  /// node then does not run. The value's digest is part of the cache keys, so results are reused for the same value.
+  /// checked() throws Error if there is no such input or node, or if its type differs.
   Job& give(const std::string& name, Value value);
 
-  /// The graph's parameters, as they are set now; in the document's order. Throws GraphError.
+  /// The graph's parameters with their current values, in the document's order. Throws GraphError.
   std::vector<JobParameter> parameters() const;
-  /// Parameters and nodes by name, for programs that offer them. Never throws GraphError.
+  /// Parameters and nodes, for programs that list them. Never throws GraphError.
   JobOutline outline() const;
-  /// What has been set under this name, else what the document says of it, as compact JSON; empty if neither does.
+  /// The value set under this name, else the document's, as compact JSON; empty if there is neither.
   std::optional<std::string> value_of(const std::string& name) const;
   /// All problems that can be found without running; empty if the job can run. Never throws GraphError.
   std::vector<Problem> check() const;
-  /// What is allowed and probably unintended; empty if there are problems.
+  /// Valid but probably unintended settings; empty if there are problems.
   std::vector<Problem> warnings() const;
-  /// The JSON pointer (RFC 6901) to what a problem is about, also if that has been set; empty if it is elsewhere.
+  /// The JSON pointer (RFC 6901) to the subject of a problem, also for values from set(); empty if it lies outside the
+  /// document.
   std::string pointer_to(const Problem& problem) const;
-  /// The graph, ready to run; with `only`, what these nodes need must be set and nothing else. Throws GraphError with
-  /// all problems.
+  /// The graph, ready to run. With `only`, just the parameters that these nodes need must be set. Throws GraphError
+  /// with all problems.
   CheckedJob checked(const std::vector<std::string>& only = {}) const;
 
-  /// The document with the values that have been set written into it; all its other bytes, comments too, stay. It is to
-  /// lie in `folder`: relative paths that have been set, which lie in the working folder, are written so that they mean
-  /// the same there. Presets, settings files and values in memory are not part of it. Throws Error for what cannot be
-  /// written: what has been set inside a graph that is used as a node.
+  /// The document with the values from set() written into it; all other bytes, including comments, stay. Relative paths
+  /// from set() start at the working folder and are rewritten to be relative to `folder`, where the text will be saved.
+  /// Presets, settings files and values in memory are left out. Throws Error for values set inside a graph that is used
+  /// as a node.
   std::string text(const std::filesystem::path& folder) const;
-  /// Where the document is, or would be.
+  /// The document's path, which need not exist.
   const std::filesystem::path& path() const { return path_; }
 
  private:

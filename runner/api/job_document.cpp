@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a job's values change in its document.
+/// The changes of a job's values to its document.
 using Path = std::vector<std::string>;
 
-/// Of the name of an override: "seed", "lattice.mode", "weighted.weights.height".
+/// The parts of an override's name: "seed", "lattice.mode", "weighted.weights.height".
 Path path_of(const JobOutline& outline, const std::string& name) {
   Path parts;
   for (size_t begin = 0; begin <= name.size();) {
@@ -36,7 +36,7 @@ Path path_of(const JobOutline& outline, const std::string& name) {
   return parts;
 }
 
-/// What is declared under a path; null if nothing is known of it.
+/// The declaration of a path; null if unknown.
 const Param* param_at(const JobOutline& outline, const Path& path) {
   if (path.size() != 3) return nullptr;
   if (path.front() == "parameters") {
@@ -57,14 +57,14 @@ const JsonValue* value_at(const JsonValue& document, const Path& path) {
   return at;
 }
 
-/// A value as the document would have it. Members of maps, wires and the like have no descriptor.
+/// Formats a value for the document. Members of maps, wires and the like have no descriptor.
 JsonValue json_for(const std::string& value, const Param* param) {
   if (param) return read_command_line(value, *param);
   ParsedJson parsed = parse_json(value);
   return parsed.value ? std::move(*parsed.value) : JsonValue::of(value);
 }
 
-/// A relative path means the same in another folder.
+/// Rewrites a relative path for another folder.
 void move_path(JsonValue& value, const fs::path& folder) {
   if (!value.is_text() || value.text.empty() || std::string_view("=$@").find(value.text.front()) != std::string::npos ||
       value.text.starts_with("library:") || fs::path(value.text).is_absolute())

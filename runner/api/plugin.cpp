@@ -28,7 +28,7 @@ std::vector<LoadedPlugin>& all_plugins() {
   throw Error(fmt::format("cannot load the plug-in {}: {}", file.string(), reason));
 }
 
-/// Calls a function of a plug-in. Messages name the plug-in unless it said what a user can mend.
+/// Calls a function of a plug-in. Adds the plug-in's name to exceptions other than Error.
 template <typename Call>
 auto guarded(const std::string& plugin, const Call& call) -> decltype(call()) {
   try {

@@ -13,15 +13,15 @@
 ///     std::vector<terrazzo::NodeType> my_types() { ... }
 ///     TERRAZZO_PLUGIN("my nodes", "1.0", my_types)
 ///
-/// `--plugin FILE` or TERRAZZO_PLUGINS (files, with colons between them) load it. Its types are in `terrazzo nodes`,
-/// the schema and graphs like others. The plug-in's name, its version and the content of its file are in the keys of
-/// its results: another build never takes what this one has cached.
+/// `--plugin FILE` or TERRAZZO_PLUGINS (files, with colons between them) load it. Its types then appear in `terrazzo
+/// nodes` and the schema, and graphs can use them. The plug-in's name, version and file content are part of its cache
+/// keys: another build never reuses this one's results.
 namespace terrazzo {
 
-/// Raised whenever descriptors, values or contexts change in memory, so that plug-ins must be compiled anew.
+/// Raised whenever the memory layout of descriptors, values or contexts changes. Plug-ins must then be recompiled.
 inline constexpr int plugin_abi = 2;
 
-/// What a plug-in says of itself. The first two members never move.
+/// What a plug-in exports. The first two members never move.
 struct PluginInfo {
   int abi = plugin_abi;
   size_t node_type_size = sizeof(NodeType);
@@ -37,15 +37,15 @@ struct LoadedPlugin {
   std::vector<std::string> types;  ///< the names of its node types
 };
 
-/// Loads a plug-in and registers its node types. A file that has been loaded is not loaded again. Whatever its
-/// functions throw becomes Error with its name. Throws Error if the file is missing, is no plug-in, was compiled for
-/// another version, takes a name that is taken, or fails. Thread-safe.
+/// Loads a plug-in and registers its node types. Loading a file twice has no effect. Exceptions from its functions
+/// become Error with the plug-in's name. Throws Error if the file is missing, is no plug-in, was compiled for another
+/// version, uses a name that is taken, or fails to load. Thread-safe.
 LoadedPlugin load_plugin(const std::filesystem::path& file);
 
-/// Loads those that TERRAZZO_PLUGINS names.
+/// Loads the plug-ins that TERRAZZO_PLUGINS lists. Throws as load_plugin.
 void load_plugins_of_environment();
 
-/// All that have been loaded, in their order.
+/// All loaded plug-ins, in the order of loading. Thread-safe.
 std::vector<LoadedPlugin> loaded_plugins();
 
 }  // namespace terrazzo

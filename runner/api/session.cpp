@@ -16,7 +16,7 @@ std::optional<History> history_of(const Graph& graph, const Cache* cache) {
   return History(cache->folder(), graph.file);
 }
 
-/// Nor has a document in memory: others may go by the same name.
+/// Documents in memory have none either: several may share a name.
 std::optional<History> history_of(const CheckedJob& job, const Cache* cache) {
   std::error_code missing;
   return std::filesystem::exists(job.graph().file, missing) ? history_of(job.graph(), cache) : std::nullopt;

@@ -14,56 +14,56 @@
 namespace terrazzo {
 
 struct SessionOptions {
-  /// The folder of the cache; empty: the usual one, see Cache::default_folder.
+  /// The folder of the cache; empty: Cache::default_folder.
   std::filesystem::path cache{};
   bool use_cache = true;  ///< false: nothing is reused and nothing is kept
   int threads = 0;        ///< 0: one per core
-  uint64_t memory = 0;    ///< budget in bytes for values and running nodes of a run; 0: that of set_memory_budget
-  /// Runs every node twice, one at a time and without a cache: one that gives something else the second time fails.
-  /// What nodes open and which variables they read is watched too, where the watching library was loaded before all
-  /// others, as it is by `terrazzo run --checked`; what nodes in Python open is watched always.
+  uint64_t memory = 0;    ///< bytes that a run's values and running nodes may take; 0: as set_memory_budget
+  /// Runs every node twice, one at a time and without a cache. A node whose second result differs fails. Also watches
+  /// which files nodes open and which environment variables they read. For C++ nodes this requires the preloaded watch
+  /// library, as in `terrazzo run --checked`.
   bool checked = false;
 };
 
 struct RunRequest {
-  std::vector<std::string> only{};   ///< only these nodes and what they need; empty: all sinks, or what nothing reads
+  std::vector<std::string>
+      only{};  ///< only these nodes and their sources; empty: all sinks, or nodes that nothing reads
   std::vector<std::string> keep{};   ///< nodes whose values come back in RunResult::kept
-  bool keep_going = false;           ///< after a failure, goes on with everything that does not need the failed node
-  bool look_ahead = true;            ///< false: what is certain to fail is found by the run, not by the plan
-  const Sandbox* sandbox = nullptr;  ///< keeps nodes from files elsewhere; may be null
-  RunObserver* observer = nullptr;   ///< is told what happens, from any thread
+  bool keep_going = false;           ///< after a failure, continues with nodes that do not depend on the failed one
+  bool look_ahead = true;            ///< false: skips preflight checks; errors then show up during the run
+  const Sandbox* sandbox = nullptr;  ///< restricts which files nodes may read and write; may be null
+  RunObserver* observer = nullptr;   ///< called from any thread; may be null
   const std::atomic<bool>* cancelled = nullptr;  ///< set it to stop the run within a second; may be null
 };
 
-/// A cache that is open, and how to run. Jobs may run at the same time, from different threads: they share the cache,
-/// and each has the session's threads and memory. What decoded images take is counted for the whole process, as they
-/// are shared: set_memory_budget (core/image/image_limits.h) bounds that, and all else where a session says nothing.
-/// What the cache holds beyond its limit is removed after runs. Throws from the constructor only if the cache cannot be
-/// opened.
+/// An open cache and options for running. Thread-safe: jobs may run concurrently from different threads. They share the
+/// cache; each gets the session's threads and memory. Decoded images are shared by the whole process and count against
+/// set_memory_budget (core/image/image_limits.h), which is also the default of SessionOptions::memory. Runs evict
+/// entries that exceed the cache's limit. The constructor throws Error if the cache cannot be opened.
 class Session {
  public:
   explicit Session(SessionOptions options = {});
-  /// With a cache that is open already, or none; `options` say nothing about it then.
+  /// Uses an open cache, or none if null; ignores the cache settings in `options`.
   Session(std::shared_ptr<Cache> cache, const SessionOptions& options);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// What a run would do, and why. Throws GraphError, and Error for names in `request` that are no nodes. The job must
-  /// outlive the plan.
+  /// What a run would do, and why. Throws GraphError, and Error for unknown nodes in `request`. The job must outlive
+  /// the plan.
   Plan plan(const CheckedJob& job, const RunRequest& request = {});
-  /// The same for a graph that a program has put together. The graph must outlive the plan.
+  /// The same for a graph built by a program. The graph must outlive the plan.
   Plan plan(const Graph& graph, const RunRequest& request = {});
-  /// Runs what must run. Failures and cancellation are in the result; throws what plan() throws. Values that are kept
-  /// may be lazy: their pixels are computed when they are read, and need neither the job nor the session.
+  /// Plans, then runs. The result reports failures and cancellation; throws as plan(). Kept values may be lazy: their
+  /// pixels are computed when read, without the job or the session.
   RunResult run(const CheckedJob& job, const RunRequest& request = {});
   RunResult run(const Graph& graph, const RunRequest& request = {});
   /// Runs a plan that this session has made for the same request.
   RunResult run(Plan plan, const RunRequest& request);
-  /// What only cost time since the last call (a full disk, a damaged entry), one line each.
+  /// Cache problems since the last call that cost only time (a full disk, a damaged entry), one line each.
   std::vector<std::string> take_warnings();
 
-  /// Null if it has none.
+  /// Null if the session has no cache.
   Cache* cache() const { return cache_.get(); }
 
  private:

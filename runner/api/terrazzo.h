@@ -1,6 +1,6 @@
 #pragma once
 
-/// All of the C++ interface. See examples/guide/programs.md.
+/// The whole C++ interface. See examples/guide/programs.md.
 #include "core/image/image_facts.h"
 #include "core/image/image_limits.h"
 #include "core/image/image_ops.h"

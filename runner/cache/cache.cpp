@@ -17,8 +17,8 @@ namespace terrazzo {
 
 namespace {
 
-/// What is computed quicker than that need not survive a power failure: writing thousands of small entries to the disk
-/// one by one would take longer than making them again. An entry of which only a part got there fails its checksum.
+/// Faster results are not synced and may be lost in a power failure: syncing thousands of small entries would take
+/// longer than recomputing them. A partly written entry fails its checksum.
 constexpr double seconds_worth_syncing = 0.05;
 
 }  // namespace
@@ -103,7 +103,7 @@ uint64_t Cache::stored_bytes(const Digest& value) const {
 }
 
 void Cache::store_value(const Value& value, double seconds, const Task& task) {
-  if (load_value(digest_of(value))) return;  // which discards what is damaged
+  if (load_value(digest_of(value))) return;  // which discards damaged entries
   const std::filesystem::path target = state_->folder.path_of(EntryKind::value, digest_of(value));
   try {
     const std::filesystem::path temporary = state_->folder.temporary(target, state_->pins.owner());
@@ -112,7 +112,7 @@ void Cache::store_value(const Value& value, double seconds, const Task& task) {
     publish_file(temporary, target, sync);
     state_->folder.note_written(stored_bytes(digest_of(value)));
   } catch (const PixelError& e) {
-    // No fault of the cache: whoever reads the pixels fails.
+    // Not an error of the cache: the reader of the pixels reports it.
     state_->warn(fmt::format("a result is not kept, as its pixels cannot be made: {}", e.what()));
   } catch (const Error& e) {
     state_->warn_unwritten(e);

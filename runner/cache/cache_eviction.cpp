@@ -19,19 +19,19 @@ namespace terrazzo {
 
 namespace {
 
-/// How full the cache is after an eviction: room for some runs before the next.
+/// The fill level after an eviction, which leaves room for some runs before the next.
 constexpr double filled_after_eviction = 0.9;
 constexpr double half_life_days = 7;
-/// Small entries that nothing is known to need are kept this long after their last use.
+/// Small entries without known users are kept this long after their last use.
 constexpr double kept_unused_days = 30;
-/// Removals under one hold of the eviction lock, which those who ask for values wait for.
+/// Removals per hold of the eviction lock, which blocks readers of values.
 constexpr size_t removals_at_once = 64;
 
 double days_unused(const CacheEntry& entry, int64_t now) {
   return std::max(0.0, double(now - entry.used_ns) / double(24 * 3600 * ns_per_second));
 }
 
-/// What a byte of the entry is worth: seconds to compute it again, less the longer it has not been used.
+/// The value of a byte of the entry: seconds to recompute it, decreasing with the time since its last use.
 double worth(const CacheEntry& entry, int64_t now) {
   constexpr double least_seconds = 1e-3;
   double seconds = 0;
@@ -68,7 +68,7 @@ uint64_t remove(const std::filesystem::path& path, uint64_t bytes) {
   return ::unlink(path.c_str()) == 0 ? bytes : 0;
 }
 
-/// Removes values in the order given, but no pinned ones, until `enough` bytes are freed. Returns the bytes freed.
+/// Removes unpinned values in the given order until `enough` bytes are freed. Returns the bytes freed.
 uint64_t remove_values(const CacheFolder& folder, const std::vector<CacheEntry>& values, uint64_t enough) {
   uint64_t freed = 0;
   for (size_t first = 0; first < values.size() && freed < enough; first += removals_at_once) {
@@ -81,7 +81,7 @@ uint64_t remove_values(const CacheFolder& folder, const std::vector<CacheEntry>&
   return freed;
 }
 
-/// Removes what dead processes left: their pins, and what they had half-written.
+/// Removes pins and half-written files of dead processes.
 uint64_t remove_abandoned(const CacheFolder& folder, const std::vector<TemporaryEntry>& temporaries) {
   const EvictionLock lock(folder.lock());
   const LivePins pins = read_live_pins(folder.pins());
@@ -99,7 +99,7 @@ std::vector<Digest> values_of(const CacheEntry& stage) {
     if (bytes)
       for (const auto& [port, value] : stage_from_bytes(stage.name, *bytes).outputs) values.push_back(value);
   } catch (const Error&) {
-    // As good as none.
+    // Counts as missing.
   }
   return values;
 }
@@ -108,13 +108,13 @@ bool is_stored(const CacheFolder& folder, const Digest& value) {
   return ::access(folder.path_of(EntryKind::value, value).c_str(), F_OK) == 0;
 }
 
-/// Whether any value that a stage's record names is still there. False for records that cannot be read.
+/// Whether any value of a stage's record still exists. False for unreadable records.
 bool has_values_left(const CacheFolder& folder, const CacheEntry& stage) {
   const std::vector<Digest> values = values_of(stage);
   return std::any_of(values.begin(), values.end(), [&](const Digest& v) { return is_stored(folder, v); });
 }
 
-/// Whether a stage's record names values of these, and has none left.
+/// Whether a stage's record names some of these values, and none of its values exists any more.
 bool describes_any(const CacheFolder& folder, const CacheEntry& stage, const std::set<Digest>& evicted) {
   const std::vector<Digest> values = values_of(stage);
   return std::any_of(values.begin(), values.end(), [&](const Digest& v) { return evicted.count(v) == 1; }) &&
@@ -136,7 +136,7 @@ CacheStatus Cache::status() {
 
 namespace {
 
-/// Removes small entries that were not used for long, but no records that describe a value.
+/// Removes small entries that have not been used for long, except records of existing values.
 uint64_t remove_forgotten(const CacheFolder& folder, const CacheScan& scan) {
   const int64_t now = now_ns();
   uint64_t freed = 0;
@@ -147,8 +147,8 @@ uint64_t remove_forgotten(const CacheFolder& folder, const CacheScan& scan) {
   return freed;
 }
 
-/// Brings the cache from `total` bytes down to `target`: values, the records of stages that have lost all of theirs,
-/// and if that is not enough, other small entries, those first that were not used for longest.
+/// Reduces the cache from `total` bytes to `target`: removes values, then the records of stages without remaining
+/// values, then, if necessary, other small entries, least recently used first.
 uint64_t evict(const CacheFolder& folder, const CacheScan& scan, uint64_t total, uint64_t target) {
   const uint64_t excess = total - target;
   std::vector<CacheEntry> values = cheapest_first(of_kind(scan, EntryKind::value));

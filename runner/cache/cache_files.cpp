@@ -37,7 +37,7 @@ Digest Cache::file_digest(const std::filesystem::path& path) {
       if (stamp_of(absolute) == memo.stamp) return memo.content;
     }
   } catch (const Error&) {
-    // A memo that cannot be used is written anew.
+    // An unusable memo is rewritten.
   }
   const File file = File::open(absolute, O_RDONLY | O_NONBLOCK);
   const std::optional<FileStamp> before = stamp_of(file);

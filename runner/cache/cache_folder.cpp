@@ -23,14 +23,14 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kind_folders = {"values", "stages", "files"};
 constexpr std::string_view value_suffix = ".tzv", history_suffix = ".txt", temporary_suffix = ".tmp";
-/// Times of use are kept this coarsely: reading the cache should not mean writing to it all the time.
+/// The resolution of times of use, so that reading the cache does not constantly write to it.
 constexpr int64_t use_granularity_ns = 3600 * ns_per_second;
 
 void note_use(const char* path, const struct stat& status) {
   if (now_ns() - ns_of(status.st_mtim) > use_granularity_ns) ::utimensat(AT_FDCWD, path, nullptr, 0);
 }
 
-/// Calls visit(name) for everything in a folder but "." and "..".
+/// Calls visit(name) for all entries of a folder except "." and "..".
 template <typename Visit>
 void for_each_name(const std::filesystem::path& folder, const Visit& visit) {
   const std::unique_ptr<DIR, int (*)(DIR*)> dir(::opendir(folder.c_str()), [](DIR* d) { return ::closedir(d); });
@@ -112,7 +112,7 @@ void CacheFolder::write(const std::filesystem::path& target, const std::vector<u
 
 namespace {
 
-/// The small file and its status; none if it does not exist.
+/// Opens a small file and gets its status; nullopt if it does not exist.
 std::optional<std::vector<uint8_t>> read_small(const std::filesystem::path& path, struct stat& status) {
   const File file = File::open(path, O_RDONLY | O_NONBLOCK);
   if (!file.ok() && errno == ENOENT) return std::nullopt;

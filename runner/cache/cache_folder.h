@@ -20,7 +20,7 @@
 ///   v1/total                    runner/cache/cache_total.h
 ///   history/<path digest>.txt   runner/cache/history_files.h
 ///   settings.txt                runner/cache/cache_limit.h
-/// An entry's modification time is when it was last used. Files being written end in ".tmp".
+/// An entry's modification time is the time of its last use. Files being written end in ".tmp".
 namespace terrazzo {
 
 enum class EntryKind : uint8_t { value, stage, file, history };
@@ -48,7 +48,7 @@ struct CacheScan {
 /// Thread-safe.
 class CacheFolder {
  public:
-  /// Makes the folders. Throws Error if that fails.
+  /// Creates the folders. Throws Error if that fails.
   explicit CacheFolder(const std::filesystem::path& folder);
 
   const std::filesystem::path& root() const { return root_; }
@@ -59,7 +59,7 @@ class CacheFolder {
   std::filesystem::path total() const { return root_ / "total"; }
   std::filesystem::path history() const { return root_.parent_path() / "history"; }
 
-  /// Whether there is a cache in the folder. Changes nothing.
+  /// Whether the folder contains a cache. Changes nothing.
   static bool is_in(const std::filesystem::path& folder);
 
   /// A temporary name beside `target`, whose folder is created. `owner`: see Pins::owner. Throws FileError.
@@ -68,11 +68,11 @@ class CacheFolder {
   void write(const std::filesystem::path& target, const std::vector<uint8_t>& bytes, const std::string& owner,
              bool sync);
 
-  /// The bytes of a small file; none if it does not exist. Throws FileError.
+  /// The bytes of a small file; nullopt if it does not exist. Throws FileError.
   static std::optional<std::vector<uint8_t>> read(const std::filesystem::path& path);
   /// The same, and marks the entry as used now.
   static std::optional<std::vector<uint8_t>> read_and_use(const std::filesystem::path& path);
-  /// For the total: an entry has been written by other means than `write`.
+  /// Adds an entry that was not written by `write` to the total.
   void note_written(uint64_t bytes) { written_ += bytes; }
   /// The bytes written since the last call.
   uint64_t take_written() { return written_.exchange(0); }

@@ -37,7 +37,7 @@ class Leases::State {
     held_.erase(at);
   }
 
-  /// Whether a holder is dead, or has not renewed the lease since it was first seen so, long ago.
+  /// Whether a holder is dead, or has not renewed the lease for `expiry` since it was first seen.
   bool is_expired(const Digest& key, const LeaseHolder& holder) {
     if (is_dead(holder.who)) return true;
     const std::lock_guard lock(mutex_);
@@ -99,7 +99,7 @@ Leases::~Leases() {
 
 LeaseAttempt Leases::try_lease(const Digest& key) {
   const fs::path path = state_->path_of(key);
-  constexpr int most_tries = 100;  // leases come and go, but not for ever
+  constexpr int most_tries = 100;  // other holders may interfere, but not forever
   for (int i = 0; i < most_tries; i++) {
     if (const std::optional<LeaseHolder> holder = holder_of(path)) {
       if (!state_->is_expired(key, *holder)) return {nullptr, true};
@@ -128,7 +128,7 @@ bool is_a_day_old(const fs::path& path) {
   return !missing && fs::file_time_type::clock::now() - written > std::chrono::hours(24);
 }
 
-/// Who has made a folder for a moment, ".claim-WHO", or ".gone-WHO" in earlier versions.
+/// The owner of a temporary folder ".claim-WHO", or ".gone-WHO" in earlier versions.
 std::string maker_of(const std::string& name) {
   return name.substr(name.find('-') + 1);
 }

@@ -19,12 +19,12 @@ namespace terrazzo {
 
 namespace {
 
-/// What is evicted though it is in use, since a lock could not be had, costs time and nothing else.
+/// If a lock is unavailable, values in use may be evicted, which only costs time.
 constexpr std::chrono::milliseconds patience{10000};
 
 constexpr int64_t trusted_without_lock_ns = 24 * 3600 * ns_per_second;
 
-/// Locks are released when their last descriptor is closed; this one is given up as soon as the reader is done.
+/// A lock ends when its last descriptor is closed; this one is released as soon as the reader is done.
 bool is_alive(const File& file, const std::string& name) {
   const bool locked_by_us = lock_file(file, LOCK_EX | LOCK_NB);
   if (!locked_by_us && errno == EWOULDBLOCK) return true;
@@ -95,7 +95,7 @@ void Pins::pin(const Digest& value) {
     file_.write_at(pinned_.size() * sizeof value, &value, sizeof value, path_);
     pinned_.insert(value);
   } catch (const FileError&) {
-    // On a full disk the value may be evicted, which costs time and nothing else.
+    // On a full disk the value may be evicted, which only costs time.
   }
   if (lock_.ok()) lock_file(lock_, LOCK_UN);
 }

@@ -9,8 +9,8 @@
 #include "core/file/file_lock.h"
 
 /// Pins tell other processes which values are in use. Each Cache object has a file in pins/, locked with flock while
-/// the object lives, to which it appends the digests it has asked for. Eviction reads all locked files; unlocked ones
-/// belong to dead processes. Pinning takes the folder's lock shared, eviction exclusively, so that nothing is pinned
+/// the object lives, to which it appends the digests it uses. Eviction reads all locked files; unlocked ones belong to
+/// dead processes. Pinning takes the folder's lock shared, eviction takes it exclusively, so that nothing is pinned
 /// between reading pins and removing values.
 namespace terrazzo {
 
@@ -18,14 +18,14 @@ namespace terrazzo {
 struct LivePins {
   std::set<Digest> values;
   std::set<std::string> owners;
-  int dead = 0;  ///< files of dead processes that were there
+  int dead = 0;  ///< number of files of dead processes
 };
 
 /// Reads all pins and removes the files of dead processes. If locks do not work, and for other hosts, whose locks may
 /// be invisible, files touched within a day count as alive.
 LivePins read_live_pins(const std::filesystem::path& folder);
 
-/// Holds the folder's lock exclusively; does nothing if files cannot be locked.
+/// Holds the folder's lock exclusively. Has no effect if files cannot be locked.
 class EvictionLock {
  public:
   explicit EvictionLock(const std::filesystem::path& lock);
@@ -37,7 +37,7 @@ class EvictionLock {
 /// This object's own pins. Thread-safe.
 class Pins {
  public:
-  /// If the folder is not writable there are no pins, see failure().
+  /// Pins nothing if the folder is not writable, see failure().
   Pins(const std::filesystem::path& folder, const std::filesystem::path& lock);
   ~Pins();
   Pins(const Pins&) = delete;
@@ -45,7 +45,7 @@ class Pins {
 
   /// Host, process and a counter: unique to this Cache object.
   const std::string& owner() const { return owner_; }
-  /// errno if there are no pins; else 0.
+  /// errno if pins do not work; else 0.
   int failure() const { return failure_; }
   void pin(const Digest& value);
 

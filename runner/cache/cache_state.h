@@ -15,7 +15,7 @@
 
 namespace terrazzo {
 
-/// State shared by the parts of the cache.
+/// State shared by the parts of the cache. Thread-safe.
 class CacheState {
  public:
   CacheState(std::filesystem::path given, uint64_t bytes);

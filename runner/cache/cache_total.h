@@ -6,14 +6,14 @@
 
 #include "runner/cache/cache_records.h"
 
-/// The size of the cache as far as it is known, in v1/total: runs add to it what they have written, so that none has to
-/// look at every entry. It is counted anew when it says that the limit is reached, once a day, and after a process has
-/// died that may have written without telling.
+/// The approximate size of the cache, in v1/total. Runs add the bytes they have written, so that they need not scan all
+/// entries. The size is recounted when it reaches the limit, once a day, and after the death of a process that may have
+/// written without recording it.
 namespace terrazzo {
 
-/// None if it is missing, damaged, or too old to be believed.
+/// Nullopt if the file is missing, damaged or too old.
 std::optional<CacheTotal> read_total(const std::filesystem::path& path);
-/// Replaces the file at once; ignores errors: without it the entries are counted. `owner`: as in
+/// Replaces the file atomically. Ignores errors: without the file the entries are recounted. `owner`: as in
 /// CacheFolder::temporary.
 void write_total(const std::filesystem::path& path, const CacheTotal& total, const std::string& owner);
 

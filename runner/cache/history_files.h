@@ -4,13 +4,13 @@
 #include <string>
 #include <string_view>
 
-/// The frame of the files in history/, which runner/plan/history.h fills: a first line that names the format, and a
-/// last one with a checksum, so that `cache verify` can tell whether they are sound.
+/// The envelope of the files in history/, whose content is defined in runner/plan/history.h: a first line with the
+/// format, and a last line with a checksum for `cache verify`.
 namespace terrazzo {
 
 std::string sealed_history(std::string_view lines);
-/// The lines in between. None of another version of the format; throws DamagedFile if the bytes are not as they were
-/// written. Versions without a checksum are believed.
+/// The lines in between; nullopt for another version of the format. Throws DamagedFile if the checksum is wrong.
+/// Accepts versions without a checksum.
 std::optional<std::string> unsealed_history(std::string_view bytes);
 
 }  // namespace terrazzo

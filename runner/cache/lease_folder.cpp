@@ -60,7 +60,7 @@ bool claim_lease(const fs::path& lease, const LeaseHolder& holder) {
   if (::mkdir(made.c_str(), 0777) != 0) return false;
   int failure = 0;
   if (!File::open(made / holder.file(), O_WRONLY | O_CREAT).ok()) failure = errno;
-  // A folder takes the place of none or of an empty one.
+  // Renaming a folder replaces only a missing or an empty one.
   if (failure == 0 && ::rename(made.c_str(), lease.c_str()) == 0) return true;
   if (failure == 0) failure = errno == ENOTEMPTY ? EEXIST : errno;
   remove_folder(made);

@@ -8,7 +8,7 @@
 /// The folder of one lease on disk, see runner/cache/cache_leases.h.
 namespace terrazzo {
 
-/// Who holds a lease, and how often it has been renewed: the name of the file in it.
+/// The holder of a lease, and how often it has renewed it: the name of the file in the folder.
 struct LeaseHolder {
   std::string who;
   uint64_t beat = 0;
@@ -17,22 +17,22 @@ struct LeaseHolder {
   std::string file() const { return who + "." + std::to_string(beat); }
 };
 
-/// A name that nobody else has: of this process, with a count.
+/// A unique name: this process and a counter.
 std::string new_lease_holder();
-/// Whether it is a process of this machine that does not run any more; false if that cannot be told.
+/// Whether the holder is a dead process of this machine; false if unknown.
 bool is_dead(const std::string& who);
 
-/// Who holds the lease; none if nobody does. A file, as earlier versions made it, is nobody's.
+/// The holder of the lease; nullopt if there is none. A plain file, written by earlier versions, has no holder.
 std::optional<LeaseHolder> holder_of(const std::filesystem::path& lease);
-/// Makes the lease, unless somebody holds it. False also if folders cannot be made there: errno is then other than
+/// Creates the lease unless it is held. Also returns false if folders cannot be created; errno then differs from
 /// EEXIST.
 bool claim_lease(const std::filesystem::path& lease, const LeaseHolder& holder);
-/// The holder's next beat. False if it holds the lease no more.
+/// Renews the lease. Returns false if the holder has lost it.
 bool renew_lease(const std::filesystem::path& lease, LeaseHolder& holder);
-/// Gives up the lease if the holder still has it.
+/// Releases the lease if the holder still has it.
 void release_lease(const std::filesystem::path& lease, const LeaseHolder& holder);
-/// Takes the lease from a holder as it was seen; leaves it if that has renewed it since, or another has come. An empty
-/// folder is nobody's.
+/// Removes the lease of the holder `seen`, unless it has been renewed since or has another holder. An empty folder has
+/// no holder.
 void take_lease_away(const std::filesystem::path& lease, const LeaseHolder& seen);
 
 }  // namespace terrazzo

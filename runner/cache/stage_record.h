@@ -17,7 +17,7 @@ struct OutputFile {
   Digest content;
 };
 
-/// What is stored about a stage that has been computed.
+/// The cache record of a computed stage.
 struct StageRecord {
   std::map<std::string, Digest> outputs;  ///< value digest by output port
   std::vector<std::string> notes;         ///< notes and warnings of the node

@@ -39,7 +39,7 @@ constexpr const char* examples =
     "Exit codes: 0 done, 1 a node failed or something could not be written, 2 bad usage or an invalid graph,\n"
     "130 cancelled.";
 
-/// Told from the words themselves, so that it is known even if they cannot be understood.
+/// Determined from the raw words, so that it is known even if parsing fails.
 ProgressMode mode_of(int argc, const char* const* argv) {
   const std::vector<std::string_view> words(argv, argv + argc);
   for (size_t i = 0; i < words.size(); i++)
@@ -59,9 +59,9 @@ std::string hint_for_option(const Command& command, const std::string& arg) {
   return set.empty() ? suggestion(arg.substr(0, arg.find('=')), command.option_names()) : set;
 }
 
-/// Words that nothing takes, each with the nearest thing that exists; empty if there are none. What follows an
-/// unknown command would be that command's; what follows an unknown option may be its value, or be left over because
-/// its value has been taken for an argument.
+/// The message about unknown words, with suggestions; empty if there are none. Words after an unknown command would
+/// belong to it. A word after an unknown option may be its value, or be left over because the value was taken for an
+/// argument.
 std::string unknown_words(const ParsedWords& parsed) {
   const std::vector<std::string> commands = parsed.command->command_names();
   std::string out;
@@ -86,8 +86,8 @@ int usage_error(const ParsedWords& parsed, ProgressMode mode) {
   return exit_usage;
 }
 
-/// A standard stream that was closed before the program began would become the first file that is opened, and messages
-/// would end up in it. One that is open for reading only takes none, as a closed one would.
+/// If a standard stream is closed at startup, the first opened file would take its place and receive messages. The
+/// replacement is opened for reading only, so that writing fails as for a closed stream.
 void keep_standard_streams_apart() {
   for (int opened = 0; opened >= 0 && opened <= STDERR_FILENO;) {
     opened = ::open("/dev/null", O_RDONLY);
@@ -95,7 +95,7 @@ void keep_standard_streams_apart() {
   }
 }
 
-/// The exit code, given that a command that has ended with `code` may have lost part of its answer.
+/// The exit code for a command that ended with `code`, whose output may be incomplete.
 int with_answer_written(int code, ProgressMode mode) {
   if (result_failure() == 0) return code;
   write_error(mode, std::cerr, Error("cannot write to standard output: " + system_message(result_failure())));
@@ -134,7 +134,7 @@ namespace {
 
 int dispatch(int argc, const char* const* argv, ProgressMode mode);
 
-/// What `--help` behind the words says.
+/// The output of `--help` after the words.
 int help_on(const Command& program, const std::vector<std::string>& words, ProgressMode mode) {
   const Command* command = &program;
   std::vector<const char*> argv = {"terrazzo"};
@@ -157,13 +157,13 @@ void add_help_command(Command& program, ProgressMode mode) {
   help.run = [&program, words, mode] { return help_on(program, *words, mode); };
 }
 
-/// Help on what does not exist helps nobody.
+/// There is no help on unknown words.
 bool names_unknown_command(const ParsedWords& parsed) {
   return !parsed.command->commands.empty() &&
          std::ranges::any_of(parsed.unknown, [](const std::string& word) { return !word.starts_with('-'); });
 }
 
-/// Help, or the version; if the command works on a graph and one is named, first what that graph offers.
+/// Help, or the version; if a graph is given, its own help comes first.
 int show_help(const ParsedWords& parsed, ProgressMode mode) {
   if (names_unknown_command(parsed)) return usage_error(parsed, mode);
   const bool is_help = parsed.request == ParsedWords::Request::help;
@@ -172,7 +172,7 @@ int show_help(const ParsedWords& parsed, ProgressMode mode) {
   return exit_done;
 }
 
-/// Throws UsageError for a path that is written as on Windows: a file called "scans\\brick" is never meant.
+/// Throws UsageError for a path in Windows spelling: a file named "scans\\brick" is never intended.
 void check_paths(const Command& command) {
   for (const CommandOption& option : command.options) {
     if (!option.is_path()) continue;
@@ -203,7 +203,7 @@ void add_commands(Command& program, ProgressMode mode) {
   add_help_command(program, mode);
 }
 
-/// Runs what the words ask for; returns the exit code.
+/// Executes the parsed command line; returns the exit code.
 int dispatch(int argc, const char* const* argv, ProgressMode mode) {
   Command program("terrazzo",
                   "terrazzo turns a small PBR material into as much new, non-repeating material as a scene needs.");
@@ -234,9 +234,9 @@ int dispatch(int argc, const char* const* argv, ProgressMode mode) {
 
 int run_command_line(int argc, const char* const* argv) {
   keep_standard_streams_apart();
-  std::signal(SIGXFSZ, SIG_IGN);  // what goes beyond `ulimit -f` is then an error of writing, and is told
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding `ulimit -f` is then reported as a write error
   if (may_be_checked(argc, argv)) start_watching(argv);
-  // OpenEXR's own threads would come on top of --threads. What the user has set counts.
+  // OpenEXR's own threads would add to --threads. The user's setting takes precedence.
   ::setenv("OPENIMAGEIO_OPTIONS", "exr_threads=-1", 0);
   const ProgressMode mode = mode_of(argc, argv);
   try {

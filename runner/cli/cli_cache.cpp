@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The end of a message on a folder that is not there.
+/// The end of a message about a missing folder.
 std::string folder_hint(const fs::path& folder) {
   const fs::path path = without_trailing_slash(fs::absolute(folder));
   std::vector<std::string> siblings;
@@ -36,8 +36,7 @@ struct CacheFlags {
 
   fs::path path() const { return folder.empty() ? Cache::default_folder() : fs::path(folder); }
 
-  /// The cache; null if nothing has made the usual one yet. Only runs make caches: a name that was misspelt is an
-  /// error.
+  /// The cache; null if the default one does not exist yet. Only runs create caches, so a misspelt name is an error.
   std::unique_ptr<Cache> open() const {
     const uint64_t bytes = limit.empty() ? 0 : parse_bytes(limit, "--limit");
     std::error_code missing;
@@ -64,7 +63,7 @@ int show_status(const CacheFlags& flags) {
   return exit_done;
 }
 
-/// What has been found, in a line.
+/// A one-line summary of the findings.
 std::string verdict_text(const CacheVerdict& verdict) {
   const size_t damaged = verdict.damaged.size(), removed = damaged - size_t(verdict.left);
   if (damaged == 0) return "every entry is sound";

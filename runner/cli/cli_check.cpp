@@ -27,13 +27,13 @@ struct CheckFlags : GraphFlags {
   LimitFlags limits;
 };
 
-/// What a check has found.
+/// The findings of a check.
 struct Findings {
   std::vector<Problem> errors, warnings, notes;
   size_t nodes = 0, parameters = 0;
 };
 
-/// Looks ahead as far as nothing depends on a parameter, or an input, that is not set.
+/// Runs preflight on the nodes that do not depend on an unset parameter or input.
 void check_what_is_set(const Graph& graph) {
   std::vector<GraphNode> complete;
   for (const GraphNode& n : graph.nodes)

@@ -22,15 +22,16 @@ void add_cache_command(Command& program);
 void add_compare_command(Command& program);
 void add_library_command(Command& program);
 void add_farm_commands(Command& program);
-/// Manual pages and completions, made from all commands of `program`, which must live as long as they do.
+/// Manual pages and completions, generated from the commands of `program`, which must outlive them.
 void add_shell_commands(Command& program, const std::string& version);
 
-/// Whether a contact sheet's name asks for a page, not for a picture.
+/// Whether a contact sheet's file name selects a page rather than a picture.
 bool is_page(const std::filesystem::path& path);
-/// Throws UsageError unless the name of `--sheet` says a format: a page, or a picture. Accepts an empty `path`.
+/// Throws UsageError unless the file name of `--sheet` has the extension of a page or a picture. Accepts an empty
+/// `path`.
 void check_sheet(const std::string& path);
 /// Replaces advice for graph authors in a message about a material's `folder` by advice for commands without node
-/// parameters. `name_option`: what picks a material, such as "--name ".
+/// parameters. `name_option`: the option that selects a material, such as "--name ".
 std::string for_command_line(std::string message, const std::string& folder,
                              const std::string& name_option = "--name ");
 

@@ -35,7 +35,7 @@ void check_out(const DocumentFlags& flags, WrittenKind kind) {
   check_replaced({{"-o", flags.out, kind}}, flags.force);
 }
 
-/// Writes a changed graph file to -o, or where it was.
+/// Writes a changed graph file to -o, or in place.
 void write_changed(const DocumentFlags& flags, const std::string& text) {
   const std::string& target = flags.out.empty() ? flags.graph : flags.out;
   write_whole_file(target, text);
@@ -66,7 +66,7 @@ int format(const DocumentFlags& flags) {
   return exit_done;
 }
 
-/// Says where seeds have changed, which come from the graph's and the names of nodes.
+/// Reports changed seeds, which are derived from the graph's seed and the nodes' names.
 void compare_seeds(const DocumentFlags& flags, const std::string& before, const std::string& after) {
   const auto seeds = [&](const std::string& text) {
     std::multiset<int64_t> out;
@@ -87,7 +87,7 @@ int regroup(const DocumentFlags& flags, const std::function<std::string(const st
   return exit_done;
 }
 
-/// The new graph goes into a file of its own, for other graphs to use.
+/// Writes the new graph to its own file, for use by other graphs.
 int group_to_file(const DocumentFlags& flags) {
   check_out(flags, WrittenKind::graph);
   if (fs::exists(flags.to)) throw UsageError(fmt::format("--to {}: the file exists; name another", flags.to));

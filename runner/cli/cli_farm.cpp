@@ -21,7 +21,7 @@ constexpr UnitState all_states[] = {UnitState::done,   UnitState::unneeded, Unit
 
 namespace {
 
-/// Why tasks wait that may wait for ever, in Slurm's words; what passes by itself is left out.
+/// Slurm's reasons for tasks that may wait forever; temporary reasons are left out.
 std::set<std::string> obstacles(const JobState& state) {
   static const std::set<std::string> passing = {"",          "None",       "Priority", "Resources",
                                                 "BeginTime", "Dependency", "Cleaning", "JobArrayTaskLimit"};

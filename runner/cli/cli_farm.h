@@ -6,7 +6,7 @@
 #include "runner/cli/cli_commands.h"
 #include "runner/scheduler/job_state.h"
 
-/// What the commands for farms share.
+/// Helpers for the farm commands.
 namespace terrazzo {
 
 void add_submit_command(Command& program);

@@ -91,7 +91,7 @@ void add_value_flags(Command& command, GraphFlags& flags) {
 
 namespace {
 
-/// What the graph says that has been named; none if the command takes none or none has been named.
+/// The interface of the given graph; nullopt if the command takes no graph or none is given.
 std::optional<GraphInterface> named_interface(const Command& command) {
   const CommandOption* graph = command.find_option("GRAPH");
   if (!graph || graph->given.empty()) return std::nullopt;
@@ -110,7 +110,7 @@ std::string set_hint(const Command& command, const std::string& option) {
     for (const GraphParameter& p : graph->parameters)
       if (p.param.name == name) return fmt::format("; --set {0}=VALUE sets the graph's parameter {0}", name);
   } catch (const Error&) {
-    // A graph that cannot be read has been complained about, or will be.
+    // Errors of the graph are reported elsewhere.
   }
   return "";
 }

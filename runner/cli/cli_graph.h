@@ -13,27 +13,27 @@
 
 namespace terrazzo {
 
-/// Which graph a command works on, and with which values.
+/// The graph that a command works on, and its values.
 struct GraphFlags {
   std::string graph;
   std::vector<std::string> set, presets, settings;
-  std::filesystem::path pack{};                    ///< where it is unpacked, if it is one
-  std::shared_ptr<const PrivateFolder> passing{};  ///< of a pack that no cache keeps
+  std::filesystem::path pack{};                    ///< where the graph is unpacked, if it is a pack
+  std::shared_ptr<const PrivateFolder> passing{};  ///< temporary folder of a pack that is not kept in a cache
 
-  /// Before a load: unpacks a pack into the cache, or, without one, into a folder that goes with these flags. Throws
-  /// Error and FileError.
+  /// Call before load: unpacks a pack into the cache, or, without one, into a temporary folder owned by these flags.
+  /// Throws Error and FileError.
   void open_pack(const std::optional<std::filesystem::path>& cache);
-  /// The same with the usual cache, or without one if that is out of reach.
+  /// The same with the default cache, or without one if that is unavailable.
   void open_pack();
-  /// The same in the cache that a run names, if any, unless it keeps nothing. Returns where: the folders to read from.
+  /// The same with a run's cache, unless it uses none (`keeps` is false). Returns the folders to read from.
   std::vector<std::filesystem::path> unpack_for_run(bool keeps, const std::string& cache);
-  /// Loads it; `options` are completed by the presets and settings files. Throws GraphError.
+  /// Loads the graph with its presets and settings files added to `options`. Throws GraphError.
   LoadedGraph load(LoadOptions options) const;
-  /// The files that have been named.
+  /// The files named on the command line.
   std::vector<ProtectedFile> files() const;
 };
 
-/// What to say of the warnings about a graph: of many the first ones.
+/// Formats the warnings about a graph; at most the first few.
 std::vector<std::string> shown_warnings(const std::string& graph, const std::vector<Problem>& warnings);
 
 /// The argument GRAPH.
@@ -41,10 +41,11 @@ void add_graph_argument(Command& command, GraphFlags& flags);
 /// --set, --preset and --params.
 void add_value_flags(Command& command, GraphFlags& flags);
 
-/// How to set a parameter of the command's graph that was taken for an option ("--seed"); empty if it has none such.
+/// A hint on how to set a parameter of the command's graph that was given as an option ("--seed"); empty if there is no
+/// such parameter.
 std::string set_hint(const Command& command, const std::string& option);
 
-/// What `COMMAND GRAPH --help` adds about the graph; empty if the command takes none or none has been named. Throws
+/// The help on the graph for `COMMAND GRAPH --help`; empty if the command takes no graph or none is given. Throws
 /// GraphError.
 std::string help_on_graph(const Command& command);
 

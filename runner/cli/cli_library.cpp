@@ -85,7 +85,7 @@ bool is_meant(const LibraryEntry& entry, const LibraryFlags& flags) {
          });
 }
 
-/// What to say if nothing is like what was asked for.
+/// The message if no entry matches.
 std::string nothing_found(const std::vector<LibraryEntry>& all, const LibraryFlags& flags) {
   if (all.empty()) return "nothing; terrazzo library add makes an entry";
   std::vector<std::string> known;
@@ -153,7 +153,7 @@ void write_sheet(const std::vector<LibraryEntry>& entries, const fs::path& path)
   print_message("wrote {}\n", path.string());
 }
 
-/// What the library holds, which no sheet may take the place of.
+/// The library's files, which no sheet may overwrite.
 std::vector<ProtectedFile> files_of(const std::vector<LibraryEntry>& entries) {
   std::vector<ProtectedFile> out;
   for (const LibraryEntry& e : entries)
@@ -184,7 +184,7 @@ int list(const LibraryFlags& flags) {
   return exit_done;
 }
 
-/// Node types that would make another analysis today.
+/// Node types whose versions have changed since the analysis.
 std::vector<std::string> outdated(const LibraryEntry& entry) {
   std::vector<std::string> out;
   for (const auto& [type, version] : entry.versions)

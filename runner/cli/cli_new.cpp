@@ -31,7 +31,7 @@ struct NewFlags {
   LimitFlags limits{};
 };
 
-/// The folder as a graph file in `beside` should name it.
+/// The folder's path for a graph file in `beside`.
 fs::path seen_from(const fs::path& beside, const fs::path& folder) {
   const fs::path relative =
       fs::absolute(folder).lexically_normal().lexically_relative(fs::absolute(beside).lexically_normal());

@@ -40,8 +40,8 @@ fs::path cache_folder(const RunFlags& flags) {
   return flags.cache.empty() ? Cache::default_folder() : fs::path(flags.cache);
 }
 
-/// What the command line says, else the environment or the folder's settings: wrong ones are no reason to do without a
-/// cache. None if there is no folder.
+/// The cache limit from the command line, else from the environment or the folder's settings; invalid settings do not
+/// disable the cache. Nullopt if there is no folder.
 std::optional<uint64_t> limit_of_cache(const RunFlags& flags) {
   if (!flags.cache_size.empty()) return parse_bytes(flags.cache_size, "--cache-size");
   fs::path folder;
@@ -53,7 +53,7 @@ std::optional<uint64_t> limit_of_cache(const RunFlags& flags) {
   return as_usage([&] { return cache_limit(folder).bytes; });
 }
 
-/// The cache to use. The usual folder may be out of reach, which costs time; one that was asked for may not.
+/// The cache to use. An unavailable default folder only costs time; an unavailable requested one is an error.
 std::shared_ptr<Cache> open_cache(const RunFlags& flags) {
   if (!flags.keeps()) return nullptr;
   const std::optional<uint64_t> limit = limit_of_cache(flags);
@@ -71,7 +71,7 @@ bool is_terminal() {
   return ::isatty(STDERR_FILENO) == 1 && term && std::string_view(term) != "dumb";
 }
 
-/// What people read at the end; programs that asked for json have had it all.
+/// The summary for users; in json mode everything has already been reported.
 void print_end(const RunResult& result, ProgressMode mode) {
   for (const Failure& f : result.failures) print_message("error: {}\n", f.message);
   for (const std::string& line : result.skips()) print_message("{}\n", line);
@@ -87,7 +87,7 @@ void summarize(const RunFlags& flags, const RunSummary& summary) {
   if (!flags.summary.empty()) write_run_summary(summary, flags.summary);
 }
 
-/// Runs something that plans a graph or makes ready for that; if it throws, the summary says why there was no run.
+/// Runs `work`, which plans a graph or prepares that; if it throws, writes the reason to the summary.
 template <typename Act>
 auto summarizing_failure(const RunFlags& flags, const Act& act) {
   const auto tell = [&](const std::exception& e, int code) {
@@ -111,13 +111,13 @@ auto summarizing_failure(const RunFlags& flags, const Act& act) {
   }
 }
 
-/// What options write besides the nodes: contact sheets that are pictures are a node's.
+/// Files that options write in addition to nodes; contact sheets that are pictures are written by a node.
 std::vector<WrittenFile> without_pictures(std::vector<WrittenFile> files) {
   std::erase_if(files, [](const WrittenFile& f) { return f.kind == WrittenKind::picture; });
   return files;
 }
 
-/// What the options of a run write.
+/// The files that a run's options write.
 std::vector<WrittenFile> files_of(const RunFlags& flags) {
   std::vector<WrittenFile> out = flags.writes;
   out.push_back({"--report", flags.report, WrittenKind::page});
@@ -126,7 +126,7 @@ std::vector<WrittenFile> files_of(const RunFlags& flags) {
   return out;
 }
 
-/// None if none was asked for. What is `readable` may be read too. Throws UsageError.
+/// Nullopt if no sandbox is requested. Paths in `readable` may be read too. Throws UsageError.
 std::optional<Sandbox> sandbox_of(const RunFlags& flags, const std::vector<fs::path>& readable) {
   if (flags.sandbox.empty()) return std::nullopt;
   std::error_code missing;
@@ -145,13 +145,13 @@ void check_sandbox(const Graph& graph, const std::optional<Sandbox>& sandbox) {
     throw GraphError(graph.file.string(), std::move(problems));
 }
 
-/// A graph, and what it is kept in.
+/// A graph and its sandbox.
 struct Guarded {
   Graph graph;
   std::optional<Sandbox> sandbox;
 };
 
-/// Loads a graph that reads nothing but what its sandbox allows.
+/// Loads a graph that reads only files its sandbox allows.
 Guarded load_guarded(const LoadGraph& load, const RunFlags& flags) {
   Guarded out{{}, sandbox_of(flags, flags.unpack ? flags.unpack() : std::vector<fs::path>())};
   std::optional<ReadGuard> guard;
@@ -210,7 +210,7 @@ int run_once(const Guarded& guarded, const RunFlags& flags, Session& session, co
   summary.variations = flags.variations;
   summary.exit_code = result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
   try {
-    check_protected(without_pictures(written), outputs_of(result));  // names that nobody knew before
+    check_protected(without_pictures(written), outputs_of(result));  // checks names that were unknown before the run
     if (flags.after) flags.after(result);
     if (!flags.trace.empty()) write_trace(result, flags.trace);
     if (!flags.report.empty()) write_html_report(plan, result, flags.report);
@@ -232,7 +232,7 @@ int watch(const LoadGraph& load, const RunFlags& flags, Session& session, const 
   watched.look_at(guarded.graph);
   for (;;) {
     int code = exit_usage;
-    watched.look_again();  // if the graph cannot be loaded, its files of before are what may mend it
+    watched.look_again();  // if loading fails, a change of the previous files may fix it
     try {
       guarded = summarizing_failure(flags, [&] { return load_guarded(load, flags); });
       watched.look_at(guarded.graph);

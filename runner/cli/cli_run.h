@@ -34,22 +34,22 @@ struct RunFlags {
   bool force = false;
   std::string sandbox;
   std::vector<std::string> values{};  ///< NAME=VALUE of the command line
-  std::vector<std::string> files{};   ///< more files that it names
+  std::vector<std::string> files{};   ///< further files on the command line
   std::string progress = "auto";
-  std::vector<WrittenFile> writes{};                ///< besides report and trace
-  std::vector<ProtectedFile> reads{};               ///< besides the graph and the files of its nodes
+  std::vector<WrittenFile> writes{};                ///< in addition to report and trace
+  std::vector<ProtectedFile> reads{};               ///< in addition to the graph and its nodes' files
   std::map<std::string, std::string> variations{};  ///< see RunSummary
-  std::vector<std::string> keep{};                  ///< more targets, whose values are kept for `after`
-  /// Called before each load; a sandbox allows to read what it returns.
+  std::vector<std::string> keep{};                  ///< further targets, whose values are kept for `after`
+  /// Called before each load. The sandbox allows reading the returned folders.
   std::function<std::vector<std::filesystem::path>()> unpack{};
   std::function<void(const RunResult&)> after{};  ///< called with the result of each run
 
-  /// Whether there is to be a cache.
+  /// Whether to use a cache.
   bool keeps() const { return !no_cache && !is_checked(); }
   bool is_checked() const { return checked.holds(cache); }
 };
 
-/// Says what nodes warned of.
+/// Prints the nodes' warnings.
 void print_warnings(const RunResult& result);
 
 void add_run_flags(Command& command, RunFlags& flags);

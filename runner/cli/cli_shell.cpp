@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-/// The command that the words lead to.
+/// The command named by the words.
 const Command& found(const Command& program, const std::vector<std::string>& words) {
   const Command* at = &program;
   for (const std::string& word : words) {
@@ -32,7 +32,7 @@ std::string page_name(const Command& command) {
   return name + ".1";
 }
 
-/// A page for the command and each that it leads to.
+/// Pages for the command and all its subcommands.
 void write_pages(const Command& command, const std::filesystem::path& folder, const std::string& version) {
   write_file(folder / page_name(command), man_page(command, version));
   for (const Command& c : command.commands) write_pages(c, folder, version);

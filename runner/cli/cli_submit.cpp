@@ -46,7 +46,7 @@ Graph graph_of(const SubmitFlags& flags, std::vector<std::string>& only) {
   return graph;
 }
 
-/// Why nodes are left out, one after the other; of many the first ones.
+/// The reasons for left-out nodes; at most the first few.
 std::string lines_of(const std::map<std::string, std::string>& left_out) {
   std::vector<std::string> lines;
   for (const auto& [node, why] : left_out)
@@ -55,7 +55,7 @@ std::string lines_of(const std::map<std::string, std::string>& left_out) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-/// The job that the flags stand for, not written yet. Throws Error if nothing of it can be made.
+/// The job described by the flags, not written yet. Throws Error if no target can be computed.
 PreparedJob prepared_job(const SubmitFlags& flags, Session& session) {
   std::vector<std::string> only;
   Graph graph = graph_of(flags, only);
@@ -74,7 +74,7 @@ PreparedJob prepared_job(const SubmitFlags& flags, Session& session) {
   return prepared(plan, *session.cache(), plugins, left_out.why);
 }
 
-/// "1.5 GiB", "12 s"; what Slurm will be asked for.
+/// The requested resources, "1.5 GiB", "12 s".
 Table table_of(const std::vector<TaskArray>& arrays, const std::vector<std::string>& ids) {
   Table table = {{"array", "tasks", "cores", "memory", "after", "expected"}};
   if (!ids.empty()) table.front().push_back("batch job");
@@ -90,7 +90,7 @@ Table table_of(const std::vector<TaskArray>& arrays, const std::vector<std::stri
   return table;
 }
 
-/// The flags, with what Slurm can give. Tasks that ask for more would wait for ever.
+/// The flags with Slurm's limits: tasks that request more would wait forever.
 ArrayOptions options_for(const SubmitFlags& flags, const Slurm& slurm) {
   ArrayOptions options = flags.arrays;
   const FarmLimits& limits = options.limits = slurm.limits(flags.slurm);
@@ -103,7 +103,7 @@ ArrayOptions options_for(const SubmitFlags& flags, const Slurm& slurm) {
   return options;
 }
 
-/// The arrays that would be handed over, if nothing is in the queue.
+/// The arrays that would be submitted if the queue is empty.
 std::vector<TaskArray> arrays_of_job(const PreparedJob& prepared, const ArrayOptions& options) {
   return arrays_of(prepared.job.units, prepared.due, FarmFolder::of_job(prepared.folder).costs(), {}, options);
 }
@@ -112,7 +112,7 @@ void tell_all_is_made(const PreparedJob& prepared) {
   print_result("nothing to do: all {} has been made\n", prepared.job.left_out.empty() ? "of it" : "else");
 }
 
-/// Writes the job, and says what was found damaged.
+/// Writes the job and reports damaged files.
 void write_and_tell(const PreparedJob& prepared, Cache& cache) {
   std::vector<std::string> names;
   for (const fs::path& file : write_job(prepared, cache))
@@ -121,7 +121,7 @@ void write_and_tell(const PreparedJob& prepared, Cache& cache) {
     tell(fmt::format("mended in {}: {}", FarmFolder::of_job(prepared.folder).root().string(), fmt::join(names, ", ")));
 }
 
-/// There is nothing to do but to mend the job, if there is one.
+/// Nothing needs to run; only repairs the job if it exists.
 int leave_as_made(const PreparedJob& prepared, Cache& cache) {
   std::error_code missing;
   if (fs::exists(prepared.folder, missing)) write_and_tell(prepared, cache);
@@ -192,7 +192,7 @@ int wait_until_done(const fs::path& folder, const FarmJob& job, const SubmitFlag
   };
   try {
     const auto again = [&] {
-      read_farm_job(folder);  // tasks that cannot read it would only get lost again
+      read_farm_job(folder);  // tasks that cannot read it would be lost again
       hand_over(folder, job, cache, slurm, options_for(flags, slurm), flags.slurm);
     };
     const JobState state =
@@ -264,7 +264,7 @@ int cancel(const fs::path& folder, Cache& cache, const Slurm& slurm) {
       throw UsageError(fmt::format(
           "{} is not Slurm's to cancel: it was written to {} for another scheduler; cancel it there", job, to.file));
   } catch (const DamagedJob&) {
-    // Slurm's queue tells.
+    // Slurm's queue has the tasks.
   }
   cancel_job(folder, cache, slurm);
   print_result("cancelled {}; what has been made stays in the cache\n", job);

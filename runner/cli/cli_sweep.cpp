@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The name of a figure and, behind a colon, which way is better.
+/// Parses the name of a figure and, after a colon, which direction is better.
 std::pair<std::string, std::string> split_figure(const std::string& text) {
   const size_t colon = text.find(':');
   return {text.substr(0, colon), colon == text.npos ? "" : text.substr(colon + 1)};
@@ -145,8 +145,8 @@ Graph Sweep::load(const GraphFlags& values, const LoadOptions& options,
   });
 }
 
-/// Variations must not write over one another's files. Sizes and materials in a path may tell them apart; the plan
-/// looks at those.
+/// Variations must not overwrite each other's files. Sizes and materials in a path may distinguish them; the plan
+/// checks those.
 void Sweep::check_paths(const Graph& first, const Nodes& nodes) const {
   std::map<std::pair<std::string, std::string>, size_t> writers;  // the first variation, by node and path
   for (size_t v = 0; v < names_.size(); v++)
@@ -164,7 +164,7 @@ void Sweep::check_paths(const Graph& first, const Nodes& nodes) const {
     }
 }
 
-/// How a path can tell all variations apart.
+/// A hint on placeholders that distinguish all variations in a path.
 std::string Sweep::way_apart(const Graph& graph) const {
   std::string sum, unnamed;
   for (const std::string& name : names_that_vary()) {
@@ -179,7 +179,7 @@ std::string Sweep::way_apart(const Graph& graph) const {
                      sum);
 }
 
-/// Of what is set, in its order, that which has several values.
+/// The names with several values, in order.
 std::vector<std::string> Sweep::names_that_vary() const {
   std::vector<std::string> names;
   std::map<std::string, std::set<std::string>> values;
@@ -193,7 +193,7 @@ std::vector<std::string> Sweep::names_that_vary() const {
   return names;
 }
 
-/// What `make` makes of each variation's node `base`; once where variations share it.
+/// Calls `make` for each variation's node `base`; once for shared nodes.
 template <typename T>
 std::vector<T> Sweep::of_each(const std::string& base, const std::function<T(const std::string& node)>& make) const {
   std::map<std::string, T> made;
@@ -212,7 +212,7 @@ std::vector<T> Sweep::of_each(const std::string& base, const std::function<T(con
   return out;
 }
 
-/// Shows whatever the variations' first export writes: images as they are, materials lit.
+/// Shows the output of the variations' first export: images unchanged, materials lit.
 void Sweep::add_sheet(const Graph& document, const Nodes& nodes, std::vector<GraphNode>& added) {
   const std::string base = first_of("export", document);
   if (base.empty()) throw UsageError("--sheet: the graph has no export whose pictures could be shown");
@@ -227,7 +227,7 @@ void Sweep::add_sheet(const Graph& document, const Nodes& nodes, std::vector<Gra
     for (const Wire& w : pictures_) kept_.push_back(w.node);
     return;
   }
-  // A row for each value of all but the last sweep; else about as many rows as columns.
+  // One row per combination of all sweeps but the last; without sweeps about as many rows as columns.
   const bool is_grid = flags_.sweeps.size() > 1;
   const double count = double(is_grid ? swept({flags_.sweeps.back()}).size() : variations_.size());
   const auto columns = int64_t(is_grid ? count : std::ceil(std::sqrt(count)));
@@ -241,7 +241,7 @@ void Sweep::add_sheet(const Graph& document, const Nodes& nodes, std::vector<Gra
   added.push_back(std::move(file));
 }
 
-/// The graph's own comparison, or one of what is resolved with its exemplar.
+/// The graph's own compare node, or one that compares resolved results with their exemplar.
 void Sweep::add_comparisons(const Graph& document, const Nodes& nodes, std::vector<GraphNode>& added) {
   const std::string own = first_of("compare", document), resolved = first_of("resolve_uv", document);
   if (own.empty() && resolved.empty())
@@ -260,7 +260,7 @@ void Sweep::add_comparisons(const Graph& document, const Nodes& nodes, std::vect
   if (!flags_.best.empty()) check_best(nodes, added);
 }
 
-/// A misspelt figure is better found now than after hours of work.
+/// Finds a misspelt figure now rather than after hours of work.
 void Sweep::check_best(const Nodes& nodes, const std::vector<GraphNode>& added) {
   using Better = ComparedFigure::Better;
   const auto [name, way] = split_figure(flags_.best);
@@ -284,7 +284,7 @@ void Sweep::check_best(const Nodes& nodes, const std::vector<GraphNode>& added) 
 std::vector<std::string> Sweep::names_of(const std::vector<std::string>& nodes) const {
   std::set<std::string> out;
   for (const std::string& node : nodes) {
-    bool is_there = false;  // in some variation; others may go without it
+    bool is_there = false;  // in some variation; others may lack it
     for (const auto& names : names_)
       for (const auto& [name, merged] : names) {
         if (!stands_for(node, name)) continue;

@@ -13,7 +13,7 @@
 
 namespace terrazzo {
 
-/// Which variations of a graph to run, and what to make of them.
+/// The variations of a graph to run, and the outputs to make from them.
 struct SweepFlags {
   std::vector<std::string> sweeps;
   std::string table, sheet, figures, best;
@@ -23,30 +23,31 @@ struct SweepFlags {
 
 /// --sweep and --table.
 void add_variation_flags(Command& command, SweepFlags& flags);
-/// The same, and what to make of the results.
+/// The same, and the options for outputs.
 void add_sweep_flags(Command& command, SweepFlags& flags);
 
-/// Several variations of a graph, run as one: analyses and whatever else they share are made once.
+/// Several variations of a graph, run as one graph: shared nodes, such as analyses, run once.
 class Sweep {
  public:
   /// Reads sweeps and table. Throws UsageError.
   explicit Sweep(const SweepFlags& flags);
 
-  /// Loads every variation by `load`, which gets its overrides, into one graph; adds what contact sheet and figures
-  /// need. Throws GraphError, and UsageError if the graph has nothing to show or to compare.
+  /// Loads every variation by calling `load` with its overrides, and merges them into one graph. Adds the nodes for
+  /// contact sheet and figures. Throws GraphError, and UsageError if the graph has nothing to show or to compare.
   Graph load(const std::function<Graph(const std::vector<std::string>&)>& load);
 
-  /// The same for a graph and values of the command line; `warn` gets each warning once.
+  /// The same for a graph and values from the command line; calls `warn` once per warning.
   Graph load(const GraphFlags& values, const LoadOptions& options, const std::function<void(const std::string&)>& warn);
 
-  /// What these nodes are called in the merged graph, in every variation; and what has to run and to be kept besides.
+  /// The names of these nodes in the merged graph, for all variations, and further nodes that must run and be kept.
   std::vector<std::string> names_of(const std::vector<std::string>& nodes) const;
-  /// The nodes of the merged graph that only one variation has, and its label.
+  /// The nodes of the merged graph that belong to only one variation, with its label.
   std::map<std::string, std::string> of_one_variation() const;
   const std::vector<std::string>& targets() const { return targets_; }
   const std::vector<std::string>& kept() const { return kept_; }
 
-  /// After a run: prints a table of all variations, with their figures; writes what was asked for; names the best.
+  /// After a run: prints a table of all variations with their figures, writes the requested files, and names the best
+  /// variation.
   void report(const RunResult& result) const;
 
  private:
@@ -68,9 +69,9 @@ class Sweep {
   std::vector<Variation> variations_;
   std::vector<std::map<std::string, std::string>> names_;
   std::vector<Wire> pictures_;            ///< by variation; for the contact sheet
-  std::vector<std::string> comparisons_;  ///< by variation: the node that compares
+  std::vector<std::string> comparisons_;  ///< by variation: its compare node
   std::vector<std::string> targets_, kept_;
-  bool higher_is_better_ = false;  ///< of the figure that decides
+  bool higher_is_better_ = false;  ///< for the deciding figure
 };
 
 }  // namespace terrazzo

@@ -23,11 +23,11 @@ struct Argument {
   std::string override_text() const { return parameter + "=" + value; }
 };
 
-/// What is wrong, said of the arguments of `synth`, the folder first, instead of the graph that they stand for.
+/// Reports problems in terms of the arguments of `synth`, the folder first, instead of the stock graph.
 GraphError about_arguments(const GraphError& error, const std::vector<Argument>& arguments) {
   std::vector<Problem> problems;
   for (const Problem& p : error.problems()) {
-    const bool is_source = p.node == "exemplar" || p.node == "weighted";  // the latter looks at the maps' shapes
+    const bool is_source = p.node == "exemplar" || p.node == "weighted";  // the latter checks the maps' shapes
     const auto argument = std::find_if(arguments.begin(), arguments.end(), [&](const Argument& a) {
       return p.where == where_of_override(a.override_text());
     });
@@ -57,13 +57,13 @@ struct SynthFlags : RunFlags {
   }
 };
 
-/// The stock graph to run; null if the exemplar could not be looked at, which has been said, and the exit code then.
+/// The stock graph to run; null, with an exit code, if the inspection of the exemplar failed, which has been reported.
 struct ChosenGraph {
   const char* name = nullptr;
   int code = exit_done;
 };
 
-/// Looks at the exemplar, with the cache that the run itself uses, and says which of the stock graphs suits it.
+/// Inspects the exemplar, using the run's cache, and recommends a stock graph.
 ChosenGraph suitable_graph(const SynthFlags& flags) {
   RunFlags looking;
   looking.cache = flags.cache;

@@ -33,7 +33,7 @@ struct TaskFlags {
   fs::path folder() const {
     return as_usage([&] { return FarmFolder(Cache::default_folder()).find_job(job); });
   }
-  /// The job lies in the cache that it works with.
+  /// The job's folder is inside the cache that it uses.
   fs::path cache_of(const fs::path& folder) const {
     return cache.empty() ? FarmFolder::of_job(folder).root().parent_path() : fs::path(cache);
   }
@@ -41,7 +41,7 @@ struct TaskFlags {
 
 using Json = nlohmann::ordered_json;
 
-/// What was made, by content alone: a task that is run again writes the same.
+/// Lists results by content only, so that a repeated task writes the same.
 void write_stamp(const fs::path& path, const Unit& unit, const UnitResult& result) {
   Json made = Json::object();
   for (const auto& [node, record] : result.made) {
@@ -54,9 +54,9 @@ void write_stamp(const fs::path& path, const Unit& unit, const UnitResult& resul
   write_whole_file(path, Json{{"unit", unit.name}, {"made", made}}.dump(1) + "\n");
 }
 
-/// One unit in this process, which another looks after.
+/// Runs one unit in this process, under a supervisor process.
 int run_here(const TaskFlags& flags, const fs::path& folder, const FarmJob& job) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would look after it
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // it must not outlive its supervisor
   const Unit& unit = *job.find(flags.units.front());
   const CancelOnSignal signals;
   const std::unique_ptr<Progress> progress = make_progress(ProgressMode::plain, std::cerr, false);
@@ -78,7 +78,7 @@ int run_here(const TaskFlags& flags, const fs::path& folder, const FarmJob& job)
   }
 }
 
-/// The program and its options, for a process that makes one unit.
+/// The command line of a process that runs one unit.
 std::vector<std::string> words_for_unit(const TaskFlags& flags, const fs::path& cache, const FarmJob& job) {
   std::vector<std::string> words = {fs::read_symlink("/proc/self/exe").string()};
   for (const std::string& p : job.plugins) words.insert(words.end(), {"--plugin", p});
@@ -89,7 +89,7 @@ std::vector<std::string> words_for_unit(const TaskFlags& flags, const fs::path& 
   return words;
 }
 
-/// What Slurm gives a task, in bytes; 0 if that is not known.
+/// Slurm's memory limit of the task in bytes; 0 if unknown.
 uint64_t memory_given() {
   const char* megabytes = std::getenv("SLURM_MEM_PER_NODE");
   return megabytes ? std::strtoull(megabytes, nullptr, 10) << 20 : 0;

@@ -7,13 +7,13 @@
 #include "graphs/text/graph.h"
 #include "runner/terminal/command.h"
 
-/// How commands look at an exemplar before they choose.
+/// Inspects an exemplar before choosing a graph and its parameters.
 namespace terrazzo {
 
-/// The folder of an exemplar, and what the command line says about it.
+/// The folder of an exemplar, and the options about it.
 struct ExemplarFlags {
   std::string folder;
-  std::string name{};                    ///< which material of the folder; empty: the only one
+  std::string name{};                    ///< the material in the folder; empty: the only one
   std::vector<std::string> interpret{};  ///< MAP=HOW
 
   /// The parameter `interpret` of load_material. Throws UsageError.
@@ -23,8 +23,8 @@ struct ExemplarFlags {
 /// The argument FOLDER, --name and --interpret.
 void add_exemplar_flags(Command& command, ExemplarFlags& flags);
 
-/// Reads the maps of a folder ("exemplar"), weights them ("weighted"), and looks for what repeats ("lattice") and for
-/// elements ("elements"), as graphs/material.json does. Throws UsageError.
+/// A graph that reads the maps of a folder ("exemplar"), weights them ("weighted"), and detects a lattice ("lattice")
+/// and elements ("elements"), as graphs/material.json does. Throws UsageError.
 Graph inspection_graph(const ExemplarFlags& flags);
 
 }  // namespace terrazzo

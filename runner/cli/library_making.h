@@ -11,16 +11,17 @@
 
 namespace terrazzo {
 
-/// What `library add` is asked for.
+/// The options of `library add`.
 struct LibraryAddition {
-  std::string source;            ///< a folder of maps, or an analysis that exists
-  std::string material;          ///< of an analysis that exists: the folder of its maps; may be empty
+  std::string source;            ///< a folder of maps, or an existing analysis
+  std::string material;          ///< the folder of an existing analysis's maps; may be empty
   std::vector<std::string> set;  ///< for the analysis of a folder
-  bool other_material = false;   ///< the maps need not look like those that were analysed
+  bool other_material = false;   ///< the maps may differ from the analysed ones
 };
 
-/// Analyses a folder, or takes an analysis, and paints the exemplar: an entry without a name, whose files lie in
-/// `place`. Not set if the run failed, or was cancelled; `result` says how. Throws GraphError, UsageError or Error.
+/// Analyses a folder, or takes an existing analysis, and makes a picture of the exemplar. Returns an entry without a
+/// name, whose files are in `place`; nullopt if the run failed or was cancelled, see `result`. Throws GraphError,
+/// UsageError or Error.
 std::optional<LibraryEntry> made_entry(const LibraryAddition& asked, const std::filesystem::path& place,
                                        const std::atomic<bool>& cancelled, RunResult& result);
 

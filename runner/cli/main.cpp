@@ -12,7 +12,7 @@ namespace {
 
 pid_t main_process = 0;
 
-/// Code of a node or of a library that ends the program would end it as if all was done. Other threads are at work, so
+/// If a node or library calls exit, the program must not end as if it had succeeded. Other threads are running, so
 /// nothing is cleaned up.
 [[noreturn]] void end(int code) {
   if (::getpid() == main_process) {
@@ -29,7 +29,7 @@ pid_t main_process = 0;
 
 }  // namespace
 
-// They stand in for those of the C library, which main's return does not go through.
+// These replace the C library's functions, which returning from main does not use.
 extern "C" {
 [[noreturn, gnu::visibility("default")]] void exit(int code) noexcept {
   end(code);
@@ -47,8 +47,8 @@ extern "C" {
 
 int main(int argc, char** argv) {
   main_process = ::getpid();
-  // Stages take buffers of some megabytes again and again. Kept rather than given back to the system each time, they
-  // save a fiftieth of a run of one map.
+  // Stages repeatedly allocate buffers of some megabytes. Keeping them instead of returning them to the system saves a
+  // fiftieth of a run with one map.
   constexpr int kept = 64 << 20, mapped_from = 16 << 20;
   mallopt(M_TRIM_THRESHOLD, kept);
   mallopt(M_MMAP_THRESHOLD, mapped_from);

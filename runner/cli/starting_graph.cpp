@@ -23,7 +23,7 @@ JsonValue& member(JsonValue& object, std::string_view name) {
   throw std::logic_error(fmt::format("the stock graph has no \"{}\"", name));
 }
 
-/// The parameters for a folder that graphs have, of which the first is set.
+/// Names of folder parameters; the first that a graph has is set.
 constexpr std::array<std::string_view, 3> folder_parameters = {"material", "first", "base"};
 
 JsonValue* folder_parameter(JsonValue& graph) {
@@ -33,7 +33,7 @@ JsonValue* folder_parameter(JsonValue& graph) {
   return nullptr;
 }
 
-/// Whether a map has one value everywhere: there is nothing in it to compare.
+/// Whether a map is constant, so that nothing in it can be compared.
 bool is_constant(const Image& image) {
   const int channels = image.channels();
   std::array<float, 4> least, most;
@@ -97,7 +97,7 @@ JsonValue* folder_reader(JsonValue& graph) {
   return nullptr;
 }
 
-/// Which material of the folder is meant: a parameter of the graph, or one of the node that reads the folder.
+/// Sets the material's name: by a parameter of the graph, or of the node that reads the folder.
 void pick_material(JsonValue& graph, const std::string& name) {
   if (name.empty()) return;
   if (JsonValue* parameter = member(graph, "parameters").find("name"))
@@ -133,7 +133,7 @@ std::string starting_graph(const ExemplarFindings& look, std::string_view stock)
   ParsedJson parsed = parse_json(stock);
   if (!parsed.value) throw std::logic_error("the stock graph is no JSON");
   JsonValue& graph = *parsed.value;
-  // A default is taken as it is: "$" and "@" mean nothing in it.
+  // Defaults are literal: "$" and "@" have no special meaning.
   folder_parameter(graph)->set("default", JsonValue::of(look.folder.generic_string()));
   pick_material(graph, look.name);
   interpret(graph, look.interpret);
@@ -147,7 +147,7 @@ std::string starting_graph(const ExemplarFindings& look, std::string_view stock)
                                counted(m.image->channels(), "channel")));
   for (const std::string& note : look.notes) comment(first, "  " + note);
   comment(first, "  " + look.advice());
-  // Graphs of several exemplars compare maps that they share.
+  // Graphs with several exemplars compare common maps.
   const bool is_of_one = nodes.find("exemplar") && !nodes.find("all");
   if (JsonValue* weighted = nodes.find("weighted"); weighted && is_of_one) weigh(*weighted, *look.exemplar);
   if (JsonValue* guides = nodes.find("guides"))

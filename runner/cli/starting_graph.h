@@ -11,30 +11,30 @@
 
 namespace terrazzo {
 
-/// What has been found out about an exemplar.
+/// Findings about an exemplar.
 struct ExemplarFindings {
   MaterialPtr exemplar;
-  std::filesystem::path folder;                    ///< of its maps, as a graph should name it
-  std::string name{};                              ///< of the material in the folder, where one was asked for
-  std::map<std::string, std::string> interpret{};  ///< what the user says of maps, see load_material
+  std::filesystem::path folder;                    ///< of its maps, as spelled in the graph
+  std::string name{};                              ///< of the requested material in the folder, if any
+  std::map<std::string, std::string> interpret{};  ///< the user's interpretation of maps, see load_material
   std::vector<std::string> notes;                  ///< of load_material
   std::vector<std::string> lattice_notes;          ///< of regularity
   bool repeats = false;                            ///< a lattice was found
-  bool streaks = false;                            ///< it goes on along an axis
-  bool tiles = false;                              ///< opposite borders fit
-  MethodChoice method{};                           ///< which way suits it
+  bool streaks = false;                            ///< it continues along an axis
+  bool tiles = false;                              ///< opposite borders match
+  MethodChoice method{};                           ///< the recommended method
 
   /// A sentence on what kind of exemplar it is.
   std::string nature() const;
-  /// A sentence on which of the stock graphs material and noise suits it, and why.
+  /// A sentence that recommends the stock graph `material` or `noise`, with the reason.
   std::string advice() const;
 };
 
-/// Whether a graph has a parameter for the folder of an exemplar, and is none that is a node of others.
+/// Whether a graph has a parameter for an exemplar's folder and declares no inputs.
 bool takes_a_folder(std::string_view graph);
 
-/// A stock graph for this exemplar: its folder, weights, and whether a lattice is looked for, with comments on what was
-/// found, what was chosen and why, and what is worth changing.
+/// Adapts a stock graph to this exemplar: sets its folder, weights, and whether to search for a lattice. Adds comments
+/// on the findings, the choices with their reasons, and parameters worth changing.
 std::string starting_graph(const ExemplarFindings& look, std::string_view stock);
 
 }  // namespace terrazzo

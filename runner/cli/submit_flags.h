@@ -11,7 +11,7 @@
 
 namespace terrazzo {
 
-/// What `submit` is asked for.
+/// The options of `submit`.
 struct SubmitFlags : GraphFlags {
   SweepFlags variations;
   std::vector<std::string> only;

@@ -9,18 +9,18 @@
 
 namespace terrazzo {
 
-/// The files that a graph depends on: the graph file and everything its nodes read.
+/// Watches the files that a graph depends on: the graph file and all files its nodes read. Not thread-safe.
 class Watch {
  public:
   /// Starts to watch this graph's files.
   void look_at(const Graph& graph);
-  /// Takes the files as they are now: only what changes from here on counts.
+  /// Takes the files' present state as the baseline for changes.
   void look_again();
   /// Whether one of them has changed, appeared or disappeared.
   bool has_changed() const;
-  /// Waits until that is so; looks ten times a second. False once `cancelled` is set.
+  /// Waits for a change; polls ten times a second. Returns false once `cancelled` is set.
   bool wait_for_change(const std::atomic<bool>& cancelled) const;
-  /// Runs `work` and sets the flag that it gets as soon as there is a change or `cancelled` is set.
+  /// Runs `work` and sets its flag `stop` as soon as a file changes or `cancelled` is set.
   void until_change(const std::atomic<bool>& cancelled,
                     const std::function<void(const std::atomic<bool>& stop)>& work) const;
   size_t count() const { return seen_.size(); }

@@ -7,7 +7,7 @@ namespace terrazzo {
 
 namespace {
 
-/// What needs no memory comes first.
+/// Jobs that need no memory come first.
 constexpr int urgency_of_values = 2;
 
 int urgency_of(StageJob::Kind kind) {

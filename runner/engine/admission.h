@@ -9,12 +9,12 @@
 
 namespace terrazzo {
 
-/// For each stage the expected seconds of the longest path from it to a target, itself included, for critical-path
-/// scheduling. A stage's expected time is that of its recorded result, else of its node's last run, else 1 second; 0 if
-/// the plan expects no computing, or the stage is lazy. `history` may be null.
+/// For each stage the expected seconds of the longest path from it to a target, including itself, for critical-path
+/// scheduling. A stage takes as long as its recorded result or its node's last run, else 1 second; 0 if the plan
+/// expects no computation, or if the stage is lazy.
 std::vector<double> remaining_seconds(const Plan& plan);
 
-/// Decides which waiting jobs start, and when. Deterministic in the order in which jobs arrive and end: uses no clock.
+/// Decides which waiting jobs start, and when. Depends only on the order in which jobs arrive and end, not on a clock.
 /// Not thread-safe.
 ///
 /// - First come stores, since other processes wait for them and they hold values; then look-ups, which are quick and
@@ -39,7 +39,7 @@ class Admission {
   void add(StageJobPtr job);
   /// The jobs to start now, given the bytes of values in memory.
   std::vector<StageJobPtr> admit(uint64_t held);
-  /// By how many bytes the budget is exceeded now, or would be if the next computation started.
+  /// The bytes by which the budget is exceeded now, or would be if the next computation started.
   uint64_t lacking(uint64_t held) const;
   uint64_t in_use() const { return in_use_; }
   /// An admitted job has ended.

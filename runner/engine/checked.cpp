@@ -26,7 +26,7 @@ using Watch = void (*)(Tell);
 
 constexpr const char* library_name = "terrazzo_watch.so";
 constexpr const char* preload = "LD_PRELOAD";
-/// They are in the keys of all that convert colours: the first by the content of the file that it names.
+/// Variables that are already in the keys of nodes that convert colours, the first by the content of its file.
 constexpr std::array<std::string_view, 2> color_variables = {"OCIO", "OCIO_OPTIMIZATION_FLAGS"};
 constexpr const char* started = "TERRAZZO_WATCHED";
 
@@ -35,12 +35,12 @@ Watch watch() {
 }
 
 std::string reason;
-std::mutex turn;  ///< whose turn it is to watch: runs may be checked at the same time
+std::mutex turn;  ///< serialises watching: checked runs may be concurrent
 std::mutex mutex;
 WatchedReads* now = nullptr;
-thread_local bool is_telling = false;  ///< what telling reads itself does not count
+thread_local bool is_telling = false;  ///< ignores reads by the reporting code itself
 
-/// Pixels of lazy outputs too: their digests name the recipe.
+/// Compares pixels even of lazy outputs, whose digests name only the recipe.
 void add_pixels(Hasher& hasher, const Image& image) {
   hasher.add(image.width()).add(image.height()).add(image.channels());
   for_each_strip(image, [&](const Rect& r, const float* pixels) {
@@ -63,13 +63,13 @@ Digest content_of(const Value& value) {
   return hasher.digest();
 }
 
-/// What the system's libraries read, whatever a node does.
+/// Variables that the system's libraries read independently of nodes.
 bool is_of_the_system(const fs::path& path) {
   constexpr std::array<const char*, 7> folders = {"/usr", "/lib", "/lib64", "/etc", "/proc", "/sys", "/dev"};
   return std::ranges::any_of(folders, [&](const char* f) { return lies_in(f, path); });
 }
 
-/// Whether code at that address is in a library of the system: these ask for variables on their own.
+/// Whether the address is in a system library: these read variables on their own.
 bool is_code_of_the_system(const void* address) {
   Dl_info place{};
   return ::dladdr(address, &place) != 0 && place.dli_fname && is_of_the_system(fs::path(place.dli_fname));
@@ -135,7 +135,7 @@ void remove_files(const NodeContext& context) {
 
 }  // namespace
 
-/// Passes on what the library tells.
+/// Forwards reports of the watch library.
 struct WatchedSink {
   static void tell(char kind, const char* what, int flags, const void* by) {
     if (is_telling) return;

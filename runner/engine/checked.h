@@ -6,24 +6,25 @@
 
 #include "runner/plan/plan.h"
 
-/// Checked runs prove what the cache trusts: that a node's results depend on nothing but its key. Each node is run
-/// twice and must give the same, to the last pixel; and what it opens and which variables of the environment it reads
-/// is watched, where the watching library was loaded before all others (see start_watching).
+/// Checked runs test the assumption of the cache: a node's results depend only on its key. Each node runs twice and
+/// must give the same results, to the last pixel. If the watch library is preloaded (see start_watching), the files
+/// that nodes open and the environment variables they read are also checked.
 namespace terrazzo {
 
 /// Whether files and variables are watched in this process.
 bool is_watching();
 
-/// Starts the program anew, with the watching library loaded before all others. Returns if it cannot, or need not.
+/// Restarts the program with the watch library preloaded. Returns if that is impossible or unnecessary.
 void start_watching(const char* const* argv);
-/// Why start_watching could not; empty if it did.
+/// Why start_watching failed; empty if it succeeded.
 std::string why_not_watching();
 
-/// A file is being opened, with the flags of open(2): for what opens files on behalf of nodes and is not watched
-/// otherwise, such as Python.
+/// Reports that a file is being opened, with the flags of open(2). For code that opens files for nodes unwatched, such
+/// as Python.
 void tell_opened(const char* path, int flags);
 
-/// What the process reads while it lives. One at a time: others wait. The thread that makes it ends it.
+/// Records what the process reads while the object lives. Only one object exists at a time: further constructors wait.
+/// The thread that creates it must destroy it.
 class WatchedReads {
  public:
   WatchedReads();
@@ -40,8 +41,8 @@ class WatchedReads {
   std::set<std::string> variables_;
 };
 
-/// Runs the node a second time, with `again`, a copy of its context from before the first. Throws Error if it gives
-/// another output, stages other files, or has read what its key does not cover.
+/// Runs the node a second time, with `again`, a copy of its context from before the first run. Throws Error if outputs
+/// or staged files differ, or if the node has read something that its key does not cover.
 void check_node(const Stage& stage, const NodeContext& first, NodeContext& again, const WatchedReads& reads);
 
 }  // namespace terrazzo

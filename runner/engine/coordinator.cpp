@@ -17,8 +17,8 @@ uint64_t expected_memory(const NodeContext& context) {
   }
 }
 
-/// Tells the observer how far the stage is, and never less than before: threads that share the work, and the second
-/// round of a checked run, begin anew.
+/// Reports a stage's progress, which must never decrease: threads that share the work, and the second pass of a checked
+/// run, start at 0 again.
 std::function<void(double)> progress_of(const Stage& stage, RunObserver& observer) {
   struct Told {
     std::mutex mutex;
@@ -72,7 +72,7 @@ void Coordinator::resolved(int stage) {
     return ask_sources(stage);
   }
   name(stage, NameEvent::found);
-  // A plan gives no reason for what nobody is going to ask for, unless a stored result turns out damaged.
+  // A plan has no reason for stages that no one needs unless a stored result is damaged.
   const bool at_rest = !may_be_asked(stage), planned_to_rest = s.reason.empty();
   if (at_rest || planned_to_rest) outcomes_.rests(stage);
   if (at_rest) move(stage, ValueEvent::rest);
@@ -87,7 +87,7 @@ void Coordinator::name(int stage, NameEvent event) {
     if (states_.inputs_named(reader)) put_off(Step::look_up, reader);
 }
 
-/// Changes the state of a stage's values. Once it does not need its sources' values any more, they may go.
+/// Changes the state of a stage's values. Once it no longer needs its sources' values, they may be dropped.
 void Coordinator::move(int stage, ValueEvent event) {
   const bool claimed = claims_sources(states_.value(stage));
   states_.advance(stage, event);
@@ -102,7 +102,7 @@ bool Coordinator::may_be_asked(int stage) const {
 
 void Coordinator::want_values(int stage) {
   const ValueState now = states_.value(stage);
-  if (now != ValueState::open && now != ValueState::resting) return;  // on their way, or there
+  if (now != ValueState::open && now != ValueState::resting) return;  // being computed or loaded, or in memory
   if (plan_.stages[stage].loadable()) {
     move(stage, ValueEvent::load);
     return enqueue(StageJob::Kind::load, stage);
@@ -125,7 +125,7 @@ void Coordinator::start_computing(int stage) {
   enqueue(StageJob::Kind::compute, stage);
 }
 
-/// A stage's values have come into memory, if only for those who wait for them.
+/// A stage's values are now in memory.
 void Coordinator::values_there(int stage, ValueEvent event) {
   move(stage, event);
   for (const int reader : plan_.stages[stage].readers) {
@@ -138,8 +138,8 @@ void Coordinator::values_there(int stage, ValueEvent event) {
   let_go_if_unclaimed(stage);
 }
 
-/// Once nothing else has to be computed for a stage that waits, what was dropped meanwhile is loaded again. Not before,
-/// as it would only be dropped again.
+/// Reloads dropped values for a waiting stage once nothing else must be computed for it. Earlier they would only be
+/// dropped again.
 void Coordinator::ask_for_spilled(int stage) {
   const std::vector<int>& sources = plan_.stages[stage].sources;
   const auto rests = [&](int s) { return states_.value(s) == ValueState::resting; };
@@ -160,7 +160,7 @@ bool Coordinator::may_be_spilled(int stage) const {
          });
 }
 
-/// Drops values that are in the cache until what is next fits into the budget, those first that free most.
+/// Drops values that are in the cache until the next job fits into the budget, largest first.
 void Coordinator::spill() {
   while (admission_.lacking(held_.bytes()) > 0) {
     int largest = -1;
@@ -231,7 +231,7 @@ void Coordinator::stored(StageJob& job) {
   if (states_.value(job.stage) == ValueState::held) in_memory_and_cache_.insert(job.stage);
 }
 
-/// Lets values go after their last reader, and with them the claim on the values they would be made from.
+/// Drops values after their last reader, and with them the claim on their sources' values.
 void Coordinator::let_go_if_unclaimed(int stage) {
   if (states_.claimed(stage)) return;
   if (states_.value(stage) == ValueState::held) {
@@ -283,7 +283,7 @@ void Coordinator::settle(const StageJobPtr& job) {
   take_steps();
 }
 
-/// A stage that could not be stored has given its values all the same.
+/// If storing fails, the stage's values are still valid.
 void Coordinator::failed(const StageJob& job) {
   outcomes_.failed(job);
   if (stopping() || job.kind == StageJob::Kind::store) return;
@@ -291,8 +291,7 @@ void Coordinator::failed(const StageJob& job) {
   take_steps();
 }
 
-/// What a stage was to give will not come. Of its readers, those are skipped that need it; others have their results in
-/// the cache.
+/// A stage's values are lost. Skips readers that need them; others have cached results.
 void Coordinator::lose(int stage) {
   move(stage, ValueEvent::give_up);
   for (const int reader : plan_.stages[stage].readers) put_off(Step::skip, reader);
@@ -313,7 +312,7 @@ void Coordinator::skip_if_lost(int stage) {
   lose(stage);
 }
 
-/// To be tried again, behind what has come in the meantime.
+/// Retried after jobs that have arrived in the meantime.
 void Coordinator::resume(const StageJobPtr& job) {
   outcomes_.add(job->span);
   job->resumed = job->busy = false;
@@ -359,7 +358,7 @@ void Coordinator::react(StageJob& job) {
 
 std::vector<StageJobPtr> Coordinator::admit() {
   if (stopping())
-    // What has been computed is still put into the cache, unless the user is in a hurry.
+    // Computed results are still stored, unless the run was cancelled.
     admission_.forget_if([&](const StageJob& j) { return cancelled_ || j.kind != StageJob::Kind::store; });
   else
     spill();

@@ -14,7 +14,7 @@
 namespace terrazzo {
 
 /// Holds the state of a run: takes finished jobs, one at a time, and returns the jobs that can start. Never blocks and
-/// does no work of its own. Not thread-safe.
+/// does no work itself. Not thread-safe.
 ///
 /// The states of a stage are in runner/engine/stage_state.h, the order of jobs in runner/engine/admission.h. A stage
 /// whose readers are all cached is never touched; readers of a stage with an unchanged result are cached.
@@ -23,15 +23,15 @@ class Coordinator {
   /// `threads`: number of workers; `memory`: the budget in bytes. Plan and options must outlive it.
   Coordinator(Plan& plan, const RunOptions& options, int threads, uint64_t memory);
 
-  /// Processes a job that ended, or that no longer waits for another process. Throws std::logic_error if the stage's
-  /// state does not allow it.
+  /// Processes a job that has ended, or that no longer waits for another process. Throws std::logic_error if the
+  /// stage's state does not allow it.
   void settle(const StageJobPtr& job);
   /// The jobs to start now.
   std::vector<StageJobPtr> admit();
   /// The jobs that wait for another process. Settle each again, with `resumed` set, to retry it.
   std::vector<StageJobPtr> take_postponed() { return std::exchange(postponed_, {}); }
 
-  /// No new computation starts: the run was cancelled, or a stage failed and the run is not to go on without it.
+  /// No new computation starts: the run was cancelled, or a stage failed without `keep_going`.
   bool stopping() const { return cancelled_ || (outcomes_.any_failed() && !options_.targets.keep_going); }
   bool cancelled() const { return cancelled_; }
   Outcomes& outcomes() { return outcomes_; }
@@ -40,7 +40,7 @@ class Coordinator {
   const StageStates& states() const { return states_; }
   /// Bytes of values in memory that wait for readers.
   uint64_t held_memory() const { return held_.bytes(); }
-  /// The most bytes that values in memory and running computations were expected to take together.
+  /// The peak of the expected memory of held values and running computations, in bytes.
   uint64_t most_memory() const { return most_memory_; }
 
  private:

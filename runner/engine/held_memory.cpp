@@ -15,10 +15,10 @@ namespace terrazzo {
 
 namespace {
 
-/// The blocks of memory that a value consists of, and whether it reads from others when it is pulled.
+/// The memory blocks of a value, and whether it reads from others when pulled.
 class Parts {
  public:
-  /// `half_bytes`: what a value takes in an image of half floats that gives no floats away without a copy.
+  /// `half_bytes`: bytes per value of images in half floats, which have no float memory.
   Parts(const Value& value, uint64_t half_bytes) : half_bytes_(half_bytes) {
     std::visit([&](const auto& v) { add(*v); }, value);
   }
@@ -101,7 +101,7 @@ void HeldMemory::hold_loaded(int stage, const std::map<std::string, Value>& valu
 }
 
 void HeldMemory::hold_computed(int stage, const std::map<std::string, Value>& values, const std::vector<int>& inputs) {
-  // Half floats stay in memory as they were read from a file; those that come out of other images are computed.
+  // Half floats from files stay in memory as read; half-float images derived from others are computed.
   const auto [id, lazy] = add(stage, values, inputs.empty() ? sizeof(uint16_t) : 0);
   if (!lazy) return;
   for (const int input : inputs)
@@ -126,7 +126,7 @@ void HeldMemory::release(int stage) {
   if (current_[stage] != none) drop(std::exchange(current_[stage], none));
 }
 
-/// One holder less. Not recursive: lazy images may read from one another along thousands of stages.
+/// Removes one holder. Not recursive: chains of lazy images may span thousands of stages.
 void HeldMemory::drop(int record) {
   std::vector<int> dropped = {record};
   while (!dropped.empty()) {

@@ -28,7 +28,7 @@ void remove_staged(const NodeContext& context) {
   for (const StagedFile& f : context.staged()) fs::remove(f.temporary, ignored);
 }
 
-/// Where a file is to be, in the very folder that its temporary one lies in.
+/// The final path of a file, in the same folder as its temporary file.
 fs::path place_of(const StagedFile& f) {
   return f.temporary.parent_path() / f.target.filename();
 }
@@ -38,7 +38,7 @@ bool describes_others(const fs::path& file) {
   return ending == ".json" || ending == ".gltf" || ending == ".mtlx" || ending == ".usda" || ending == ".py";
 }
 
-/// While files that it describes are replaced, a description of before would vouch for a set that is torn.
+/// While files are being replaced, an old description of them would claim that an inconsistent set is valid.
 void remove_descriptions(const std::vector<StagedFile>& staged) {
   const auto is_description = [](const StagedFile& f) { return describes_others(f.target); };
   if (std::ranges::all_of(staged, is_description)) return;
@@ -47,7 +47,7 @@ void remove_descriptions(const std::vector<StagedFile>& staged) {
     if (is_description(f)) fs::remove(place_of(f), not_there);
 }
 
-/// Removes a node's temporary files unless they have been put in their places.
+/// Removes a node's temporary files unless they have been renamed to their targets.
 class StagedFiles {
  public:
   explicit StagedFiles(const NodeContext& context) : context_(context) {}
@@ -55,9 +55,9 @@ class StagedFiles {
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  /// All of them are on the disk before the first takes its place, so that a set of maps is torn only by a crash in the
-  /// moment of renaming. Files that describe the others come last, and those of before go first: where there is one,
-  /// the set is whole. The next run writes a torn set anew.
+  /// Syncs all files before renaming the first, so that only a crash during the renaming leaves an inconsistent set.
+  /// Old descriptions are removed first and new ones renamed last: if there is one, the set is complete. The next run
+  /// rewrites an inconsistent set.
   std::vector<OutputFile> put_in_place(Cache* cache, const Sandbox* sandbox) {
     std::vector<StagedFile> staged = context_.staged();
     for (const StagedFile& f : staged) {
@@ -92,7 +92,7 @@ bool is_read(const Ingredient& i) {
   return i.what.starts_with("file ") || i.what.starts_with("variable ");
 }
 
-/// What was read must be what the key says; otherwise a result would be filed under the wrong key.
+/// The files must still match the key; otherwise the result would be stored under the wrong key.
 void check_files_unchanged(const Stage& stage, Cache* cache) {
   if (!cache) return;
   InputNames inputs;
@@ -106,7 +106,7 @@ void check_files_unchanged(const Stage& stage, Cache* cache) {
   if (!same) throw Error("the files it reads were changed while it was reading them; run the graph again");
 }
 
-/// A stage made again must give what its readers' keys already count on.
+/// A recomputed stage must give the values that its readers' keys depend on.
 void check_repeatable(const Stage& stage, const std::map<std::string, Digest>& names) {
   if (!stage.known->record || names == stage.known->record->outputs) return;
   throw Error(fmt::format(
@@ -115,7 +115,7 @@ void check_repeatable(const Stage& stage, const std::map<std::string, Digest>& n
       stage.type().name));
 }
 
-/// Again: links may have been changed since the plan was made, and may be while the node runs.
+/// Checks again: links may have changed since planning, and may change while the node runs.
 void check_files_in_sandbox(const Stage& stage, const Sandbox* sandbox) {
   if (!sandbox || !stage.type().files_read) return;
   for (const fs::path& file : stage.type().files_read(stage.node->params)) sandbox->check("read", file);
@@ -171,20 +171,20 @@ void load(StageJob& job, const Stage& stage, const std::map<std::string, Digest>
   }
 }
 
-/// Whether what a stage gives outlives the process that computes it: its values, or at least their names.
+/// Whether a stage's values, or at least their names, are stored in the cache.
 bool is_worth_a_lease(const Stage& stage, const Resolution& known, const RunOptions& options) {
   if (!options.cache || stage.type().is_sink()) return false;
   return stage.type().persist == Persist::payload || (stage.type().persist == Persist::digest && known.names.empty());
 }
 
-/// Another process is at it.
+/// Another process is computing it.
 void defer_to_lease_holder(StageJob& job, const Stage& stage, const RunOptions& options) {
   if (!job.waited && options.observer) options.observer->waits(stage);
   job.waited = job.busy = true;
 }
 
-/// Whether this job is to compute the stage now: nobody else is at it, or nobody can tell, or their values would have
-/// to be computed here all the same. Does not wait.
+/// Whether this job should compute the stage now: no other process is computing it, this is unknown, or its values
+/// would have to be computed here anyway. Does not wait.
 bool claim(StageJob& job, const Stage& stage, const RunOptions& options) {
   if (!is_worth_a_lease(stage, *stage.known, options)) return true;
   LeaseAttempt attempt = options.cache->try_lease(stage.known->key);
@@ -194,7 +194,8 @@ bool claim(StageJob& job, const Stage& stage, const RunOptions& options) {
   return false;
 }
 
-/// Looks the stage up once nobody else is at it: then its names are known, and its inputs may never be asked for.
+/// Looks up the stage once no other process is computing it: then its names are known, and its inputs may not be
+/// needed.
 void look_up(StageJob& job, const Plan& plan, const RunOptions& options) {
   const Stage& stage = plan.stages[job.stage];
   job.resolution = resolve(plan, job.stage, options.cache, nullptr);
@@ -226,7 +227,7 @@ void store(StageJob& job, const Stage& stage, const RunOptions& options) {
   });
 }
 
-/// The message with the files that the user asked for in place of those under which they were written so far.
+/// Replaces temporary names in the message by their target names.
 std::string of_targets(const NodeContext& context, std::string message) {
   const auto replace = [&](const std::string& name, const std::string& target) {
     for (size_t at; name != target && (at = message.find(name)) != std::string::npos;)
@@ -275,7 +276,7 @@ void perform(StageJob& job, const Plan& plan, const RunOptions& options) {
     if (node.type->find_input(about)) job.blames_input = message;
     job.failure = describe(plan.graph->file.string(), problem_of(node, about, message));
   };
-  // All who read the pixels fail alike: it is said once, of the node that makes them.
+  // All readers of the pixels fail in the same way; blames the node that computes them, once.
   const auto blame = [&](const PixelError& e) {
     const GraphNode* maker = e.maker() == node.name ? nullptr : plan.graph->find(e.maker());
     if (!maker) return fail(e.about(), e.what());
@@ -303,7 +304,7 @@ void perform(StageJob& job, const Plan& plan, const RunOptions& options) {
   if (job.busy) return;
   if (job.context) job.made_folders = job.context->made_folders();
   if (job.kind == StageJob::Kind::store) job.lease.reset();
-  job.context.reset();  // lets go of the inputs
+  job.context.reset();  // releases the inputs
 }
 
 }  // namespace terrazzo

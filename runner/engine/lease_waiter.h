@@ -13,9 +13,8 @@
 
 namespace terrazzo {
 
-/// Holds jobs whose stage another process is computing, on a thread of its own, so that no worker waits. Polls after 5
-/// ms, then with exponential back-off up to 200 ms. The thread starts with the first job. All functions are
-/// thread-safe.
+/// Holds jobs whose stage another process is computing, on its own thread, so that no worker waits. Polls after 5 ms,
+/// then with exponential back-off up to 200 ms. The thread starts with the first job. All functions are thread-safe.
 class LeaseWaiter {
  public:
   using Clock = std::chrono::steady_clock;
@@ -28,22 +27,22 @@ class LeaseWaiter {
   /// The time span of a wait.
   struct Wait {
     Clock::time_point start, end;
-    int row = 0;  ///< for timelines: the lowest number that was free when the wait began
+    int row = 0;  ///< for timelines: the lowest row that was free when the wait began
   };
   /// Receives a job back. Called once per job, without locks, on the waiter's thread; must not throw.
   using OnReady = std::function<void(StageJobPtr, const Wait&)>;
 
-  /// `cancelled` may be null; once set, all jobs are given back.
+  /// `cancelled` may be null; once set, all jobs are returned.
   LeaseWaiter(Taken taken, OnReady give_back, const std::atomic<bool>* cancelled);
-  /// Gives all jobs back first.
+  /// Returns all jobs first.
   ~LeaseWaiter();
   LeaseWaiter(const LeaseWaiter&) = delete;
   LeaseWaiter& operator=(const LeaseWaiter&) = delete;
 
   void add(StageJobPtr job);
-  /// Polls all jobs now, as a result has been stored.
+  /// Polls all jobs now, because a result has been stored.
   void look_now();
-  /// Gives all jobs back, now and those added later: the run is ending.
+  /// Returns all jobs, including those added later: the run is ending.
   void give_all_back();
 
  private:
@@ -57,7 +56,7 @@ class LeaseWaiter {
   void run();
   Clock::time_point next_look() const;
   std::vector<Entry> take_due(bool all);
-  /// Gives back the jobs that need not wait; returns the others.
+  /// Hands over the jobs that need not wait; returns the others.
   std::vector<Entry> look_at(std::vector<Entry> due, bool give_all_back, std::vector<int>& free_rows);
 
   const Taken taken_;

@@ -8,7 +8,7 @@
 
 namespace terrazzo {
 
-/// Collects the outcomes of stages for the result, the history and the observer, which is notified once per needed
+/// Collects the outcomes of stages for the result, the history and the observer. Notifies the observer once per needed
 /// stage. Not thread-safe.
 class Outcomes {
  public:
@@ -17,7 +17,7 @@ class Outcomes {
 
   /// The stage's key has been looked up.
   void looked_up(int stage);
-  /// The stage certainly will not be computed for a reader. Later calls do nothing.
+  /// No reader will need the stage to be computed. Later calls do nothing.
   void rests(int stage);
   /// A compute job succeeded, here or in another process.
   void computed(const StageJob& job);
@@ -25,7 +25,7 @@ class Outcomes {
   void failed(const StageJob& job);
   /// The plan knows that the stage fails.
   void refused(int stage);
-  /// The stage needs what the stage `cause` was to give, which has failed or is skipped itself.
+  /// The stage needs results of the stage `cause`, which has failed or was skipped itself.
   void skipped(int stage, int cause);
   /// A job ended, successfully or not.
   void ended(const StageJob& job);
@@ -36,7 +36,7 @@ class Outcomes {
   std::vector<StageOutcome> take_stages() { return std::move(stages_); }
   std::vector<Failure> take_failures() { return std::move(failures_); }
   std::vector<Span> take_spans() { return std::move(spans_); }
-  /// Folders created by nodes, whether these succeeded or not; outer ones first.
+  /// Folders created by nodes, including failed ones; outer ones first.
   std::vector<std::filesystem::path> take_made_folders() { return std::move(made_folders_); }
 
  private:

@@ -11,7 +11,7 @@ namespace terrazzo {
 class Sandbox;
 
 /// Receives the events of a run. Calls come from any thread, concurrently, and must return quickly. Every needed stage
-/// gets one of finished, reused, not_needed, failed and skipped, unless the run ends before.
+/// gets one of finished, reused, not_needed, failed and skipped, unless the run ends early.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
@@ -24,10 +24,10 @@ class RunObserver {
   virtual void finished(const Stage&, double /*seconds*/) {}
   /// It did not have to run: its result is cached, or its files are up to date.
   virtual void reused(const Stage&) {}
-  /// Its result was not needed after all, and does not exist.
+  /// Its result turned out not to be needed and does not exist.
   virtual void not_needed(const Stage&) {}
   virtual void failed(const Stage&, const std::string& /*message*/) {}
-  /// It cannot run, as the node `because`, which it needs, has failed. Only with `targets.keep_going`.
+  /// It cannot run because the node `because`, which it needs, has failed. Only with `targets.keep_going`.
   virtual void skipped(const Stage&, const std::string& /*because*/) {}
 };
 
@@ -37,11 +37,10 @@ struct RunOptions {
   History* history = nullptr;  ///< for the reasons in plans; updated by the run
   int threads = 0;             ///< 0: one per core
   uint64_t memory = 0;         ///< budget in bytes for values and running nodes; 0: the process's, see memory_budget
-  bool checked =
-      false;  ///< each node twice, and watched, see runner/engine/checked.h; with one thread and without a cache
+  bool checked = false;        ///< runs each node twice, see runner/engine/checked.h; uses one thread and no cache
   const std::atomic<bool>* cancelled = nullptr;  ///< set it to stop the run; may be null
   RunObserver* observer = nullptr;
-  const Sandbox* sandbox = nullptr;  ///< keeps nodes from files elsewhere; may be null
+  const Sandbox* sandbox = nullptr;  ///< restricts which files nodes may read and write; may be null
 };
 
 }  // namespace terrazzo

@@ -25,23 +25,23 @@ struct StageOutcome {
     reused,      ///< its result was cached
     run,         ///< it was computed
     failed,      ///< it threw
-    unfinished,  ///< the run ended before it
+    unfinished,  ///< the run ended before the stage
     skipped,     ///< a node that it needs failed
   };
   Kind kind = Kind::idle;
   std::string node;
-  std::string reason;                     ///< why it had to run, if the plan could not know yet
+  std::string reason;                     ///< why it had to run, if the plan did not know yet
   double seconds = 0;                     ///< computing time in this run
-  std::vector<std::string> notes;         ///< from this run, or from when its result was computed
+  std::vector<std::string> notes;         ///< from this run, or from the run that computed its result
   std::vector<OutputFile> files;          ///< written by a sink, in this run or before
-  std::string because;                    ///< of a skipped stage: the node whose failure it is due to
+  std::string because;                    ///< for a skipped stage: the node whose failure caused it
   std::optional<Digest> key;              ///< once it is known
   std::map<std::string, Digest> outputs;  ///< the names of its values, once they are known
 };
 
 struct Failure {
   std::string node;
-  std::string message;  ///< complete: graph file, place, node, port or parameter, and what is wrong
+  std::string message;  ///< complete: graph file, place, node, port or parameter, and error
 };
 
 struct RunResult {
@@ -51,13 +51,13 @@ struct RunResult {
   std::map<std::string, std::map<std::string, Value>> kept;  ///< of `targets.keep`: values by node and output port
   std::vector<Span> spans;
   double seconds = 0;
-  uint64_t memory = 0;  ///< the most bytes that were counted against the budget at a time
+  uint64_t memory = 0;  ///< peak bytes counted against the budget
 
   bool ok() const { return !cancelled && failures.empty(); }
   int count(StageOutcome::Kind kind) const;
   /// "8 stages: 5 cached, 3 run, 1.84 s".
   std::string summary() const;
-  /// A line for each failed node that others needed: which ones were skipped because of it.
+  /// One line per failed node that lists the nodes skipped because of it.
   std::vector<std::string> skips() const;
 };
 

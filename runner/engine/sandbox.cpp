@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a path leads, as far as it is there. None if a link in it leads nowhere: that place may come to be anywhere.
+/// Resolves links in the existing part of a path. Nullopt if a link is dangling, since its target may be anything
+/// later.
 std::optional<fs::path> resolved(const fs::path& path) {
   std::error_code failure;
   const fs::path whole = fs::absolute(path, failure);
@@ -40,7 +41,7 @@ fs::path in_front_of(const fs::path& path, const char* characters) {
   return out;
 }
 
-/// In front of what is made up only later: "out" of "out/{map}.png".
+/// The part before placeholders: "out" for "out/{map}.png".
 fs::path fixed_part(const fs::path& path) {
   return in_front_of(path, "{");
 }

@@ -9,30 +9,30 @@
 
 namespace terrazzo {
 
-/// Keeps the nodes of a graph that one does not trust in a folder: sources read and sinks write only there, and in what
-/// was named on the command line. Paths count as where they lead: links are followed.
+/// Confines the nodes of an untrusted graph to a folder: sources read and sinks write only there and at paths named on
+/// the command line. Follows symbolic links. Checks are thread-safe.
 class Sandbox {
  public:
   explicit Sandbox(std::filesystem::path folder);
-  /// Opens another file, or folder with all that is in it: one that the command line names. Of a pattern such as
-  /// "scans/*.png" it opens the folder in front.
+  /// Allows another path from the command line: a file, or a folder with its content. For a pattern such as
+  /// "scans/*.png" it allows the folder before it.
   void open(const std::filesystem::path& path);
-  /// The same, but nothing may be written there.
+  /// The same for reading only.
   void open_to_read(const std::filesystem::path& path);
 
   const std::filesystem::path& folder() const { return given_; }
   bool allows(const std::filesystem::path& path) const;
-  /// Throws Error if it does not allow to `verb` ("read", "write") that.
+  /// Throws Error if `verb` ("read", "write") is not allowed for the path.
   void check(const char* verb, const std::filesystem::path& path) const;
-  /// "cannot read /etc/passwd: ..."; empty if that is allowed.
+  /// The message of check, "cannot read /etc/passwd: ..."; empty if allowed.
   std::string trouble_with(const char* verb, const std::filesystem::path& path) const;
 
  private:
   std::filesystem::path given_;
-  std::vector<std::filesystem::path> roots_, readable_;  ///< where they lead
+  std::vector<std::filesystem::path> roots_, readable_;  ///< with links resolved
 };
 
-/// What the graph's nodes would read and write elsewhere. Opens nothing.
+/// Problems for files outside the sandbox that nodes would read or write. Opens no files.
 std::vector<Problem> sandbox_problems(const std::vector<GraphNode>& nodes, const Sandbox& sandbox);
 
 }  // namespace terrazzo

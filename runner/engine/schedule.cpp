@@ -26,7 +26,7 @@ namespace {
 namespace flow = tbb::flow;
 using Clock = std::chrono::steady_clock;
 
-/// Small numbers for threads, in the order in which they are first seen.
+/// Numbers threads in the order in which they are first seen.
 class ThreadNumbers {
  public:
   int current() {
@@ -44,11 +44,11 @@ std::string_view span_name(StageJob::Kind kind) {
   return names[static_cast<size_t>(kind)];
 }
 
-/// Waits are drawn on rows of their own, below those of the threads.
+/// Waits get their own rows in timelines, below those of the threads.
 constexpr int first_waiting_row = 1000;
 
-/// The flow graph of every run: jobs go round between many workers and one coordinator until none is left. Those whose
-/// stage another process is computing wait outside of it.
+/// The flow graph of every run: jobs circulate between many workers and one coordinator until none is left. Jobs whose
+/// stage another process is computing wait outside.
 class JobGraph {
  public:
   JobGraph(Coordinator& coordinator, const Plan& plan, const RunOptions& options, Clock::time_point start)
@@ -88,7 +88,7 @@ class JobGraph {
       else if (stored)
         waiter_.look_now();
     } catch (...) {
-      waiter_.give_all_back();  // or the graph would wait for them for ever
+      waiter_.give_all_back();  // otherwise the graph would wait for them forever
       throw;
     }
   }
@@ -116,13 +116,13 @@ class JobGraph {
                       options_.cancelled};
 };
 
-/// Only now: as long as nodes run, one may be about to write into a folder that another has made and left empty.
+/// Only after all nodes: a running node may be about to write into an empty folder that another has created.
 void remove_if_empty(const std::vector<std::filesystem::path>& folders) {
   std::error_code not_empty;
   for (size_t i = folders.size(); i-- > 0;) std::filesystem::remove(folders[i], not_empty);
 }
 
-/// Threads beyond the cores find nothing to do, and take the time of those that work by looking for it: of 1024 on two
+/// Threads beyond the number of cores only search for work and take time from the others: with 1024 threads on two
 /// cores, two thirds of all time.
 int useful_threads(int asked) {
   constexpr int always = 16, per_core = 4;
@@ -137,7 +137,7 @@ RunResult run_plan(Plan plan, const RunOptions& options) {
   const int threads = useful_threads(options.checked ? 1 : options.threads);
   const uint64_t memory = options.memory > 0 ? options.memory : memory_budget();
   if (options.observer) options.observer->planned(plan);
-  // Of the threads that compute this is one; two more keep and await leases.
+  // This thread is one of the computing ones; two more renew leases and wait for them.
   require_threads(threads - 1 + 2);
 
   Coordinator coordinator(plan, options, threads, memory);

@@ -7,7 +7,7 @@
 
 #include "runner/plan/plan.h"
 
-/// The states of a stage in a run: one for its outputs' names, one for their values, and the allowed transitions.
+/// The states of a stage in a run, one for its outputs' names and one for their values, with the allowed transitions.
 ///
 /// Names flow forward: a stage whose inputs all have names is looked up. Values are demanded backward: a stage that
 /// must be computed asks its sources, which load their values, compute them, or already hold them.
@@ -30,23 +30,23 @@ enum class NameEvent : uint8_t {
 /// The values of a stage's outputs.
 enum class ValueState : uint8_t {
   open,       ///< not in memory; the stage may have to be computed
-  resting,    ///< not in memory; not needed, or can be loaded
+  resting,    ///< not in memory; not needed, or loadable
   loading,    ///< being loaded from the cache
-  awaiting,   ///< to be computed as soon as all sources' values are in memory
+  awaiting,   ///< will be computed as soon as all sources' values are in memory
   computing,  ///< its job is queued or runs, here or in another process
   held,       ///< in memory
-  lost,       ///< not to be had in this run: the stage failed, or what it needs did (with `keep_going`)
+  lost,       ///< unavailable in this run: the stage or one of its sources failed (with `keep_going`)
 };
 enum class ValueEvent : uint8_t {
-  rest,         ///< it is certain that no reader needs it to be computed
+  rest,         ///< no reader will need it to be computed
   load,         ///< needed, and in the cache
   compute,      ///< needed and not in the cache; or the stage must run anyway
   inputs_held,  ///< the last of its sources' values is in memory
-  read,         ///< out of the cache
+  read,         ///< loaded from the cache
   unreadable,   ///< the cache entry is missing or damaged
-  busy,         ///< another process is computing it; to be retried
+  busy,         ///< another process is computing it; retry later
   computed,
-  let_go,   ///< no reader will need them again, or they are loaded again for it
+  let_go,   ///< no reader will need them again, or they will be loaded again
   give_up,  ///< its job failed, or a source that it needs is lost
 };
 
@@ -89,13 +89,13 @@ inline constexpr std::array value_transitions = {
     ValueTransition{ValueState::computing, ValueEvent::give_up, ValueState::lost},
 };
 
-/// Whether a stage in this state may still need its sources' values, so that they must stay in memory.
+/// Whether a stage in this state may still need its sources' values in memory.
 constexpr bool claims_sources(ValueState state) {
   return state == ValueState::open || state == ValueState::awaiting || state == ValueState::computing;
 }
 
-/// Whether both states can occur together: a key is looked up before anything is computed, and values in memory, or in
-/// the cache, have a name.
+/// Whether both states can occur together: a key is looked up before anything is computed, and values in memory or in
+/// the cache have a name.
 constexpr bool go_together(NameState name, ValueState value) {
   switch (name) {
     case NameState::unknown:
@@ -118,8 +118,8 @@ class StageStates {
   NameState name(int stage) const { return entries_[stage].name; }
   ValueState value(int stage) const { return entries_[stage].value; }
 
-  /// Apply a transition. Throw std::logic_error, which names stage, state and event, and change nothing if the tables
-  /// do not allow it.
+  /// Applies a transition. Throws std::logic_error, which names stage, state and event, and changes nothing, if the
+  /// tables do not allow it.
   void advance(int stage, NameEvent event);
   void advance(int stage, ValueEvent event);
 
@@ -127,13 +127,13 @@ class StageStates {
   bool inputs_named(int stage) const { return entries_[stage].unnamed_sources == 0; }
   /// Every source's values are in memory.
   bool inputs_held(int stage) const { return entries_[stage].unheld_sources == 0; }
-  /// It waits for its sources' values, and nothing has to be computed for that: these are in memory, or being loaded.
+  /// It waits for its sources' values, all of which are in memory or being loaded.
   bool gathers(int stage) const;
   /// A reader may still need its values, or the caller keeps them.
   bool claimed(int stage) const { return entries_[stage].claims > 0; }
 
  private:
-  /// The counters follow from the neighbours' states; kept to avoid counting in wide graphs.
+  /// The counters are redundant: they avoid counting neighbours in wide graphs.
   struct Entry {
     NameState name = NameState::unknown;
     ValueState value = ValueState::open;

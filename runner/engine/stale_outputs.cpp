@@ -22,7 +22,7 @@ constexpr std::array surfaces = {Semantic::base_color, Semantic::normal,   Seman
                                  Semantic::roughness,  Semantic::metallic, Semantic::ambient_occlusion,
                                  Semantic::opacity,    Semantic::emission, Semantic::specular};
 
-/// The names that other maps would have, or the same map in another format, if a file of that name is a map.
+/// Possible names of other maps, or of the same map in another format, for a map with this file name.
 std::set<std::string> sibling_names(const fs::path& file) {
   std::set<std::string> siblings;
   const std::string stem = file.stem().string();

@@ -9,9 +9,9 @@
 
 namespace terrazzo {
 
-/// Notes, by stage index, on maps of another run that lie beside those written in this one and match their naming:
-/// reading the folder as a material would mix the two. Ignores files that the graph reads or writes elsewhere. None if
-/// parts of the graph did not run.
+/// Notes, by stage index, on maps of an earlier run that are in the same folder as maps of this run and match their
+/// naming: reading the folder as a material would mix the two. Ignores files that other nodes of the graph read or
+/// write. Empty if parts of the graph did not run.
 std::vector<std::pair<int, std::string>> notes_on_stale_outputs(const Plan& plan,
                                                                 const std::vector<StageOutcome>& outcomes);
 

@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-/// What a unit is expected to take.
+/// The expected resources of a unit.
 struct Demand {
   double seconds = 0;
   int cores = 0;
@@ -22,13 +22,13 @@ struct Demand {
   auto operator<=>(const Demand&) const = default;
 };
 
-/// Rounded up, so that units of one kind ask for the same though one of them was measured later.
+/// Rounded up, so that units of one kind request the same resources even if one was measured later.
 uint64_t rounded(uint64_t bytes) {
   constexpr uint64_t step = uint64_t{64} << 20;
   return (bytes + step - 1) / step * step;
 }
 
-/// The most that tasks may be given without being told.
+/// The most that tasks get without an explicit setting.
 struct Ceiling {
   int cores;
   uint64_t memory;
@@ -55,7 +55,7 @@ Demand demand_of(const Unit& unit, const std::optional<UnitCost>& known, uint64_
   return d;
 }
 
-/// How many units must be made one after another before each.
+/// The length of the longest chain of units before each.
 std::map<std::string, int> depths(const std::vector<Unit>& units, const std::vector<bool>& due) {
   std::map<std::string, int> out;
   for (size_t i = 0; i < units.size(); i++) {
@@ -89,7 +89,7 @@ std::vector<TaskArray> arrays_of(const std::vector<Unit>& units, const std::vect
   };
   const std::map<std::string, int> depth = depths(units, due);
   std::map<Digest, std::optional<UnitCost>> known;
-  std::map<std::tuple<int, Digest, uint64_t>, Group> groups;  // what comes before what is first
+  std::map<std::tuple<int, Digest, uint64_t>, Group> groups;  // ordered by depth in the chain of needs
   for (size_t i = 0; i < units.size(); i++) {
     if (!due[i]) continue;
     const Unit& unit = units[i];

@@ -6,45 +6,45 @@
 
 #include "runner/farm/units.h"
 
-/// Units as arrays of tasks, which a scheduler takes at once.
+/// Groups units into arrays of tasks, which a scheduler accepts as one submission.
 namespace terrazzo {
 
-/// What a scheduler can give.
+/// The limits of a scheduler.
 struct FarmLimits {
-  int tasks = 1000;  ///< of one array
-  /// Of its largest machine; 0: not known. Guesses stay below these.
+  int tasks = 1000;  ///< the most tasks of one array
+  /// Of its largest machine; 0: unknown. Estimates stay below these.
   int cores = 0;
   uint64_t memory = 0;  ///< bytes
 };
 
 struct ArrayOptions {
   FarmLimits limits{};
-  double pack_seconds = 60;  ///< units are put into one task until it takes about this long
-  int cores = 0;             ///< for each task; 0: as units of the kind have used, else `usual_cores`
-  uint64_t memory = 0;       ///< bytes, likewise
+  double pack_seconds = 60;  ///< units are packed into one task up to about this duration
+  int cores = 0;             ///< per task; 0: as earlier units of the kind used, else `usual_cores`
+  uint64_t memory = 0;       ///< bytes; 0: likewise
 };
 
-/// For units of a kind that has not run yet. Trades waiting in the queue against a slower first run.
+/// Defaults for kinds of units that have not run yet. They trade waiting in the queue against a slower first run.
 inline constexpr int usual_cores = 2;
-/// However many earlier units have used: more make a task wait for a whole machine.
+/// The most cores that are requested because earlier units used them: more would make a task wait for a whole machine.
 inline constexpr int most_usual_cores = 16;
 inline constexpr uint64_t usual_memory = uint64_t{2} << 30;
 
-/// Tasks that cost about the same and can run at the same time.
+/// Tasks with similar costs that can run concurrently.
 struct TaskArray {
   std::string label{};                            ///< for people: "layout", or "layout and 63 more"
-  std::vector<std::vector<std::string>> tasks{};  ///< by index, the units that a task makes, in this order
-  std::vector<size_t> needs{};                    ///< arrays that come before it, all of them earlier ones
+  std::vector<std::vector<std::string>> tasks{};  ///< by index: the units of a task, in order of execution
+  std::vector<size_t> needs{};                    ///< arrays that must end first; all have smaller indices
   int cores = 1;
   uint64_t memory = 0;  ///< bytes
-  double seconds = 0;   ///< that the longest task is expected to take
+  double seconds = 0;   ///< expected duration of the longest task
 
-  /// Of the units in it, by task.
+  /// Identifies the units in it, by task.
   Digest id() const;
 };
 
-/// The units that are due, in arrays. `failed_memory`: by unit, bytes that were too few when it was killed. An array's
-/// needs come before it.
+/// Groups the due units into arrays, ordered by their needs. `failed_memory`: by unit, the bytes that were too few when
+/// it was killed.
 std::vector<TaskArray> arrays_of(const std::vector<Unit>& units, const std::vector<bool>& due,
                                  const std::filesystem::path& costs,
                                  const std::map<std::string, uint64_t>& failed_memory, const ArrayOptions& options);

@@ -5,20 +5,20 @@
 
 namespace terrazzo {
 
-/// Who is to make a job, as the user said last. How far it is, is not stored.
+/// The scheduler that a job is assigned to, by the user's last command. Does not store the job's progress.
 struct Assignment {
   enum class To : uint8_t {
     slurm,
-    others,  ///< another scheduler, which alone knows what it is doing
-    nobody,  ///< it was cancelled
+    others,  ///< another scheduler, whose state is unknown here
+    nobody,  ///< cancelled
   };
   To to = To::slurm;
-  std::string file{};  ///< the template that was written for another scheduler
+  std::string file{};  ///< template written for another scheduler
 
   bool operator==(const Assignment&) const = default;
 };
 
-/// Slurm's, unless something else is noted in the job's folder. Throws DamagedJob if the note is damaged.
+/// Reads the assignment from the job's folder; Slurm if there is none. Throws DamagedJob if the file is damaged.
 Assignment assignment_of(const std::filesystem::path& folder);
 /// Throws FileError.
 void write_assignment(const std::filesystem::path& folder, const Assignment& assignment);

@@ -36,7 +36,7 @@ void remember_cost(const std::filesystem::path& costs, const Digest& kind, UnitC
   try {
     write_whole_file(file_of(costs, kind), json.dump() + "\n");
   } catch (const std::exception&) {
-    // a full disk: the next one guesses
+    // a full disk: later units fall back to estimates
   }
 }
 

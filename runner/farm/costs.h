@@ -6,20 +6,20 @@
 
 #include "core/base/hash.h"
 
-/// What units of a kind have cost, as their processes measured it: cores and memory of the next ones are asked for by
-/// that. A file for each kind in a folder that machines share; a record that is lost costs a good guess, nothing else.
+/// Measured costs of earlier units by kind, from which the cores and memory of further units are estimated. One file
+/// per kind in a shared folder. A lost record only makes the estimate worse.
 namespace terrazzo {
 
 struct UnitCost {
-  double seconds = 0;      ///< of the last one
+  double seconds = 0;      ///< of the last unit
   double cpu_seconds = 0;  ///< likewise
-  uint64_t memory = 0;     ///< bytes; the most that any has taken
+  uint64_t memory = 0;     ///< in bytes; the maximum over all units
 };
 
-/// None if no unit of this kind has been made yet.
+/// Nullopt if no unit of this kind has run yet.
 std::optional<UnitCost> cost_of(const std::filesystem::path& costs, const Digest& kind);
 
-/// Remembers what a unit has cost. Ignores errors.
+/// Records a unit's cost. Ignores errors.
 void remember_cost(const std::filesystem::path& costs, const Digest& kind, UnitCost cost);
 
 }  // namespace terrazzo

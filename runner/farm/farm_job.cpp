@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Raised when a member goes, or comes to mean something else.
+/// Raised when a member is removed or changes its meaning.
 constexpr int format_version = 2;
 
 constexpr std::string_view digest_member = "digest";

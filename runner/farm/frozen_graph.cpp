@@ -43,7 +43,7 @@ class PlainNames {
   std::set<std::string> used_;
 };
 
-/// A text as a document writes it so that it means itself, not a wire, an expression or a parameter.
+/// Escapes a text so that it is not read as a wire, an expression or a parameter.
 std::string plainly(const std::string& text) {
   std::string out;
   if (text.starts_with('@') || text.starts_with('=')) out += text.front();
@@ -57,7 +57,7 @@ void write_plainly(JsonValue& value) {
   for (JsonMember& member : value.members) write_plainly(member.value);
 }
 
-/// Makes the document node by node.
+/// Builds the document node by node.
 class Freezer {
  public:
   Freezer(const Plan& plan, Cache* cache) : plan_(plan), cache_(cache) {}
@@ -111,8 +111,9 @@ class Freezer {
     return is_list ? list : list.items.front();
   }
 
-  /// The path's copy, as the document names it: a folder named by content, in it what the path names, by its own name,
-  /// which may mean something. A path that none of the files lies under (it may be a pattern) has theirs beside it.
+  /// The path of the copy in the document: a folder named by content that contains the file or folder under its own
+  /// name, which may be significant. If none of the files lies under the path (it may be a pattern), they are copied
+  /// beside it.
   std::string frozen_path(const std::string& text, const std::vector<fs::path>& files) {
     const fs::path path = without_trailing_slash(text);
     std::vector<std::pair<fs::path, fs::path>> copies;  // from, and where below the folder
@@ -160,7 +161,7 @@ std::vector<fs::path> strangers_in(const fs::path& folder, const std::function<b
   std::vector<fs::path> out;
   std::error_code missing;
   for (fs::recursive_directory_iterator at(folder, missing), end; !missing && at != end; at.increment(missing))
-    // Hidden files are copies on their way; nodes do not see them.
+    // Hidden files are unfinished copies; nodes do not see them.
     if (!at->path().filename().string().starts_with('.') && !at->is_directory(missing) && !is_known(at->path()))
       out.push_back(at->path());
   return out;

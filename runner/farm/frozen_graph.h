@@ -9,11 +9,11 @@
 #include "graphs/document/load.h"
 #include "runner/plan/plan.h"
 
-/// A graph as the machines of a farm run it: one document in which every value is written out, and copies of its input
-/// files, named by content. What is edited after it was handed over changes nothing any more.
+/// A graph frozen for a farm: one document with all values written out, and copies of its input files, named by
+/// content. Later edits of the original files have no effect.
 namespace terrazzo {
 
-/// A file that a node reads, and its copy.
+/// An input file of a node, and its copy.
 struct FrozenInput {
   std::filesystem::path from;
   std::filesystem::path to;  ///< below FarmFolder::inputs
@@ -21,30 +21,30 @@ struct FrozenInput {
 };
 
 struct FrozenGraph {
-  std::string text;                 ///< of the document; its relative paths are those in a job's folder
+  std::string text;                 ///< of the document; relative paths start at the job's folder
   std::vector<FrozenInput> inputs;  ///< each once
-  /// By the folder below FarmFolder::inputs that copies lie in: the folder that they were copied from.
+  /// By folder of copies below FarmFolder::inputs: the folder of the originals.
   std::map<std::string, std::string> origins;
-  std::map<std::string, std::string> names;  ///< what the needed nodes of the plan are called in the document
-  std::vector<std::string> targets;          ///< of these names, the ones that are to be made
-  Digest id;                                 ///< of text, targets and inputs: the same job has the same
+  std::map<std::string, std::string> names;  ///< names in the document, by needed node of the plan
+  std::vector<std::string> targets;          ///< the targets, by name in the document
+  Digest id;                                 ///< digest of text, targets and inputs; identifies the job
 
   Digest document() const { return Hasher().add("frozen document").add(text).digest(); }
 };
 
-/// The needed nodes of a plan, frozen. Writes nothing; reads the content of input files, memoised by `cache`, which may
+/// Freezes the needed nodes of a plan. Writes nothing. Reads the content of input files, memoised by `cache`, which may
 /// be null.
 FrozenGraph frozen(const Plan& plan, Cache* cache);
 
-/// Writes the document into a job's folder, and copies input files into the farm's inputs, as far as they are not there
-/// already, unaltered; removes what else lies among the copies. Returns the files that it wrote or removed. Throws
-/// FileError, also if a file has changed since it was frozen.
+/// Writes the document into a job's folder and copies missing or altered input files into the farm's inputs. Removes
+/// other files among the copies. Returns the files that it wrote or removed. Throws FileError, also if a file has
+/// changed since it was frozen.
 std::vector<std::filesystem::path> write_frozen(const FrozenGraph& graph, const std::filesystem::path& job);
 
-/// The document in a job's folder. Throws DamagedJob unless it is the one of that digest (see FrozenGraph::document).
+/// Loads the document in a job's folder. Throws DamagedJob unless it has this digest (see FrozenGraph::document).
 LoadedGraph load_frozen(const std::filesystem::path& job, const Digest& document);
 
-/// What lies among the copies of one path and is none of them, though a node would read it.
+/// Unknown files in a folder of copies that a node would read.
 std::vector<std::filesystem::path> strangers_in(const std::filesystem::path& folder,
                                                 const std::function<bool(const std::filesystem::path&)>& is_known);
 

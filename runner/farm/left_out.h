@@ -9,16 +9,16 @@
 
 namespace terrazzo {
 
-/// What a plan goes without because nodes are certain to fail (see Stage::faults).
+/// The nodes that a plan leaves out because they are certain to fail (see Stage::faults).
 struct LeftOut {
-  std::set<std::string> nodes;             ///< those that fail, and all that need them
-  std::map<std::string, std::string> why;  ///< of those that fail, and of targets that need them: for people
-  std::vector<std::string> targets;        ///< that can be made all the same
+  std::set<std::string> nodes;             ///< failing nodes and all nodes that need them
+  std::map<std::string, std::string> why;  ///< reasons, for failing nodes and targets that need them
+  std::vector<std::string> targets;        ///< targets that can still be computed
 };
 
 LeftOut left_out_of(const Plan& plan);
 
-/// Makes the graph one without them.
+/// Removes these nodes from the graph.
 void take_out(const LeftOut& left_out, Graph& graph);
 
 }  // namespace terrazzo

@@ -4,9 +4,9 @@
 
 namespace terrazzo {
 
-/// Seconds that computing a stage may take on two cores: from the pixels that it makes, or reads if it is a sink, and
-/// the quality that it is asked for. Rough; it tells what takes minutes from what takes seconds. 0 if it is not going
-/// to be computed, or of how many pixels is not known.
+/// A rough estimate of a stage's seconds on two cores, from the pixels that it computes (or reads, for sinks) and its
+/// quality setting. Distinguishes minutes from seconds. 0 if the stage will not be computed, or if the number of pixels
+/// is unknown.
 double guessed_seconds(const Plan& plan, const Stage& stage);
 
 }  // namespace terrazzo

@@ -19,7 +19,7 @@ const Stage* stage_of(const Plan& plan, const std::string& node) {
   return at == plan.stages.end() ? nullptr : &*at;
 }
 
-/// All nodes that a unit's results depend on: what other units have not made by then, it makes itself.
+/// All nodes that a unit's results depend on. The unit computes missing results of other units itself.
 std::set<std::string> nodes_behind(const Graph& graph, const Unit& unit) {
   std::set<std::string> out;
   std::vector<std::string> open = unit.targets;
@@ -48,7 +48,7 @@ void check_nodes(const fs::path& folder, const FarmJob& job, const Unit& unit, c
   }
 }
 
-/// Throws Error if one that this unit needs could not be made and still is not there.
+/// Throws Error if a unit that this one needs has failed and its results are still missing.
 void check_failures(const fs::path& folder, const FarmJob& job, const Unit& unit, const std::set<std::string>& made) {
   for (const std::string& name : unit.needs) {
     const Unit* needed = job.find(name);
@@ -65,7 +65,8 @@ bool has_all_it_needs(const FarmJob& job, const Unit& unit, const std::set<std::
   });
 }
 
-/// Opens what was made: a listing may lie, a checksum does not. Throws Error if it cannot be read.
+/// Opens the results and verifies their checksums: a directory listing is not reliable. Throws Error if they cannot be
+/// read.
 StageRecord verified(const Stage& stage, Cache& cache) {
   if (!stage.known || !stage.known->record) throw Error("its record is not in the cache");
   for (const OutputFile& f : stage.known->record->files)

@@ -16,23 +16,23 @@ struct UnitRunOptions {
   uint64_t memory = 0;                           ///< budget in bytes; 0: the process's, see memory_budget
   const std::atomic<bool>* cancelled = nullptr;  ///< may be null
   RunObserver* observer = nullptr;               ///< likewise
-  /// What another machine has just made may not be seen yet on a network file system: how long to look for it. After
-  /// that it is made again, which gives the same.
+  /// How long to wait for another machine's results to become visible on a network file system. After that they are
+  /// recomputed, with the same result.
   std::chrono::milliseconds patience{6000};
 };
 
-/// What a unit has made.
+/// The result of running a unit.
 struct UnitResult {
   RunResult run;
   std::map<std::string, StageRecord> made{};  ///< by target: opened and verified after the run
 };
 
-/// The key of a node without what its wires bring, with which a job is frozen: known of every node, whatever has run.
+/// The key of a node without its inputs, which is stored in a job. Known for every node before anything runs.
 Digest key_on_farm(const GraphNode& node, Cache& cache);
 
-/// Makes one unit of a job in this process. Throws Error if the job's document or an input behind the unit is not what
-/// was frozen, if a node's key is not the one that it had then (another version, plug-in or colour configuration), if a
-/// unit that it needs has failed, and if what was made cannot be read back; what nodes say is in the result.
+/// Runs one unit of a job in this process. Throws Error if the document or an input of the unit has changed since
+/// freezing, if a node's key differs (another version, plug-in or colour configuration), if a unit that it needs has
+/// failed, or if a result cannot be read back. Errors of nodes are in the result.
 UnitResult run_unit(const std::filesystem::path& folder, const FarmJob& job, const Unit& unit,
                     const UnitRunOptions& options);
 

@@ -11,12 +11,12 @@ namespace terrazzo {
 
 namespace {
 
-/// Earlier runs of the graph may have been of smaller sizes.
+/// Earlier runs of the graph may have used smaller sizes.
 double seconds_of(const Plan& plan, const Stage& stage) {
   return std::max(stage.expected_seconds, guessed_seconds(plan, stage));
 }
 
-/// Which units make each stage. Units are numbered by their last stage.
+/// Assigns units to each stage. Units are numbered by their last stage.
 class Parting {
  public:
   explicit Parting(const Plan& plan)
@@ -31,7 +31,7 @@ class Parting {
  private:
   const Stage& at(int stage) const { return plan_.stages[size_t(stage)]; }
 
-  /// The time of each stage and of what is made for it alone.
+  /// The time of each stage and of the stages computed only for it.
   void add_up_branches() {
     for (size_t i = 0; i < plan_.stages.size(); i++) {
       branch_[i] = seconds_of(plan_, at(int(i)));
@@ -51,7 +51,7 @@ class Parting {
     makers_[size_t(stage)] = std::move(makers);
   }
 
-  /// Slow branches that could be made at the same time are made apart.
+  /// Splits slow branches that could run concurrently.
   void part_branches(int stage, bool is_passed_on) {
     const auto is_slow = [&](int source) { return branch_[size_t(source)] >= seconds_worth_a_task; };
     const std::vector<int>& sources = at(stage).sources;
@@ -74,7 +74,7 @@ void add_costly(Hasher& h, const GraphNode& node) {
   }
 }
 
-/// How much is read for each stage; of the largest branch, so that nothing counts twice.
+/// The amount of input of each stage, from its largest branch only, so that nothing counts twice.
 std::vector<uint64_t> bytes_read(const Plan& plan) {
   std::vector<uint64_t> bytes(plan.stages.size());
   for (size_t i = 0; i < plan.stages.size(); i++) {

@@ -6,35 +6,35 @@
 
 #include "runner/plan/plan.h"
 
-/// A plan in pieces that different machines can make.
+/// Splits a plan into units that different machines can run.
 namespace terrazzo {
 
-/// Some stages that one task makes. What it needs of other units it finds in the cache; what is quick it makes itself.
+/// Stages that run in one task. It loads other units' results from the cache and recomputes fast stages itself.
 struct Unit {
-  std::string name;                  ///< of its last node
-  std::vector<std::string> nodes;    ///< all that it makes, in the plan's order
-  std::vector<std::string> targets;  ///< those of them whose results others need, or the user
-  std::vector<std::string> needs;    ///< units that come before it
-  bool is_wanted = false;            ///< the user asked for it; others are made only for those
-  double seconds = 0;                ///< as earlier runs of the graph took, or guessed; 0 if all of it is cached
-  Digest kind;  ///< units of one kind cost about the same: same types, sizes, choices, inputs as large
+  std::string name;                  ///< name of its last node
+  std::vector<std::string> nodes;    ///< all its nodes, in the plan's order
+  std::vector<std::string> targets;  ///< nodes whose results other units or the user need
+  std::vector<std::string> needs;    ///< units that must run first
+  bool is_wanted = false;            ///< requested by the user; other units run only if a wanted one needs them
+  double seconds = 0;                ///< from earlier runs of the graph, or estimated; 0 if fully cached
+  Digest kind;  ///< units of one kind cost about the same: equal types, sizes, choices and input sizes
 };
 
-/// Branches of a unit that both take at least this long become units of their own. Trades the start of a task, which
-/// takes seconds on a busy cluster, against machines that stand idle; not measured: it depends on the cluster.
+/// Two branches of a unit become units of their own if both take at least this long. Trades the start of a task, which
+/// takes seconds on a busy cluster, against idle machines. Not measured: it depends on the cluster.
 inline constexpr double seconds_worth_a_task = 30;
 
-/// All needed stages of a plan in units, in an order in which they can be made. A slow stage that several units read is
-/// a unit of its own, so that it is made once; what one unit alone reads is part of that. Whether something is cached
-/// makes no difference.
+/// Splits all needed stages of a plan into units, in a valid order of execution. A slow stage that several units read
+/// becomes its own unit, so that it runs once; a stage that only one unit reads is part of that unit. The result does
+/// not depend on what is cached.
 std::vector<Unit> units_of(const Plan& plan);
 
-/// The nodes of a plan whose results are in the cache, or in their files, unchanged.
+/// The nodes of a plan whose results are in the cache or, unchanged, in their files.
 std::set<std::string> made_nodes(const Plan& plan);
-/// Whether everything that others need of the unit is among them.
+/// Whether all targets of the unit are in `made`.
 bool is_done(const Unit& unit, const std::set<std::string>& made);
 
-/// Of each unit, whether it has to be made: it is not done, and is wanted or needed by one that has to be made.
+/// For each unit, whether it must run: it is not done, and is wanted or needed by a unit that must run.
 std::vector<bool> due(const std::vector<Unit>& units, const Plan& plan);
 
 }  // namespace terrazzo

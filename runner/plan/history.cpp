@@ -21,7 +21,7 @@ namespace {
 /// Stands where the name of an ingredient would.
 constexpr std::string_view seconds_line = "seconds";
 
-/// Times that differ by less are not worth writing the file again.
+/// Smaller differences in time do not justify rewriting the file.
 constexpr double notable_change = 0.25;
 
 /// One line each: node, what, digest, shown, separated by tabs.
@@ -131,7 +131,7 @@ void History::save() const {
   try {
     std::error_code failure;
     fs::create_directories(path_.parent_path(), failure);
-    // Never in place: a pipe there would wait for a reader.
+    // Never in place: opening a pipe would block.
     write_whole_file(path_, sealed_history(text), temporary_beside(path_));
   } catch (const FileError&) {
     // Without it, plans cannot say what has changed since.

@@ -10,8 +10,8 @@
 
 namespace terrazzo {
 
-/// The ingredients and times of a graph file's stages at their last run: a plan names the first difference, and a run
-/// starts with what takes longest. Stored beside the cache; not needed for correct results. Not thread-safe.
+/// The ingredients and times of a graph file's stages in their last run. Plans use it to name the first difference,
+/// runs to start slow stages early. Stored beside the cache; results do not depend on it. Not thread-safe.
 class History {
  public:
   /// Reads the history of `graph_file` in `folder`; empty if that fails.
@@ -19,7 +19,7 @@ class History {
 
   /// "parameter seed changed from 1 to 2"; empty if the node has not been seen before, or nothing differs.
   std::string first_difference(const std::string& node, const std::vector<Ingredient>& now) const;
-  /// Time of the node's last computation; nullopt if unknown.
+  /// Seconds that the node's last computation took; nullopt if unknown.
   std::optional<double> seconds(const std::string& node) const;
   void remember(const std::string& node, const std::vector<Ingredient>& now, double seconds);
   /// Writes changes back; ignores errors.

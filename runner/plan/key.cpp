@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Raise it whenever keys are made differently.
+/// Raise it whenever the construction of keys changes.
 constexpr int key_scheme = 1;
 
 Digest digest_of_param(const std::string& name, const ParamValue& value) {

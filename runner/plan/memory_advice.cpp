@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-/// What a node looks at and could look at scaled down.
+/// The input of a node that could be scaled down.
 struct Source {
   const char* what = "";
   Size size{};
@@ -26,7 +26,7 @@ std::optional<Size> size_of(const Forecast& value, ValueType type) {
   return value.size ? value.size : material_size(value);
 }
 
-/// The largest exemplar; the largest image if there is none. A uv map is a result.
+/// The largest exemplar, else the largest image. Uv maps are results and do not count.
 Source source_of(const NodeType& type, const InputForecasts& inputs) {
   Source exemplar{"exemplar"}, image{"image"};
   for (const auto& [port, wires] : inputs) {
@@ -43,7 +43,7 @@ Size scaled(Size size, double factor) {
   return {std::max(1, int(size.width * factor)), std::max(1, int(size.height * factor))};
 }
 
-/// The same inputs of a source that has been scaled; results keep their size.
+/// The inputs for a scaled source; results keep their size.
 InputForecasts scaled(const NodeType& type, InputForecasts inputs, double factor) {
   for (auto& [port, wires] : inputs)
     for (Forecast& f : wires) {
@@ -55,11 +55,12 @@ InputForecasts scaled(const NodeType& type, InputForecasts inputs, double factor
   return inputs;
 }
 
-/// The largest part of the source's sides, nearly, with which the budget suffices; nullopt if it does with none.
+/// Approximately the largest scale of the source for which the budget suffices; nullopt if there is none.
 std::optional<double> fitting_scale(const NodeType& type, const Params& params, const InputForecasts& inputs,
                                     uint64_t least, uint64_t budget) {
   constexpr int most_tries = 6;
-  constexpr double least_scale = 1.0 / 16, margin = 0.95;  // not measured: of what does not shrink with the source
+  constexpr double least_scale = 1.0 / 16,
+                   margin = 0.95;  // not measured: for memory that does not shrink with the source
   double scale = 1;
   for (int i = 0; i < most_tries && scale >= least_scale; i++) {
     if (least <= budget) return scale;

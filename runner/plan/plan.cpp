@@ -39,7 +39,7 @@ std::string why_must_run(const Stage& stage, const Resolution& r, Cache* cache, 
     if (type.is_sink()) return trouble_with_files(*r.record, cache);
     return stage.target && type.persist == Persist::payload && !r.stored ? "its stored result is gone" : "";
   }
-  // A lazy stage has its names without running; it runs for a reader, or because it has been asked for.
+  // A lazy stage has names without running; it runs for a reader, or because it is a target.
   return r.names.empty() || stage.target ? why_new(stage, r, cache, history) : "";
 }
 

@@ -24,31 +24,31 @@ enum class StageState : uint8_t {
 };
 std::string_view name_of(StageState state);
 
-/// What is known of a stage once all its inputs have names.
+/// The result of looking up a stage, once all its inputs have names.
 struct Resolution {
   Digest key;
   std::vector<Ingredient> ingredients;
   std::optional<StageRecord> record;    ///< from the cache
   std::map<std::string, Digest> names;  ///< by output port; empty until known
   bool stored = false;                  ///< every output that may be needed is in the cache
-  std::string must_run;                 ///< why it must run whatever its readers do; empty if it need not
+  std::string must_run;                 ///< why it must run regardless of its readers; empty if it need not
 };
 
-/// A node of the graph in a plan. Other stages are given by their index in Plan::stages.
+/// A node of the graph in a plan. Refers to other stages by their index in Plan::stages.
 struct Stage {
   const GraphNode* node = nullptr;
   bool needed = false;
   bool target = false;                    ///< a sink, or named in `only`
   bool kept = false;                      ///< its values are returned to the caller
-  std::vector<int> sources;               ///< the stages its wires come from, each once
+  std::vector<int> sources;               ///< its source stages, each once
   std::vector<int> readers;               ///< the needed stages that read it, each once
-  std::vector<std::string> used_outputs;  ///< the ports that these read; all if it is kept or a target
+  std::vector<std::string> used_outputs;  ///< the ports that its readers use; all if it is kept or a target
   std::optional<Resolution> known;        ///< missing while an input has no name
   StageState state = StageState::not_needed;
   std::string reason;
   std::vector<std::string> faults;  ///< why it is certain to fail, as complete messages; only with `keep_going`
-  PlanShape shape{};                ///< of what it makes, as far as that is known
-  double expected_seconds = 0;      ///< of computing it: as earlier runs took, else a second; 0 if that is not expected
+  PlanShape shape{};                ///< shape of its result, as far as it is known
+  double expected_seconds = 0;      ///< computing time from earlier runs, else 1 second; 0 if it is not expected to run
 
   const NodeType& type() const { return *node->type; }
   /// Whether a run will reuse or compute it; a lazy stage that has never run may not be needed.
@@ -57,7 +57,7 @@ struct Stage {
   bool loadable() const { return known && known->record && type().persist == Persist::payload && known->stored; }
 };
 
-/// What a run will do, and why. The graph must outlive it.
+/// The stages that a run will execute or reuse, with reasons. The graph must outlive the plan.
 struct Plan {
   const Graph* graph = nullptr;
   std::vector<Stage> stages;  ///< one per node, in the graph's order

@@ -6,13 +6,13 @@
 #include "core/node/node.h"
 #include "graphs/document/forecasts.h"
 
-/// What plans show of the results of nodes before they run.
+/// The expected shapes of results, shown in plans.
 namespace terrazzo {
 
-/// Of a node's first output of which something is known.
+/// The shape of a node's first output with a forecast.
 struct PlanShape {
-  std::optional<Size> size{};     ///< of a uv map, image or material; of an analysis its exemplar's
-  std::optional<int> channels{};  ///< of an image; of all maps together, if it is certain which they are
+  std::optional<Size> size{};     ///< of a uv map, image or material; for an analysis that of its exemplar
+  std::optional<int> channels{};  ///< of an image, or of all maps together if they are known
 };
 PlanShape shape_of(const GraphNode& node, const Forecasts& forecasts);
 

@@ -50,7 +50,7 @@ void choose_targets(Plan& plan, const Places& places, const PlanOptions& options
     Stage& s = stages[find_stage(*plan.graph, places, name)];
     s.target = s.kept = true;
   }
-  for (Stage& s : stages) s.target |= s.node->fails;  // it is to be told of, whoever needed it
+  for (Stage& s : stages) s.target |= s.node->fails;  // reported even if no one needs it
   if (!options.only.empty()) return;
   bool any_sink = false;
   for (Stage& s : stages)
@@ -107,7 +107,7 @@ void decide_settled(Stage& s, Want want, const std::string& reader) {
   }
 }
 
-/// From the last stage to the first: what each one does, given what its readers want of it.
+/// Decides from the last stage to the first what each does, given the needs of its readers.
 void decide_states(Plan& plan) {
   const size_t n = plan.stages.size();
   std::vector<bool> surely(n, false), maybe(n, false);  // whether a stage asks its sources for values
@@ -143,7 +143,7 @@ void decide_states(Plan& plan) {
   }
 }
 
-/// What only the runs before can tell: what is new about lazy stages, and which stages have never run.
+/// Facts from the history: changes of lazy stages, and stages that have never run.
 void add_what_is_known(Plan& plan, const History& history) {
   for (Stage& s : plan.stages) {
     const std::string& node = s.node->name;
@@ -165,8 +165,8 @@ double expected_seconds(const Stage& stage, const History* history) {
   return before.value_or(unknown);
 }
 
-/// Problems of nodes end the plan, or with `keep_going` are left to the run, which goes on without these nodes. The one
-/// place where that is decided.
+/// Problems of nodes end the planning or, with `keep_going`, become faults, so that the run continues without these
+/// nodes. This is the only place where that is decided.
 void take_problems(Plan& plan, const Places& places, std::vector<Problem> of_nodes, std::vector<Problem> of_run,
                    const PlanOptions& options) {
   const std::string file = plan.graph->file.string();

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A node's name without the rounds of loops: "all/files" of "all[sand]/files".
+/// A node's name without loop labels: "all/files" for "all[sand]/files".
 std::string without_rounds(const std::string& node) {
   std::string out;
   int depth = 0;
@@ -34,12 +34,12 @@ std::string without_rounds(const std::string& node) {
   return out;
 }
 
-/// Whether two nodes are the same in different rounds of a loop.
+/// Whether two nodes are iterations of the same node in a loop.
 bool are_rounds(const std::string& a, const std::string& b) {
   return a != b && without_rounds(a) == without_rounds(b);
 }
 
-/// By which a file is known through links of all kinds.
+/// Identifies a file independently of links.
 using FileIdentity = std::pair<dev_t, ino_t>;
 
 std::optional<FileIdentity> identity_of(const fs::path& path) {
@@ -58,8 +58,8 @@ class PreflightChecker {
 
   struct PendingNode {
     const GraphNode* node = nullptr;
-    bool writes = false;    ///< it is going to write its files
-    bool computes = false;  ///< its results are going to be computed
+    bool writes = false;    ///< it will write its files
+    bool computes = false;  ///< its results will be computed
   };
   /// Nodes in the order of their wires.
   PreflightProblems look(const std::vector<PendingNode>& nodes) {
@@ -81,7 +81,7 @@ class PreflightChecker {
     if (const std::optional<FileIdentity> identity = identity_of(file)) sources_.emplace(*identity, why);
   }
 
-  /// A result must never take the place of what it is made from.
+  /// A result must never overwrite its own source.
   std::string read_by_others(const fs::path& path) const {
     const std::optional<FileIdentity> identity = identity_of(path);
     const auto source = identity ? sources_.find(*identity) : sources_.end();
@@ -102,8 +102,8 @@ class PreflightChecker {
     }
   }
 
-  /// The budget holds for what cannot be done by parts too, which is said now rather than found out by the machine. One
-  /// node says it: that which takes most.
+  /// The budget also limits nodes that cannot work in parts; this is reported before the run rather than by running out
+  /// of memory. Only the node that takes most is reported.
   void check_memory(const GraphNode& node) {
     if (!memory_budget_is_set() || !node.type->memory_ahead) return;
     const InputForecasts inputs = forecasts_.inputs_of(node);
@@ -114,13 +114,13 @@ class PreflightChecker {
   }
 
   void complain(const GraphNode& node, const Error& e) {
-    // What is wrong with what comes through a wire may be so for all that read it.
+    // All readers of a wire may report the same problem; only the first is kept.
     const auto wires = node.inputs.find(e.about());
     if (wires == node.inputs.end() || said_.emplace(wires->second, e.what()).second)
       problems_.of_nodes.push_back(problem_of(node, e.about(), e.what()));
   }
 
-  /// What is to be a file cannot hold others.
+  /// A path cannot be both a file and a folder of other files.
   std::string folder_and_file(const fs::path& path) const {
     const fs::path place = place_of_file(path);
     for (fs::path above = place.parent_path(); above.has_relative_path(); above = above.parent_path())
@@ -170,7 +170,7 @@ class PreflightChecker {
   };
 
   Forecasts forecasts_;
-  std::map<FileIdentity, std::string> sources_;  ///< why each must stay
+  std::map<FileIdentity, std::string> sources_;  ///< why each must not be overwritten
   std::map<fs::path, Writer> writers_;           ///< by place_of_file
   std::set<std::pair<std::vector<Wire>, std::string>> said_;
   PreflightProblems problems_;
@@ -198,7 +198,7 @@ std::vector<Problem> oversize_problems(const Plan& plan) {
 
 namespace {
 
-/// Whether each stage is going to be computed: those that run, and derived ones that such a stage reads.
+/// Whether each stage will be computed: stages that run, and derived stages that they read.
 std::vector<bool> computed_stages(const Plan& plan) {
   std::vector<bool> computes(plan.stages.size());
   for (size_t i = plan.stages.size(); i-- > 0;) {
@@ -226,7 +226,7 @@ PreflightProblems preflight_problems(Plan& plan) {
 
 namespace {
 
-/// "out/*.png" of a parameter that says "out/{map}.png".
+/// "out/*.png" for the parameter value "out/{map}.png".
 std::string pattern_of(const std::string& text) {
   std::string out;
   for (size_t i = 0; i < text.size(); i++) {
@@ -257,7 +257,7 @@ std::vector<FileToWrite> files_to_write(const Plan& plan) {
       if (const Forecast* forecast = forecasts.add(*s.node))
         for (const FutureFile& f : forecast->files) out.push_back(file_to_write(*s.node, f));
     } catch (const Error&) {
-      // It is one of its faults, and it writes nothing.
+      // This is one of its faults; the node writes nothing.
     }
   }
   return out;
@@ -291,7 +291,7 @@ std::vector<Problem> lint_of(const Graph& graph, const Task& task) {
       messages = {e.what()};
     }
     for (const std::string& message : messages) {
-      // Where the parameter or port stands that a message begins with, in quotes.
+      // The place of the quoted parameter or port at the beginning of the message.
       const size_t end = message.find('"', 1);
       const bool is_about = message.starts_with('"') && end != message.npos;
       out.push_back(problem_of(node, "", message));

@@ -10,34 +10,36 @@
 
 namespace terrazzo {
 
-/// Certain failures of needed stages.
+/// Errors of needed stages that can be found before the run.
 struct PreflightProblems {
-  /// What a node itself is certain to refuse: a source that cannot be read, sizes that do not fit. What does not need
-  /// the node can run all the same.
+  /// Errors of single nodes, such as unreadable sources or sizes that do not fit. Nodes that do not depend on them can
+  /// still run.
   std::vector<Problem> of_nodes;
-  /// What the run must not begin: folders that cannot be written, two sinks that write one file, too little memory.
+  /// Errors that prevent the whole run: folders that cannot be written, two sinks that write the same file, too little
+  /// memory.
   std::vector<Problem> of_run;
 };
 
-/// Stages whose files are up to date write none. Notes in the plan what shapes stages will have.
+/// Runs infer, preflight and memory_ahead of the needed stages. Checks output files only of stages that will write
+/// them. Sets Stage::shape.
 PreflightProblems preflight_problems(Plan& plan);
 
-/// Images that needed stages read and that are larger than may be read, told from the size of the files alone: to be
-/// asked before a plan reads them for its keys.
+/// Problems for image files of needed stages that exceed the limit in bytes. Call this before a plan reads the files
+/// for its keys.
 std::vector<Problem> oversize_problems(const Plan& plan);
 
-/// All that preflight_problems finds, for nodes of a document that cannot be planned, see LoadOptions.
+/// The same checks for nodes of a document that has errors and cannot be planned, see LoadOptions::look_ahead.
 std::vector<Problem> preflight_of_nodes(const std::vector<GraphNode>& nodes);
 
 struct FileToWrite {
   std::filesystem::path path;
-  bool is_pattern = false;  ///< its name is not known yet; * stands for what is missing
+  bool is_pattern = false;  ///< the name is not known yet; * stands for unknown parts
   std::string node;
 };
-/// The files that needed stages are going to write, or have written.
+/// The files that needed stages will write or have written.
 std::vector<FileToWrite> files_to_write(const Plan& plan);
 
-/// What is allowed in a checked graph and probably unintended (see NodeType::lint). Throws Cancelled.
+/// Valid but probably unintended settings in a checked graph (see NodeType::lint). Throws Cancelled.
 std::vector<Problem> lint_of(const Graph& graph, const Task& task);
 
 }  // namespace terrazzo

@@ -9,12 +9,12 @@
 namespace terrazzo {
 
 struct SourceFindings {
-  std::vector<Problem> errors;    ///< what they refuse
-  std::vector<Problem> warnings;  ///< what a run would warn of
+  std::vector<Problem> errors;    ///< errors thrown by the nodes
+  std::vector<Problem> warnings;  ///< their warnings
 };
 
-/// What the nodes that read image files find in them: those that have all that they need are run, and what they make is
-/// dropped. Throws Cancelled.
+/// Runs all source nodes that read files and have no inputs, collects their errors and warnings, and discards their
+/// results. Throws Cancelled.
 SourceFindings look_at_sources(const Graph& graph, const Task& task);
 
 }  // namespace terrazzo

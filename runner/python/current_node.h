@@ -4,11 +4,11 @@
 
 namespace terrazzo::python {
 
-/// The node that this thread computes; null outside of nodes.
+/// The node that this thread is computing; null outside of nodes.
 const NodeContext* current_node();
 NodeContext* current_node_to_note();
 
-/// Makes a node the one that this thread computes, for as long as it lives.
+/// While it lives, makes `node` the current node of this thread.
 class Computes {
  public:
   explicit Computes(NodeContext& node);

@@ -12,7 +12,7 @@ py::object ours(const char* name) {
   return py::module_::import("terrazzo._errors").attr(name);
 }
 
-/// A message as a Python text: bytes of file names that are no UTF-8 are shown as "\\x80".
+/// A message as a Python string; bytes of file names that are not UTF-8 are shown as "\\x80".
 py::object text_of(const std::string& message) {
   PyObject* text = PyUnicode_DecodeUTF8(message.data(), static_cast<Py_ssize_t>(message.size()), "backslashreplace");
   if (text == nullptr) throw py::error_already_set();

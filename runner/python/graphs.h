@@ -6,13 +6,13 @@
 
 namespace terrazzo::python {
 
-/// A checked graph, and the job it is of for messages.
+/// A checked graph, and its job for messages.
 struct CheckedHandle {
   CheckedJob checked;
   Job job;
 };
 
-/// What a parameter is, as a dictionary.
+/// A parameter's description as a dictionary.
 pybind11::dict description_of(const Param& param);
 
 void bind_graphs(pybind11::module_& module);

@@ -19,7 +19,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// The image with its pixels in memory. Python's lock is given up while they are computed.
+/// The image with its pixels in memory. Releases the GIL while they are computed.
 ImagePtr in_memory(ImageHandle& handle) {
   if (handle.image->in_memory()) return handle.image;
   if (ImagePtr pulled = handle.pulled.lock()) return pulled;
@@ -27,7 +27,7 @@ ImagePtr in_memory(ImageHandle& handle) {
   ImagePtr out;
   if (const NodeContext* node = current_node()) {
     const Unlocked free;
-    // Isolated: a thread that waits for the strips must not begin another node, which may want Python's lock.
+    // Isolated: a thread that waits for the strips must not start another node, which may need the GIL.
     tbb::this_task_arena::isolate([&] { out = materialized(lazy, node->task()); });
   } else {
     std::atomic<bool> cancelled = false;
@@ -63,7 +63,7 @@ NormalY normal_y_of(const std::string& name) {
   throw py::value_error(fmt::format("normal_y is \"up\" or \"down\", not \"{}\"", name));
 }
 
-/// What whole numbers are divided by; 1 for others.
+/// The divisor of integers; 1 for other types.
 float scale_of(const py::array& array, Depth& depth) {
   const char kind = array.dtype().kind();
   if (kind == 'u' && array.itemsize() <= 2) {

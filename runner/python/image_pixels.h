@@ -7,17 +7,17 @@
 #include "core/image/image.h"
 #include "runner/python/texts.h"
 
-/// Images and their pixels as arrays.
+/// Binds images and their pixels as NumPy arrays.
 namespace terrazzo::python {
 
-/// An image, and its pixels as long as somebody looks at them.
+/// An image, and its pixels while an array refers to them.
 struct ImageHandle {
   ImagePtr image;
   std::weak_ptr<const Image> pulled{};
 };
 using ImageHandlePtr = std::shared_ptr<ImageHandle>;
 
-/// An object that keeps something alive, for arrays that look into it.
+/// A capsule that keeps an object alive for arrays that refer to its memory.
 template <typename T>
 pybind11::capsule owner_of(const std::shared_ptr<T>& kept) {
   return pybind11::capsule(new std::shared_ptr<T>(kept), [](void* p) { delete static_cast<std::shared_ptr<T>*>(p); });

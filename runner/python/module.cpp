@@ -11,7 +11,7 @@
 #include "runner/python/values.h"
 #include "runner/python/waiting.h"
 
-/// The compiled part of the Python package; what people use is in terrazzo/.
+/// The compiled part of the Python package; its public interface is in terrazzo/.
 PYBIND11_MODULE(_terrazzo, module) {
   terrazzo::python::register_exceptions();
   terrazzo::python::bind_values(module);

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where Python and its packages lie.
+/// The folders of Python and its packages.
 std::vector<fs::path> folders_of_python() {
   std::vector<fs::path> out;
   const py::module_ sys = py::module_::import("sys");
@@ -45,7 +45,7 @@ bool is_of_python(const fs::path& file) {
 /// See "open" in Python's table of audit events: path, mode, flags.
 void opened(const py::tuple& event) {
   const py::handle path = event[0];
-  if (PyLong_Check(path.ptr())) return;  // a file that is open
+  if (PyLong_Check(path.ptr())) return;  // a descriptor of an open file
   const auto file = py::cast<fs::path>(path);
   if (!is_of_python(file)) tell_opened(file.c_str(), py::cast<int>(event[2]));
 }
@@ -56,7 +56,7 @@ int on_audit_event(const char* event, PyObject* arguments, void*) {
     const py::error_scope before;
     opened(py::reinterpret_borrow<py::tuple>(arguments));
   } catch (const std::exception&) {
-    // Python will refuse what is no path.
+    // Python will reject an invalid path.
   }
   return 0;
 }

@@ -2,8 +2,8 @@
 
 namespace terrazzo::python {
 
-/// From now on, what nodes in Python open is told to checked runs (runner/engine/checked.h). Files of Python itself and
-/// of its packages do not count, nor does source code: `uses` and `version` answer for that. Needs Python's lock.
+/// From now on reports files that Python nodes open to checked runs (runner/engine/checked.h). Ignores files of Python
+/// and its packages, and source code, which `uses` and `version` cover. The caller must hold the GIL.
 void tell_opened_files();
 
 }  // namespace terrazzo::python

@@ -56,7 +56,7 @@ Param param_of(const py::dict& d) {
   return out;
 }
 
-/// What a Python function raised: as an error of the node, or as the end of the run.
+/// Converts an exception of a Python function to an error of the node or to a cancellation.
 [[noreturn]] void rethrow(py::error_already_set& raised) {
   if (raised.matches(py::module_::import("terrazzo._errors").attr("Cancelled"))) throw Cancelled();
   const py::object describe = py::module_::import("terrazzo._nodes").attr("_describe");
@@ -83,7 +83,7 @@ std::vector<Value> values_at(const NodeContext& node, const Port& port) {
   }
 }
 
-/// A file, or all files that lie in a folder, in the order of their names.
+/// A file, or all files in a folder, sorted by name.
 void add_files(const std::filesystem::path& path, std::vector<std::filesystem::path>& out) {
   std::error_code failure;
   if (!std::filesystem::is_directory(path, failure)) return out.push_back(path);
@@ -95,7 +95,7 @@ void add_files(const std::filesystem::path& path, std::vector<std::filesystem::p
   out.insert(out.end(), inside.begin(), inside.end());
 }
 
-/// Calls the function with what the node was given. Takes Python's lock: whoever started the run does not hold it.
+/// Calls the function with the node's inputs and parameters. Takes the GIL, which the caller of the run does not hold.
 void compute(NodeContext& node, PyObject* function) {
   const py::gil_scoped_acquire hold;
   const Computes scope(node);
@@ -120,7 +120,7 @@ void compute(NodeContext& node, PyObject* function) {
   }
 }
 
-/// All but its function and the code behind it.
+/// The descriptor without the function and its code.
 NodeType described(const py::dict& d) {
   NodeType t;
   t.name = py::cast<std::string>(d["name"]);
@@ -139,7 +139,7 @@ NodeType described(const py::dict& d) {
   const auto output = py::cast<std::string>(d["output"]);
   t.outputs = {{.name = output, .type = value_type(output)}};
   for (const auto& param : py::cast<py::list>(d["params"])) t.params.push_back(param_of(py::cast<py::dict>(param)));
-  // The content of files that it is told to read is part of the key.
+  // The content of files named by its parameters is part of the key.
   std::vector<std::string> paths;
   for (const Param& p : t.params)
     if (p.type == ParamType::path) paths.push_back(p.name);
@@ -154,7 +154,7 @@ NodeType described(const py::dict& d) {
   return t;
 }
 
-/// Throws Error, or what Python raises, for what no node can be.
+/// Throws Error, or the Python exception, for an invalid node.
 void check_type(const py::dict& d) {
   NodeType t = described(d);
   t.compute = [](NodeContext&) {};
@@ -164,7 +164,7 @@ void check_type(const py::dict& d) {
 void register_type(const py::dict& d, const py::function& function) {
   NodeType t = described(d);
   t.origin.content = Hasher().add(py::cast<std::string>(d["source"])).digest();
-  // Descriptors live until the program ends, longer than Python does; so the function is never let go of.
+  // Descriptors outlive the Python interpreter, so the function is never released.
   PyObject* kept = py::object(function).release().ptr();
   t.compute = [kept](NodeContext& node) { compute(node, kept); };
   register_node_type(std::move(t));

@@ -20,7 +20,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// Makes events of what a run tells.
+/// Converts a run's notifications to events.
 class Watcher : public RunObserver {
  public:
   explicit Watcher(Events& events) : events_(events) {}
@@ -54,7 +54,7 @@ std::string_view name_of(StageOutcome::Kind kind) {
   return names[static_cast<size_t>(kind)];
 }
 
-/// Nodes whose values come back if nobody says: those that are asked for, else in a graph without sinks its results.
+/// Nodes whose values are returned by default: the requested ones, else, in a graph without sinks, its results.
 std::vector<std::string> kept_of_itself(const Graph& graph, const std::vector<std::string>& only) {
   std::vector<std::string> out;
   if (!only.empty()) {
@@ -98,7 +98,7 @@ py::dict as_dict(const RunResult& result) {
   return out;
 }
 
-/// A session that may be closed while runs are under way: the last of them closes the cache.
+/// A session that may be closed during runs: the last run closes the cache.
 class SessionHandle {
  public:
   SessionHandle(std::filesystem::path cache, bool use_cache, int threads, uint64_t memory, bool checked) {
@@ -182,7 +182,7 @@ class SessionHandle {
     return session_;
   }
 
-  std::shared_ptr<Session> session_;  ///< guarded by Python's lock
+  std::shared_ptr<Session> session_;  ///< guarded by the GIL
   std::mutex mutex_;
   std::set<std::atomic<bool>*> running_;  ///< guarded by mutex_
 };

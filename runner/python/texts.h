@@ -4,10 +4,12 @@
 
 #include <pybind11/pybind11.h>
 
-/// Texts that come from Python. To be included by every file of the package: it decides how all of them read texts.
+/// Conversion of texts from Python. Every file of the package must include this header, so that all convert texts in
+/// the same way.
 namespace pybind11::detail {
 
-/// Says what is wrong with a text that has no UTF-8 form; else it would be said that no function takes such arguments.
+/// Reports a text that cannot be encoded in UTF-8; otherwise the message would be that no function takes such
+/// arguments.
 template <>
 struct type_caster<std::string> : string_caster<std::string> {
   bool load(handle text, bool convert) {

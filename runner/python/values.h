@@ -11,7 +11,7 @@
 #include "runner/python/image_pixels.h"
 #include "runner/python/texts.h"
 
-/// Images, materials and other values as Python objects.
+/// Binds images, materials and other values as Python objects.
 namespace terrazzo::python {
 
 struct MaterialHandle {
@@ -27,13 +27,13 @@ struct UvMapHandle {
   UvMapPtr map;
 };
 
-/// What Python has no use for but to hand it on: features, an appearance, an index.
+/// Values that Python can only pass on: features, an appearance, an index.
 struct OtherValue {
   Value value;
 };
 
 pybind11::object to_python(const Value& value);
-/// Throws TypeError if it is no value, or none of that type.
+/// Throws TypeError if the object is no value, or not of this type.
 Value from_python(const pybind11::handle& object);
 Value from_python(const pybind11::handle& object, ValueType type);
 pybind11::object to_python(const ParamValue& value);

@@ -28,7 +28,7 @@ void Events::add(Event event) {
 }
 
 void Events::finish() {
-  // Notified under the lock: the one who waits may destroy this as soon as it has seen it.
+  // Notifies while holding the mutex: the waiting thread may destroy this object right after.
   const std::lock_guard lock(mutex_);
   over_ = true;
   something_.notify_one();
@@ -114,7 +114,7 @@ WorkInProgress::~WorkInProgress() {
 }
 
 void end_work() {
-  constexpr auto patience = std::chrono::seconds(60);  // a node of Python's may not look whether it is cancelled
+  constexpr auto patience = std::chrono::seconds(60);  // a Python node may not check for cancellation
   AllWork& all = all_work();
   const py::gil_scoped_release free;
   std::unique_lock lock(all.mutex);

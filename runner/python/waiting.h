@@ -11,26 +11,26 @@
 
 #include "runner/python/texts.h"
 
-/// Long work for a Python program: on a thread of its own, so that the caller can deliver events and notice Ctrl-C.
+/// Runs long work for Python on its own thread, so that the caller can deliver events and notice Ctrl-C.
 namespace terrazzo::python {
 
-/// What has happened in a run.
+/// An event of a run.
 struct Event {
   std::string kind;  ///< planned, started, waits, progress, note, finished, reused, not_needed, failed
   std::string node{};
   std::string message{};
   double fraction = 0;
   double seconds = 0;
-  int total = 0;  ///< of planned: how many nodes are to run or are reused
+  int total = 0;  ///< for planned: the number of nodes to run or reuse
 };
 
-/// Events on their way from any thread to the one that waits. Nobody holds Python's lock while holding its mutex.
+/// A queue of events from any thread to the waiting one. Nobody may hold the GIL while holding its mutex.
 class Events {
  public:
-  /// Of what a node says of its progress, only the last is kept.
+  /// Keeps only the latest progress event of a node.
   void add(Event event);
   void finish();
-  /// Waits until there is something, or for a twentieth of a second. False once the work is over; `out` has the rest.
+  /// Waits for events, at most 50 ms. Returns false once the work is over; `out` then holds the remaining events.
   bool wait(std::vector<Event>& out);
 
  private:
@@ -40,17 +40,17 @@ class Events {
   bool over_ = false;
 };
 
-/// Does `work` on another thread. Meanwhile this one, which must hold Python's lock and gives it up while it waits,
-/// hands events to `deliver` and lets Python look at signals. If one of these raises, it sets `cancelled`, waits for
-/// the end of the work, and raises that; else what the work throws.
+/// Runs `work` on another thread. Meanwhile the calling thread, which must hold the GIL and releases it while waiting,
+/// passes events to `deliver` and lets Python check for signals. If either raises, sets `cancelled`, waits for the work
+/// to end and rethrows; else throws what the work throws.
 void do_and_wait(const std::function<void()>& work, std::atomic<bool>& cancelled, Events& events,
                  const std::function<void(const Event&)>& deliver);
 
 /// The same without events.
 void do_and_wait(const std::function<void()>& work, std::atomic<bool>& cancelled);
 
-/// Work that Python's end waits for: a thread that wants the lock after that is ended in the midst of C++, which ends
-/// the process. `cancelled`, if not null, is set when Python ends. Throws Error if it is ending already.
+/// Work that Python's shutdown waits for: a thread that takes the GIL after shutdown is killed inside C++ code, which
+/// aborts the process. `cancelled`, if not null, is set at shutdown. Throws Error if shutdown has begun.
 class WorkInProgress {
  public:
   explicit WorkInProgress(std::atomic<bool>* cancelled = nullptr);
@@ -62,13 +62,14 @@ class WorkInProgress {
   std::atomic<bool>* cancelled_;
 };
 
-/// Does without Python's lock for as long as it lives.
+/// Releases the GIL while it lives.
 class Unlocked {
-  const WorkInProgress work_;  // over only when the lock is held again
+  const WorkInProgress work_;  // ends only after the GIL is held again
   const pybind11::gil_scoped_release free_;
 };
 
-/// Cancels all work and waits for its end, when Python ends. Needs Python's lock, which it gives up.
+/// At Python's shutdown, cancels all work and waits for its end. The caller must hold the GIL, which is released while
+/// waiting.
 void end_work();
 
 }  // namespace terrazzo::python

@@ -51,7 +51,7 @@ std::vector<Line> lines_of(const RunResult& result) {
   return all;
 }
 
-/// 1, 2 or 5 times a power of ten: some four to ten steps.
+/// 1, 2 or 5 times a power of ten, for about four to ten steps.
 double step_for(double seconds) {
   const double power = std::pow(10, std::floor(std::log10(seconds / 4)));
   for (const double factor : {5.0, 2.0})

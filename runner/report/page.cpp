@@ -12,8 +12,8 @@ namespace terrazzo {
 
 namespace {
 
-/// A bar from 0 to the value. Its scale goes to 1, where a mark stands, or to the value if that is more. Figures below
-/// 0 have none.
+/// A bar from 0 to the value. Its scale ends at 1, which is marked, or at the value if that is larger. Negative figures
+/// have no bar.
 std::string bar(double value) {
   if (!std::isfinite(value) || value < 0) return "";
   const double scale = std::max(1.0, value);

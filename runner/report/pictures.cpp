@@ -15,10 +15,10 @@ namespace terrazzo {
 namespace {
 
 constexpr int small_side = 96;
-/// Of all pictures of a page together; some ten megabytes.
+/// The limit for all pictures of a page, about ten megabytes.
 constexpr double page_pixels = 14e6;
 constexpr int least_side = 128;
-/// Below this, PNG is hardly larger than JPEG, and exact.
+/// Below this, PNG is hardly larger than JPEG, and lossless.
 constexpr int64_t least_jpeg_area = 64 * 64;
 constexpr int jpeg_quality = 90;
 
@@ -31,7 +31,7 @@ struct Range {
   float least = 0, most = 1;
 };
 
-/// Each pixel of the result is the mean of the pixels it stands for. `range` becomes that of the values.
+/// Each pixel of the result is the mean of the pixels it covers. Sets `range` to the range of the values.
 std::vector<float> means(const Image& image, Size size, int channels, Range& range) {
   const int from = image.channels(), common = std::min(from, channels);
   const auto to_small = [](int at, int all, int few) { return static_cast<int>(int64_t{at} * few / all); };
@@ -88,7 +88,7 @@ std::string uri_of(const Image& image, bool is_colour) {
       return "data:image/jpeg;base64," +
              base64(encoded_file(image, {.format = FileFormat::jpeg, .jpeg_quality = jpeg_quality}));
     } catch (const Error&) {
-      // The module that writes JPEG is missing: PNG is larger, but needs nothing.
+      // The module that writes JPEG is missing: PNG is larger, but needs no module.
     }
   return "data:image/png;base64," + base64(encoded_file(image));
 }

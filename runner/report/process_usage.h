@@ -4,7 +4,7 @@
 
 namespace terrazzo {
 
-/// What the process has used since it began.
+/// The resources that the process has used since its start.
 struct ProcessUsage {
   double cpu_seconds = 0;
   int64_t peak_memory = 0;  ///< bytes

@@ -38,7 +38,7 @@ class Throttle {
   std::map<const Stage*, Clock::time_point> last_;
 };
 
-/// How much of the work has been done, where stages count as long as they are expected to take. Not thread-safe.
+/// The fraction of work done, with stages weighted by their expected time. Not thread-safe.
 class WorkDone {
  public:
   void plan(const Plan& plan) {
@@ -55,7 +55,7 @@ class WorkDone {
     return all_ > 0 ? std::min(1.0, done / all_) : 1;
   }
 
-  /// "about 12 s left"; empty while there is too little to tell by, and near the end.
+  /// "about 12 s left"; empty while there is too little information, and near the end.
   std::string left() const {
     const double elapsed = std::chrono::duration<double>(Clock::now() - began_).count(), done = fraction();
     const double left = elapsed * (1 - done) / std::max(done, 1e-9);
@@ -65,7 +65,7 @@ class WorkDone {
   }
 
  private:
-  /// What is only looked up takes hardly any time, and is not nothing.
+  /// The weight of stages that are only looked up: small but not zero.
   static double weight(const Stage& s) { return std::max(s.expected_seconds, 0.02); }
 
   double all_ = 0;
@@ -73,8 +73,8 @@ class WorkDone {
   std::map<const Stage*, double> done_;
 };
 
-/// How many of the stages that are needed have been settled: run, reused, or found to be needed by nobody. A stage
-/// whose stored result turns out damaged is computed after all, and counts once.
+/// The number of settled stages: run, reused, or found not to be needed. A stage whose stored result turns out damaged
+/// is computed later and counts once.
 class StageCount {
  public:
   void plan(const Plan& plan) { all_ = plan.needed(); }
@@ -196,7 +196,7 @@ class PlainProgress : public Progress {
     if (throttle_.open(&s)) line(s, fmt::format("{:.0f} %", 100 * fraction));
   }
   void noted(const Stage& s, const std::string& message) override {
-    if (is_warning(message)) return;  // said at the end
+    if (is_warning(message)) return;  // printed at the end
     const std::lock_guard lock(mutex_);
     write_note(out_, s, message);
   }
@@ -261,7 +261,7 @@ class BarProgress : public Progress {
     draw(false);
   }
   void noted(const Stage& s, const std::string& message) override {
-    if (is_warning(message)) return;  // said at the end
+    if (is_warning(message)) return;  // printed at the end
     const std::lock_guard lock(mutex_);
     erase();
     write_note(out_, s, message);

@@ -14,8 +14,8 @@ enum class ProgressMode : uint8_t {
   automatic,  ///< bar on a terminal, else plain
   bar,        ///< one line that is redrawn; notes above it
   plain,      ///< a line per finished stage, and occasional ones for slow stages
-  json,       ///< an object per line, see make_progress
-  none,       ///< nothing but warnings and errors
+  json,       ///< one object per line, see make_progress
+  none,       ///< only warnings and errors
 };
 inline constexpr std::array<std::string_view, 5> progress_mode_names = {"auto", "bar", "plain", "json", "none"};
 std::optional<ProgressMode> progress_mode_from(std::string_view name);

@@ -17,7 +17,7 @@ namespace terrazzo {
 namespace {
 
 constexpr int material_side = 1024, other_side = 512, report_side = 1600;
-/// Of each kind; of a sweep there may be hundreds.
+/// The limit per kind; a sweep may have hundreds.
 constexpr size_t most_materials = 4;
 constexpr size_t most_nodes = 24;
 
@@ -119,7 +119,7 @@ void RunPage::add_materials(const std::vector<ShownMaterial>& materials, const s
   }
 }
 
-/// What was kept besides, in the graph's order; of a sweep only the first.
+/// Other kept values, in the graph's order; for a sweep only the first.
 void RunPage::add_values() {
   for (const StageOutcome& s : result_.stages) {
     const auto kept = result_.kept.find(s.node);
@@ -148,7 +148,7 @@ void RunPage::add_value(const std::string& node, const std::string& caption, con
   }
 }
 
-/// The place of the viewer: before its script has run, a picture that needs none.
+/// The placeholder of the viewer: a picture until its script has run.
 std::string RunPage::lit_view() const {
   if (lit_.empty()) return "";
   std::vector<Map> maps;
@@ -171,7 +171,7 @@ std::string RunPage::map_picture(const ShownMaterial& shown, const std::string& 
   return image ? pictures_.figure(pictures_.add(image, side_), shown.node) : "";
 }
 
-/// Of the first result against the first exemplar.
+/// Compares the first result with the first exemplar.
 std::string RunPage::histogram(const std::string& map) const {
   const auto of = [&](const std::vector<ShownMaterial>& list) -> const Histogram* {
     if (list.empty() || !list.front().material->find(std::string_view(map))) return nullptr;

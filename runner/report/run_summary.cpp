@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Raised when a member goes, or comes to mean something else; not when one is added.
+/// Raised when a member is removed or changes its meaning, but not when one is added.
 constexpr int format_version = 1;
 
 std::string_view status_of(const RunSummary& s) {
@@ -44,7 +44,7 @@ Json files_json(const StageOutcome& outcome) {
   return files;
 }
 
-/// What its results take in the cache; equal results of two stages count for both.
+/// The bytes of its results in the cache; equal results of two stages count for both.
 uint64_t stored_bytes(const StageOutcome& outcome, const Cache* cache) {
   uint64_t bytes = 0;
   if (cache)
@@ -61,7 +61,7 @@ Json notes_json(const StageOutcome& outcome) {
   return notes;
 }
 
-/// Where several variations share a node, it has none.
+/// A node shared by several variations has none.
 void add_variation(Json& out, const std::string& node, const RunSummary& s) {
   if (const auto at = s.variations.find(node); at != s.variations.end()) out["variation"] = at->second;
 }

@@ -18,13 +18,14 @@ bool gives(const NodeType& type, std::initializer_list<ValueType> types) {
                              [&](const Port& p) { return std::ranges::find(types, p.type) != types.end(); });
 }
 
-/// A node without inputs that gives a material, or an image.
+/// A node without inputs that outputs a material or an image.
 bool is_source(const GraphNode& node) {
   return node.inputs.empty() && node.type->category == "source" &&
          gives(*node.type, {ValueType::material, ValueType::image});
 }
 
-/// Calls `visit` for every node that this one is made from, nearest first; it says whether to look behind that.
+/// Calls `visit` for every direct or indirect source of the node, nearest first; `visit` returns whether to continue
+/// behind it.
 template <typename Visit>
 void for_each_behind(const Graph& graph, const GraphNode& node, const Visit& visit) {
   std::map<std::string, const GraphNode*> nodes;
@@ -39,7 +40,7 @@ void for_each_behind(const Graph& graph, const GraphNode& node, const Visit& vis
       }
 }
 
-/// The exemplars and the nearest uv maps that a node is made from.
+/// The exemplars and nearest uv maps among a node's sources.
 void add_origins(const Graph& graph, const GraphNode& node, Names& names) {
   for_each_behind(graph, node, [&](const GraphNode& behind) {
     const bool is_uv = gives(*behind.type, {ValueType::uv_map});
@@ -52,13 +53,13 @@ void add_origins(const Graph& graph, const GraphNode& node, Names& names) {
   });
 }
 
-/// Whether it costs little to have the stage's values, in a run that does not ask for them.
+/// Whether the stage's values are cheap to get in a run that does not need them.
 bool is_cheap(const Stage& stage) {
   if (stage.state == StageState::run || stage.state == StageState::depends) return true;
   return stage.type().persist == Persist::payload ? stage.loadable() : stage.sources.empty();
 }
 
-/// The value as a material to look at; null if it is none.
+/// The value as a material for display; null if it is none.
 MaterialPtr as_material(const Value& value) {
   if (const MaterialPtr* m = std::get_if<MaterialPtr>(&value)) return *m;
   const ImagePtr* image = std::get_if<ImagePtr>(&value);

@@ -5,12 +5,12 @@
 
 #include "runner/api/session.h"
 
-/// What of a run a report shows.
+/// Selects the nodes and materials that a report shows.
 namespace terrazzo {
 
-/// The nodes whose values a report shows: the targets (sinks, or `only`), what sinks read, and, where that costs
-/// nothing much, the exemplars and uv maps these are made from: as far as they run anyway, are stored, or only read a
-/// file. At most `most_shown_nodes`. Pass them as PlanOptions::keep. Throws as make_plan does.
+/// The nodes whose values a report shows: the targets (sinks, or `only`), the nodes that sinks read, and, if they are
+/// cheap, the exemplars and uv maps behind those: they run anyway, are stored, or only read a file. At most
+/// `most_shown_nodes`. Pass them as PlanOptions::keep. Throws as make_plan.
 std::vector<std::string> nodes_for_report(const Graph& graph, const std::vector<std::string>& only, Session& session);
 
 inline constexpr size_t most_shown_nodes = 48;
@@ -20,10 +20,10 @@ struct ShownMaterial {
   MaterialPtr material;
 };
 
-/// The materials of a run, from the values that it kept; each once, images of base colour among them.
+/// The materials among a run's kept values, without duplicates, including base colour images.
 struct ShownMaterials {
-  std::vector<ShownMaterial> results;    ///< what sinks write
-  std::vector<ShownMaterial> exemplars;  ///< sources that results are made from
+  std::vector<ShownMaterial> results;    ///< materials that sinks write
+  std::vector<ShownMaterial> exemplars;  ///< source materials of the results
 };
 ShownMaterials materials_of(const Graph& graph, const RunResult& result);
 

@@ -7,11 +7,11 @@
 
 namespace terrazzo {
 
-/// What each node did and why, as HTML: one table of a few nodes. Of many, those that a variation, a loop or a subgraph
-/// has to itself fold under a line that counts them; what failed is open.
+/// The outcome and reason of each node as an HTML table. If there are many, nodes that belong to one variation, loop or
+/// subgraph are collapsed under a line with their number, unless one has failed.
 std::string stage_table(const Plan& plan, const RunResult& result);
 
-/// Notes, or only warnings, each with the node that it is about. What several nodes say alike stands there once.
+/// Notes, or only warnings, each with its node. Equal notes of several nodes are merged.
 std::vector<std::string> notes_html(const RunResult& result, bool only_warnings);
 
 }  // namespace terrazzo

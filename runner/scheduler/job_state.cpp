@@ -46,7 +46,7 @@ std::vector<std::vector<std::string>> read_array(const fs::path& folder, const s
 
 namespace {
 
-/// Of a unit that has to be made, and that neither the queue nor a failure tells of.
+/// The state of a due unit that is neither queued nor failed.
 UnitState state_of_missing(Assignment::To to) {
   switch (to) {
     case Assignment::To::others:

@@ -9,17 +9,17 @@
 #include "runner/farm/farm_job.h"
 #include "runner/scheduler/slurm.h"
 
-/// How far a job is: found out each time, from the cache and the queue.
+/// The state of a job, determined anew each time from the cache and the queue.
 namespace terrazzo {
 
 enum class UnitState : uint8_t {
-  done,      ///< its results are there, verified by digest
-  unneeded,  ///< not there, and nobody needs it any more
+  done,      ///< its results exist, verified by digest
+  unneeded,  ///< not done, and no longer needed
   running,
   waiting,    ///< in the queue
-  failed,     ///< its last task says why
-  lost,       ///< neither done nor in Slurm's queue, and nobody knows why: handed over again, it will be made
-  elsewhere,  ///< another scheduler is to make it, which may not have begun
+  failed,     ///< its last task recorded the reason
+  lost,       ///< neither done nor in Slurm's queue, for an unknown reason; resubmit it
+  elsewhere,  ///< assigned to another scheduler, which may not have started it
   cancelled,
 };
 
@@ -28,26 +28,27 @@ std::string_view name_of(UnitState state);
 struct JobState {
   Assignment assignment;
   std::vector<UnitState> units;                 ///< as in FarmJob::units
-  std::map<std::string, std::string> failures;  ///< by unit: why
-  std::map<std::string, QueuedTask> tasks;      ///< by unit, of those in the queue
-  int left_out = 0;                             ///< nodes that are not in the job, see FarmJob::left_out
+  std::map<std::string, std::string> failures;  ///< reasons by unit
+  std::map<std::string, QueuedTask> tasks;      ///< queued tasks by unit
+  int left_out = 0;                             ///< number of nodes missing from the job, see FarmJob::left_out
 
   int count(UnitState state) const;
-  /// Whether there is all that the user asked for.
+  /// Whether all requested results exist.
   bool is_complete() const {
     return left_out == 0 && count(UnitState::done) + count(UnitState::unneeded) == int(units.size());
   }
-  /// Whether anything is still going to happen by itself.
+  /// Whether the state can still change without a resubmission.
   bool is_moving() const {
     return count(UnitState::running) + count(UnitState::waiting) + count(UnitState::elsewhere) > 0;
   }
 };
 
-/// `tasks`: what Slurm has of the job.
+/// `tasks`: the job's tasks in Slurm's queue.
 JobState state_of(const std::filesystem::path& folder, const FarmJob& job, const Plan& plan,
                   const std::vector<QueuedTask>& tasks);
 
-/// The units of an array's tasks, by index; empty if it is not known, or its file is damaged. Throws FileError.
+/// The units of an array's tasks, by index. Reading returns an empty list if the array is unknown or its file is
+/// damaged. Throws FileError.
 void write_array(const std::filesystem::path& folder, const TaskArray& array);
 std::vector<std::vector<std::string>> read_array(const std::filesystem::path& folder, const std::string& id);
 

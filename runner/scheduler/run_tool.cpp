@@ -17,7 +17,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Both ends are closed in programs that are started meanwhile.
+/// Both ends are close-on-exec, for programs started concurrently.
 struct Pipe {
   File reading, writing;
 
@@ -46,7 +46,7 @@ struct Spawning {
   }
 };
 
-/// Reads both until they end: neither may fill up while the other is waited for.
+/// Reads both pipes until they end, so that neither fills up while the other is being read.
 void read_both(const File& out, const File& err, ToolResult& result) {
   std::array<pollfd, 2> open = {{{out.descriptor(), POLLIN, 0}, {err.descriptor(), POLLIN, 0}}};
   const std::array<std::string*, 2> texts = {&result.out, &result.err};
@@ -72,7 +72,7 @@ ToolResult run_tool(const std::vector<std::string>& words, const std::function<b
   posix_spawn_file_actions_addopen(&how.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&how.actions, out.writing.descriptor(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&how.actions, err.writing.descriptor(), STDERR_FILENO);
-  // Ctrl-C is meant for this program, which decides what becomes of the other.
+  // Ctrl-C should reach only this program, which decides how to stop the other.
   posix_spawnattr_setflags(&how.attributes, POSIX_SPAWN_SETPGROUP);
 
   std::vector<char*> arguments;

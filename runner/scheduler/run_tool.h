@@ -8,15 +8,15 @@
 namespace terrazzo {
 
 struct ToolResult {
-  int exit_code = 0;  ///< 127 if there is no such program; 128 and the signal if one ended it
+  int exit_code = 0;  ///< 127 if the program does not exist; 128 plus the signal that ended it
   std::string out, err;
 
   bool ok() const { return exit_code == 0; }
 };
 
-/// Runs another program to its end, found by $PATH, and collects what it prints. It gets the variables of this
-/// process's environment whose names `passes`; all of them if that is empty. Throws Error only if processes cannot be
-/// started at all. Thread-safe.
+/// Runs another program, found by $PATH, waits for its end and collects its output. It inherits the environment
+/// variables whose names `passes` accepts; all if `passes` is empty. Throws Error only if no process can be started.
+/// Thread-safe.
 ToolResult run_tool(const std::vector<std::string>& words, const std::function<bool(std::string_view)>& passes = {});
 
 }  // namespace terrazzo

@@ -20,7 +20,7 @@ namespace terrazzo {
 
 namespace {
 
-/// How the tools say that asking again may help.
+/// Messages of the tools after which a retry may help.
 bool is_transient(const std::string& message) {
   constexpr std::string_view signs[] = {"Unable to contact slurm controller",
                                         "Socket timed out",
@@ -58,21 +58,21 @@ int number_in(const std::string& text, int otherwise) {
 
 using Clock = std::chrono::steady_clock;
 
-/// How `scontrol ping` says whether a controller answers.
+/// Output of `scontrol ping` that tells whether a controller answers.
 constexpr std::string_view mark_of_up = " is UP", mark_of_down = " is DOWN";
 
 /// Slurm's default. The highest index is one less.
 constexpr int usual_array_size = 1001;
 
-/// What users set for their own calls of Slurm's tools: filters of what these show and end, options that beat those in
-/// a batch script, and what the job says in which this process may run.
+/// Variables for users' own calls of Slurm's tools: filters for listing and cancelling, options that override those of
+/// batch scripts, and variables of an enclosing job.
 bool is_setting_of_tools(std::string_view variable) {
   constexpr std::string_view beginnings[] = {"SLURM",  "_SLURM", "SBATCH_", "SQUEUE_", "SCANCEL_", "SCONTROL_",
                                              "SINFO_", "SACCT_", "SALLOC_", "SRUN_",   "SPANK_"};
   return std::ranges::any_of(beginnings, [&](std::string_view b) { return variable.starts_with(b); });
 }
 
-/// Which cluster is meant, and who asks.
+/// Variables for the choice of cluster and for authentication.
 bool leads_to_cluster(std::string_view variable) {
   constexpr std::string_view names[] = {"SLURM_CONF", "SLURM_CONF_SERVER", "SLURM_JWT"};
   return std::ranges::find(names, variable) != std::end(names);
@@ -128,7 +128,7 @@ void Slurm::pause(std::chrono::milliseconds time) const {
   }
 }
 
-/// Asks until there is an answer. What `is_done_already` returns counts as one, unless it is empty.
+/// Retries until there is an answer. A non-empty result of `is_done_already` counts as one.
 std::string Slurm::ask(const std::vector<std::string>& words,
                        const std::function<std::string()>& is_done_already) const {
   require_reachable();
@@ -176,7 +176,7 @@ int Slurm::max_array_size() const {
 
 std::vector<QueuedTask> Slurm::queued(const std::string& job) const {
   std::vector<QueuedTask> tasks;
-  // Those in hidden partitions too.
+  // Includes hidden partitions.
   std::istringstream lines(
       ask({"squeue", "--all", "--array", "--noheader", "--name=" + job, "--format=%i|%K|%t|%k|%N|%r|%u"}));
   for (std::string line; std::getline(lines, line);) {
@@ -221,7 +221,7 @@ void Slurm::cancel(const std::string& job) const {
     } catch (const Error& e) {
       said = fmt::format("; {}", e.what());
     }
-    // What scancel returns does not tell: it is content with ending nothing.
+    // The exit code of scancel is no evidence: it also succeeds if it cancels nothing.
     std::vector<std::string> left;
     for (const QueuedTask& t : queued(job))
       if (!t.is_ending) left.push_back(fmt::format("{} of {}", t.id, t.user));

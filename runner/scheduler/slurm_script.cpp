@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An option of sbatch that a submission sets itself, or does not survive.
+/// An option of sbatch that the submission sets itself, or that would break it.
 struct Reserved {
   std::string_view name, letter, why;
 };
@@ -31,9 +31,9 @@ constexpr Reserved reserved_options[] = {
     {"--test-only", "", "nothing would be submitted; --print shows the scripts"},
 };
 
-/// As sbatch reads a word: it takes any unmistakable beginning of a long name, and a value right behind a letter.
+/// Parses a word like sbatch, which accepts unique prefixes of long names, and values directly after a letter.
 bool is_option(std::string_view word, const Reserved& option) {
-  constexpr size_t least = 4;  // shorter ones stand for several options, which sbatch refuses
+  constexpr size_t least = 4;  // shorter ones are ambiguous, and sbatch rejects them
   const std::string_view name = word.substr(0, word.find('='));
   if (name.starts_with("--")) return name.size() >= least && option.name.starts_with(name);
   return !option.letter.empty() && name.starts_with(option.letter);
@@ -43,7 +43,7 @@ bool has_control_character(std::string_view text) {
   return std::ranges::any_of(text, [](unsigned char c) { return c < ' '; });
 }
 
-/// A path in which Slurm finds no pattern such as %j.
+/// Escapes patterns such as %j in a path for Slurm.
 std::string without_patterns(const std::string& path) {
   std::string out;
   for (const char c : path) out += c == '%' ? "%%" : std::string(1, c);
@@ -86,15 +86,15 @@ std::string slurm_script(const FarmJob& job, const TaskArray& array, const fs::p
   option(fmt::format("--array=0-{}", array.tasks.size() - 1));
   option(fmt::format("--ntasks=1 --cpus-per-task={}", array.cores));
   option(fmt::format("--mem={}M", (array.memory + (uint64_t{1} << 20) - 1) >> 20));
-  // A node that is lost gives its tasks back; they find what has been made in the cache.
+  // Tasks of a lost node are requeued; they find finished results in the cache.
   option("--requeue --open-mode=append");
   option("--output=" + shell_word(without_patterns((folder / "logs" / id.substr(0, 12)).string()) + ".%A_%a.log"));
   if (!options.partition.empty()) option("--partition=" + shell_word(options.partition));
   if (!options.account.empty()) option("--account=" + shell_word(options.account));
   if (!options.time.empty()) option("--time=" + shell_word(options.time));
   for (const std::string& m : options.more) option(m);
-  // Not afterok, which a job that failed never satisfies, and one that the controller has forgotten always does. Tasks
-  // whose units need one that failed say so and end; the others go on.
+  // Not afterok: a failed job never satisfies it, and a job that the controller has forgotten always does. Tasks whose
+  // units need a failed one report that and end; the others continue.
   if (!after.empty()) option(fmt::format("--dependency=afterany:{}", fmt::join(after, ":")));
   out += fmt::format("exec {} task {} --array {} --index \"$SLURM_ARRAY_TASK_ID\" --threads \"$SLURM_CPUS_PER_TASK\"\n",
                      shell_word(options.program.string()), shell_word(folder.string()), id);

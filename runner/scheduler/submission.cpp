@@ -26,10 +26,10 @@ Plan plan_of(const Graph& graph, const FarmJob& job, Cache& cache) {
   return make_plan(graph, &cache, {.only = job.targets, .look_ahead = false});
 }
 
-/// Keeps others from handing over the same job while it lives.
+/// While it lives, prevents other processes from submitting the same job.
 std::shared_ptr<Lease> lease_of(const std::string& job, Cache& cache) {
   constexpr std::chrono::milliseconds pause{100};
-  constexpr int looks = 3000;  // five minutes: as long as a busy controller is asked
+  constexpr int looks = 3000;  // five minutes: as long as a busy controller is retried
   const Digest key = Hasher().add("farm job").add(job).digest();
   for (int look = 0; look < looks; look++) {
     LeaseAttempt attempt = cache.try_lease(key);
@@ -43,7 +43,7 @@ std::string batch_job_of(const QueuedTask& task) {
   return task.id.substr(0, task.id.find('_'));
 }
 
-/// What is left out tells a job from one that was submitted without it.
+/// Part of the id: jobs with different left-out nodes are different jobs.
 Digest id_of(const FrozenGraph& graph, const std::map<std::string, std::string>& left_out) {
   if (left_out.empty()) return graph.id;
   Hasher h;
@@ -54,7 +54,7 @@ Digest id_of(const FrozenGraph& graph, const std::map<std::string, std::string>&
 
 using Needs = std::map<std::string, const std::vector<std::string>*>;  // by unit
 
-/// Batch jobs that must end before this array can begin: earlier arrays, and tasks that are in the queue already.
+/// Batch jobs that must end before this array can start: earlier arrays, and queued tasks.
 std::vector<std::string> jobs_before(const TaskArray& array, const std::vector<HandedOver>& done, const Needs& needs,
                                      const JobState& state) {
   std::set<std::string> ids;
@@ -83,7 +83,8 @@ PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::stri
   job.origins = out.graph.origins;
   job.plugins = plugins;
   job.left_out = left_out;
-  // All that results depend on in the environment. It names a file, or something built in, such as "ocio://default".
+  // The only environment variable that results depend on. It names a file or a built-in configuration such as
+  // "ocio://default".
   if (const char* config = std::getenv("OCIO")) {
     std::error_code missing;
     job.variables.emplace("OCIO", fs::exists(config, missing) ? fs::absolute(config).string() : config);
@@ -107,7 +108,8 @@ PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::stri
 std::vector<fs::path> write_job(const PreparedJob& prepared, Cache& cache) {
   std::error_code missing;
   const fs::path& folder = prepared.folder;
-  const std::shared_ptr<Lease> lease = lease_of(prepared.job.name, cache);  // what another is writing is not damaged
+  const std::shared_ptr<Lease> lease =
+      lease_of(prepared.job.name, cache);  // a job that another process is writing is not damaged
   const bool is_new = !fs::exists(folder, missing);
   fs::create_directories(folder / "logs");
   std::vector<fs::path> mended = write_frozen(prepared.graph, folder);
@@ -149,7 +151,7 @@ std::vector<HandedOver> hand_over(const fs::path& folder, const FarmJob& job, Ca
     forget_failure(folder, name);
   }
   std::vector<HandedOver> out;
-  fs::create_directories(folder / "logs");  // without it, tasks end at once
+  fs::create_directories(folder / "logs");  // without it, tasks fail immediately
   for (TaskArray& array : arrays_of(job.units, wanted, FarmFolder::of_job(folder).costs(), too_little, arrays)) {
     write_array(folder, array);
     const std::string id = array.id().hex();
@@ -176,7 +178,7 @@ JobState wait_for(const fs::path& folder, const FarmJob& job, Cache& cache, cons
     JobState state = look_at_job(folder, job, cache, slurm);
     if (options.looked) options.looked(state);
     if (!state.is_moving()) {
-      // A task that has just ended may not be seen in the cache yet.
+      // Results of a task that has just ended may not be visible in the cache yet.
       const int lost = state.count(UnitState::lost);
       if (lost == 0 || retries-- == 0) return state;
       if (options.told)

@@ -7,52 +7,52 @@
 #include "runner/farm/farm_folder.h"
 #include "runner/scheduler/job_state.h"
 
-/// From a graph to tasks in a queue.
+/// Submits graphs as tasks.
 namespace terrazzo {
 
-/// A job that has been thought out and not yet written.
+/// A job that has not been written yet.
 struct PreparedJob {
   FrozenGraph graph;
   FarmJob job;
   std::filesystem::path folder;
-  std::vector<bool> due;  ///< which of its units have to be made
+  std::vector<bool> due;  ///< whether each of its units must run
 };
 
-/// What a farm would do for a plan. Writes nothing. `plugins`: files that tasks must load; `left_out`: see FarmJob.
+/// Prepares a job for a plan. Writes nothing. `plugins`: files that tasks must load; `left_out`: see FarmJob.
 PreparedJob prepared(const Plan& plan, Cache& cache, const std::vector<std::string>& plugins,
                      const std::map<std::string, std::string>& left_out = {});
 
-/// Writes the job, as far as it is not there already, unaltered: a job of this name is this job. Of one that was there,
-/// returns the files that had to be mended. Throws FileError.
+/// Writes the missing or altered files of a job; equal names imply equal jobs. Returns the repaired files if the job
+/// existed already. Throws FileError.
 std::vector<std::filesystem::path> write_job(const PreparedJob& prepared, Cache& cache);
 
-/// What is known of a job now. Slurm is asked only if the job may be in its queue. Throws Error if the job is damaged,
-/// and with Slurm's message.
+/// The current state of a job. Queries Slurm only if the job may be in its queue. Throws Error if the job is damaged or
+/// Slurm fails.
 JobState look_at_job(const std::filesystem::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm);
 
 struct HandedOver {
   TaskArray array;
-  std::string id;  ///< of the batch job
+  std::string id;  ///< id of the batch job
 };
 
-/// Hands to Slurm what has to be made and is not in its queue, what failed too; a job that is handed over twice at the
-/// same time is handed over once, and one that is not assigned to Slurm, not at all. Throws Error with Slurm's message.
+/// Submits all due units that are not in Slurm's queue, including failed ones. Concurrent calls submit a job only once.
+/// Does nothing if the job is not assigned to Slurm. Throws Error with Slurm's message.
 std::vector<HandedOver> hand_over(const std::filesystem::path& folder, const FarmJob& job, Cache& cache,
                                   const Slurm& slurm, const ArrayOptions& arrays, const SlurmOptions& options);
 
-/// Ends a job's tasks, even of one that is damaged; they are not handed over again until the job is submitted again.
-/// Throws Error with Slurm's message, and if tasks stay in the queue.
+/// Cancels a job's tasks, even if the job is damaged. They stay cancelled until the job is submitted again. Throws
+/// Error with Slurm's message, and if tasks remain in the queue.
 void cancel_job(const std::filesystem::path& folder, Cache& cache, const Slurm& slurm);
 
 struct WaitOptions {
-  int retries = 2;  ///< how often tasks that got lost are handed over again
+  int retries = 2;  ///< how often lost tasks are resubmitted
   std::chrono::milliseconds first_pause{1000}, longest_pause{15000};
-  const std::atomic<bool>* cancelled = nullptr;    ///< ends waiting, with Cancelled; the job goes on
+  const std::atomic<bool>* cancelled = nullptr;    ///< ends waiting with Cancelled; the job continues
   std::function<void(const JobState&)> looked{};   ///< called with each new state
-  std::function<void(const std::string&)> told{};  ///< gets lines for people
+  std::function<void(const std::string&)> told{};  ///< receives messages for the user
 };
 
-/// Waits until nothing will happen any more by itself; what got lost is handed over again by `again`.
+/// Waits until the job's state is final. Calls `again` to resubmit lost tasks.
 JobState wait_for(const std::filesystem::path& folder, const FarmJob& job, Cache& cache, const Slurm& slurm,
                   const std::function<void()>& again, const WaitOptions& options);
 

@@ -37,7 +37,7 @@ double seconds_of(const timeval& t) {
   return double(t.tv_sec) + double(t.tv_usec) / 1e6;
 }
 
-/// Starts a process and waits for its end; passes cancellation on, once.
+/// Starts a process and waits for its end; forwards cancellation once.
 Ended run_process(const std::vector<std::string>& words, const std::atomic<bool>* cancelled) {
   std::vector<char*> arguments;
   for (const std::string& w : words) arguments.push_back(const_cast<char*>(w.c_str()));
@@ -65,7 +65,7 @@ Ended run_process(const std::vector<std::string>& words, const std::atomic<bool>
   return end;
 }
 
-/// Makes one unit, in as many attempts as it takes.
+/// Runs one unit, with several attempts if necessary.
 int run_one(const fs::path& folder, const Unit& unit, const Supervision& how) {
   std::vector<std::string> words = how.words;
   words.insert(words.end(), {folder.string(), unit.name});
@@ -77,7 +77,7 @@ int run_one(const fs::path& folder, const Unit& unit, const Supervision& how) {
       return 0;
     }
     if (how.cancelled && *how.cancelled) return exit_cancelled;
-    if (!end.by_signal()) return end.code();  // it has said why, and noted it
+    if (!end.by_signal()) return end.code();  // it has reported and recorded the reason
     const std::string signal = ::strsignal(WTERMSIG(end.status));
     if (attempt == attempts_of_a_unit) {
       const std::string message = fmt::format(

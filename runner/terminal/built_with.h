@@ -4,8 +4,7 @@
 
 namespace terrazzo {
 
-/// The version; the compiler and the libraries that the program was built with; and the interface that plug-ins must be
-/// compiled for.
+/// The version, the compiler and libraries of the build, and the plug-in ABI.
 std::string built_with();
 
 }  // namespace terrazzo

@@ -6,18 +6,18 @@
 
 namespace terrazzo {
 
-/// Whether runs are checked: an option of every command that runs a graph. In programs that are built for debugging
-/// they are if nobody says, unless $TERRAZZO_CACHE or --cache asks for a cache, which checked runs do without.
+/// The option for checked runs, of every command that runs a graph. Debug builds check by default, unless
+/// $TERRAZZO_CACHE or --cache asks for a cache, which checked runs do not use.
 struct CheckedFlag {
   bool yes = false, no = false;  ///< as given
 
-  /// `cache`: what --cache says.
+  /// `cache`: the value of --cache.
   bool holds(const std::string& cache) const;
 };
 
 void add_checked_flag(Command& command, CheckedFlag& flag);
 
-/// Whether the command line may lead to a checked run, before it is read.
+/// Whether the command line may lead to a checked run, judged before it is parsed.
 bool may_be_checked(int argc, const char* const* argv);
 
 }  // namespace terrazzo

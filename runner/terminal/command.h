@@ -9,11 +9,12 @@
 #include <variant>
 #include <vector>
 
-/// The commands and options of the program as data: declared here, parsed by parse_words, shown by --help, manual pages
-/// and completions. Not thread-safe.
+/// The program's commands and options as data, used for parsing (parse_words), --help, manual pages and completions.
+/// Not thread-safe.
 namespace terrazzo {
 
-/// Where the value of an option goes; nothing for those that show something (--help) or have been taken before.
+/// The variable that receives an option's value; monostate for options that print something (--help) or are handled
+/// elsewhere.
 using OptionTarget =
     std::variant<std::monostate, bool*, int*, int64_t*, double*, std::string*, std::vector<std::string>*>;
 
@@ -23,21 +24,22 @@ struct CommandOption {
   OptionTarget target;
   std::string help{};
 
-  std::optional<std::string> value_name{};  ///< what it takes, "FILE.json"; paths begin with FILE, DIR or PATH
-  std::vector<std::string> choices{};       ///< all that it takes, if these are few
+  std::optional<std::string>
+      value_name{};  ///< placeholder of its value, "FILE.json"; for paths it begins with FILE, DIR or PATH
+  std::vector<std::string> choices{};  ///< the allowed values, if they are few
   std::optional<std::pair<int, int>> limits{};
-  std::function<std::string(const std::string&)> check{};  ///< returns what is wrong, or nothing
+  std::function<std::string(const std::string&)> check{};  ///< returns an error message, or an empty text
   std::vector<std::string> excludes{}, needs{};            ///< names of other options
-  std::string implied{};                                   ///< its value if it is given without one
+  std::string implied{};                                   ///< its value if given without one
   bool is_flag = false, is_required = false, is_repeated = false, ignores_case = false, is_hidden = false;
   bool is_not_negative = false;
 
-  std::vector<std::string> given{};  ///< after a parse: the words that were given for it
+  std::vector<std::string> given{};  ///< after parsing: the words given for it
 
   bool is_argument() const { return !names.starts_with('-'); }
   /// "--out" of "-o,--out".
   std::string long_name() const { return names.substr(names.rfind(',') + 1); }
-  /// "-o" and "--out"; none for an argument.
+  /// "-o" and "--out"; empty for an argument.
   std::vector<std::string> spellings() const;
   /// "FILE.json"; empty for a flag.
   std::string takes_what() const;
@@ -64,36 +66,36 @@ struct Command {
   std::string help{}, footer{};
   std::list<CommandOption> options{};
   std::list<Command> commands{};
-  std::function<int()> run{};  ///< what it does once its options are set; returns the exit code
+  std::function<int()> run{};  ///< executes the command once its options are set; returns the exit code
 
-  /// With --help.
+  /// Adds --help.
   Command(std::string path, std::string help);
 
   std::string name() const { return path.substr(path.rfind(' ') + 1); }
 
-  /// With this one's footer, until it gets its own.
+  /// The new command inherits this one's footer.
   Command& add_command(const std::string& name, std::string help);
-  /// An option, or an argument. One whose target is a vector takes any number of values.
+  /// Adds an option or an argument. If the target is a vector it takes any number of values.
   CommandOption& add_option(std::string names, OptionTarget target, std::string help);
   CommandOption& add_flag(std::string names, OptionTarget target, std::string help);
 
-  /// Null if it has none of this name, such as "--set" or "GRAPH".
+  /// Finds an option by name, such as "--set" or "GRAPH"; null if there is none.
   const CommandOption* find_option(const std::string& name) const;
   std::vector<std::string> command_names() const;
-  /// All spellings: "-o", "--out". Without arguments.
+  /// All spellings of options: "-o", "--out". Excludes arguments.
   std::vector<std::string> option_names() const;
 };
 
-/// What the words of a command line ask for.
+/// The result of parsing a command line.
 struct ParsedWords {
   enum class Request { run, help, version, nothing_known };
   Request request = Request::run;
-  const Command* command = nullptr;    ///< the innermost command that was named; never null
-  std::string text{};                  ///< the help, or what is wrong
-  std::vector<std::string> unknown{};  ///< words that nothing takes
+  const Command* command = nullptr;    ///< the innermost named command; never null
+  std::string text{};                  ///< the help text, or the error message
+  std::vector<std::string> unknown{};  ///< words that match no option or argument
 };
 
-/// Parses the words behind the program's name into the targets of `program`. `version`: what --version prints.
+/// Parses the words after the program's name into the targets of `program`. `version`: the text that --version prints.
 ParsedWords parse_words(Command& program, const std::string& version, int argc, const char* const* argv);
 
 }  // namespace terrazzo

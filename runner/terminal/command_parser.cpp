@@ -10,9 +10,9 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int any_number = -1;  // CLI11's word for it
+constexpr int any_number = -1;  // CLI11's constant for it
 
-/// A command line as CLI11 sees it, made from commands.
+/// A CLI11 parser built from commands.
 class Parser {
  public:
   Parser(Command& program, const std::string& version) : app_(program.help, program.path), version_(version) {
@@ -60,7 +60,7 @@ class Parser {
     if (!command.commands.empty()) app.require_subcommand(1);
   }
 
-  /// Null for --help, which CLI11 adds by itself.
+  /// Null for --help, which CLI11 adds itself.
   CLI::Option* add_option(CLI::App& app, const CommandOption& o) {
     CLI::Option* const made = std::visit(
         [&](auto target) -> CLI::Option* {
@@ -97,7 +97,7 @@ class Parser {
       throw std::logic_error("the flag " + o.names + " is neither a truth value nor a text");
   }
 
-  /// The command that was named, what its options were given, and what is left.
+  /// The named command, its options' values, and the remaining words.
   void finish(ParsedWords& out) const {
     const CLI::App* named = &app_;
     while (!named->get_subcommands().empty()) named = named->get_subcommands().front();

@@ -11,7 +11,7 @@ namespace terrazzo {
 
 namespace {
 
-/// The first sentence: there is little room.
+/// Only the first sentence, since space is limited.
 std::string brief(const std::string& help) {
   const size_t end = std::min(help.find(". "), help.find("; "));
   return help.substr(0, end);
@@ -21,7 +21,7 @@ bool takes_files(const CommandOption& o) {
   return o.is_path() || o.names == "GRAPH";
 }
 
-/// What bash knows of each command: further commands, options, and options that take something.
+/// The data for bash on each command: subcommands, options, and options with values.
 void add_to_bash(const Command& c, std::string& tables) {
   std::vector<std::string> options;
   for (const CommandOption& o : c.options)
@@ -77,7 +77,7 @@ std::string function_of(const std::string& path) {
   return out;
 }
 
-/// In _arguments, brackets and colons mean something.
+/// Escapes brackets and colons, which are special in _arguments.
 std::string for_zsh(const std::string& text) {
   std::string out;
   for (const char c : text) {

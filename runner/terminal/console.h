@@ -12,7 +12,7 @@
 
 namespace terrazzo {
 
-/// Writes a message to standard error, control characters in it escaped; ignores errors, so that a closed pipe does not
+/// Writes a message to standard error with control characters escaped. Ignores errors, so that a closed pipe does not
 /// stop a run.
 template <typename... Values>
 void print_message(fmt::format_string<Values...> format, Values&&... values) {
@@ -26,9 +26,9 @@ template <typename... Values>
 void print_result(fmt::format_string<Values...> format, Values&&... values) {
   write_answer(fmt::format(format, std::forward<Values>(values)...));
 }
-/// Rows of texts, the first of them their head.
+/// Rows of texts; the first is the header.
 using Table = std::vector<std::vector<std::string>>;
-/// The table in columns, a line for each row.
+/// The table with aligned columns, one line per row.
 std::string aligned(const Table& table);
 /// errno of the first failed write_answer; 0 if all output was written.
 int result_failure();

@@ -7,13 +7,13 @@
 
 namespace terrazzo {
 
-/// How much a command may take: options of every command that reads images.
+/// Limits on memory and image sizes: options of every command that reads images.
 struct LimitFlags {
-  std::string memory;      ///< as given; empty: none
+  std::string memory;      ///< as given; empty: not given
   int64_t max_pixels = 0;  ///< 0: not given
   std::string max_bytes;
 
-  /// Makes them hold for this process. Throws UsageError.
+  /// Applies the limits to this process. Throws UsageError.
   void apply() const;
 };
 

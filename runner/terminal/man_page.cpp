@@ -17,7 +17,7 @@ std::string escaped(const std::string& text) {
   return out.starts_with('.') || out.starts_with('\'') ? "\\&" + out : out;
 }
 
-/// Lines as they are, indented ones in a fixed font.
+/// Keeps line breaks; indented lines are in a fixed-width font.
 std::string paragraphs(const std::string& text) {
   std::istringstream lines(text);
   std::string out;

@@ -3,19 +3,19 @@
 #include <string>
 #include <vector>
 
-/// `--plugin FILE`, which every command takes, wherever it stands.
+/// `--plugin FILE`: an option of every command, allowed at any position.
 namespace terrazzo {
 
 /// The words of a command line.
 struct CommandLine {
-  std::vector<const char*> words;    ///< without those of --plugin
+  std::vector<const char*> words;    ///< without --plugin and its values
   std::vector<std::string> plugins;  ///< files
 };
 
-/// Throws UsageError if --plugin has no file.
+/// Splits off the --plugin options. Throws UsageError if one has no file.
 CommandLine without_plugins(int argc, const char* const* argv);
 
-/// Loads these, and those that TERRAZZO_PLUGINS names. Throws UsageError if one cannot be loaded.
+/// Loads these plug-ins and the ones in TERRAZZO_PLUGINS. Throws UsageError if one cannot be loaded.
 void load_plugins(const std::vector<std::string>& files);
 
 }  // namespace terrazzo

@@ -4,13 +4,13 @@
 
 #include "runner/terminal/command.h"
 
-/// What shells and `man` are told of the commands.
+/// Manual pages and shell completions.
 namespace terrazzo {
 
-/// A page for `man`, in roff: of the program, or of a command that it leads to.
+/// The manual page of the program or of a subcommand, in roff.
 std::string man_page(const Command& command, const std::string& version);
 
-/// A script that makes a shell complete commands, options, choices and files. `shell`: bash, zsh or fish.
+/// A completion script for commands, options, choices and files. `shell`: bash, zsh or fish.
 std::string completion_script(const Command& program, const std::string& shell);
 
 }  // namespace terrazzo

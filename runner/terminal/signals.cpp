@@ -10,7 +10,7 @@ std::atomic<bool> cancelled{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "it is set in a signal handler");
 constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
 
-/// A signal that whoever started the program has it ignore (nohup, say) stays ignored.
+/// A signal that was ignored at startup (as by nohup) stays ignored.
 void set_unless_ignored(int signal, void (*handler)(int)) {
   if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
 }

@@ -4,8 +4,8 @@
 
 namespace terrazzo {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP sets the flag, for an orderly stop; the second ends the program
-/// at once. SIGPIPE is ignored. At most one object at a time.
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP sets the flag, for an orderly stop; the second one ends the
+/// program at once. SIGPIPE is ignored. At most one object at a time.
 class CancelOnSignal {
  public:
   CancelOnSignal();

@@ -6,7 +6,7 @@
 #include "core/file/file_io.h"
 #include "graphs/text/problem.h"
 
-/// What every command says of its words: exit codes, errors of usage, sizes.
+/// Exit codes, usage errors and sizes, shared by all commands.
 namespace terrazzo {
 
 inline constexpr int exit_done = 0;
@@ -14,13 +14,13 @@ inline constexpr int exit_failed = 1;  ///< a node failed, or something could no
 inline constexpr int exit_usage = 2;   ///< bad usage or an invalid graph
 inline constexpr int exit_cancelled = 130;
 
-/// A wrong value on the command line; becomes exit code 2.
+/// An invalid command line; leads to exit code 2.
 class UsageError : public Error {
  public:
   using Error::Error;
 };
 
-/// Runs something whose errors are the command line's fault, but for those of files and graphs.
+/// Runs `act` and converts its errors to UsageError, except FileError and GraphError.
 template <typename Act>
 auto as_usage(const Act& act) {
   try {

@@ -77,7 +77,7 @@ bool looks_like_picture(const fs::path& path, std::string_view text) {
   return std::ranges::any_of(marks, [&](std::string_view mark) { return text.starts_with(mark); });
 }
 
-/// Whether a file is such a one as the option writes; an empty one may become anything.
+/// Whether a file has the kind that the option writes; empty files match any kind.
 bool is_of_kind(const fs::path& path, WrittenKind kind) {
   const std::string text = beginning_of(path);
   const auto begins_with = [&](std::string_view word) { return text.substr(0, 1024).find(word) != text.npos; };
@@ -103,7 +103,7 @@ bool is_of_kind(const fs::path& path, WrittenKind kind) {
   return false;
 }
 
-/// Whether writing to one loses the other.
+/// Whether writing one path overwrites the other.
 bool are_the_same(const fs::path& a, const fs::path& b) {
   std::error_code missing;
   return fs::equivalent(a, b, missing) || place_of_file(a) == place_of_file(b);

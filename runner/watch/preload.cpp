@@ -1,5 +1,5 @@
-// Tells which files are opened and which variables of the environment are read. Loaded before all other libraries
-// (LD_PRELOAD) in checked runs only, see runner/engine/checked.h; knows nothing of the rest of terrazzo.
+// Reports which files are opened and which environment variables are read. Preloaded (LD_PRELOAD) only in checked runs,
+// see runner/engine/checked.h. Independent of the rest of terrazzo.
 #include <atomic>
 #include <cstdarg>
 #include <cstdio>
@@ -36,7 +36,7 @@ int mode_behind(va_list arguments, int flags) {
 
 extern "C" {
 
-/// Null: nobody is told any more.
+/// Null stops reporting.
 void terrazzo_watch(Tell to) {
   teller = to;
 }

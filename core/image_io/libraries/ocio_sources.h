@@ -9,11 +9,11 @@
 
 namespace terrazzo {
 
-/// What any transform of a configuration names, whatever it is used for: of colour spaces, looks, view and named
-/// transforms, and those within them. Opens no file.
+/// The files, folders and variables that a configuration's transforms name: those of colour spaces, looks, view and
+/// named transforms, including nested ones. Opens no file.
 ColorSources sources_of(const OCIO_NAMESPACE::Config& config);
 
-/// The text with its variables filled in; adds these to `variables`.
+/// Expands variables in a text and adds them to `variables`.
 std::string expand(const OCIO_NAMESPACE::Context& context, const char* text,
                    std::map<std::string, std::string>& variables);
 

@@ -2,7 +2,7 @@
 
 #include "core/picture/render/textures.h"
 
-/// Rays through a height field: which point of the surface is seen, and whether light reaches it.
+/// Ray marching through a height field: the visible point of a view ray, and shadows.
 namespace terrazzo::render {
 
 /// A point of the surface in widths of the material: x along u, y along v (downwards), z up from the lowest possible
@@ -15,7 +15,7 @@ struct ReliefPoint {
 /// Policarpo, Oliveira & Comba 2005). `view`: unit, towards the viewer, in the tangent frame.
 ReliefPoint visible_point(const Textures& textures, double x, double y, const Vector3d& view);
 
-/// The fraction of a directional light that reaches the point past the relief around it, 0..1, with soft edges.
+/// The fraction of a directional light that reaches the point, 0..1; the relief casts soft shadows.
 double light_reaching(const Textures& textures, const ReliefPoint& point, const Vector3d& light);
 
 }  // namespace terrazzo::render

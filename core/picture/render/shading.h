@@ -2,8 +2,8 @@
 
 #include "core/numeric/eigen.h"
 
-/// How a point of a material answers light. Directions are in a frame of x right, y up, z towards the viewer; colours
-/// are three-vectors too, linear.
+/// Shading of a surface point. Directions are in a frame of x right, y up, z towards the viewer. Colours are linear
+/// three-vectors.
 namespace terrazzo::render {
 
 struct ShadedPoint {
@@ -25,7 +25,7 @@ Vector3d reflected(const ShadedPoint& point, const Vector3d& view, const Vector3
 /// of the sky), dimmed by the occlusion.
 Vector3d reflected_ambient(const ShadedPoint& point, const Vector3d& view, const Vector3d& up);
 
-/// Brightness to display: as it is up to 0.75, then a shoulder that reaches 1 at infinity.
+/// Tone mapping: linear up to 0.75, then a shoulder that approaches 1.
 Vector3d tone_mapped(const Vector3d& color);
 
 }  // namespace terrazzo::render

@@ -6,8 +6,7 @@
 #include "core/material/material.h"
 #include "core/picture/render/shading.h"
 
-/// A material's maps, made ready for rendering: linear colours, unit normals (y up), no finer than the picture can
-/// show.
+/// A material's maps prepared for rendering: linear colours, unit normals (y up), no finer than the picture can show.
 namespace terrazzo::render {
 
 /// One map, bilinearly sampled, repeating in both directions. Immutable.
@@ -35,19 +34,18 @@ struct Textures {
   Texture base_color, normal, height, roughness, metallic, occlusion, emission;
   double aspect = 1;  ///< height / width of the material
   double depth = 0;   ///< from the lowest to the highest point of `height`, in widths of the material; 0 without height
-  /// Whether heights go on across opposite borders; else no cliff between two repeats shades
-  /// them.
+  /// Whether heights continue across opposite borders; if not, the step between two repeats casts no shadow.
   bool heights_repeat_x = true, heights_repeat_y = true;
 
   /// Everything but the frame: `normal` is in the tangent frame (x along u, y against v, z out).
   ShadedPoint at(double u, double v) const;
-  /// The height as stored, at a place that light from within the repeat around (u0, v0) passes.
+  /// The stored height at (u, v), for a light ray towards a point in the repeat around (u0, v0).
   double height_at(double u, double v, double u0, double v0) const;
 };
 
 /// Maps are averaged down until they are at most `max_width` texels wide or a factor of two above it. The depth is
-/// what the normals say of the height map, times `relief`; without normals it is 0.05 * relief, and normals are
-/// derived.
+/// derived from normals and heights, times `relief`; without normals it is 0.05 * relief, and normals are derived from
+/// the heights.
 Textures load_textures(const Material& material, int max_width, double relief, const Task& task);
 
 }  // namespace terrazzo::render
