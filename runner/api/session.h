@@ -26,8 +26,8 @@ struct SessionOptions {
 };
 
 struct RunRequest {
-  std::vector<std::string>
-      only{};  ///< only these nodes and their sources; empty: all sinks, or nodes that nothing reads
+  /// Only these nodes and what they need; empty: all sinks, or, without sinks, all nodes that nothing reads.
+  std::vector<std::string> only{};
   std::vector<std::string> keep{};   ///< nodes whose values come back in RunResult::kept
   bool keep_going = false;           ///< after a failure, continues with nodes that do not depend on the failed one
   bool look_ahead = true;            ///< false: skips preflight checks; errors then show up during the run

@@ -96,7 +96,7 @@ void keep_standard_streams_apart() {
 }
 
 /// The exit code for a command that ended with `code`, whose output may be incomplete.
-int with_answer_written(int code, ProgressMode mode) {
+int with_result_written(int code, ProgressMode mode) {
   if (result_failure() == 0) return code;
   write_error(mode, std::cerr, Error("cannot write to standard output: " + system_message(result_failure())));
   return code == exit_done ? exit_failed : code;
@@ -253,7 +253,7 @@ int run_command_line(int argc, const char* const* argv) {
     write_error(mode, std::cerr, e);
     return exit_usage;
   }
-  return with_answer_written(dispatch(int(line.words.size()), line.words.data(), mode), mode);
+  return with_result_written(dispatch(int(line.words.size()), line.words.data(), mode), mode);
 }
 
 }  // namespace terrazzo

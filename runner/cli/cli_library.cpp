@@ -176,11 +176,11 @@ int list(const LibraryFlags& flags) {
   std::erase_if(entries, [&](const LibraryEntry& e) { return !is_meant(e, flags); });
   if (!flags.sheet.empty()) write_sheet(entries, flags.sheet);
   if (flags.json)
-    write_answer(as_json(entries));
+    write_result(as_json(entries));
   else if (entries.empty())
     print_message("the library {} holds {}\n", library.folder().string(), nothing_found(all, flags));
   else
-    write_answer(aligned(as_table(entries)));
+    write_result(aligned(as_table(entries)));
   return exit_done;
 }
 

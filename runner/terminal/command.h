@@ -24,8 +24,8 @@ struct CommandOption {
   OptionTarget target;
   std::string help{};
 
-  std::optional<std::string>
-      value_name{};  ///< placeholder of its value, "FILE.json"; for paths it begins with FILE, DIR or PATH
+  /// The placeholder of its value, "FILE.json". That of a path begins with FILE, DIR or PATH.
+  std::optional<std::string> value_name{};
   std::vector<std::string> choices{};  ///< the allowed values, if they are few
   std::optional<std::pair<int, int>> limits{};
   std::function<std::string(const std::string&)> check{};  ///< returns an error message, or an empty text
@@ -77,6 +77,7 @@ struct Command {
   Command& add_command(const std::string& name, std::string help);
   /// Adds an option or an argument. If the target is a vector it takes any number of values.
   CommandOption& add_option(std::string names, OptionTarget target, std::string help);
+  /// The target is a bool, or a text for `implies`.
   CommandOption& add_flag(std::string names, OptionTarget target, std::string help);
 
   /// Finds an option by name, such as "--set" or "GRAPH"; null if there is none.

@@ -64,12 +64,15 @@ class Parser {
   CLI::Option* add_option(CLI::App& app, const CommandOption& o) {
     CLI::Option* const made = std::visit(
         [&](auto target) -> CLI::Option* {
-          if constexpr (std::is_same_v<decltype(target), std::monostate>)
+          using Target = decltype(target);
+          if constexpr (std::is_same_v<Target, std::monostate>)
             return o.long_name() == "--help"      ? nullptr
                    : o.long_name() == "--version" ? app.set_version_flag(o.names, version_, o.help)
                                                   : app.add_option(o.names, o.help);
-          else if (o.is_flag)
-            return add_flag(app, o, target);
+          else if constexpr (std::is_same_v<Target, bool*> || std::is_same_v<Target, std::string*>)
+            return o.is_flag
+                       ? app.add_flag(o.implied.empty() ? o.names : o.names + "{" + o.implied + "}", *target, o.help)
+                       : app.add_option(o.names, *target, o.help);
           else
             return app.add_option(o.names, *target, o.help);
         },
@@ -87,14 +90,6 @@ class Parser {
     if (o.is_required) made->required();
     if (o.is_hidden) made->group("");
     return made;
-  }
-
-  template <typename T>
-  static CLI::Option* add_flag(CLI::App& app, const CommandOption& o, T target) {
-    if constexpr (std::is_same_v<T, bool*> || std::is_same_v<T, std::string*>)
-      return app.add_flag(o.implied.empty() ? o.names : o.names + "{" + o.implied + "}", *target, o.help);
-    else
-      throw std::logic_error("the flag " + o.names + " is neither a truth value nor a text");
   }
 
   /// The named command, its options' values, and the remaining words.

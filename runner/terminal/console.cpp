@@ -10,7 +10,7 @@ int first_failure = 0;
 
 }  // namespace
 
-void write_answer(std::string_view text) {
+void write_result(std::string_view text) {
   errno = 0;
   const bool arrived = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (!arrived && first_failure == 0) first_failure = errno != 0 ? errno : EIO;

@@ -21,16 +21,16 @@ void print_message(fmt::format_string<Values...> format, Values&&... values) {
 }
 
 /// Writes the output of a command to standard output. Errors are reported once, at the end: see result_failure.
-void write_answer(std::string_view text);
+void write_result(std::string_view text);
 template <typename... Values>
 void print_result(fmt::format_string<Values...> format, Values&&... values) {
-  write_answer(fmt::format(format, std::forward<Values>(values)...));
+  write_result(fmt::format(format, std::forward<Values>(values)...));
 }
 /// Rows of texts; the first is the header.
 using Table = std::vector<std::vector<std::string>>;
 /// The table with aligned columns, one line per row.
 std::string aligned(const Table& table);
-/// errno of the first failed write_answer; 0 if all output was written.
+/// errno of the first failed write_result; 0 if all output was written.
 int result_failure();
 
 }  // namespace terrazzo
