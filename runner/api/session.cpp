@@ -64,11 +64,14 @@ Plan Session::plan(const Graph& graph, const RunRequest& request) {
 
 RunResult Session::run(const CheckedJob& job, const RunRequest& request) {
   std::optional<History> history = history_of(job, cache_.get());
-  return run(plan(job, request), request, pointer_to(history));
+  const PlanOptions targets = options_for(job.graph(), request).targets;
+  return run(make_plan(job.graph(), cache_.get(), targets, pointer_to(history)), request, pointer_to(history));
 }
 
 RunResult Session::run(const Graph& graph, const RunRequest& request) {
-  return run(plan(graph, request), request);
+  std::optional<History> history = history_of(graph, cache_.get());
+  const PlanOptions targets = options_for(graph, request).targets;
+  return run(make_plan(graph, cache_.get(), targets, pointer_to(history)), request, pointer_to(history));
 }
 
 RunResult Session::run(Plan plan, const RunRequest& request) {

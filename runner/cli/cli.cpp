@@ -136,15 +136,9 @@ int dispatch(int argc, const char* const* argv, ProgressMode mode);
 
 /// The output of `--help` after the words.
 int help_on(const Command& program, const std::vector<std::string>& words, ProgressMode mode) {
-  const Command* command = &program;
+  find_command(program, words);  // throws if there is none
   std::vector<const char*> argv = {"terrazzo"};
-  for (const std::string& word : words) {
-    const auto next = std::ranges::find_if(command->commands, [&](const Command& c) { return c.name() == word; });
-    if (next == command->commands.end())
-      throw UsageError(fmt::format("unknown command {}{}", word, suggestion(word, command->command_names())));
-    command = &*next;
-    argv.push_back(word.c_str());
-  }
+  for (const std::string& word : words) argv.push_back(word.c_str());
   argv.push_back("--help");
   return dispatch(int(argv.size()), argv.data(), mode);
 }
@@ -166,10 +160,15 @@ bool names_unknown_command(const ParsedWords& parsed) {
 /// Help, or the version; if a graph is given, its own help comes first.
 int show_help(const ParsedWords& parsed, ProgressMode mode) {
   if (names_unknown_command(parsed)) return usage_error(parsed, mode);
-  const bool is_help = parsed.request == ParsedWords::Request::help;
-  const std::string about_graph = is_help ? help_on_graph(*parsed.command) : "";
-  print_result("{}{}", about_graph.empty() ? "" : about_graph + "\n", parsed.text);
-  return exit_done;
+  try {
+    const bool is_help = parsed.request == ParsedWords::Request::help;
+    const std::string about_graph = is_help ? help_on_graph(*parsed.command) : "";
+    print_result("{}{}", about_graph.empty() ? "" : about_graph + "\n", parsed.text);
+    return exit_done;
+  } catch (const Error& e) {
+    write_error(mode, std::cerr, e);
+    return exit_usage;
+  }
 }
 
 /// Throws UsageError for a path in Windows spelling: a file named "scans\\brick" is never intended.

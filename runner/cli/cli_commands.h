@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "runner/terminal/command.h"
 #include "runner/terminal/usage.h"
@@ -24,6 +25,9 @@ void add_library_command(Command& program);
 void add_farm_commands(Command& program);
 /// Manual pages and completions, generated from the commands of `program`, which must outlive them.
 void add_shell_commands(Command& program, const std::string& version);
+
+/// The command named by the words, such as {"cache", "gc"}; the program for none. Throws UsageError.
+const Command& find_command(const Command& program, const std::vector<std::string>& words);
 
 /// Whether a contact sheet's file name selects a page rather than a picture.
 bool is_page(const std::filesystem::path& path);

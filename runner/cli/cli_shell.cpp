@@ -14,18 +14,6 @@ namespace terrazzo {
 
 namespace {
 
-/// The command named by the words.
-const Command& found(const Command& program, const std::vector<std::string>& words) {
-  const Command* at = &program;
-  for (const std::string& word : words) {
-    const auto next = std::ranges::find_if(at->commands, [&](const Command& c) { return c.name() == word; });
-    if (next == at->commands.end())
-      throw UsageError(fmt::format("unknown command {}{}", word, suggestion(word, at->command_names())));
-    at = &*next;
-  }
-  return *at;
-}
-
 std::string page_name(const Command& command) {
   std::string name = command.path;
   std::ranges::replace(name, ' ', '-');
@@ -40,6 +28,17 @@ void write_pages(const Command& command, const std::filesystem::path& folder, co
 
 }  // namespace
 
+const Command& find_command(const Command& program, const std::vector<std::string>& words) {
+  const Command* at = &program;
+  for (const std::string& word : words) {
+    const auto next = std::ranges::find_if(at->commands, [&](const Command& c) { return c.name() == word; });
+    if (next == at->commands.end())
+      throw UsageError(fmt::format("unknown command {}{}", word, suggestion(word, at->command_names())));
+    at = &*next;
+  }
+  return *at;
+}
+
 void add_shell_commands(Command& program, const std::string& version) {
   Command& man = program.add_command("man", "Prints a manual page, for `man -l -`");
   const auto words = std::make_shared<std::vector<std::string>>();
@@ -51,7 +50,7 @@ void add_shell_commands(Command& program, const std::string& version) {
   man.footer = "Example:\n  terrazzo man run | man -l -";
   man.run = [&program, words, folder, version] {
     if (folder->empty())
-      print_result("{}", man_page(found(program, *words), version));
+      print_result("{}", man_page(find_command(program, *words), version));
     else
       write_pages(program, *folder, version);
     return exit_done;

@@ -111,3 +111,14 @@ TEST_CASE("an input of a graph is told from a node, and how it is given") {
                  "\"material\" is an input, which takes a wire: make the graph a node of another one"));
   CHECK(contains(w.run({"run", "lit.json", "--set", "material.path=photo.png"}).err, "\"material\" is an input"));
 }
+
+TEST_CASE("help on a pack that cannot be read says why, and ends with code 2 like other wrong words") {
+  const PackedWorkplace w;
+  const fs::path pack = w.path / "there/soft.tzpack";
+  CHECK(w.run({"run", "there/soft.tzpack", "--help"}).code == 0);
+  fs::resize_file(pack, fs::file_size(pack) / 3);
+  const ProgramRun cut = w.run({"run", "there/soft.tzpack", "--help"});
+  CHECK(cut.code == 2);
+  CHECK_MESSAGE(contains(cut.err, "soft.tzpack"), cut.err);
+  CHECK(cut.out.empty());
+}
