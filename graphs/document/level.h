@@ -33,7 +33,7 @@ struct Level {
   NodeDraft* use = nullptr;  ///< its node in `outer`
   std::string path;          ///< prefix of its nodes' names: "walls/"
   NodeScope names;
-  std::vector<std::unique_ptr<NodeScope>> rounds;  ///< the iterations of all its loops
+  std::vector<std::unique_ptr<NodeScope>> iterations;  ///< the iterations of all its loops
   NodeReading reading;
   std::vector<std::pair<std::string, std::vector<NodeInstance>>> items;  ///< by name, in the document's order
   std::map<std::string, size_t> positions;                               ///< in `items`

@@ -106,9 +106,9 @@ void Levels::refuse_unknown(const Level& level, const std::vector<RoutedOverride
   if (overrides.empty()) return;
   std::vector<std::string> names;
   for (const auto& [name, items] : level.items) names.push_back(name);
-  std::map<std::string, std::vector<std::string>> rounds_of;  // sorted, by loop
-  const auto rounds_in = [&](const std::string& loop, const std::vector<NodeInstance>& items) -> const auto& {
-    const auto [at, is_new] = rounds_of.try_emplace(loop);
+  std::map<std::string, std::vector<std::string>> iterations_of;  // sorted, by loop
+  const auto iterations_in = [&](const std::string& loop, const std::vector<NodeInstance>& items) -> const auto& {
+    const auto [at, is_new] = iterations_of.try_emplace(loop);
     if (is_new)
       for (const NodeInstance& item : items) at->second.push_back(item.draft->local);
     if (is_new) std::ranges::sort(at->second);
@@ -130,8 +130,8 @@ void Levels::refuse_unknown(const Level& level, const std::vector<RoutedOverride
     } else if (!items) {
       refuse_name(o.plain, names);
     } else if (o.name != o.plain) {
-      const std::vector<std::string>& rounds = rounds_in(o.plain, *items);
-      if (!std::ranges::binary_search(rounds, o.name)) refuse_name(o.name, rounds);
+      const std::vector<std::string>& iterations = iterations_in(o.plain, *items);
+      if (!std::ranges::binary_search(iterations, o.name)) refuse_name(o.name, iterations);
     } else if (!o.rest.empty() && !items->empty() && !items->front().inner && !items->front().draft->muted) {
       refuse(fmt::format("{} is no graph that has nodes", in_quotes(o.name)));
     }
@@ -151,53 +151,53 @@ void Levels::read_item(Level& level, const JsonMember& member, const std::vector
       loop = o.override->json;
       folder = o.override->base;
     }
-  if (!loop) return read_round(level, member, member.name, level.names, its, items);
+  if (!loop) return read_iteration(level, member, member.name, level.names, its, items);
   Diagnostics diagnostics(problems_, where + ", \"foreach\"");
   Lacking lacking;
   const size_t before = made_from_.size();
-  const auto rounds = read_loop(*loop, folder, *level.names.substitution, diagnostics, lacking, made_from_);
+  const auto iterations = read_loop(*loop, folder, *level.names.substitution, diagnostics, lacking, made_from_);
   const std::set<std::string> names = level.names.substitution->names_in(*loop);
   for (size_t i = before; i < made_from_.size(); i++) {
     made_from_[i].node = level.path + member.name;
     made_from_[i].set_by = settables_behind(level, names);
   }
   unset_for_loops_.insert(lacking.unset.begin(), lacking.unset.end());
-  if (!rounds) return;
+  if (!iterations) return;
   std::map<std::string, std::vector<size_t>> by_name;  // positions in `its`
   for (size_t i = 0; i < its.size(); i++) by_name[its[i].name].push_back(i);
-  for (const LoopRound& round : *rounds) {
+  for (const LoopIteration& iteration : *iterations) {
     if (is_full_) return;
-    const std::string local = fmt::format("{}[{}]", member.name, round.label);
+    const std::string local = fmt::format("{}[{}]", member.name, iteration.label);
     std::vector<size_t> positions = by_name[member.name];
     if (const auto own = by_name.find(local); own != by_name.end()) {
       positions.insert(positions.end(), own->second.begin(), own->second.end());
       std::ranges::sort(positions);
     }
-    std::vector<RoutedOverride> of_round;
-    for (const size_t i : positions) of_round.push_back(its[i]);
-    if (NodeScope* names = names_of_round(level, round, diagnostics))
-      read_round(level, member, local, *names, of_round, items);
+    std::vector<RoutedOverride> of_iteration;
+    for (const size_t i : positions) of_iteration.push_back(its[i]);
+    if (NodeScope* names = names_of_iteration(level, iteration, diagnostics))
+      read_iteration(level, member, local, *names, of_iteration, items);
   }
   for (const NodeInstance& item : items) item.draft->loop_names = names;
 }
 
 /// Null after a problem.
-NodeScope* Levels::names_of_round(Level& level, const LoopRound& round, Diagnostics& diagnostics) {
-  for (const GraphParameter& v : round.variables)
+NodeScope* Levels::names_of_iteration(Level& level, const LoopIteration& iteration, Diagnostics& diagnostics) {
+  for (const GraphParameter& v : iteration.variables)
     if (level.names.scope->look_up(v.param.name)) {
       diagnostics.add(v.place, fmt::format("the graph has a parameter {} already; choose another name with \"as\"",
                                            in_quotes(v.param.name)));
       return nullptr;
     }
-  NodeScope& out = *level.rounds.emplace_back(std::make_unique<NodeScope>());
-  out.parameters = round.variables;
+  NodeScope& out = *level.iterations.emplace_back(std::make_unique<NodeScope>());
+  out.parameters = iteration.variables;
   out.scope = std::make_unique<GraphScope>(out.parameters, *level.names.scope);
   out.substitution = std::make_unique<Substitution>(*out.scope);
   return &out;
 }
 
-void Levels::read_round(Level& level, const JsonMember& member, const std::string& local, NodeScope& names,
-                        const std::vector<RoutedOverride>& overrides, std::vector<NodeInstance>& items) {
+void Levels::read_iteration(Level& level, const JsonMember& member, const std::string& local, NodeScope& names,
+                            const std::vector<RoutedOverride>& overrides, std::vector<NodeInstance>& items) {
   if (is_full_) return;
   const auto refuse = [&](const std::string& message) {
     problems_.push_back({member.place, "", message});
@@ -308,7 +308,7 @@ std::optional<int64_t> Levels::read_seed(Level& level) {
 void Levels::set_forecasts(const GraphScope::Forecasts& forecasts) {
   for (const std::unique_ptr<Level>& level : levels_) {
     level->names.scope->set_forecasts(forecasts);
-    for (const std::unique_ptr<NodeScope>& round : level->rounds) round->scope->set_forecasts(forecasts);
+    for (const std::unique_ptr<NodeScope>& iteration : level->iterations) iteration->scope->set_forecasts(forecasts);
   }
 }
 

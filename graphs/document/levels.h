@@ -60,12 +60,12 @@ class Levels {
  private:
   void read_level(Level& level, const std::vector<RoutedOverride>& overrides);
   void read_item(Level& level, const JsonMember& member, const std::vector<RoutedOverride>& overrides);
-  void read_round(Level& level, const JsonMember& member, const std::string& local, NodeScope& names,
-                  const std::vector<RoutedOverride>& overrides, std::vector<NodeInstance>& items);
+  void read_iteration(Level& level, const JsonMember& member, const std::string& local, NodeScope& names,
+                      const std::vector<RoutedOverride>& overrides, std::vector<NodeInstance>& items);
   Level* read_use(Level& outer, NodeDraft& use, const Subgraph& graph, const std::vector<RoutedOverride>& overrides);
   void read_outputs(Level& level);
   std::optional<int64_t> read_seed(Level& level);
-  NodeScope* names_of_round(Level& level, const LoopRound& round, Diagnostics& diagnostics);
+  NodeScope* names_of_iteration(Level& level, const LoopIteration& iteration, Diagnostics& diagnostics);
   void refuse_unknown(const Level& level, const std::vector<RoutedOverride>& overrides);
 
   Subgraphs& graphs_;

@@ -188,7 +188,8 @@ class Loader {
   /// The node whose results an expression queries. Throws Error if there is not exactly one.
   std::string node_behind(const std::string& asked) const {
     const WireSources found = sources_behind(asked);
-    if (found.wires.size() > 1) throw Error(fmt::format("\"{}\" is a loop, of {} rounds", asked, found.wires.size()));
+    if (found.wires.size() > 1)
+      throw Error(fmt::format("\"{}\" is a loop, of {} iterations", asked, found.wires.size()));
     if (found.wires.empty()) throw Error(fmt::format("nothing comes into \"{}\"", asked));
     return found.wires.front().node;
   }

@@ -118,7 +118,7 @@ class LoopReader {
         lacking_(lacking),
         made_from_(made_from) {}
 
-  std::optional<std::vector<LoopRound>> read() {
+  std::optional<std::vector<LoopIteration>> read() {
     const JsonMember* kind = read_keys();
     if (!kind) return std::nullopt;
     place_ = kind->value.place;
@@ -149,7 +149,7 @@ class LoopReader {
     }
     if (failed_) return std::nullopt;
     make_labels_unlike();
-    return std::move(rounds_);
+    return std::move(iterations_);
   }
 
  private:
@@ -190,23 +190,23 @@ class LoopReader {
     return failed_ ? nullptr : out;
   }
 
-  void add(LoopRound& round, const std::string& name, ParamType type, const JsonValue& value) {
+  void add(LoopIteration& iteration, const std::string& name, ParamType type, const JsonValue& value) {
     const Param param{.name = name, .type = type};
-    GraphParameter& out =
-        round.variables.emplace_back(GraphParameter{.param = param, .place = place_, .value = {}, .as_written = ""});
+    GraphParameter& out = iteration.variables.emplace_back(
+        GraphParameter{.param = param, .place = place_, .value = {}, .as_written = ""});
     out.value = read_param(value, param, folder_, diagnostics_);
     if (value.is_text()) out.as_written = value.text;
   }
 
-  void add_round(const JsonValue& value, ParamType type, const std::string& name) {
-    LoopRound& round = rounds_.emplace_back(LoopRound{label_of(name), {}});
-    add(round, as_, type, value);
-    add_name(round, name);
+  void add_iteration(const JsonValue& value, ParamType type, const std::string& name) {
+    LoopIteration& iteration = iterations_.emplace_back(LoopIteration{label_of(name), {}});
+    add(iteration, as_, type, value);
+    add_name(iteration, name);
   }
 
-  void add_name(LoopRound& round, const std::string& name) {
-    add(round, as_ + "_name", ParamType::text, JsonValue::of(name));
-    add(round, as_ + "_index", ParamType::integer, JsonValue::of(int64_t(rounds_.size()) - 1));
+  void add_name(LoopIteration& iteration, const std::string& name) {
+    add(iteration, as_ + "_name", ParamType::text, JsonValue::of(name));
+    add(iteration, as_ + "_index", ParamType::integer, JsonValue::of(int64_t(iterations_.size()) - 1));
   }
 
   void refuse_values(const JsonValue& given) {
@@ -228,13 +228,13 @@ class LoopReader {
     }
     if (values.empty())
       return report(
-          "expected at least one value, found an empty list; no wire could come from a node without rounds: give a "
+          "expected at least one value, found an empty list; no wire could come from a node without iterations: give a "
           "value, or take the node out");
     if (values.size() > most_variations)
       return report(fmt::format("expected at most {} values, found {}", most_variations, values.size()));
     const std::optional<ParamType> type = common_type(values);
     if (!type) return report("expected values of one kind: numbers, texts, sizes, or true and false");
-    for (const JsonValue& v : values) add_round(v, *type, v.is_text() ? v.text : compact(v));
+    for (const JsonValue& v : values) add_iteration(v, *type, v.is_text() ? v.text : compact(v));
   }
 
   void find_paths(const fs::path& pattern, bool folders) {
@@ -254,7 +254,7 @@ class LoopReader {
     std::ranges::sort(paths);
     for (const fs::path& p : paths) made_from_.back().names.push_back(p.filename().string());
     for (const fs::path& p : paths)
-      add_round(JsonValue::of(p.string()), ParamType::path, (folders ? p.filename() : p.stem()).string());
+      add_iteration(JsonValue::of(p.string()), ParamType::path, (folders ? p.filename() : p.stem()).string());
   }
 
   void read_table_of(const fs::path& file) {
@@ -283,19 +283,19 @@ class LoopReader {
       }
       const ParamType type = common_type(values).value_or(ParamType::text);
       for (size_t r = 0; r < rows.size(); r++) {
-        if (c == 0) rounds_.push_back({label_of(rows[r].values.front().second), {}});
-        add(rounds_[r], name, type, type == ParamType::text ? JsonValue::of(rows[r].values[c].second) : values[r]);
+        if (c == 0) iterations_.push_back({label_of(rows[r].values.front().second), {}});
+        add(iterations_[r], name, type, type == ParamType::text ? JsonValue::of(rows[r].values[c].second) : values[r]);
       }
     }
     for (size_t r = 0; r < rows.size(); r++) {
-      add(rounds_[r], as_ + "_name", ParamType::text, JsonValue::of(rows[r].values.front().second));
-      add(rounds_[r], as_ + "_index", ParamType::integer, JsonValue::of(int64_t(r)));
+      add(iterations_[r], as_ + "_name", ParamType::text, JsonValue::of(rows[r].values.front().second));
+      add(iterations_[r], as_ + "_index", ParamType::integer, JsonValue::of(int64_t(r)));
     }
   }
 
   void make_labels_unlike() {
     std::set<std::string> taken;
-    for (LoopRound& r : rounds_) {
+    for (LoopIteration& r : iterations_) {
       const std::string plain = r.label;
       for (int i = 2; !taken.insert(r.label).second; i++) r.label = fmt::format("{} {}", plain, i);
     }
@@ -309,15 +309,15 @@ class LoopReader {
   std::vector<LoopSource>& made_from_;
   Place place_;
   std::string as_ = "item";
-  std::vector<LoopRound> rounds_;
+  std::vector<LoopIteration> iterations_;
   bool failed_ = false;
 };
 
 }  // namespace
 
-std::optional<std::vector<LoopRound>> read_loop(const JsonValue& loop, const fs::path& folder,
-                                                Substitution& substitution, Diagnostics& diagnostics, Lacking& lacking,
-                                                std::vector<LoopSource>& made_from) {
+std::optional<std::vector<LoopIteration>> read_loop(const JsonValue& loop, const fs::path& folder,
+                                                    Substitution& substitution, Diagnostics& diagnostics,
+                                                    Lacking& lacking, std::vector<LoopSource>& made_from) {
   return LoopReader(loop, folder, substitution, diagnostics, lacking, made_from).read();
 }
 

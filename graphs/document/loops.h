@@ -15,7 +15,7 @@
 namespace terrazzo {
 
 /// One iteration of a loop.
-struct LoopRound {
+struct LoopIteration {
   std::string label;                      ///< unique in the loop: "brick"
   std::vector<GraphParameter> variables;  ///< scan, scan_name and scan_index; for a table its columns
 };
@@ -42,8 +42,8 @@ struct LoopSource {
 /// The iterations that `loop` describes; relative paths start at `folder`. Adds files that it read and folders that it
 /// listed to `made_from`, without the node's name. Nullopt after a problem, or if a value is missing, which is added to
 /// `lacking`.
-std::optional<std::vector<LoopRound>> read_loop(const JsonValue& loop, const std::filesystem::path& folder,
-                                                Substitution& substitution, Diagnostics& diagnostics, Lacking& lacking,
-                                                std::vector<LoopSource>& made_from);
+std::optional<std::vector<LoopIteration>> read_loop(const JsonValue& loop, const std::filesystem::path& folder,
+                                                    Substitution& substitution, Diagnostics& diagnostics,
+                                                    Lacking& lacking, std::vector<LoopSource>& made_from);
 
 }  // namespace terrazzo

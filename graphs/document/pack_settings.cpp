@@ -15,14 +15,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a node's name in an override is this node or one of its rounds, or stands for it: "walls/brick" does for
+/// Whether a node's name in an override is this node or one of its iterations, or stands for it: "walls/brick" does for
 /// "walls[red]/brick".
 bool names_node(std::string_view given, std::string_view node) {
   while (!given.empty() || !node.empty()) {
     const std::string_view wanted = given.substr(0, given.find('/'));
     const std::string_view step = node.substr(0, node.find('/'));
-    const bool is_round = wanted.substr(0, wanted.find('[')) == step;
-    if (wanted != step && !is_round && wanted != step.substr(0, step.find('['))) return false;
+    const bool is_iteration = wanted.substr(0, wanted.find('[')) == step;
+    if (wanted != step && !is_iteration && wanted != step.substr(0, step.find('['))) return false;
     given.remove_prefix(std::min(given.size(), wanted.size() + 1));
     node.remove_prefix(std::min(node.size(), step.size() + 1));
   }

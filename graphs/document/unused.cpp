@@ -12,8 +12,8 @@ namespace {
 /// The parameters that a level's nodes, or its other parameters, use.
 std::set<std::string> used_parameters(const Level& level) {
   std::set<std::string> out = level.names.substitution->used();
-  for (const auto& round : level.rounds)
-    out.insert(round->substitution->used().begin(), round->substitution->used().end());
+  for (const auto& iteration : level.iterations)
+    out.insert(iteration->substitution->used().begin(), iteration->substitution->used().end());
   level.names.scope->add_what_they_use(out);
   // A parameter that only a default uses counts as used, even if an override replaces the default.
   for (const GraphParameter& p : level.graph->parameters)

@@ -339,9 +339,10 @@ void connect(Levels& levels, std::vector<Problem>& problems) {
     for (PortWires& p : d.ports) connect_port(d, p);
     for (const auto& [port, all] : d.node.inputs) wires += all.size();
     if (wires >= most_wires) {
-      problems.push_back({d.node.place, "node " + in_quotes(d.node.name),
-                          fmt::format("a graph may have fewer than {} wires, all rounds of loops counted", most_wires),
-                          d.node.name, d.node.file});
+      problems.push_back(
+          {d.node.place, "node " + in_quotes(d.node.name),
+           fmt::format("a graph may have fewer than {} wires, all iterations of loops counted", most_wires),
+           d.node.name, d.node.file});
       return;
     }
     set_node(problems, before, d.node.name);

@@ -13,7 +13,7 @@ namespace terrazzo {
 namespace {
 
 /// "all[sand]" of the node "all[sand]/weighted"; empty if it is in no loop.
-std::string round_of(const std::string& node) {
+std::string iteration_of(const std::string& node) {
   const size_t end = node.rfind(']');
   return end == node.npos ? "" : node.substr(0, end + 1);
 }
@@ -33,16 +33,17 @@ std::vector<Problem> in_order(std::vector<Problem> problems) {
   // Uses of the same subgraph report the same problem; for a loop every affected iteration is named.
   std::map<std::tuple<std::string, int, int, std::string>, size_t> said;
   std::vector<Problem> out;
-  std::map<size_t, std::vector<std::string>> more_rounds;
+  std::map<size_t, std::vector<std::string>> more_iterations;
   for (Problem& p : problems) {
     const auto [at, is_new] = said.emplace(std::tuple(p.file, p.place.line, p.place.column, p.message), out.size());
     if (is_new || p.place.line == 0)
       out.push_back(std::move(p));
-    else if (const std::string round = round_of(p.node); !round.empty() && round != round_of(out[at->second].node))
-      more_rounds[at->second].push_back(round);
+    else if (const std::string iteration = iteration_of(p.node);
+             !iteration.empty() && iteration != iteration_of(out[at->second].node))
+      more_iterations[at->second].push_back(iteration);
   }
-  for (const auto& [first, rounds] : more_rounds)
-    out[first].message += fmt::format("; the same in {}", listed_with_and(rounds));
+  for (const auto& [first, iterations] : more_iterations)
+    out[first].message += fmt::format("; the same in {}", listed_with_and(iterations));
   return out;
 }
 

@@ -177,7 +177,7 @@ class Packing {
   }
 
   /// Removes the labels of loops that do not iterate over any of `sources`: "sub/n" for "sub[a]/n".
-  static std::string in_all_rounds(const std::string& node, const std::vector<Settable>& sources) {
+  static std::string in_all_iterations(const std::string& node, const std::vector<Settable>& sources) {
     std::string out;
     for (size_t at = 0; at < node.size();) {
       const size_t label = std::min(node.find('[', at), node.size());
@@ -193,11 +193,11 @@ class Packing {
   /// Sets something of a node, unless one of `sources` is set.
   void add_setting(const std::string& node, const std::string& name, JsonValue value,
                    const std::vector<Settable>& sources) {
-    const std::string target = in_all_rounds(node, sources) + "." + name;
+    const std::string target = in_all_iterations(node, sources) + "." + name;
     JsonValue names;
     names.kind = JsonValue::Kind::list;
     for (const Settable& s : sources)
-      names.items.push_back(JsonValue::of(s.node.empty() ? s.name : in_all_rounds(s.node, sources) + "." + s.name));
+      names.items.push_back(JsonValue::of(s.node.empty() ? s.name : in_all_iterations(s.node, sources) + "." + s.name));
     settings_.insert_or_assign(target, std::move(value));
     if (!names.items.empty()) sources_.insert_or_assign(target, std::move(names));
   }

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A node's name without loop labels: "all/files" for "all[sand]/files".
-std::string without_rounds(const std::string& node) {
+std::string without_iterations(const std::string& node) {
   std::string out;
   int depth = 0;
   for (const char c : node) {
@@ -35,8 +35,8 @@ std::string without_rounds(const std::string& node) {
 }
 
 /// Whether two nodes are iterations of the same node in a loop.
-bool are_rounds(const std::string& a, const std::string& b) {
-  return a != b && without_rounds(a) == without_rounds(b);
+bool are_iterations(const std::string& a, const std::string& b) {
+  return a != b && without_iterations(a) == without_iterations(b);
 }
 
 /// Identifies a file independently of links.
@@ -154,8 +154,8 @@ class PreflightChecker {
                                 writer.node != node.name ? fmt::format("here and by the node \"{}\"", writer.node)
                                                          : fmt::format("for {} and for {}", writer.what, f.what),
                                 writer.path != path ? fmt::format(" ({} is the same file)", writer.path.string()) : "",
-                                are_rounds(node.name, writer.node)
-                                    ? "; let the path tell the rounds of the loop apart, by its variable, as "
+                                are_iterations(node.name, writer.node)
+                                    ? "; let the path tell the iterations of the loop apart, by its variable, as "
                                       "\"$out/$scan_name\" does in a loop \"as\": \"scan\""
                                     : "");
       }

@@ -54,7 +54,7 @@ TEST_CASE("a loop makes a node for each value, and its wire stands for all of th
         std::vector<std::string>{"/project/f8.png", "/project/f10.png"});
 }
 
-TEST_CASE("overrides are for all rounds or for one") {
+TEST_CASE("overrides are for all iterations or for one") {
   const LoadedGraph loaded =
       looped(R"({"values": ["x", "y.z"]})", R"("file": "a.png")", {"p.kind=height", "p[y.z].kind=normal"});
   CHECK(std::get<std::string>(loaded.graph.find("p[x]")->params.at("kind")) == "height");
@@ -108,7 +108,7 @@ TEST_CASE("what is wrong about a loop") {
   CHECK(problem(R"({"valus": [1]})").starts_with("unknown key \"valus\" (did you mean \"values\"?)"));
   CHECK(problem(R"({"values": [1], "files": "x"})").starts_with("expected one of"));
   CHECK(problem(R"({"values": []})")
-            .ends_with("found an empty list; no wire could come from a node without rounds: "
+            .ends_with("found an empty list; no wire could come from a node without iterations: "
                        "give a value, or take the node out"));
   CHECK(problem(R"({"values": [1, "a"]})").starts_with("expected values of one kind"));
   CHECK(problem(R"({"values": "1..x"})").starts_with("expected a list of values, or a range"));
@@ -172,7 +172,7 @@ TEST_CASE("loops that read loops, and parameters of many uses, are bounded") {
   CHECK(contains(problems_of(uses), "the subgraphs of a graph may have at most 200000 parameters together"));
 }
 
-TEST_CASE("a round's overrides are those of all rounds and its own, in their order") {
+TEST_CASE("an iteration's overrides are those of all iterations and its own, in their order") {
   const std::vector<std::string> overrides = {"p[y].kind=normal", "p.kind=height", "p[x].kind=normal"};
   const LoadedGraph loaded = looped(R"({"values": ["x", "y", "z"]})", R"("file": "a.png")", overrides);
   const auto kind = [&](const char* node) { return std::get<std::string>(loaded.graph.find(node)->params.at("kind")); };

@@ -66,7 +66,7 @@ TEST_CASE("a problem with a member of a map, or an item of a list, points at it"
         std::vector<std::string>{"3:/nodes/w", "3:/nodes/w", "3:/nodes/w", "10:/nodes/f/maps/1"});
 }
 
-TEST_CASE("a mistake in several rounds of a loop names them all") {
+TEST_CASE("a mistake in several iterations of a loop names them all") {
   const Workplace w;
   write_text(w.path / "loop.json",
              R"({"terrazzo": 1, "graphs": {"one": {"parameters": {"n": {"type": "int"}}, "nodes": {
@@ -77,7 +77,7 @@ TEST_CASE("a mistake in several rounds of a loop names them all") {
   const ProgramRun run = w.run({"check", "loop.json"});
   CHECK(run.code == 2);
   CHECK(contains(run.err, "the same in all[2] and all[3]"));
-  CHECK(contains(run.err, "let the path tell the rounds of the loop apart"));
+  CHECK(contains(run.err, "let the path tell the iterations of the loop apart"));
 }
 
 TEST_CASE("a parameter of the graph that is taken for an option is told how to be set") {

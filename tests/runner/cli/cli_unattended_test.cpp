@@ -115,7 +115,8 @@ const std::vector<std::string> first_and_third = {"n1.png", "n3.png"};
 
 }  // namespace
 
-TEST_CASE("with --keep-going a source that is cut off fails the variations and rounds that need it, and no others") {
+TEST_CASE(
+    "with --keep-going a source that is cut off fails the variations and iterations that need it, and no others") {
   const std::vector<std::string> jobs[] = {
       {"run", "one.json", "--table", "table.csv"}, {"run", "larger.json", "--table", "table.csv"}, {"run", "all.json"}};
   for (const std::vector<std::string>& job : jobs) {
