@@ -6,6 +6,7 @@
 
 #include "core/file/scratch_file.h"
 #include "core/image_io/image_file.h"
+#include "tests/image_reads.h"
 #include "tests/odd_images.h"
 #include "tests/run_node.h"
 
@@ -14,19 +15,6 @@ using namespace terrazzo::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Read {
-  ImagePtr image;
-  std::string warnings;
-};
-
-Read read(const fs::path& path, Semantic semantic) {
-  Read out;
-  ImageInfo info;
-  info.semantic = semantic;
-  out.image = read_image(path, info, [&](const std::string& w) { out.warnings += w + "\n"; });
-  return out;
-}
 
 /// As long as it lives there is no room for pixels in memory.
 struct NoRoom {
@@ -86,15 +74,15 @@ TEST_CASE("images that are read into a scratch file are those that are read into
   const TemporaryFolder folder;
   for (const auto& [path, semantic] : odd_files(folder.path())) {
     CAPTURE(path.filename().string());
-    const Read usual = read(path, semantic);
+    const ReadImage usual = read_with_warnings(path, semantic);
     const NoRoom full;
-    const Read spilled = read(path, semantic);
+    const ReadImage spilled = read_with_warnings(path, semantic);
     CHECK(std::dynamic_pointer_cast<const FilePixels>(spilled.image->source()));
     CHECK(spilled.image->in_memory() == nullptr);
     CHECK(spilled.image->info() == usual.image->info());
     CHECK(spilled.image->digest() == usual.image->digest());
     CHECK(spilled.warnings == usual.warnings);
-    CHECK(spilled.image->pixels() == usual.image->pixels());
+    CHECK(spilled.pixels() == usual.pixels());
     const Rect part{3, 2, 7, 5};
     CHECK(spilled.image->read(part) == usual.image->read(part));
   }
@@ -127,7 +115,7 @@ TEST_CASE("what is cut off is found too when it is read by rows") {
     Bytes bytes = read_bytes(path);
     bytes.resize(bytes.size() * 2 / 3);
     write_bytes(path, bytes);
-    CHECK_THROWS_AS(read(path, Semantic::data), Error);
+    CHECK_THROWS_AS(read_with_warnings(path, Semantic::data), Error);
   }
   CHECK(ScratchFile::shared().size() == 0);
 }

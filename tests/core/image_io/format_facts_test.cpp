@@ -9,6 +9,7 @@
 #include "core/image/image_limits.h"
 #include "core/image_io/image_file.h"
 #include "tests/byte_writer.h"
+#include "tests/image_reads.h"
 #include "tests/run_node.h"
 #include "tests/texts.h"
 
@@ -17,29 +18,6 @@ using namespace terrazzo::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Read {
-  ImagePtr image;
-  std::string said;
-  std::vector<float> pixels() const { return image->pixels(); }
-};
-
-Read read(const fs::path& path, Semantic semantic = Semantic::data) {
-  Read out;
-  ImageInfo info;
-  info.semantic = semantic;
-  out.image = read_image(path, info, [&](const std::string& w) { out.said += w + "\n"; });
-  return out;
-}
-
-std::string trouble_of(const fs::path& path) {
-  try {
-    read(path);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
-}
 
 struct Tiff {
   int photometric = 1, bits = 8, format = 1, channels = 1, extra = -1;
@@ -135,13 +113,14 @@ TEST_CASE("TIFF that stores 0 as white is inverted at every depth, and alpha is 
   const fs::path path = folder.path() / "white.tif";
   const auto pixels = [&](const Tiff& tiff, const Bytes& values) {
     write_bytes(path, make_tiff(tiff, values));
-    return read(path).pixels();
+    return read_with_warnings(path).pixels();
   };
   CHECK(pixels({.photometric = 0}, {0, 64, 255}) == std::vector<float>{1, 191 / 255.0f, 0});
   for (const bool big : {false, true}) {
     const Tiff tiff{.photometric = 0, .bits = 16, .is_big_endian = big};
     CHECK(pixels(tiff, packed({0, 16384, 65535}, 2, big)) == std::vector<float>{1, 49151 / 65535.0f, 0});
-    CHECK(contains(read(path).said, "white.tif: 0 is white in it, as it says; its values were inverted"));
+    CHECK(contains(read_with_warnings(path).warnings,
+                   "white.tif: 0 is white in it, as it says; its values were inverted"));
   }
   CHECK(pixels({.photometric = 0, .bits = 32}, packed({0, 1u << 30, 0xffffffff}, 4)) ==
         std::vector<float>{1, 0.75f, 0});
@@ -159,11 +138,11 @@ TEST_CASE("TIFF of floats that stores 0 as white, and of 24-bit floats, is refus
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "odd.tif";
   write_bytes(path, make_tiff({.photometric = 0, .bits = 32, .format = 3}, float_bytes({0, 1})));
-  CHECK(contains(trouble_of(path), "odd.tif: its photometric tag says that 0 is white"));
+  CHECK(contains(read_error(path), "odd.tif: its photometric tag says that 0 is white"));
   write_bytes(path, make_tiff({.bits = 24, .format = 3}, Bytes(12, 0x3e)));
-  CHECK(contains(trouble_of(path), "odd.tif: its values are 24-bit floats; expected 16 or 32 bits"));
+  CHECK(contains(read_error(path), "odd.tif: its values are 24-bit floats; expected 16 or 32 bits"));
   write_bytes(path, make_tiff({.photometric = 3, .channels = 2, .extra = 2}, {1, 128, 200, 255}));
-  CHECK(contains(trouble_of(path), "odd.tif: it has a palette and another channel"));
+  CHECK(contains(read_error(path), "odd.tif: it has a palette and another channel"));
 }
 
 TEST_CASE("colours of TIFF that are multiplied by alpha are divided by it") {
@@ -171,17 +150,17 @@ TEST_CASE("colours of TIFF that are multiplied by alpha are divided by it") {
   const fs::path path = folder.path() / "alpha.tif";
   const auto read_as = [&](const Tiff& tiff, const Bytes& values) {
     write_bytes(path, make_tiff(tiff, values));
-    return read(path, Semantic::base_color);
+    return read_with_warnings(path, Semantic::base_color);
   };
   const Tiff associated{.photometric = 2, .channels = 4, .extra = 1};
-  const Read r = read_as(associated, {100, 50, 25, 128, 0, 0, 0, 0});
+  const ReadImage r = read_as(associated, {100, 50, 25, 128, 0, 0, 0, 0});
   CHECK(r.pixels() == std::vector<float>{199 / 255.0f, 100 / 255.0f, 50 / 255.0f, 128 / 255.0f, 0, 0, 0, 0});
-  CHECK(r.said ==
+  CHECK(r.warnings ==
         "warning: alpha.tif: its colours are multiplied by alpha, as it says; they were divided by it. 1 pixel of "
         "alpha 0 stays black\n");
   {
     const PixelRoom no_room{uint64_t{1} << 60};
-    CHECK(read(path, Semantic::base_color).pixels() == r.pixels());
+    CHECK(read_with_warnings(path, Semantic::base_color).pixels() == r.pixels());
   }
   for (const bool big : {false, true})
     CHECK(read_as({.photometric = 2, .bits = 16, .channels = 4, .extra = 1, .is_big_endian = big},
@@ -192,17 +171,18 @@ TEST_CASE("colours of TIFF that are multiplied by alpha are divided by it") {
           .pixels() == std::vector<float>{0.5f, 4, 0, 0.5f});
   CHECK(read_as({.channels = 2, .extra = 1}, {64, 128}).pixels()[0] == 128 / 255.0f);
   CHECK(read_as({.photometric = 2, .channels = 4, .extra = 2}, {100, 50, 25, 128}).pixels()[0] == 100 / 255.0f);
-  CHECK(read(path).said == "");
-  CHECK(contains(read_as({.photometric = 2, .channels = 4}, {100, 50, 25, 128}).said,
+  CHECK(read_with_warnings(path).warnings == "");
+  CHECK(contains(read_as({.photometric = 2, .channels = 4}, {100, 50, 25, 128}).warnings,
                  "it does not say what its fourth channel is"));
-  CHECK(contains(read_as(associated, {100, 50, 25, 10}).said, "Colours larger than alpha in 1 pixel say otherwise"));
+  CHECK(
+      contains(read_as(associated, {100, 50, 25, 10}).warnings, "Colours larger than alpha in 1 pixel say otherwise"));
 }
 
 TEST_CASE("Lab, CMYK and other spaces without plain colours are refused in every format") {
   const TemporaryFolder folder;
   const auto trouble = [&](const char* name, const Bytes& bytes) {
     write_bytes(folder.path() / name, bytes);
-    const std::string read = trouble_of(folder.path() / name);
+    const std::string read = read_error(folder.path() / name);
     CHECK(contains(read, "RGB"));
     CHECK(contains(read, name));
     return read;
@@ -225,7 +205,7 @@ TEST_CASE("Lab, CMYK and other spaces without plain colours are refused in every
     CHECK(contains(trouble("ink.jp2", jp2.bytes), name));
   }
   write_bytes(folder.path() / "ink.jpg", make_cmyk_jpeg());
-  CHECK(contains(trouble_of(folder.path() / "ink.jpg"), "CMYK"));
+  CHECK(contains(read_error(folder.path() / "ink.jpg"), "CMYK"));
 }
 
 TEST_CASE("the fourth byte of BMP pixels is alpha only where the header says so") {
@@ -235,18 +215,19 @@ TEST_CASE("the fourth byte of BMP pixels is alpha only where the header says so"
   const std::vector<uint64_t> colours = {0xff0000, 0xff00, 0xff}, all = {0xff0000, 0xff00, 0xff, 0xff000000};
   const auto channels = [&](const Bmp& bmp) {
     write_bytes(path, make_bmp(bmp, pixel));
-    CHECK(read_image_info(path).channels == read(path).image->channels());
-    CHECK(read(path).pixels()[0] == 30 / 255.0f);
-    return read(path).image->channels();
+    CHECK(read_image_info(path).channels == read_with_warnings(path).image->channels());
+    CHECK(read_with_warnings(path).pixels()[0] == 30 / 255.0f);
+    return read_with_warnings(path).image->channels();
   };
   CHECK(channels({}) == 3);
-  CHECK(contains(read(path).said, "x.bmp: the fourth byte of its pixels is unused, as its header says"));
+  CHECK(contains(read_with_warnings(path).warnings,
+                 "x.bmp: the fourth byte of its pixels is unused, as its header says"));
   CHECK(channels({.header = 108}) == 3);
   CHECK(channels({.compression = 3, .masks = colours}) == 3);
   CHECK(channels({.header = 124, .compression = 3, .masks = all}) == 4);
   CHECK(channels({.compression = 6, .masks = all}) == 4);
   write_bytes(path, make_bmp({.compression = 3, .masks = {0xff000000, 0xff0000, 0xff00}}, pixel));
-  CHECK(contains(trouble_of(path), "its channels do not lie in the usual order"));
+  CHECK(contains(read_error(path), "its channels do not lie in the usual order"));
 }
 
 TEST_CASE("DDS comes with the channels that it stores; what is no flat picture is refused") {
@@ -257,12 +238,12 @@ TEST_CASE("DDS comes with the channels that it stores; what is no flat picture i
   bc5.insert(bc5.end(), other.begin(), other.end());
   const auto trouble = [&](const Dds& dds, const Bytes& data) {
     write_bytes(path, make_dds(dds, data));
-    return trouble_of(path);
+    return read_error(path);
   };
   for (const Dds& dds : {Dds{.code = "ATI2"}, Dds{.code = "BC5U"}, Dds{.code = "DX10", .dx10 = {83, 3, 0, 1, 0}}}) {
     CHECK(trouble(dds, bc5) == "");
     CHECK(read_image_info(path).channels == 2);
-    CHECK(read(path).image->read({3, 3, 1, 1}) == std::vector<float>{200 / 255.0f, 77 / 255.0f});
+    CHECK(read_with_warnings(path).image->read({3, 3, 1, 1}) == std::vector<float>{200 / 255.0f, 77 / 255.0f});
   }
   CHECK(trouble({.code = "ATI1"}, bc4) == "");
   CHECK(read_image_info(path).channels == 1);
@@ -285,7 +266,7 @@ TEST_CASE("FITS is refused, as its numbers have no range") {
   std::string text = fmt::format("{:<80}{:<80}", "SIMPLE  =                    T", "BITPIX  =                   16");
   text.resize(5760, ' ');
   write_bytes(path, Bytes(text.begin(), text.end()));
-  CHECK(contains(trouble_of(path), "it is FITS"));
+  CHECK(contains(read_error(path), "it is FITS"));
   CHECK(contains(error_of("load_map", {{"path", path.string()}}), "it is FITS"));
   CHECK_NOTHROW(require_readable_image(path));  // what is asked first does not take it for a text
 }
@@ -293,21 +274,21 @@ TEST_CASE("FITS is refused, as its numbers have no range") {
 TEST_CASE("integers of 32 bits that are ids are refused, shades are not") {
   const TemporaryFolder folder;
   write_bytes(folder.path() / "ids.tif", make_tiff({.bits = 32}, packed({0, 57, 4000}, 4)));
-  CHECK(contains(trouble_of(folder.path() / "ids.tif"),
+  CHECK(contains(read_error(folder.path() / "ids.tif"),
                  "its values are 32-bit integers up to 4000 of 4294967295: they seem to be ids or counts"));
   {
     const PixelRoom no_room{uint64_t{1} << 60};
-    CHECK(contains(trouble_of(folder.path() / "ids.tif"), "they seem to be ids"));
+    CHECK(contains(read_error(folder.path() / "ids.tif"), "they seem to be ids"));
   }
   write_bytes(folder.path() / "signed.tif", make_tiff({.bits = 32, .format = 2}, packed({0, 57, 0xfffffff0}, 4)));
-  CHECK(contains(trouble_of(folder.path() / "signed.tif"), "up to 57 of 2147483647"));
+  CHECK(contains(read_error(folder.path() / "signed.tif"), "up to 57 of 2147483647"));
   write_bytes(folder.path() / "one.tif",
               make_tiff({.photometric = 2, .bits = 32, .channels = 3}, packed({~0u, 57, 0}, 4)));
-  CHECK(contains(trouble_of(folder.path() / "one.tif"), "up to 57"));
+  CHECK(contains(read_error(folder.path() / "one.tif"), "up to 57"));
   write_bytes(folder.path() / "shades.tif", make_tiff({.bits = 32}, packed({0, 57, 0x80000000}, 4)));
-  CHECK(trouble_of(folder.path() / "shades.tif") == "");
+  CHECK(read_error(folder.path() / "shades.tif") == "");
   write_bytes(folder.path() / "none.tif", make_tiff({.bits = 32}, packed({0, 0}, 4)));
-  CHECK(trouble_of(folder.path() / "none.tif") == "");
+  CHECK(read_error(folder.path() / "none.tif") == "");
 }
 
 TEST_CASE("TGA of 16-bit grey values is refused, and one of grey and alpha is read") {
@@ -318,10 +299,10 @@ TEST_CASE("TGA of 16-bit grey values is refused, and one of grey and alpha is re
     out.number(0, 1).number(0, 1).number(kind, 1).zeros(9).number(2, 2).number(1, 2).number(16, 1).number(0, 1);
     if (kind == 11) out.number(1, 1);
     write_bytes(path, out.number(16384, 2).number(32768, 2).bytes);
-    CHECK(contains(trouble_of(path), "its header says grey values of 16 bits, which TGA does not know; save it as"));
+    CHECK(contains(read_error(path), "its header says grey values of 16 bits, which TGA does not know; save it as"));
   }
   ByteWriter out;
   out.number(0, 1).number(0, 1).number(3, 1).zeros(9).number(2, 2).number(1, 2).number(16, 1).number(8, 1);
   write_bytes(path, out.number(0xff33, 2).number(0xff66, 2).bytes);
-  CHECK(read(path).pixels() == std::vector<float>{0.2f, 1, 0.4f, 1});
+  CHECK(read_with_warnings(path).pixels() == std::vector<float>{0.2f, 1, 0.4f, 1});
 }

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/image_io/image_file.h"
 #include "tests/byte_writer.h"
+#include "tests/image_reads.h"
 #include "tests/run_node.h"
 #include "tests/texts.h"
 
@@ -38,17 +39,10 @@ Bytes make_psd(const Psd& psd, const Bytes& composite) {
   return out.number(layers.size(), word).add(layers.bytes).number(uint64_t(psd.compression), 2).add(composite).bytes;
 }
 
-struct Read {
-  std::vector<float> pixels;
-  std::string said;
-};
-
-Read read(const fs::path& path) {
-  Read out;
-  const ImagePtr image = read_image(path, {}, [&](const std::string& w) { out.said += w; });
-  CHECK(read_image_info(path).channels == image->channels());
-  CHECK(read_image_info(path).depth == image->info().depth);
-  out.pixels = image->pixels();
+ReadImage read_psd(const fs::path& path) {
+  ReadImage out = read_with_warnings(path);
+  CHECK(read_image_info(path).channels == out.image->channels());
+  CHECK(read_image_info(path).depth == out.image->info().depth);
   return out;
 }
 
@@ -66,22 +60,22 @@ TEST_CASE("PSD files come with their alpha channel, at every depth") {
   const Bytes planes = {200, 201, 100, 101, 50, 51, 0, 128};
   for (const int version : {1, 2}) {
     write_bytes(path, make_psd({.version = version, .channels = 4}, planes));
-    CHECK(read(path).pixels == fractions({200, 100, 50, 0, 201, 101, 51, 128}, 255));
+    CHECK(read_psd(path).pixels() == fractions({200, 100, 50, 0, 201, 101, 51, 128}, 255));
   }
-  CHECK(read(path).said == "");
+  CHECK(read_psd(path).warnings == "");
   write_bytes(path, make_psd({.channels = 3}, planes));
-  CHECK(read(path).pixels == fractions({200, 100, 50, 201, 101, 51}, 255));
+  CHECK(read_psd(path).pixels() == fractions({200, 100, 50, 201, 101, 51}, 255));
   write_bytes(path, make_psd({.mode = 1, .channels = 2}, planes));
-  CHECK(read(path).pixels == fractions({200, 100, 201, 101}, 255));
+  CHECK(read_psd(path).pixels() == fractions({200, 100, 201, 101}, 255));
   write_bytes(path, make_psd({.bits = 16, .channels = 4, .size = {1, 1}}, packed({40000, 20000, 10000, 300}, 2, true)));
-  CHECK(read(path).pixels == fractions({40000, 20000, 10000, 300}, 65535));
+  CHECK(read_psd(path).pixels() == fractions({40000, 20000, 10000, 300}, 65535));
   std::vector<uint64_t> floats;
   for (const float v : {0.5f, 2.0f, -1.0f}) floats.push_back(std::bit_cast<uint32_t>(v));
   write_bytes(path, make_psd({.bits = 32, .size = {1, 1}}, packed(floats, 4, true)));
-  CHECK(read(path).pixels == std::vector<float>{0.5f, 2, -1});
+  CHECK(read_psd(path).pixels() == std::vector<float>{0.5f, 2, -1});
   write_bytes(path, make_psd({.channels = 6, .size = {1, 1}}, {1, 2, 3, 4, 5, 6}));
-  CHECK(read(path).pixels == fractions({1, 2, 3, 4}, 255));
-  CHECK(contains(read(path).said, "of its extra channels the first is read, as alpha"));
+  CHECK(read_psd(path).pixels() == fractions({1, 2, 3, 4}, 255));
+  CHECK(contains(read_psd(path).warnings, "of its extra channels the first is read, as alpha"));
 }
 
 TEST_CASE("palettes and packed rows of PSD files are expanded") {
@@ -90,12 +84,12 @@ TEST_CASE("palettes and packed rows of PSD files are expanded") {
   Bytes palette(768);
   for (size_t c = 0; c < 3; c++) palette[c * 256 + 7] = uint8_t(10 * (c + 1));
   write_bytes(path, make_psd({.mode = 2, .channels = 1, .palette = palette}, {0, 7}));
-  CHECK(read(path).pixels == fractions({0, 0, 0, 10, 20, 30}, 255));
+  CHECK(read_psd(path).pixels() == fractions({0, 0, 0, 10, 20, 30}, 255));
   // Rows: five times 9; 1 2 3 and two times 4; 5 and four times 6.
   Bytes packed_rows = packed({2, 6, 4}, 2, true);
   for (const int b : {0xfc, 9, 2, 1, 2, 3, 0xff, 4, 0, 5, 0xfd, 6}) packed_rows.push_back(uint8_t(b));
   write_bytes(path, make_psd({.size = {5, 1}, .compression = 1}, packed_rows));
-  CHECK(read(path).pixels == fractions({9, 1, 5, 9, 2, 6, 9, 3, 6, 9, 4, 6, 9, 4, 6}, 255));
+  CHECK(read_psd(path).pixels() == fractions({9, 1, 5, 9, 2, 6, 9, 3, 6, 9, 4, 6, 9, 4, 6}, 255));
 }
 
 TEST_CASE("colours under the transparency of layers are parted from white") {
@@ -106,11 +100,11 @@ TEST_CASE("colours under the transparency of layers are parted from white") {
   for (const Psd& psd : {Psd{.channels = 4, .layers = -1}, Psd{.channels = 4, .block = "Mtrn"},
                          Psd{.version = 2, .channels = 4, .block = "Mt16"}}) {
     write_bytes(path, make_psd(psd, planes));
-    CHECK(read(path).pixels == fractions({199, 100, 50, 128, 255, 255, 255, 0}, 255));
-    CHECK(contains(read(path).said, "they were parted from it"));
+    CHECK(read_psd(path).pixels() == fractions({199, 100, 50, 128, 255, 255, 255, 0}, 255));
+    CHECK(contains(read_psd(path).warnings, "they were parted from it"));
   }
   write_bytes(path, make_psd({.channels = 4, .layers = 1}, planes));
-  CHECK(read(path).pixels[0] == 227 / 255.0f);
+  CHECK(read_psd(path).pixels()[0] == 227 / 255.0f);
 }
 
 TEST_CASE("PSD files that are cut off or damaged give an error") {

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/image/image_limits.h"
 #include "core/image_io/image_file.h"
+#include "tests/image_reads.h"
 #include "tests/odd_images.h"
 #include "tests/run_node.h"
 #include "tests/texts.h"
@@ -19,28 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
-
-struct Read {
-  std::vector<float> pixels;
-  std::string said;
-};
-
-Read read(const fs::path& path, Semantic semantic) {
-  Read out;
-  ImageInfo info;
-  info.semantic = semantic;
-  out.pixels = read_image(path, info, [&](const std::string& w) { out.said += w + "\n"; })->pixels();
-  return out;
-}
-
-std::string trouble_of(const fs::path& path) {
-  try {
-    read(path, Semantic::height);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
-}
 
 }  // namespace
 
@@ -55,18 +34,18 @@ TEST_CASE("pixels that are not finite take the mean of their neighbours, and it 
   for (const std::string type : {"float", "half"}) {
     const fs::path path = folder.path() / fmt::format("{}.exr", type);
     write_odd(path, {.size = {side, side}, .type = type}, holed);
-    const Read r = read(path, Semantic::height);
-    CHECK(r.pixels[3 * side + 5] == 5.0f / 8);
+    const ReadImage r = read_with_warnings(path, Semantic::height);
+    CHECK(r.pixels()[3 * side + 5] == 5.0f / 8);
     // Two columns of three, but for itself: 2 of 0 and 3 of 1/8.
-    CHECK(r.pixels[6 * side + 0] == doctest::Approx(3.0 / 8 / 5).epsilon(1e-3));
+    CHECK(r.pixels()[6 * side + 0] == doctest::Approx(3.0 / 8 / 5).epsilon(1e-3));
     for (size_t i = 0; i < ramp.size(); i++)
-      if (i != 3 * side + 5 && i != 6 * side) CHECK(r.pixels[i] == ramp[i]);
-    CHECK(r.said == fmt::format("warning: {}.exr: 2 pixels are not finite (NaN or infinite), the first at (5, 3); "
-                                "replaced by the mean of their neighbours\n",
-                                type));
-    CHECK(read(path, Semantic::mask).pixels[6 * side] == 0);  // labels are not averaged
+      if (i != 3 * side + 5 && i != 6 * side) CHECK(r.pixels()[i] == ramp[i]);
+    CHECK(r.warnings == fmt::format("warning: {}.exr: 2 pixels are not finite (NaN or infinite), the first at (5, 3); "
+                                    "replaced by the mean of their neighbours\n",
+                                    type));
+    CHECK(read_with_warnings(path, Semantic::mask).pixels()[6 * side] == 0);  // labels are not averaged
     const PixelRoom no_room{uint64_t{1} << 60};
-    CHECK(read(path, Semantic::height).pixels == r.pixels);
+    CHECK(read_with_warnings(path, Semantic::height).pixels() == r.pixels());
   }
 }
 
@@ -77,23 +56,23 @@ TEST_CASE("what neighbours cannot fill is refused with the numbers") {
   for (int i = 8; i < 16; i++) pixels[size_t(i)] = nan_value;
   write_odd(path, {.size = {8, 8}, .type = "half"}, pixels);
   CHECK(contains(
-      trouble_of(path),
+      read_error(path, Semantic::height),
       "x.exr: 8 of its 64 pixels are not finite (NaN or infinite), the first at (0, 1); at most 5 % are filled "
       "from their neighbours"));
   pixels.assign(64 * 64, 0.5f);
   for (int y = 0; y < 14; y++)
     for (int x = 0; x < 14; x++) pixels[size_t(y) * 64 + size_t(x)] = infinite;
   write_odd(path, {.size = {64, 64}, .type = "float"}, pixels);
-  CHECK(trouble_of(path) == "");
+  CHECK(read_error(path, Semantic::height) == "");
   std::vector<float> wide(400 * 400, 0.5f);
   for (int y = 0; y < 40; y++)
     for (int x = 0; x < 40; x++) wide[size_t(y) * 400 + size_t(x)] = nan_value;
   write_odd(path, {.size = {400, 400}, .type = "float"}, wide);
-  CHECK(contains(trouble_of(path), "no value within 16 pixels of (0, 0) is finite"));
+  CHECK(contains(read_error(path, Semantic::height), "no value within 16 pixels of (0, 0) is finite"));
   const PixelRoom no_room{uint64_t{1} << 60};
-  CHECK(contains(trouble_of(path), "no value within 16 pixels of (0, 0) is finite"));
+  CHECK(contains(read_error(path, Semantic::height), "no value within 16 pixels of (0, 0) is finite"));
   write_odd(path, {.size = {1, 1}, .type = "float"}, {nan_value});
-  CHECK(contains(trouble_of(path), "1 of its 1 pixel"));
+  CHECK(contains(read_error(path, Semantic::height), "1 of its 1 pixel"));
 }
 
 TEST_CASE("alpha of colours that is 0 everywhere is read as opaque; other channels and other maps stay") {
@@ -101,14 +80,14 @@ TEST_CASE("alpha of colours that is 0 everywhere is read as opaque; other channe
   for (const char* name : {"x.png", "x.tif", "x.tga"}) {
     const fs::path path = folder.path() / name;
     write_odd(path, {.size = {2, 1}, .channels = 4}, {1, 0.2f, 0, 0, 0.4f, 0.2f, 1, 0});
-    const Read r = read(path, Semantic::base_color);
-    CHECK(r.pixels == std::vector<float>{1, 0.2f, 0, 1, 0.4f, 0.2f, 1, 1});
-    CHECK(contains(r.said, fmt::format("warning: {}: its alpha is 0 everywhere", name)));
-    CHECK(read(path, Semantic::data).pixels[3] == 0);
-    CHECK(read(path, Semantic::data).said == "");
+    const ReadImage r = read_with_warnings(path, Semantic::base_color);
+    CHECK(r.pixels() == std::vector<float>{1, 0.2f, 0, 1, 0.4f, 0.2f, 1, 1});
+    CHECK(contains(r.warnings, fmt::format("warning: {}: its alpha is 0 everywhere", name)));
+    CHECK(read_with_warnings(path, Semantic::data).pixels()[3] == 0);
+    CHECK(read_with_warnings(path, Semantic::data).warnings == "");
   }
   write_odd(folder.path() / "y.png", {.size = {2, 1}, .channels = 4}, {1, 0.2f, 0, 0, 1, 0.2f, 0, 0.2f});
-  CHECK(read(folder.path() / "y.png", Semantic::base_color).pixels[3] == 0);
+  CHECK(read_with_warnings(folder.path() / "y.png", Semantic::base_color).pixels()[3] == 0);
 }
 
 TEST_CASE("colours of WebP are those under its alpha") {
@@ -122,15 +101,15 @@ TEST_CASE("colours of WebP are those under its alpha") {
   std::vector<float> right;
   for (const float alpha : {1.0f, 128 / 255.0f, 0.0f})
     for (const float v : {200 / 255.0f, 100 / 255.0f, 50 / 255.0f, alpha}) right.push_back(v);
-  const Read r = read(path, Semantic::base_color);
-  CHECK(r.pixels == right);
-  CHECK(r.said == "");
+  const ReadImage r = read_with_warnings(path, Semantic::base_color);
+  CHECK(r.pixels() == right);
+  CHECK(r.warnings == "");
   for (size_t i = 20; i < webp.size(); i++) {  // damage gives an error or a picture of that size
     Bytes damaged = webp;
     damaged[i] ^= 0x15;
     write_bytes(path, damaged);
     try {
-      const size_t count = read(path, Semantic::base_color).pixels.size();
+      const size_t count = read_with_warnings(path, Semantic::base_color).pixels().size();
       CHECK(count > 0);
     } catch (const Error& e) {
       CHECK(contains(e.what(), "x.webp"));
@@ -139,7 +118,7 @@ TEST_CASE("colours of WebP are those under its alpha") {
   Bytes animated = {'R', 'I', 'F', 'F', 22, 0, 0, 0, 'W', 'E', 'B', 'P', 'V', 'P', '8', 'X', 10, 0, 0, 0, 0x12};
   animated.resize(30);
   write_bytes(path, animated);
-  CHECK(contains(trouble_of(path), "it is an animation with alpha; expected a single picture"));
+  CHECK(contains(read_error(path, Semantic::height), "it is an animation with alpha; expected a single picture"));
 }
 
 TEST_CASE("colours that may be multiplied by alpha are told of where none is larger than it, and stay as they are") {
