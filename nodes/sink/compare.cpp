@@ -25,47 +25,79 @@ double rounded(double v) {
   return std::round(v * 1e6) / 1e6;
 }
 
-void add_pixel_figures(const QualityFigures& q, std::vector<Report::Figure>& out) {
-  out.push_back({"swd", rounded(q.swd),
-                 "distance of the patch distributions, all scales; lower is better, 0 = the same patches as often"});
-  out.push_back({"cooccurrence", rounded(q.cooccurrence),
-                 "difference in which values stand beside one another, 0 to 1; lower is better"});
-  out.push_back({"coherence", rounded(q.coherence),
-                 "how far output patches are from the exemplar's (broken features, seams); lower is better, 1 = as far "
-                 "as exemplar patches from one another"});
-  out.push_back({"completeness", rounded(q.completeness),
-                 "how far exemplar patches are from the output's (lost features); lower is better, 1 = as far as "
-                 "exemplar patches from one another"});
-  out.push_back(
-      {"broken", rounded(q.broken),
-       "share of output patches unlike anything in the exemplar (cut features, hard seams); lower is better"});
-  out.push_back(
-      {"structure", rounded(q.structure),
-       "share of windows, up to half an element wide, whose edges run as nowhere in the exemplar (joints that "
-       "end in a stone, courses that jog); lower is better, another sample has about 0.05"});
-  out.push_back({"acf", rounded(q.acf),
-                 "difference of the autocorrelations (long-range structure: courses, weaves); lower is better"});
+struct MeasuredResult {
+  const QualityFigures& quality;
+  const LayoutFigures* layout;     ///< null without a uv map
+  const HybridElements* elements;  ///< null without labels
+};
+
+enum class FigureInput : uint8_t { maps, uv, labels };
+
+struct FigureSpec {
+  const char* name;
+  FigureInput input;  ///< what the figure is measured from
+  double (*value)(const MeasuredResult&);
+  const char* help;
+  std::string (*detail)(const MeasuredResult&) = nullptr;  ///< for the {} in `help`
+  ComparedFigure::Better better = ComparedFigure::Better::lower;
+};
+
+/// All figures but those of the wrap seams, in the report's order.
+constexpr FigureSpec figure_specs[] = {
+    {"swd", FigureInput::maps, [](const MeasuredResult& m) { return m.quality.swd; },
+     "distance of the patch distributions, all scales; lower is better, 0 = the same patches as often"},
+    {"cooccurrence", FigureInput::maps, [](const MeasuredResult& m) { return m.quality.cooccurrence; },
+     "difference in which values stand beside one another, 0 to 1; lower is better"},
+    {"coherence", FigureInput::maps, [](const MeasuredResult& m) { return m.quality.coherence; },
+     "how far output patches are from the exemplar's (broken features, seams); lower is better, 1 = as far as exemplar "
+     "patches from one another"},
+    {"completeness", FigureInput::maps, [](const MeasuredResult& m) { return m.quality.completeness; },
+     "how far exemplar patches are from the output's (lost features); lower is better, 1 = as far as exemplar patches "
+     "from one another"},
+    {"broken", FigureInput::maps, [](const MeasuredResult& m) { return m.quality.broken; },
+     "share of output patches unlike anything in the exemplar (cut features, hard seams); lower is better"},
+    {"structure", FigureInput::maps, [](const MeasuredResult& m) { return m.quality.structure; },
+     "share of windows, up to half an element wide, whose edges run as nowhere in the exemplar (joints that end in a "
+     "stone, courses that jog); lower is better, another sample has about 0.05"},
+    {"acf", FigureInput::maps, [](const MeasuredResult& m) { return m.quality.acf; },
+     "difference of the autocorrelations (long-range structure: courses, weaves); lower is better"},
+    {"verbatim", FigureInput::maps,
+     [](const MeasuredResult& m) { return m.layout ? m.layout->verbatim : m.quality.verbatim; },
+     "typical side of a region copied in one piece over the exemplar's side, {}; lower is more varied, plain tiling "
+     "gives 0.7 to 1",
+     [](const MeasuredResult& m) { return std::string(m.layout ? "from the uv map" : "found from the pixels"); }},
+    {"repeat", FigureInput::maps, [](const MeasuredResult& m) { return m.quality.repeat; },
+     "how much stronger the output repeats itself than the exemplar; lower is better"},
+    {"largest_copy", FigureInput::uv, [](const MeasuredResult& m) { return m.layout->largest_copy; },
+     "area of the largest region copied in one piece over the exemplar's area; lower is more varied"},
+    {"usage_entropy", FigureInput::uv, [](const MeasuredResult& m) { return m.layout->usage_entropy; },
+     "how evenly the exemplar is used, 0 to 1; higher is better, 1 = every part as often", nullptr,
+     ComparedFigure::Better::higher},
+    {"seam_share", FigureInput::uv, [](const MeasuredResult& m) { return m.layout->seam_share; },
+     "share of neighbouring pixels that are not neighbours in the exemplar; lower is more coherent"},
+    {"seam_difference", FigureInput::uv, [](const MeasuredResult& m) { return m.layout->seam_difference; },
+     "mean difference across those seams in standard deviations; lower is better, 0 = invisible"},
+    {"seam_energy", FigureInput::uv, [](const MeasuredResult& m) { return m.layout->seam_energy; },
+     "seam_share times seam_difference: what the seams cost in all; lower is better"},
+    {"hybrids", FigureInput::labels, [](const MeasuredResult& m) { return m.elements->by_area; },
+     "share of the area in elements that are put together from several of the exemplar's, of {}; lower is better, 0 = "
+     "all whole",
+     [](const MeasuredResult& m) { return counted(m.elements->elements, "element"); }},
+    {"hybrids_by_number", FigureInput::labels, [](const MeasuredResult& m) { return m.elements->by_number; },
+     "share of the elements that are; lower is better"},
+};
+
+std::vector<Report::Figure> measured_figures(const MeasuredResult& m) {
+  std::vector<Report::Figure> out;
+  for (const FigureSpec& f : figure_specs) {
+    if ((f.input == FigureInput::uv && !m.layout) || (f.input == FigureInput::labels && !m.elements)) continue;
+    out.push_back({f.name, rounded(f.value(m)), f.detail ? fmt::format(fmt::runtime(f.help), f.detail(m)) : f.help});
+  }
+  return out;
 }
 
-void add_layout_figures(const LayoutFigures& f, std::vector<Report::Figure>& out) {
-  out.push_back({"largest_copy", rounded(f.largest_copy),
-                 "area of the largest region copied in one piece over the exemplar's area; lower is more varied"});
-  out.push_back({"usage_entropy", rounded(f.usage_entropy),
-                 "how evenly the exemplar is used, 0 to 1; higher is better, 1 = every part as often"});
-  out.push_back({"seam_share", rounded(f.seam_share),
-                 "share of neighbouring pixels that are not neighbours in the exemplar; lower is more coherent"});
-  out.push_back({"seam_difference", rounded(f.seam_difference),
-                 "mean difference across those seams in standard deviations; lower is better, 0 = invisible"});
-  out.push_back({"seam_energy", rounded(f.seam_energy),
-                 "seam_share times seam_difference: what the seams cost in all; lower is better"});
-}
-
-void add_element_figures(const HybridElements& h, std::vector<Report::Figure>& out) {
-  out.push_back({"hybrids", rounded(h.by_area),
-                 fmt::format("share of the area in elements that are put together from several of the exemplar's, of "
-                             "{}; lower is better, 0 = all whole",
-                             counted(h.elements, "element"))});
-  out.push_back({"hybrids_by_number", rounded(h.by_number), "share of the elements that are; lower is better"});
+std::string wrap_figure_name(std::string_view axis) {
+  return fmt::format("wrap_seam_{}", axis);
 }
 
 /// The directions in which the output should wrap around.
@@ -90,8 +122,8 @@ void add_wrap_figures(const Material& output, const std::vector<std::string>& ma
     return fmt::format("gradient from {} border over the interior's, worst map ({}); about 1 is good, higher is a seam",
                        borders, worst.map);
   };
-  if (wraps.x) out.push_back({"wrap_seam_x", rounded(x.ratio), help("right to left", x)});
-  if (wraps.y) out.push_back({"wrap_seam_y", rounded(y.ratio), help("bottom to top", y)});
+  if (wraps.x) out.push_back({wrap_figure_name("x"), rounded(x.ratio), help("right to left", x)});
+  if (wraps.y) out.push_back({wrap_figure_name("y"), rounded(y.ratio), help("bottom to top", y)});
 }
 
 void check_layout(const Forecast& uv, std::optional<Size> exemplar, std::optional<Size> output) {
@@ -155,17 +187,10 @@ void compute_compare(NodeContext& node) {
       .wraps = wraps && is_whole};
   const QualityFigures q = measure_quality(std::move(planes.exemplar), std::move(planes.output), parts, node.task());
 
-  std::vector<Report::Figure> figures;
-  add_pixel_figures(q, figures);
-  figures.push_back(
-      {"verbatim", rounded(layout ? layout->verbatim : q.verbatim),
-       fmt::format("typical side of a region copied in one piece over the exemplar's side, {}; lower is more "
-                   "varied, plain tiling gives 0.7 to 1",
-                   layout ? "from the uv map" : "found from the pixels")});
-  figures.push_back(
-      {"repeat", rounded(q.repeat), "how much stronger the output repeats itself than the exemplar; lower is better"});
-  if (layout) add_layout_figures(*layout, figures);
-  if (elements) add_element_figures(hybrid_elements(*uv, *elements, node.task()), figures);
+  std::optional<HybridElements> hybrids;
+  if (elements) hybrids = hybrid_elements(*uv, *elements, node.task());
+  std::vector<Report::Figure> figures =
+      measured_figures({q, layout ? &*layout : nullptr, hybrids ? &*hybrids : nullptr});
   add_wrap_figures(*output, maps, expected_wraps(node.text("tileable"), uv.get()), figures);
 
   const ImagePtr sheet = comparison_sheet(*exemplar, *output, maps, int(node.integer("sheet_size")));
@@ -189,20 +214,14 @@ size_t memory_of_compare(const NodeContext& node) {
 }  // namespace
 
 std::vector<ComparedFigure> compared_figures(const Params& params, bool has_uv, bool has_labels) {
-  using Better = ComparedFigure::Better;
   std::vector<ComparedFigure> out;
-  for (const char* name :
-       {"swd", "cooccurrence", "coherence", "completeness", "broken", "structure", "acf", "verbatim", "repeat"})
-    out.push_back({name});
-  if (has_uv)
-    for (const char* name : {"largest_copy", "usage_entropy", "seam_share", "seam_difference", "seam_energy"})
-      out.push_back({name, std::string_view(name) == "usage_entropy" ? Better::higher : Better::lower});
-  if (has_labels)
-    for (const char* name : {"hybrids", "hybrids_by_number"}) out.push_back({name});
+  for (const FigureSpec& f : figure_specs)
+    if (f.input == FigureInput::maps || (f.input == FigureInput::uv ? has_uv : has_labels))
+      out.push_back({f.name, f.better});
   const std::string& tileable = std::get<std::string>(params.at("tileable"));
   for (const char* axis : {"x", "y"})
     if (tileable == axis || tileable == "xy" || (tileable == "auto" && has_uv))
-      out.push_back({fmt::format("wrap_seam_{}", axis), Better::neither});
+      out.push_back({wrap_figure_name(axis), ComparedFigure::Better::neither});
   return out;
 }
 
