@@ -49,7 +49,7 @@ Header parse_header(const std::array<uint8_t, header_bytes>& bytes, size_t size)
   return h;
 }
 
-/// Of a file that is as long as its header says.
+/// Throws Error unless the file is as long as its header says.
 Header read_header(const File& file, const std::filesystem::path& path) {
   std::array<uint8_t, header_bytes> bytes{};
   const size_t read = file.read_at(0, bytes.data(), bytes.size(), path);
@@ -61,7 +61,7 @@ Header read_header(const File& file, const std::filesystem::path& path) {
   return header;
 }
 
-/// The bytes that a block of `elements` must have before compression.
+/// The uncompressed bytes of a block of `elements`.
 uint64_t raw_size(StreamKind kind, SampleCoding coding, uint64_t elements) {
   return kind == StreamKind::bytes ? elements : elements * uint64_t(sample_bytes(coding));
 }

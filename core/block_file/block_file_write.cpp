@@ -15,7 +15,7 @@ using namespace block_format;
 
 namespace {
 
-/// Blocks coded side by side before they are written.
+/// Blocks compressed in parallel before they are written.
 constexpr uint64_t batch_blocks = 16;
 constexpr int compression_level = 1;
 

@@ -27,7 +27,7 @@ bool stands_alone(uint8_t marker) {
   return marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8);
 }
 
-/// Reads numbers out of a file; past its end everything is 0.
+/// Reads numbers from a file; past its end all bytes are 0.
 class Numbers {
  public:
   explicit Numbers(const std::filesystem::path& path) : in_(path, std::ios::binary | std::ios::ate) {
@@ -54,7 +54,7 @@ class Numbers {
   bool is_big_endian_ = true;
 };
 
-/// The bytes of a file, of which it holds a part; past the end they are 0.
+/// The bytes of a file, buffered in part; past the end they are 0.
 class Window {
  public:
   explicit Window(const std::filesystem::path& path)
@@ -80,7 +80,7 @@ class Window {
 
 constexpr uint64_t png_signature = 0x89504e470d0a1a0a;
 
-/// "II" or "MM" and 42, or 43 for BigTIFF, in the byte order that the letters say.
+/// "II" or "MM" and 42, or 43 for BigTIFF, in the byte order that the letters name.
 bool is_tiff(uint64_t start) {
   return start == 0x49492a00 || start == 0x49492b00 || start == 0x4d4d002a || start == 0x4d4d002b;
 }
@@ -114,7 +114,7 @@ JpegFacts read_jpeg_facts(const std::filesystem::path& path, bool to_its_end) {
   const auto word = [&](uint64_t i) { return file.byte(i) << 8 | file.byte(i + 1); };
   uint64_t i = 0;
   while (i + 1 < file.size()) {
-    // Outside segments lies entropy-coded data, in which 0xff is followed by 0.
+    // Between segments is entropy-coded data, in which 0xff is followed by 0.
     if (file.byte(i) != 0xff || file.byte(i + 1) == 0 || file.byte(i + 1) == 0xff) {
       i++;
       continue;
@@ -155,7 +155,7 @@ bool png_is_complete(const std::filesystem::path& path) {
 
 namespace {
 
-/// What a directory says of an image's strips or tiles.
+/// An image's strips or tiles, from its directory.
 struct TiffPieces {
   std::vector<uint64_t> offsets, byte_counts;
   uint64_t compression = 1;
@@ -170,7 +170,7 @@ struct TiffPieces {
   std::vector<uint64_t> extra_samples;
 };
 
-/// Takes in one entry of a directory.
+/// Stores one entry of a directory.
 void note_entry(TiffPieces& pieces, uint64_t tag, const std::vector<uint64_t>& numbers) {
   constexpr uint64_t tag_width = 256, tag_height = 257, tag_bits = 258, tag_compression = 259, tag_photometric = 262,
                      tag_fill_order = 266, tag_strip_offsets = 273, tag_samples = 277, tag_strip_height = 278,
@@ -231,7 +231,7 @@ void note_entry(TiffPieces& pieces, uint64_t tag, const std::vector<uint64_t>& n
   }
 }
 
-/// Those of the first image.
+/// The pieces of the first image.
 TiffPieces tiff_pieces(Numbers& file) {
   constexpr uint64_t tag_last_of_use = 339;
   TiffPieces out;
@@ -248,7 +248,7 @@ TiffPieces tiff_pieces(Numbers& file) {
   return out;
 }
 
-/// Whether these bytes of a file are one whole zlib stream whose checksum fits.
+/// Whether these bytes of a file are one complete zlib stream with a correct checksum.
 bool is_sound_stream(const File& file, const std::filesystem::path& path, uint64_t at, uint64_t count) {
   constexpr size_t most_at_once = size_t{1} << 18;
   std::vector<uint8_t> packed(size_t(std::min<uint64_t>(count, most_at_once))), unpacked(size_t{1} << 16);
@@ -295,7 +295,7 @@ bool tiff_is_complete(const std::filesystem::path& path) {
 
 namespace {
 
-/// Whether a piece of LZW or PackBits stands for just as many bytes as it should.
+/// Whether a piece of LZW or PackBits expands to exactly as many bytes as it should.
 bool has_its_length(const TiffPieces& pieces, size_t index, std::span<const uint8_t> packed) {
   const bool is_tile = pieces.piece_width > 0;
   const uint64_t samples = pieces.by_planes ? 1 : pieces.samples;
@@ -304,7 +304,7 @@ bool has_its_length(const TiffPieces& pieces, size_t index, std::span<const uint
   const auto length = pieces.compression == lzw ? lzw_length(packed) : packbits_length(packed);
   if (length == row * rows) return true;
   if (is_tile || rows == 0) return false;
-  // The last strip may be shorter, and need not.
+  // The last strip may also be cut to the image.
   const uint64_t strips = (pieces.height + rows - 1) / rows;
   return length == row * (pieces.height - (strips - 1) * rows) && index % strips == strips - 1;
 }
@@ -330,7 +330,7 @@ bool tiff_is_sound(const std::filesystem::path& path) {
   if (!has_checksums && !has_lengths) return true;
   const File file = open_to_read(path);
   for (size_t i = 0; i < std::min(pieces.offsets.size(), pieces.byte_counts.size()); i++) {
-    if (pieces.byte_counts[i] == 0) continue;  // what was never written reads as 0
+    if (pieces.byte_counts[i] == 0) continue;  // pieces that were never written read as 0
     if (pieces.byte_counts[i] > numbers.size() || !is_sound_piece(file, path, pieces, i)) return false;
   }
   return true;

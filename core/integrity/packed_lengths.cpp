@@ -30,14 +30,14 @@ class HighBitsFirst {
   int held_ = 0;
 };
 
-/// The lengths of the strings that codes stand for.
+/// The lengths of the strings that LZW codes stand for.
 class CodeLengths {
  public:
   void clear() {
     next_ = end_of_information + 1;
     previous_ = 0;
   }
-  /// TIFF widens codes one early.
+  /// TIFF widens codes one code early.
   int bits() const {
     int bits = least_bits;
     while (bits < most_bits && next_ + 1 >= uint32_t{1} << bits) bits++;

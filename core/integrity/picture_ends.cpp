@@ -28,7 +28,7 @@ struct ExrAttribute {
 
 using ExrHeader = std::map<std::string, ExrAttribute>;
 
-/// The attributes of the header at `at`, which then is where it ends. Nullopt if the file ends before.
+/// The attributes of the header at `at`, which moves to its end. Nullopt if the file ends earlier.
 std::optional<ExrHeader> exr_header(const FileNumbers& file, uint64_t& at) {
   constexpr size_t longest_name = 256, most_attributes = 10000;
   ExrHeader out;
@@ -44,7 +44,7 @@ std::optional<ExrHeader> exr_header(const FileNumbers& file, uint64_t& at) {
   return std::nullopt;
 }
 
-/// The headers of all parts; `at` is then where the tables of offsets begin. Empty if the file ends before.
+/// The headers of all parts; `at` moves to the tables of offsets. Empty if the file ends earlier.
 std::vector<ExrHeader> exr_headers(const FileNumbers& file, bool has_parts, uint64_t& at) {
   constexpr size_t most_parts = 10000;
   std::vector<ExrHeader> out;
@@ -57,8 +57,8 @@ std::vector<ExrHeader> exr_headers(const FileNumbers& file, bool has_parts, uint
   return out;
 }
 
-/// The number of entries in a part's table of offsets that are of the picture itself, not of smaller levels; these come
-/// after them. 0 if it is not told here.
+/// The number of entries in a part's table of offsets that belong to the picture itself; smaller levels come after
+/// them. 0 if unknown.
 uint64_t exr_chunks(const FileNumbers& file, const ExrHeader& header) {
   const auto window = header.find("dataWindow"), compression = header.find("compression"), tiles = header.find("tiles");
   if (window == header.end() || compression == header.end()) return 0;
@@ -86,10 +86,10 @@ bool exr_part_has_its_end(const FileNumbers& file, const ExrHeader& header, uint
   for (uint64_t i = 0; i < chunks; i++) {
     uint64_t offset = 0;
     for (uint64_t b = 0; b < 8; b++) offset |= uint64_t{static_cast<uint8_t>(offsets[i * 8 + b])} << 8 * b;
-    if (offset == 0) return false;  // what was never written
+    if (offset == 0) return false;  // never written
     last = std::max(last, offset);
   }
-  // Where it lies, after the number of the part, and then how many bytes follow.
+  // After the number of the part: the position, then the number of bytes that follow.
   const uint64_t head = (header.contains("tiles") ? 20 : 8) + (has_parts ? 4 : 0);
   return chunks == 0 || (last <= file.size() && last + head + file.number(last + head - 4, 4) <= file.size());
 }
@@ -136,7 +136,7 @@ bool tga_has_its_end(const FileNumbers& file) {
   return at <= all.size();
 }
 
-/// Goes from block to block until the first image is over.
+/// Walks the blocks to the end of the first image.
 bool gif_has_its_end(const FileNumbers& file) {
   const std::string all = file.text(0, file.size());
   const auto byte = [&](size_t at) { return at < all.size() ? static_cast<uint8_t>(all[at]) : uint8_t{0}; };
@@ -154,12 +154,12 @@ bool gif_has_its_end(const FileNumbers& file) {
   return false;
 }
 
-/// Where the run-length coded rows of a Radiance picture end; `at`: where they begin. 0 if the end is missing.
+/// The end of a Radiance picture's run-length coded rows, which begin at `at`. 0 if the end is missing.
 size_t end_of_rows(std::string_view all, size_t at, size_t width, size_t rows) {
   const auto byte = [&](size_t i) { return i < all.size() ? static_cast<uint8_t>(all[i]) : uint8_t{0}; };
   for (size_t y = 0; y < rows; y++) {
     const bool is_coded = width >= 8 && width < 32768 && byte(at) == 2 && byte(at + 1) == 2 && byte(at + 2) < 128;
-    if (!is_coded) return at + 4 <= all.size() ? all.size() : 0;  // plain, or the old coding: not told here
+    if (!is_coded) return at + 4 <= all.size() ? all.size() : 0;  // plain, or the old coding: not checked
     at += 4;
     for (size_t done = 0; done < 4 * width;) {
       if (at >= all.size()) return 0;
@@ -176,7 +176,7 @@ bool hdr_has_its_end(const FileNumbers& file) {
   const std::string all = file.text(0, file.size());
   const size_t blank = all.find("\n\n"), line = all.find("-Y ", blank), x = all.find("+X ", line);
   if (blank == all.npos) return false;
-  if (line != blank + 2 || x == all.npos) return true;  // rotated: unknown here
+  if (line != blank + 2 || x == all.npos) return true;  // rotated: not checked
   const auto number = [&](size_t at) {
     size_t v = 0;
     std::from_chars(all.data() + at, all.data() + all.size(), v);
@@ -192,7 +192,7 @@ bool hdr_has_its_end(const FileNumbers& file) {
 bool is_untruncated(const std::filesystem::path& path) {
   const FileNumbers file(path);
   const std::string start = file.text(0, 12);
-  constexpr uint64_t most_walked = uint64_t{1} << 28;  // of the formats that are read to their ends
+  constexpr uint64_t most_walked = uint64_t{1} << 28;  // bytes, for formats that are read to their ends
   if (start.starts_with("\x76\x2f\x31\x01")) return exr_has_its_end(file);
   if (start.starts_with("BM")) return bmp_has_its_end(file);
   if (start.starts_with("RIFF") && start.ends_with("WEBP")) return file.number(4, 4) + 8 <= file.size();

@@ -10,7 +10,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Not std::norm, which some libraries make of a hypotenuse.
+/// Not std::norm, which some libraries compute by hypot.
 double squared(const std::complex<double>& z) {
   return z.real() * z.real() + z.imag() * z.imag();
 }
@@ -46,8 +46,8 @@ Size padded_size(const Planes& image, Size lags) {
   return {padded_length(image.size.width + lags.width), padded_length(image.size.height + lags.height)};
 }
 
-/// The power spectra of two channels, as real and imaginary parts: two real channels travel as one complex grid. That
-/// of the last of an odd number of channels comes with 0.
+/// The power spectra of channels c and c + 1 as real and imaginary parts: one complex transform serves two real
+/// channels. The imaginary part is 0 if c is the last channel.
 Grid power_spectra(const Planes& image, int c, Size padded) {
   const bool two = c + 1 < image.channels;
   Grid grid(size_t(padded.area()));
@@ -70,7 +70,7 @@ Grid power_spectra(const Planes& image, int c, Size padded) {
   return power;
 }
 
-/// The channel that far_peak looks at: details up to the size `near`, of all channels together.
+/// The input of far_peak: details up to the size `near`, of all channels together.
 Planes details(const Planes& image, int near, const Task& task) {
   const Planes smooth = blurred(image, 1, Beyond::mirrored, task);
   Planes mean = Planes::zeros(image.size, 1);

@@ -18,7 +18,7 @@ constexpr int classes = 1 << depth;
 constexpr std::array<int, 4> distances = {1, 2, 4, 8};
 constexpr std::array<std::array<int, 2>, 4> directions = {{{1, 0}, {0, 1}, {1, 1}, {-1, 1}}};
 
-/// The pixels' channels turned onto their principal axes in the exemplar.
+/// Projects pixels onto the principal axes of the exemplar's colours.
 class Turned {
  public:
   explicit Turned(const Planes& exemplar) {
@@ -41,7 +41,7 @@ class Turned {
   MatrixXd axes_;  ///< a row for each
 };
 
-/// A median cut (Heckbert 1982): splits where the exemplar spreads most, into equally many pixels.
+/// A median cut (Heckbert 1982): splits along the axis of greatest spread into halves of equally many pixels.
 class MedianCut {
  public:
   explicit MedianCut(const Planes& pixels) : splits_(classes) {

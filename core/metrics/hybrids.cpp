@@ -36,7 +36,7 @@ const Tunable<HybridsTuning> hybrids_tuning(
                 {&HybridsTuning::crumb, "crumb", "of the median area", "below which a region belongs to its neighbour",
                  "elements", 0, 1}});
 
-/// For each pixel of the exemplar 255 at the middle of a joint to 0 at the middle of its element.
+/// For each pixel of the exemplar: from 255 in the middle of a joint to 0 in the middle of an element.
 std::vector<uint8_t> joints_of(const Elements& elements, bool wraps) {
   const std::vector<int64_t> squares =
       squared_distances(border_pixels(elements.at, elements.size, wraps), elements.size, wraps);
@@ -48,7 +48,7 @@ std::vector<uint8_t> joints_of(const Elements& elements, bool wraps) {
   return out;
 }
 
-/// Pixels that show one element in one piece.
+/// Connected regions of pixels that show one element from one copied piece.
 class Pieces {
  public:
   Pieces(const UvMap& uv, const Elements& elements) : uv_(uv), elements_(elements), joined_(uv.pixels().size()) {

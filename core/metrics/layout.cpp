@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-/// One row's part of the seams.
+/// The seams of one row.
 struct Seams {
   int64_t pairs = 0;
   int64_t cut = 0;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr uint64_t exemplar_seed = 7, direction_seed = 9;
 
-/// Images of one size are sampled at the same places, so that a thing compared with itself has no distance.
+/// Images of one size are sampled at the same places, so that an image compared with itself has distance 0.
 uint64_t output_seed(const Planes& exemplar, const Planes& output) {
   return output.size == exemplar.size ? exemplar_seed : 8;
 }
@@ -58,7 +58,7 @@ const Tunable<PatchStatisticsTuning> patch_statistics_tuning(
          "not measured: taken over from the code before constants were listed", 1, 6},
     });
 
-/// Of sorted numbers, with linear interpolation; `t` in [0, 1].
+/// The quantile of sorted numbers, with linear interpolation; `t` in [0, 1].
 template <typename T>
 double quantile(const std::vector<T>& sorted, double t) {
   const double at = t * double(sorted.size() - 1);
@@ -85,7 +85,7 @@ double mean_of(const std::vector<double>& values) {
   return sum / double(values.size());
 }
 
-/// The distances of the first rows of `points` to what `tree` holds.
+/// The distances of the first rows of `points` to their nearest neighbours in `tree`.
 std::vector<double> nearest_distances(const NearestPoints& tree, const std::vector<float>& points,
                                       bool among_themselves, const Task& task) {
   const int dimensions = 8 * patch_statistics_tuning->eights_of_dimensions;

@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr size_t learnt_patches = 20000;  ///< of which components are learnt
+constexpr size_t learnt_patches = 20000;  ///< patches from which the components are learnt
 constexpr int lane = 8;                   ///< outputs computed at once
 constexpr int at_once = 4;                ///< patches computed at once
 

@@ -39,7 +39,7 @@ void check_pair(const std::string& name, const Image& exemplar, const Image& out
                     name, a.color_space, b.color_space));
 }
 
-/// The map at the material's size; a normal map's green channel pointing up.
+/// The map at the material's size; normals with green pointing up.
 Planes map_planes(const Image& image, int channels, Size material) {
   const Rect region = whole(image.size());
   const Rect part = intersect(region, {0, 0, largest_measured, largest_measured});
@@ -85,7 +85,7 @@ void check_size(const char* port, Size size) {
                             smallest_measured, size.width, size.height));
 }
 
-/// Both with all levels of a pyramid.
+/// The pyramids of exemplar and output.
 struct Pyramids {
   std::vector<Planes> exemplar;
   std::vector<Planes> output;

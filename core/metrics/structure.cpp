@@ -71,7 +71,7 @@ Planes structure_tensor(const Planes& image, int step, const Task& task) {
   return blurred(out, structure_tuning->smoothing * step, beyond, task);
 }
 
-/// Without the pixels at the border, whose tensor depends on what lies beyond; as long as two windows fit.
+/// Without the border, where the tensor depends on pixels outside the image; unchanged if two windows would not fit.
 Planes inner(const Planes& image, int step) {
   const int side = std::min(image.size.width, image.size.height);
   const int margin = std::clamp((side - (2 * patch_side + 1) * step) / 2, 0, 2 * step + 1);
@@ -81,14 +81,14 @@ Planes inner(const Planes& image, int step) {
   return out;
 }
 
-/// The strength at which an edge counts half.
+/// The root mean square of the edge strength; an edge of this strength counts half.
 float usual_strength(const Planes& tensor) {
   double sum = 0;
   for (size_t i = 0; i < tensor.values.size(); i += 3) sum += double(tensor.values[i]) + double(tensor.values[i + 2]);
   return float(std::sqrt(sum / double(tensor.size.area()))) + slightest_edge;
 }
 
-/// Strength, and strength times the cosine and the sine of twice the angle, as far as the edges agree on one.
+/// Strength, and strength times the cosine and the sine of twice the angle, scaled by how well the edges agree on one.
 Planes edge_channels(Planes tensor, float half) {
   for (size_t i = 0; i < tensor.values.size(); i += 3) {
     float* v = &tensor.values[i];
@@ -102,7 +102,7 @@ Planes edge_channels(Planes tensor, float half) {
   return tensor;
 }
 
-/// With as much of the other side beyond the right and lower border as a window may reach.
+/// The image continued periodically by `by` pixels to the right and below.
 Planes continued(const Planes& image, int by) {
   Planes out = Planes::zeros({image.size.width + by, image.size.height + by}, image.channels);
   for (int y = 0; y < out.size.height; y++)
@@ -111,7 +111,7 @@ Planes continued(const Planes& image, int by) {
   return out;
 }
 
-/// The exemplar's windows, and what is near to them.
+/// The exemplar's windows, searched for nearest neighbours.
 class ExemplarWindows {
  public:
   ExemplarWindows(const Planes& edges, int step, const Task& task)
@@ -124,7 +124,7 @@ class ExemplarWindows {
     tree_ = std::make_unique<NearestPoints>(points_, space_.outputs);
   }
 
-  /// Of the first windows to the nearest that do not overlap them; sorted.
+  /// Sorted distances of the first windows to the nearest ones that do not overlap them.
   std::vector<double> own_distances() const {
     std::vector<double> out = distances(points_, true);
     std::ranges::sort(out);
@@ -132,7 +132,7 @@ class ExemplarWindows {
     return out;
   }
 
-  /// Of windows at random places; those of an image as large as the exemplar lie where the exemplar's do.
+  /// Distances of windows at random places; in an image as large as the exemplar, at the places of the exemplar's.
   std::vector<double> distances_of(const Planes& edges, Size exemplar) const {
     const uint64_t seed = edges.size == exemplar ? structure_seed : 8;
     const Planes image = inner(edges, step_);

@@ -13,7 +13,7 @@ struct Sum {
     for (size_t i = 0; i < n; i++) total += std::abs(double(a[i]) - b[i]);
     count += int64_t(n);
   }
-  /// A quarter of an 8-bit step keeps flat maps from being divided by nothing.
+  /// A quarter of an 8-bit step keeps flat maps from a division by 0.
   double mean() const { return (count > 0 ? total / double(count) : 0) + 0.25 / 255; }
 };
 

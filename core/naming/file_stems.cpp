@@ -19,8 +19,8 @@ int number_in(std::string_view text) {
   return failure == std::errc() && end == text.data() + text.size() ? number : -1;
 }
 
-/// The UDIM tile that a name says around the words for the map, which are left out: 1001 to 1099 as the last word that
-/// counts, or Mudbox's u1_v1.
+/// The UDIM tile in a name, apart from the words [first, last) for the map: 1001 to 1099 as the last word that is not
+/// neutral, or Mudbox's u1_v1.
 std::optional<int> tile_of(std::vector<NameWord> words, size_t first, size_t last) {
   words.erase(words.begin() + ptrdiff_t(first), words.begin() + ptrdiff_t(last));
   for (size_t i = words.size(); i > 0; i--) {
@@ -48,7 +48,7 @@ bool is_tile(const std::string& word, const std::optional<int>& tile) {
   return tile && word == std::to_string(*tile);
 }
 
-/// The words from `begin` to `end` that say which material it is.
+/// Adds the words of [begin, end) that identify the material.
 void add_words(Stem& stem, std::string_view name, const std::vector<NameWord>& words, size_t begin, size_t end,
                bool (*is_left_out)(const std::string&), const std::optional<int>& tile) {
   size_t from = 0, to = 0;
@@ -96,7 +96,7 @@ std::vector<Group> grouped(const std::vector<StemmedMap>& maps) {
   std::map<std::string, Group> by_key;
   for (const StemmedMap& m : maps) {
     Group& group = by_key[m.stem.key()];
-    // Of several spellings the first by the alphabet, so that the order of files does not matter.
+    // The alphabetically first spelling, so that the order of files does not matter.
     if (group.files == 0 || m.stem.shown < group.stem.shown) group.stem = m.stem;
     group.files++;
     group.maps.insert(m.map);
@@ -121,7 +121,7 @@ std::vector<std::string> words_of_material(std::string_view file, bool (*is_left
   return words;
 }
 
-/// How many words at the beginning make the stem; 0 if they do not.
+/// The number of words at the beginning that make up the stem; 0 if none do.
 size_t words_in_stem(const std::vector<std::string>& words, const std::string& key) {
   std::string joined;
   for (size_t i = 0; i < words.size(); i++) {

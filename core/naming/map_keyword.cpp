@@ -8,7 +8,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Some names glue what follows: "normalgl", "heightmap", "normalmap".
+/// Some names are glued to the next word: "normalgl", "heightmap", "normalmap".
 struct Phrase {
   std::string text;
   std::optional<NormalY> normal_y;
@@ -29,7 +29,7 @@ struct PhrasePlace {
   bool is_last = false;   ///< only neutral words come after it
   bool is_first = false;  ///< no word comes before it
   bool is_whole = false;  ///< both
-  bool is_glued = false;  ///< nothing stands between its words: metalRoughness
+  bool is_glued = false;  ///< no separator between its words: metalRoughness
 };
 
 const MapWord* find_word(const Phrase& phrase, const PhrasePlace& place, bool has_digits, int channels) {
@@ -46,7 +46,7 @@ const MapWord* find_word(const Phrase& phrase, const PhrasePlace& place, bool ha
   return nullptr;
 }
 
-/// Short words for maps may be part of an asset's name: rusty_metal_rough_ao holds no metal.
+/// Short words for maps may be part of an asset's name: rusty_metal_rough_ao has no metallic channel.
 std::vector<WordPart> find_packing(const std::string& phrase, const PhrasePlace& place, int channels) {
   PackingName found = packing_in(phrase);
   if (found.parts.empty() || (channels && channels < found.least_channels)) return {};
@@ -113,7 +113,7 @@ bool fills_rgb(Semantic s) {
   return s == Semantic::base_color || s == Semantic::normal || s == Semantic::specular || s == Semantic::emission;
 }
 
-/// Of a file with alpha: albedo_height, nrm_rgh. The first is in red, green and blue, the second in alpha.
+/// In a file with alpha (albedo_height, nrm_rgh) the first map is in red, green and blue, the second in alpha.
 void take_in_rgb(const std::vector<NameWord>& words, KeywordMatch& alpha) {
   if (!is_one_map(alpha) || !may_fill_alpha(alpha.parts.front().semantic)) return;
   const KeywordMatch rgb = find_before(words, alpha.first, alpha.first, 4);

@@ -114,7 +114,7 @@ Plane above_surroundings(const ImagePtr& height, Size size) {
   return out;
 }
 
-/// What is known of a channel.
+/// Statistics of a channel.
 struct Channel {
   Plane plane;
   double mean = 0, brightest = 0;
@@ -122,7 +122,7 @@ struct Channel {
   bool is_metal = false;
 };
 
-/// A packing by what its channels hold; '-' is a constant.
+/// A packing by the contents of its channels; '-' is a constant.
 struct Packing {
   std::string_view name;
   std::string_view order;  ///< o, r, m, s for smoothness

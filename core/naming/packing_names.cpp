@@ -15,7 +15,7 @@ struct ListedWord {
   bool full = true;
 };
 
-/// Longer words before those that they begin with.
+/// A word comes before its own prefixes.
 constexpr std::array listed_words = {
     ListedWord{"ambientocclusion", Semantic::ambient_occlusion},
     ListedWord{"occlusion", Semantic::ambient_occlusion},
@@ -56,7 +56,7 @@ bool are_distinct(const std::vector<ListedWord>& words) {
   return true;
 }
 
-/// One channel for each word; empty if such a list is not in use.
+/// One channel for each word; empty if no program uses such a list.
 std::string_view channels_of(const std::vector<ListedWord>& words) {
   const auto place = [&](Semantic s) { return std::ranges::find(words, s, &ListedWord::semantic) - words.begin(); };
   const auto count = std::ssize(words);

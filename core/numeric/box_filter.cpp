@@ -9,7 +9,7 @@ namespace terrazzo {
 
 namespace {
 
-/// One pass over a line by a running sum; `at` brings any position into the line.
+/// One pass over a line by a running sum; `at` maps any position into the line.
 template <typename At>
 void filter(const std::vector<double>& in, const Box& box, const At& at, std::vector<double>& out) {
   const int n = int(in.size());

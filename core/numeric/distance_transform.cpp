@@ -24,7 +24,7 @@ std::vector<int> column_distances(const std::vector<uint8_t>& mask, Size size, b
   std::vector<int> g(mask.size());
   for_each_line(threads, size.width, [&](int x) {
     const auto at = [&](int y) { return size_t(y) * size.width + x; };
-    // A second lap carries what the first has found around the border.
+    // A second lap carries distances across the border.
     const int laps = wraps ? 2 : 1;
     int since = far;
     for (int y = 0; y < laps * size.height; y++) {

@@ -49,7 +49,7 @@ void GridCut::solve() {
   }
 }
 
-/// Of the join on that side: what can still flow out of the node, or into it.
+/// The residual capacity of the join on that side, out of the node or into it.
 int32_t& GridCut::capacity(Node& n, int side, bool out) {
   return out ? n.capacity[size_t(side)] : beside(n, side).capacity[size_t(back(side))];
 }
@@ -60,7 +60,7 @@ void GridCut::activate(int node) {
   active_.push_back(node);
 }
 
-/// Takes in free neighbours, until one of the other tree is met.
+/// Adds free neighbours to the tree until it meets a node of the other tree.
 GridCut::Join GridCut::grow(int node) {
   Node& n = nodes_[size_t(node)];
   for (int side = 0; side < 4; side++) {
@@ -72,7 +72,7 @@ GridCut::Join GridCut::grow(int node) {
     } else if (m.tree != n.tree) {
       return n.tree == Tree::source ? Join{node, side} : Join{n.to[size_t(side)], back(side)};
     } else if (m.looked_at > n.looked_at || m.distance <= n.distance + 1) {
-      continue;  // it is as near to the terminal without this node
+      continue;  // its path to the terminal is no longer than one through this node
     }
     m.parent = int16_t(back(side));
     m.distance = n.distance + 1;
@@ -81,7 +81,7 @@ GridCut::Join GridCut::grow(int node) {
   return {};
 }
 
-/// Sends as much as fits along the way that the join completes.
+/// Sends as much flow as fits along the path that the join completes.
 void GridCut::augment(const Join& join) {
   Node& n = nodes_[size_t(join.node)];
   const int other = n.to[size_t(join.side)];
@@ -92,7 +92,7 @@ void GridCut::augment(const Join& join) {
   send(other, flow);
 }
 
-/// What fits between a node and its terminal.
+/// The residual capacity of the path between a node and its terminal.
 int64_t GridCut::least_on_way(int node) {
   int64_t least = std::numeric_limits<int64_t>::max();
   Node* n = &nodes_[size_t(node)];
@@ -102,7 +102,7 @@ int64_t GridCut::least_on_way(int node) {
   return std::min(least, towards_sink ? -n->excess : n->excess);
 }
 
-/// Sends flow between a node and its terminal. Nodes whose way to it is used up become orphans.
+/// Sends flow between a node and its terminal. Nodes whose edge to their parent is saturated become orphans.
 void GridCut::send(int node, int64_t flow) {
   Node* n = &nodes_[size_t(node)];
   const bool towards_sink = n->tree == Tree::sink;
@@ -131,7 +131,8 @@ void GridCut::adopt_orphans() {
   orphans_.clear();
 }
 
-/// The neighbour of the same tree that is nearest to the terminal, if one is joined to it still.
+/// Makes the neighbour nearest to the terminal the orphan's parent, among those of its tree that are still connected to
+/// the terminal. False if there is none.
 bool GridCut::find_parent(Node& orphan) {
   int least = out_of_reach;
   int16_t parent = orphaned;
@@ -151,7 +152,7 @@ bool GridCut::find_parent(Node& orphan) {
   return true;
 }
 
-/// How many steps lead to the terminal; remembered for all nodes on the way.
+/// The number of steps to the terminal; cached in all nodes on the path.
 int GridCut::distance(int node) {
   int steps = 0;
   Node* n = &nodes_[size_t(node)];
@@ -171,7 +172,7 @@ int GridCut::distance(int node) {
   return found;
 }
 
-/// Leaves an orphan to either tree, and its children as orphans.
+/// Makes the orphan a free node and its children orphans.
 void GridCut::give_up(int node) {
   Node& n = nodes_[size_t(node)];
   for (int side = 0; side < 4; side++) {

@@ -62,7 +62,7 @@ void NearestPoints::build(const std::vector<float>& points, uint32_t* begin, uin
 
 void NearestPoints::add_leaf(const std::vector<float>& points, const uint32_t* begin, const uint32_t* end) {
   const size_t first = leaf_values_.size();
-  // Empty places are far from everything; their squared distances still are finite.
+  // Empty places are far from every point, yet their squared distances stay finite.
   leaf_values_.resize(first + size_t(dimensions_) * leaf_size, 1e17f);
   for (int slot = 0; slot < leaf_size; slot++) {
     const bool real = slot < end - begin;

@@ -13,7 +13,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int sweeps = 3;  ///< of smoothing, before and after coarser levels
+constexpr int sweeps = 3;  ///< smoothing sweeps before and after the coarser levels
 constexpr int cells_a_task = 1 << 14;
 constexpr int rows_a_band = 64;
 
@@ -25,7 +25,7 @@ void for_rows(int rows, int columns, const Body& body) {
                     });
 }
 
-/// What a cell's value asks of its neighbours' differences, and how much of it is the value itself.
+/// The residual of a cell's equation, and the equation's diagonal element.
 struct Balance {
   float residual, diagonal;
 };
@@ -43,7 +43,7 @@ inline Balance balance(const CellRow& r, int x) {
 
 CellAxis CellAxis::of_pixels(int count, bool wraps) {
   CellAxis axis{wraps, std::vector<float>(size_t(count), 1.0f), std::vector<float>(size_t(count) + 1, 1.0f)};
-  // A single pixel that wraps is its own neighbour, to which it owes nothing.
+  // A single pixel that wraps is its own neighbour: no link.
   if (!wraps || count == 1) axis.links.front() = axis.links.back() = 0;
   return axis;
 }
@@ -69,7 +69,7 @@ std::vector<CoarseShare> coarse_shares(const CellAxis& fine, const CellAxis& coa
     }
     const int next = i % 2 == 0 ? near - 1 : near + 1;
     const int far = coarse.wraps ? wrap(next, last + 1) : std::clamp(next, 0, last);
-    // From the centre of the pair to that of the one cell it is half the other one's width.
+    // The centre of a pair is half the other cell's width away from this cell's centre.
     const float off = fine.widths[size_t(i ^ 1)] / 2, link = coarse.links[size_t(i % 2 == 0 ? near : near + 1)];
     shares.push_back({near, far, off * link});
   }
@@ -146,7 +146,7 @@ CellRow ScreenedPoisson::Level::cells(int at, float screen) const {
           .screen = screen};
 }
 
-/// Gives a row the cells before its first and after its last.
+/// Fills the cells before a row's first and after its last.
 void ScreenedPoisson::Level::close(float* row) const {
   const int n = x.count();
   row[-1] = row[n - 1];
@@ -160,7 +160,7 @@ void ScreenedPoisson::smooth(Level& level, const Task& task) const {
   }
 }
 
-/// Changes values where they lie: of what they were before, each band of rows keeps no more than it still has to see.
+/// Works in place: each band of rows keeps only those old values that later rows still read.
 void ScreenedPoisson::smooth_once(Level& level, float step) const {
   const int rows = level.y.count(), bands = (rows + rows_a_band - 1) / rows_a_band;
   const size_t stride = level.stride();

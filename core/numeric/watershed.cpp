@@ -24,7 +24,7 @@ void for_neighbours(uint32_t at, Size size, bool wraps, Visit visit) {
   if (y + 1 < h || wraps) visit(y + 1 < h ? at + w : at - w * (h - 1));
 }
 
-/// Calls `visit` for all pixels beside each other that lie in two regions: with the regions, the lower first, and the
+/// Calls `visit` for each pair of adjacent pixels of different regions, with the regions, the lower first, and the
 /// pixels.
 template <typename Visit>
 void for_pairs(const Regions& regions, Size size, bool wraps, Visit visit) {
@@ -66,7 +66,7 @@ Regions minima(const std::vector<uint8_t>& relief, Size size, bool wraps) {
   return out;
 }
 
-/// What a region has in common with each of its neighbours, by their numbers.
+/// A region's borders with its neighbours, by their numbers.
 class Neighbours {
  public:
   struct Shared {
@@ -116,7 +116,7 @@ class Joining {
     while (!queue_.empty()) {
       const Candidate c = queue_.top();
       queue_.pop();
-      // A border that has grown meanwhile is in the queue anew. As regions grow, less of them may be joined.
+      // A border that has grown was queued again. As regions grow, fewer of them may be joined.
       const Neighbours::Shared* s = neighbours_[c.a].find(c.b);
       if (!s || s->length != c.length) continue;
       const double now = order(c.a, c.b, s->length, s->height);
@@ -145,7 +145,7 @@ class Joining {
   struct Candidate {
     double order;
     uint32_t a, b;
-    int64_t length;  ///< of the border when it was put in
+    int64_t length;  ///< of the border when it was queued
     bool operator<(const Candidate& o) const { return std::tie(o.order, o.a, o.b) < std::tie(order, a, b); }
   };
 
@@ -161,7 +161,7 @@ class Joining {
     if (const double o = order(a, b, length, height); o < never) queue_.push({o, a, b, length});
   }
 
-  /// `a` is the smaller number, which goes on to stand for both.
+  /// `a`, the smaller number, stays and stands for both.
   void join(uint32_t a, uint32_t b) {
     joined_.join(a, b);
     areas_[a] += areas_[b];
@@ -209,7 +209,7 @@ Regions flooded(const std::vector<uint8_t>& relief, Size size, bool wraps, std::
 
 std::vector<RegionBorder> region_borders(const Regions& regions, const std::vector<uint8_t>& relief, Size size,
                                          bool wraps) {
-  // The pairs of pixels beside each other are put in order by their lower region, then by the other one.
+  // Pairs of adjacent pixels are sorted by their lower region, then by the other one.
   struct Pair {
     uint32_t b;
     uint8_t height;

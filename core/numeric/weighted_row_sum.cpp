@@ -17,7 +17,7 @@ HWY_ATTR void weighted_row_sum(float* sums, size_t length, const float* rows, si
   const hn::CappedTag<float, 8> d;
   const size_t lanes = hn::Lanes(d);
   size_t k = 0;
-  // Several vectors of sums at once stay in registers, and none waits for the addition before.
+  // Several vectors of sums stay in registers, and no addition waits for the one before.
   for (; k + 4 * lanes <= length; k += 4 * lanes) {
     auto s0 = hn::LoadU(d, sums + k), s1 = hn::LoadU(d, sums + k + lanes);
     auto s2 = hn::LoadU(d, sums + k + 2 * lanes), s3 = hn::LoadU(d, sums + k + 3 * lanes);

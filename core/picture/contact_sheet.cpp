@@ -17,7 +17,7 @@ namespace {
 constexpr int border = 6;
 constexpr int channels = SheetCanvas::channels;
 
-/// The picture as RGB, reduced by a whole factor while it is pulled.
+/// The picture as RGB, reduced by a whole factor as its rows are computed.
 Planes reduced(const Image& image, int factor) {
   const Size size{std::max(1, image.width() / factor), std::max(1, image.height() / factor)};
   Planes sums = Planes::zeros(size, channels);
@@ -35,7 +35,7 @@ Planes reduced(const Image& image, int factor) {
   return sums;
 }
 
-/// Where rows or columns begin, given their lengths, what comes after each and a border around; the last number is the
+/// Where rows or columns begin, given their lengths, the gap after each and a border around; the last number is the
 /// total.
 std::vector<int> starts(const std::vector<int>& lengths, int after) {
   std::vector<int> out = {border};

@@ -19,7 +19,7 @@ namespace {
 
 constexpr float ink = 0.85f;
 constexpr int64_t longest_side = 32768;
-/// Rows pulled at once, so that a huge picture never exists as a whole.
+/// Rows computed at once, so that a huge picture never exists as a whole.
 constexpr int rows_at_once = 16;
 constexpr int most_caption_lines = 3;
 
@@ -41,7 +41,7 @@ std::vector<std::string> caption_lines(const std::string& caption, const GridSpe
   return wrapped(caption, spec.cell.width / (glyph_advance * dot_size(spec)), most_caption_lines);
 }
 
-/// A cell with its caption, and room for the longest.
+/// A cell with room for the longest caption.
 Size place_size(const GridSpec& spec) {
   size_t lines = 0;
   for (const std::string& caption : spec.captions) lines = std::max(lines, caption_lines(caption, spec).size());
@@ -55,7 +55,7 @@ Size fitted(Size size, const GridSpec& spec) {
   return {scaled(size.width, spec.cell.width), scaled(size.height, spec.cell.height)};
 }
 
-/// The picture as it is shown: scaled, and colours in sRGB.
+/// The picture for display: scaled, colours in sRGB.
 ImagePtr displayed(const ImagePtr& image, Size size) {
   Hasher recipe;
   recipe.add("picture of a grid").add(image->digest()).add(size.width).add(size.height);

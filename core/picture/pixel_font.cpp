@@ -9,7 +9,7 @@ namespace {
 
 constexpr int glyph_width = glyph_advance - 1;
 
-/// Characters side by side, as they look.
+/// Characters side by side, drawn as text.
 struct Band {
   std::string_view characters;
   std::array<std::string_view, glyph_height> rows;

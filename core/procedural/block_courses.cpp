@@ -10,13 +10,13 @@ using portable::floor_int;
 
 namespace {
 
-constexpr int draws = 8;  // of joints, of which those are taken that lie clearest of the joints above
+constexpr int draws = 8;  // random layouts of a course; the one farthest from the joints above is kept
 
 int whole(double n) {
   return int(std::max<int64_t>(1, floor_int(n + 0.5)));
 }
 
-/// How far the nearest two of both lists lie apart.
+/// The least distance between a joint of one list and a joint of the other.
 double clearance(const std::vector<double>& a, const std::vector<double>& b) {
   double least = 1e9;
   for (const double x : a)
@@ -65,7 +65,7 @@ std::vector<double> BlockCourses::row_heights(const CourseSpec& spec, double tot
   return heights;
 }
 
-/// The joints between the blocks of a span, its ends left out.
+/// The joints between the blocks of a span, without its ends.
 std::vector<double> BlockCourses::joints(Span span, const CourseSpec& spec, const std::vector<double>& avoided,
                                          Dice& dice) const {
   const double length = span.to - span.from;
@@ -102,7 +102,7 @@ void BlockCourses::lay_course(const CourseSpec& spec, Row& row, Dice& dice) {
   lay_run(spec, row, across_, k > 0 ? inner_joints(rows_[k - 1].blocks) : std::vector<double>{}, dice);
 }
 
-/// Both courses between blocks that reach through both.
+/// Lays two courses between the blocks that are two courses high.
 void BlockCourses::lay_pair(const CourseSpec& spec, Row& upper, Row& lower, Dice& dice) {
   const size_t k = size_t(&upper - rows_.data());
   const std::vector<double> above = k > 0 ? inner_joints(rows_[k - 1].blocks) : std::vector<double>{};

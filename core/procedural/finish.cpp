@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int samples = 2;  // per pixel, across and down
+constexpr int samples = 2;  // per pixel and axis
 
 float rounded(double value, int steps) {
   return float(portable::floor_int(portable::saturate(value) * steps + 0.5)) / float(steps);
@@ -53,7 +53,7 @@ void round_all(std::vector<float>& values, int steps) {
   for (float& v : values) v = rounded(v, steps);
 }
 
-/// One float per pixel and channel that `make` computes region by region, in parallel.
+/// One float per pixel and channel; `make` computes them region by region, in parallel.
 template <typename Make>
 std::vector<float> computed(Size size, int channels, const Task& task, const Make& make) {
   const ImageInfo info{.size = size, .channels = channels, .semantic = Semantic::data};

@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Pixels as they adjoin each other, around the border if the canvas wraps.
+/// The neighbours of pixels, across the border if the canvas wraps.
 struct Neighbourhood {
   int width, height;
   bool wraps;
@@ -60,7 +60,7 @@ std::vector<bool> in_largest_region(const std::vector<uint64_t>& elements, const
   return out;
 }
 
-/// Gives the other regions to the elements around them, from their outlines inwards.
+/// Assigns the other regions to the elements around them, from their outlines inwards.
 void join_fragments(std::vector<uint64_t>& elements, const Neighbourhood& pixels) {
   std::vector<bool> settled = in_largest_region(elements, pixels);
   std::vector<uint32_t> open;

@@ -47,7 +47,7 @@ SurfacePoint Masonry::at(double u, double v, const Brick& b) const {
   SurfacePoint brick = brick_at(u, v, x / half_w, base, tone, pitting, burnt, burnt_side);
   brick.height += 0.035 * lift + 0.03 * (lean_x * x / half_w + lean_y * y / half_h) * spec_.irregularity;
   brick.height -= 0.13 * (1 - rounding);
-  // Arrises are rubbed pale, and mortar has been wiped over some faces.
+  // Edges are rubbed pale, and mortar has been wiped over some faces.
   brick.color = mix(brick.color, brick.color * 1.18 + rgb(0x0a0a08), 0.5 * (1 - rounding) * spec_.wear);
   const double wiped = smoothstep(0.0, 0.45, canvas_.fbm(u, v, per_brick_ * 2.3, 6, 0.66, smear) - 0.16 * shoulder);
   brick.color = mix(brick.color, palette_.joint, 0.5 * wiped);

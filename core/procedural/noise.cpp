@@ -75,7 +75,7 @@ double simplex_noise(double x, double y, uint64_t seed, Period period) {
     const double dx = x - (double(c[0]) - double(c[1]) * 0.5), dy = y - double(c[1]);
     const double w = 0.8 - dx * dx - dy * dy;
     if (w <= 0) continue;
-    // Going down one period moves a point's column by half of it.
+    // One period down shifts the column by half a period.
     const int64_t row = wrapped(c[1], period.y), column = c[0] - (c[1] - row) / 2;
     sum += w * w * w * w * slope(lattice_bits(seed, wrapped(column, period.x), row), dx, dy);
   }
@@ -160,7 +160,7 @@ double NoiseField::at(int x, int y) const {
         sum += std::abs(n) * o.weight;
         break;
       case Fractal::ridged: {
-        // Ridges grow finer ridges where they are high already (Musgrave 1998).
+        // Finer ridges appear only where ridges are already high (Musgrave 1998).
         const double ridge = (1 - std::abs(n)) * (1 - std::abs(n));
         sum += ridge * above * o.weight;
         above = ridge;

@@ -34,7 +34,7 @@ const Palette* find_palette(const PatternType& type, std::string_view name) {
 
 namespace {
 
-/// A type with what was asked of it, defaults filled in.
+/// A type and its specification, defaults filled in.
 struct Chosen {
   const PatternType& type;
   const Palette& palette;

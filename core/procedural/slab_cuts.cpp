@@ -13,7 +13,7 @@ namespace {
 using Polygon = SlabCuts::Polygon;
 using Corner = SlabCuts::Corner;
 
-constexpr double cell_size = 2.6;  // of an uncut cell, in slabs
+constexpr double cell_size = 2.6;  // side of an uncut cell, in slabs
 
 /// Twice the signed area of the triangle from the origin to an edge.
 double cross(const Corner& a, const Corner& b) {
@@ -89,7 +89,7 @@ int SlabCuts::cut(const Polygon& polygon, Dice& dice) {
   return at;
 }
 
-/// Near the middle, across the longer side.
+/// A crack near the middle, across the longer side.
 SlabCuts::Line SlabCuts::crack(const Polygon& polygon, Dice& dice) const {
   const Corner middle = centroid(polygon);
   double xx = 0, xy = 0, yy = 0;

@@ -49,7 +49,7 @@ SurfacePoint StoneFace::at(double u, double v, const StonePlace& place) const {
 }
 
 StoneFace::Relief StoneFace::relief_at(double u, double v, const StonePlace& place, Dice& dice) const {
-  // Every stone looks at another part of the noises: nothing goes on from one stone to the next.
+  // Every stone samples another part of the noise, so that nothing continues from one stone to the next.
   const double su = u + dice.unit(), sv = v + dice.unit() * canvas_.aspect();
   const double waves = canvas_.fbm(su, sv, 1.7 / unit_, 4, 0.5, swell);
   const double fine = canvas_.fbm(su, sv, 13 / unit_, 5, 0.68, rough);
@@ -97,7 +97,7 @@ SurfacePoint StoneFace::stone_at(double u, double v, const StonePlace& place, do
   Dice kind(crystal.bits);
   const double which = kind.both(), spot = smoothstep(0.5, 0.2, crystal.nearest);
   c = c * (1 + 0.3 * look_.grains * which * which * which * spot);
-  // Arrises are rubbed pale; soot stays in what lies low.
+  // Edges are rubbed pale; soot stays in hollows.
   const double rubbed = smoothstep(0.2, 0.55, round) * smoothstep(0.98, 0.6, round);
   c = mix(c, c * 1.16 + rgb(0x0a0908), 0.5 * rubbed * spec_.wear);
   const double soot = smoothstep(0.02, -0.16, relief.height) * (0.25 + 0.6 * spec_.wear);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double bucket_units = 1.6;  // wider than any stone, so that neighbours lie in adjoining buckets
 constexpr double margin_units = 3.2;
-constexpr double throws_per_disc = 7;  // per disc that would fit: beyond it next to none finds a place
+constexpr double throws_per_disc = 7;  // per disc that would fit: with more, hardly any disc finds a place
 constexpr double large_per_disc = 0.45;
 constexpr double rounding_units = 0.7;  // borders farther away do not round a corner
 
@@ -35,7 +35,7 @@ int64_t StonePacking::bucket(double along) const {
 void StonePacking::throw_discs(const Canvas& canvas, const PackingSpec& spec, double radius, uint64_t salt) {
   const double around = canvas.wraps() ? 0 : margin_;
   const double width = 1 + 2 * around, height = canvas.aspect() + 2 * around;
-  // The smallest discs close all gaps; of the others only as many are thrown as leave room for them.
+  // The smallest discs close all gaps; of the larger ones only so many are thrown that room is left for these.
   const bool last = radius == spec.radii.back() * spec.unit;
   const double discs = std::max(1.0, width / (2 * radius)) * std::max(1.0, height / (2 * radius));
   const int64_t throws = floor_int(1 + discs * (last ? throws_per_disc : large_per_disc));
@@ -91,7 +91,7 @@ StonePacking::Place StonePacking::at(double u, double v) const {
   visit_near(u, v, [&](const Stone& s) {
     if (&s == &own) return;
     const double dx = u - s.x, dy = v - s.y;
-    // The buckets hold all stones as near as this, wherever the canvas wraps.
+    // The adjoining buckets hold all stones within this distance, but only some of those beyond it.
     if (dx * dx + dy * dy > bucket_size_ * bucket_size_) return;
     const double nx = s.x - own.x, ny = s.y - own.y;
     const double ahead = dx * dx + dy * dy - s.radius * s.radius - power;

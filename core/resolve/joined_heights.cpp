@@ -38,10 +38,10 @@ const Tunable<JoinedHeightsTuning> joined_heights_tuning(
          "joined_heights"},
     });
 
-constexpr double least_reach = 0.01;  ///< in pixels; nearer is not at all
+constexpr double least_reach = 0.01;  ///< in pixels; shorter reaches count as 0
 constexpr Size block{256, 64};
 
-/// The parts of a region that are worked on one by one.
+/// Calls `body` for the blocks of a region, in parallel.
 template <typename Body>
 void for_blocks(const Rect& region, const Body& body) {
   const int columns = (region.width + block.width - 1) / block.width;
@@ -141,7 +141,7 @@ class JoinedPixels : public PixelSource {
     }
     const Offset& source(int x, int y) const { return sources_[at(x + apron_, y + apron_)]; }
     float value(int x, int y) const { return values_[at(x + apron_, y + apron_)]; }
-    /// The region but its outermost pixels.
+    /// The residuals of a row, without its outermost pixels.
     void residuals(int y, int count, float* out) const {
       terrazzo::residuals(cells(apron_ + 1, apron_ + y, count), out);
     }
@@ -225,7 +225,8 @@ class JoinedPixels : public PixelSource {
       }
     }
 
-    /// What lies `seen` pixels within the area has right values; after this, that which lies further inside.
+    /// Takes values that are right at least `seen` pixels inside the area; each step leaves one pixel less on every
+    /// side.
     void smooth(int seen) {
       changed_.resize(values_.size());
       for (const float step : of_.steps_) {
@@ -260,13 +261,13 @@ class JoinedPixels : public PixelSource {
     return std::isfinite(v) ? std::clamp(float(v + unit_ * by), range_[0], range_[1]) : v;
   }
 
-  /// The difference that the exemplar has behind (or, at its border, before) a place.
+  /// The difference between a place of the exemplar and the next one on the way; 0 at its border.
   double slope(const Offset& from, const Offset& way) const {
     Offset to{from.x + way.x, from.y + way.y};
     return layout_->inside(to.x, to.y) ? double(height(to)) - height(from) : 0;
   }
 
-  /// How much larger the difference from a pixel to its neighbour is to be, in parts of the range.
+  /// By how much the difference from a pixel to its neighbour must grow, in parts of the range.
   float step(const Offset& from, const Offset& to, const Offset& way) const {
     if (from.x < 0 || to.x < 0) return 0;
     Offset next{from.x + way.x, from.y + way.y};
@@ -284,7 +285,7 @@ class JoinedPixels : public PixelSource {
     return float((std::clamp(is, std::min(first, second), std::max(first, second)) - is) / unit_);
   }
 
-  /// Whether what is kept says by how much the height shown at a pixel is to be moved.
+  /// Whether the height of a pixel is kept; then `by` is how far the shown height must move.
   bool holds(int x, int y, const Offset& source, float& by) const {
     const float* kept = kept_.at(x, y);
     if (!kept) return false;
@@ -292,7 +293,7 @@ class JoinedPixels : public PixelSource {
     return std::isfinite(by);
   }
 
-  /// What of each coarse cell is held.
+  /// The part of each coarse cell that is kept.
   std::vector<float> coarse_holds() const {
     const int columns = (size_.width + 1) / 2;
     std::vector<float> out(size_t(columns) * size_t((size_.height + 1) / 2), 0.0f);
@@ -338,7 +339,7 @@ class JoinedPixels : public PixelSource {
   KeptLookup kept_;
   CellAxis x_, y_;  ///< of the output's pixels
   std::vector<CoarseShare> x_shares_, y_shares_;
-  std::optional<ScreenedPoisson> coarse_;  ///< part of the solution; none if there is nothing to be joined
+  std::optional<ScreenedPoisson> coarse_;  ///< coarse part of the solution; none if there is nothing to join
   std::array<float, 2> range_{};
   double unit_ = 1;  ///< of the solution
   float screen_ = 1;

@@ -30,7 +30,7 @@ std::vector<float> linear_pixels(const Image& map) {
   return pixels;
 }
 
-/// A map's pixels are read over and over, in no order: they are held in memory.
+/// Holds the map in memory: its pixels are read repeatedly and in no order.
 class ResolvedPixels : public PixelSource {
  public:
   ResolvedPixels(const ImagePtr& map, std::shared_ptr<const FineLayout> layout)
@@ -69,7 +69,7 @@ class ResolvedPixels : public PixelSource {
   static constexpr int largest_reach = int(largest_blend + 0.5);
   static constexpr int largest_window = (2 * largest_reach + 1) * (2 * largest_reach + 1);
 
-  /// Where the map holds what lies at a place of the exemplar.
+  /// The index of the map's pixel for a place of the exemplar.
   size_t position(int x, int y) const {
     const Size size = map_->size(), exemplar = layout_->exemplar();
     if (!same_) {
@@ -126,8 +126,8 @@ class ResolvedPixels : public PixelSource {
     return mean(proposals.data(), count, out);
   }
 
-  /// The factor on the mean of details that gives it the variance of each of them. Details correlate where they come
-  /// from nearly the same place.
+  /// The factor that gives the mean of several details the variance of one. Details from nearly the same place
+  /// correlate.
   double contrast(const Proposal* proposals, int count) const {
     double variance = 0;
     for (int i = 0; i < count; i++)
@@ -155,7 +155,7 @@ class ResolvedPixels : public PixelSource {
         least = std::min(least, linear_[at]);
         most = std::max(most, linear_[at]);
       }
-      // Where the pieces agree after all, their details need no more contrast.
+      // Where the pieces agree, their details need no more contrast.
       out[c] = std::clamp(float(smooth + factor * detail), least, most);
     }
     to_stored(info, out, 1);
@@ -163,8 +163,8 @@ class ResolvedPixels : public PixelSource {
     return out + info.channels;
   }
 
-  /// Gives a unit normal the length that the proposals have: 1, unless the map was filtered carelessly, where a normal
-  /// of another length than its neighbours' would show.
+  /// Gives a unit normal the length of the proposals: 1, unless the map was filtered without normalizing; there a
+  /// normal longer than its neighbours would show.
   void set_length(const Proposal* proposals, int count, float* out) const {
     double sum = 0;
     for (int i = 0; i < count; i++)
@@ -177,8 +177,8 @@ class ResolvedPixels : public PixelSource {
   std::shared_ptr<const FineLayout> layout_;
   bool same_;                  ///< the map has the exemplar's size
   double detail_radius_ = 0;   ///< in pixels of the exemplar
-  std::vector<float> linear_;  ///< the map in the space of averages,
-  std::vector<float> smooth_;  ///< and its local mean
+  std::vector<float> linear_;  ///< the map in the space of linear_pixels
+  std::vector<float> smooth_;  ///< its local mean
 };
 
 ImagePtr resolved_map(const ImagePtr& map, const std::shared_ptr<const FineLayout>& layout) {
@@ -190,14 +190,14 @@ ImagePtr resolved_map(const ImagePtr& map, const std::shared_ptr<const FineLayou
   return Image::computed(info, recipe.digest(), std::make_shared<ResolvedPixels>(map, layout));
 }
 
-/// Whether the exemplar is the analysed one enlarged by `scale`, but for what rounding to whole pixels may do.
+/// Whether the exemplar is the analysed one enlarged by `scale`, up to rounding to whole pixels.
 bool fits(Size exemplar, Size analysed, double scale) {
   const double off = scale == 1 ? 0 : scale;
   return std::abs(analysed.width * scale - exemplar.width) <= off &&
          std::abs(analysed.height * scale - exemplar.height) <= off;
 }
 
-/// What is kept of a map of heights.
+/// The kept pixels of a height map.
 KeptHeights kept_heights(const ResolveOptions& options, const std::string& map, const FineLayout& layout) {
   if (!options.kept) return {};
   const ImagePtr heights = options.kept->find(map);

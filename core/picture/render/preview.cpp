@@ -146,7 +146,7 @@ ImagePtr rendered(const Renderer& renderer, Size size, size_t light, const Task&
   return Image::from_floats(info, std::move(out));
 }
 
-/// Row by row, as square as it gets.
+/// Pictures row by row, in as square a sheet as possible.
 ImagePtr sheet_of(const std::vector<ImagePtr>& pictures) {
   size_t columns = 1;
   while (columns * columns < pictures.size()) columns++;
@@ -173,7 +173,7 @@ Size completed(Size size, PreviewShape shape, Size material) {
 ImagePtr render_preview(const Material& material, const PreviewSpec& spec, const Task& task) {
   Textures textures =
       load_textures(material, int(std::max(1.0, spec.size.width / std::max(spec.tile, 1e-3))), spec.relief, task);
-  // Aslant, the sides of such cliffs are in sight.
+  // A tilted view shows the sides of such cliffs.
   if (spec.shape != PreviewShape::plane || spec.tilt != 0) textures.heights_repeat_x = textures.heights_repeat_y = true;
   const Renderer renderer(spec, textures);
   std::vector<ImagePtr> pictures;

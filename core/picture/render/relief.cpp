@@ -10,7 +10,7 @@ double surface_at(const Textures& t, double x, double y) {
   return t.height.value(x, y / t.aspect) * t.depth;
 }
 
-/// The same for light that reaches a point: in the repeat around that.
+/// The same for light that reaches a point: the repeat is centred on that point.
 double surface_around(const Textures& t, double x, double y, double point_x, double point_y) {
   return t.height_at(x, y / t.aspect, point_x, point_y / t.aspect) * t.depth;
 }

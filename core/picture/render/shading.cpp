@@ -43,7 +43,7 @@ Vector3d reflected_ambient(const ShadedPoint& p, const Vector3d& view, const Vec
   const double nv = std::clamp(p.normal.dot(view), 0.0, 1.0);
   const Vector3d mirrored = p.normal * (2 * p.normal.dot(view)) - view;
   const auto surroundings = [&](double sky, double sharpness) { return 0.8 + 0.2 * sky * sharpness; };
-  // Rough surfaces mirror a blurred world and lose part of it between their facets.
+  // Rough surfaces reflect a blurred environment and lose part of the light between their facets.
   const Vector3d fresnel = schlick(facing_reflectance(p), nv) * (1 - 0.6 * p.roughness);
   const Vector3d diffuse =
       (1 - p.metallic) * p.albedo.cwiseProduct(Vector3d::Ones() - fresnel) * surroundings(p.normal.dot(up), 1);

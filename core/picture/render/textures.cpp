@@ -84,7 +84,7 @@ double depth_from_normals(const Texture& height, const Texture& normal, double a
   return variance > 0 ? std::clamp(covariance / variance, 0.0, 0.2) : 0;
 }
 
-/// Whether heights change across opposite borders about as between two lines inside, such as those along a joint.
+/// Whether heights change across opposite borders hardly more than anywhere between adjacent lines inside.
 bool goes_on(const Texture& height, bool columns) {
   const int lines = columns ? height.size().width : height.size().height;
   const int length = columns ? height.size().height : height.size().width;
@@ -159,7 +159,7 @@ ShadedPoint Textures::at(double u, double v) const {
   if (!base_color.empty()) p.albedo = base_color.color(u, v);
   if (!normal.empty()) {
     const Vector3d n = normal.color(u, v);
-    // A normal that points into the surface, or nowhere, is no normal.
+    // Normals that point into the surface or have no length are ignored.
     if (n.z() > 0) p.normal = Vector3d{n.x(), n.y(), std::max(n.z(), 0.05)}.normalized();
   }
   if (!roughness.empty()) p.roughness = roughness.value(u, v);

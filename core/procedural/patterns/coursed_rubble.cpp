@@ -49,7 +49,7 @@ class CoursedRubble : public Surface {
                        v + bend * canvas_.fbm(u, v, 0.8 / unit_, 3, 0.5, warp_v));
   }
 
-  /// To the sides of a block that no one has squared: they slant, and the corners are off.
+  /// The distance to the sides of a roughly dressed block: they slant, and the corners are cut off.
   double distance(const BlockCourses::Place& p, Dice dice) const {
     const double half_width = (p.block->right - p.block->left) / 2, half_height = (p.block->bottom - p.block->top) / 2;
     const double slant = 0.09 * irregularity_;

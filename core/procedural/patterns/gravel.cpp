@@ -15,7 +15,7 @@ struct Pebble {
   double x, y;                           ///< centre, in cells
   double cosine, sine;                   ///< of its direction
   double inverse_length, inverse_width;  ///< 1 / half axes, in cells
-  double base, rise;                     ///< height of its rim and of its crown above that
+  double base, rise;                     ///< height of its rim, and of its crown above the rim
   double flatness;                       ///< 0: a dome, 1: a flat top
   Rgb color;
   double tone;
@@ -104,7 +104,7 @@ class Gravel : public Surface {
         const double dx = x - p.x, dy = y - p.y;
         const double a = (dx * p.cosine + dy * p.sine) * p.inverse_length;
         const double b = (dy * p.cosine - dx * p.sine) * p.inverse_width;
-        // Between an ellipse and a rounded rectangle, dented by the noise, and no two dented alike.
+        // Between an ellipse and a rounded rectangle, each dented by its own noise.
         const double a2 = a * a, b2 = b * b;
         const double side = (p.bits & 1) ? 1 : -1;
         const double q = std::sqrt(a2 * a2 + b2 * b2 + (2 - 1.2 * p.flatness) * a2 * b2) * (1 + 0.38 * side * outline);

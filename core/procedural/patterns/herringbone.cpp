@@ -6,7 +6,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Brick pavers in herringbone bond: blocks of two square cells, lying and standing in turn, each row one cell on.
+/// Brick pavers in herringbone bond: blocks of two square cells, alternately lying and standing, each row one cell on.
 class Herringbone : public Surface {
  public:
   enum Salt : uint64_t { lying = 1, standing, warp_u, warp_v };

@@ -50,7 +50,7 @@ class Tiles : public Surface {
     const Rgb base = pick_color(palette_.pieces, dice);
     const double tone = 1 + 0.07 * dice.both(), lift = dice.both(), lean_x = dice.both(), lean_y = dice.both();
     const uint64_t own = uint64_t(dice.unit() * 0x1p52);
-    // Noises in the tile's own frame: every tile was glazed by itself.
+    // Noise in the tile's own frame: every tile was glazed separately.
     const double pool = gradient_noise(x * 2.2, y * 2.2, own, {}) + 0.5 * gradient_noise(x * 5.1, y * 5.1, own + 1, {});
     const double orange_peel = canvas_.fbm(u, v, 16 / unit_, 3, 0.6, glaze);
     const double clouds = canvas_.fbm(u, v, 2.1 / unit_, 6, 0.62, cloud);

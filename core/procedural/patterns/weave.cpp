@@ -12,7 +12,7 @@ using namespace portable;
 /// One yarn at a point.
 struct Strand {
   double height = 0;
-  double rim = 2;    ///< distance from the yarn's middle in half widths; above 1 it is not there
+  double rim = 2;    ///< distance from the yarn's middle in half widths; above 1: beside the yarn
   double twist = 0;  ///< -1..1: valley to ridge of the twisted plies
   double fibre = 0;  ///< -1..1: single fibres
   double lift = 0;   ///< -1..1: under or over the crossing yarn
@@ -54,7 +54,7 @@ class Weave : public Surface {
     return wraps ? 2 * std::max(1.0, double(floor_int(count / 2 + 0.5))) : count;
   }
 
-  /// `along` the yarn and `side` of its middle, in cells; `length`: cells until it repeats, 0 for never.
+  /// `along` the yarn and `side` of its middle, in cells; `length`: cells until it repeats, 0: never.
   Strand strand(double u, double v, double along, double side, double lift, uint64_t bits, int length,
                 bool is_weft) const {
     Dice dice(bits);
@@ -71,7 +71,7 @@ class Weave : public Surface {
       return s;
     }
     const double round = std::sqrt(1 - t * t);
-    // Plies wind around the yarn: on its round face they run aslant and bunch up towards the sides.
+    // Plies wind around the yarn: on its round face they slant and bunch up towards the sides.
     const double slant = t * (1 + 0.25 * t * t);
     const double phase = along * plies - 1.15 * slant * (is_weft ? 1 : -1) + turn;
     const double ridge = std::abs(cos_turns(phase * 0.5));
