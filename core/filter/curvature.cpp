@@ -6,7 +6,7 @@ namespace terrazzo {
 
 namespace {
 
-/// 1 / the distance between the neighbours on either side of a pixel, where those beyond a border are the pixel itself.
+/// 1 / the distance between a pixel's two neighbours; at a border the pixel itself stands for the missing one.
 float per_distance(int at, int count, Outside outside) {
   if (outside == Outside::wrap) return 0.5f;
   const int distance = (at > 0) + (at + 1 < count);

@@ -7,7 +7,7 @@ namespace terrazzo {
 Curve::Curve(std::vector<std::pair<double, double>> points, bool smooth) : points_(std::move(points)) {
   const size_t count = points_.size();
   if (!smooth || count < 3) return;
-  std::vector<double> steps(count - 1), rises(count - 1);  // of each piece: its width and its slope
+  std::vector<double> steps(count - 1), rises(count - 1);  // width and slope of each piece
   for (size_t i = 0; i + 1 < count; i++) {
     steps[i] = points_[i + 1].first - points_[i].first;
     rises[i] = (points_[i + 1].second - points_[i].second) / steps[i];

@@ -13,10 +13,10 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int blocks = 8;            // a side: large enough to even out a texture, small enough to see a trend
+constexpr int blocks = 8;            // per side: large enough to average out a texture, small enough to see a trend
 constexpr double steps = 255.0 / 5;  // colours within 2/255 of each other fall into one cell
 
-/// How often each colour comes, and the brightness of blocks.
+/// How often each colour occurs, and the brightness of blocks.
 class Look {
  public:
   explicit Look(const Image& image) : image_(image), colours_(std::min(image.channels(), 3)) {

@@ -12,18 +12,18 @@ namespace terrazzo {
 namespace {
 
 constexpr float steepest = 256;
-/// Of multigrid. Each leaves less than half of the error (screened_poisson_test.cpp); after 12, 1e-5 of the relief of
-/// 4096x4096 pixels is left.
+/// Multigrid cycles. Each leaves less than half of the error (screened_poisson_test.cpp); after 12, an error of 1e-5 of
+/// the relief remains at 4096x4096 pixels.
 constexpr int cycles = 12;
-/// How much the longest wave of a surface loses, at the most, to the screening that keeps the equation regular.
+/// The largest part of a surface's longest wave that may be lost to the screening, which keeps the equation regular.
 constexpr double longest_loses = 1e-5;
-constexpr int border = 2;  ///< how far around a region slopes are read
+constexpr int border = 2;  ///< pixels around a region whose slopes are read
 
 /// The weights by which the difference between neighbouring pixels is computed from slopes.
 struct RiseFilter {
   float near;  ///< weight of the slopes at either end
   float far;   ///< of the slopes one pixel further
-  float side;  ///< what the slopes beside each of these take from it, on either side
+  float side;  ///< weight that the slopes on either side subtract from each of these
 };
 
 /// Along the axis the weights are exact for cubics, for the derivative or a filter's central difference. Across it they
@@ -44,8 +44,7 @@ class SlopePlane {
   const float* at(int x, int y) const { return &values_[size_t(y + border) * size_t(stride_) + size_t(x + border)]; }
   int stride() const { return stride_; }
 
-  /// Replaces the slopes in the first and last of so many pixels by those that continue the next two: along lines that
-  /// are `step` apart in memory.
+  /// Extrapolates the first and the last of `count` slopes from the two next to them; `step`: their distance in memory.
   static void continue_line(float* first, int count, ptrdiff_t step) {
     if (count < 4) return;
     float* last = first + (count - 1) * step;

@@ -40,7 +40,7 @@ std::vector<ImagePtr> halved_to_one(const ImagePtr& image, const std::string& fi
   return levels;
 }
 
-/// From the smallest level up, so that visible colours spread into transparent pixels.
+/// Filled from the smallest level up, so that visible colours spread into transparent pixels.
 std::vector<ImagePtr> weighted_levels(const ImagePtr& image, const ImagePtr& weights) {
   std::vector<ImagePtr> levels = halved_to_one(premultiplied(image, weights), "box");
   ImagePtr coarser;

@@ -64,13 +64,13 @@ const Tunable<NormalChannelsTuning> normal_channels_tuning(
          "not measured: far from what either kind has", 0, 1},
     });
 
-/// What of z follows from encoded x and y, encoded.
+/// The encoded z of a unit normal, from its encoded x and y.
 float encoded_z(float x, float y) {
   const float u = x * 2 - 1, v = y * 2 - 1;
   return std::sqrt(std::max(0.0f, 1 - u * u - v * v)) * 0.5f + 0.5f;
 }
 
-/// All statistics that are needed of the pixels.
+/// Statistics of the pixels' channels.
 class ChannelLook {
  public:
   explicit ChannelLook(const Image& image) : image_(image), channels_(image.channels()), moments_(channels_ + 1) {
@@ -98,8 +98,9 @@ class ChannelLook {
   bool is_empty(int c) const { return is_constant(c) && (is_near(c, 0) || is_near(c, 0.5) || is_near(c, 1)); }
   bool is_near(int c, double value) const { return std::abs(mean(c) - value) <= normal_channels_tuning->near; }
   bool is_opaque() const { return deviation(channels_ - 1) < 1e-6; }
-  /// Root mean square of blue less the z of red and green, and the correlation of the two.
+  /// The root mean square difference of blue and the z of red and green.
   double misfit() const { return std::sqrt(misfit_ / double(image_.size().area())); }
+  /// The correlation of blue with the z of red and green.
   double follows() const {
     const double product = deviation(2) * deviation(channels_);
     return product > 1e-9 ? moments_.covariance(2, channels_) / product : 0;
@@ -191,8 +192,8 @@ NormalLayout layout_of_many(const ImagePtr& image, const Image* height, const st
     return {.x = 3, .y = 1, .has_z = false, .reason = "it holds x in alpha and y in green, as DXT5nm"};
   const auto without_z = [](std::string reason) { return NormalLayout{.has_z = false, .reason = std::move(reason)}; };
   if (blue_is_copy) return without_z(fmt::format("its blue is a copy of its {}", look.same(1, 2) ? "green" : "red"));
-  // Signed normals whose z is 0 are one half once they are encoded. A full channel is that of flat normals, too, and
-  // one that runs against z is that of normals that point into the surface.
+  // A constant channel may still be a z: signed normals without z are encoded as one half, flat normals as 1. A blue
+  // that falls with z belongs to normals that point into the surface.
   if (look.misfit() <= normal_channels_tuning->misfit || std::abs(look.follows()) > normal_channels_tuning->follows)
     return {};
   if (!look.is_empty(2))

@@ -64,7 +64,7 @@ Grid averaged(const Image& image, Size size) {
   return g;
 }
 
-/// Pearson's; 0 if one of the two hardly varies.
+/// Pearson's correlation; 0 if one of the two hardly varies.
 double correlation(const Moments<2>& m) {
   constexpr double least = 1e-12;
   const double a = m.variance(0), b = m.variance(1);
@@ -85,7 +85,7 @@ struct SlopeFit {
   double red_x = 0, red_y = 0, green_x = 0, green_y = 0;
 };
 
-/// Where in the height map the surface point is that a turned or mirrored normal map shows at (x, y).
+/// The place in the height map of the point that a turned or mirrored normal map shows at (x, y).
 std::pair<int, int> source_of(NormalMisfit::Kind kind, Size size, int x, int y) {
   using enum NormalMisfit::Kind;
   const int right = size.width - 1, bottom = size.height - 1;
@@ -140,7 +140,7 @@ ConventionEvidence convention_from_height(const Image& normal, const Image& heig
     }
   out.along_x = correlation(along_x);
   out.along_y = correlation(along_y);
-  // Grooves that run across (planks, say) leave red without evidence: then a strong green must do.
+  // Horizontal grooves, as of planks, leave red without evidence; then green must correlate strongly.
   const double clear = normal_convention_tuning->clear, strong = normal_convention_tuning->strong;
   if (std::abs(out.along_y) < (std::abs(out.along_x) < clear ? strong : clear)) return out;
   if (std::abs(out.along_x) < clear) {
@@ -160,13 +160,13 @@ NormalMisfit misfit_with_height(const Image& normal, const Image& height) {
   const double strong = normal_convention_tuning->strong;
   NormalMisfit best;
   for (const NormalMisfit::Kind kind : {none, turned_90, turned_180, turned_270, mirrored_x, mirrored_y}) {
-    // The grid is not square either where the height has another shape than the normals.
+    // The grid is not square either if height and normals differ in shape.
     const bool is_square = normal.width() == normal.height() && size.width == size.height;
     if ((kind == turned_90 || kind == turned_270) && !is_square) continue;
     const SlopeFit fit = fit_of(n, h, kind);
     const double straight = std::min(std::abs(fit.red_x), std::abs(fit.green_y));
     const double crossed = std::min(std::abs(fit.red_y), std::abs(fit.green_x));
-    // As it is, or along grooves of one way only.
+    // Already fits, perhaps in one direction only, as with grooves.
     if (kind == none && std::max(std::abs(fit.red_x), std::abs(fit.green_y)) >= strong) return {};
     if (kind != none && straight >= strong && straight > fitness(best)) best = {kind, fit.red_x, fit.green_y};
     if (crossed >= strong && crossed > fitness(best))

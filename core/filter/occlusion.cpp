@@ -22,7 +22,7 @@ constexpr std::array<std::array<double, 2>, 8> half_circle = {{{1, 0},
                                                                {-0.9238795325112867, 0.3826834323650898}}};
 constexpr int directions = 2 * int(half_circle.size());
 
-/// A pixel on the way to the horizon, and what a height difference to it counts as a slope.
+/// A pixel on the way to the horizon, and the factor from a height difference to a slope.
 struct Step {
   int x = 0;
   int y = 0;
@@ -59,7 +59,7 @@ class Horizons {
         directions_.push_back({sign * dx, sign * dy, steps_along(sign * dx, sign * dy, options)});
   }
 
-  /// Calls visit(dx, dy, slopes) for each direction: the slopes from the points of a row up to the horizon.
+  /// Calls visit(dx, dy, slopes) for each direction, with the slopes from the points of a row up to the horizon.
   template <typename Visit>
   void for_directions(int row, const Visit& visit) {
     const float* here = &heights_[size_t(row + apron_) * stride_ + apron_];
@@ -81,7 +81,7 @@ class Horizons {
   std::vector<Direction> directions_;
 };
 
-/// The sum of the directions from the zenith down to a horizon of the slope t, within a narrow wedge.
+/// The sum of the directions between the zenith and a horizon of slope t, within a narrow wedge.
 struct Wedge {
   double outwards, upwards;
 };

@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Less than a fifth of a step of 8 bits: nobody sees it, and rounding decides its colour.
+/// A quarter of an 8-bit step: invisible, and its colour is that of rounding.
 constexpr float least_seen = 1.0f / 1024;
 
 bool has_alpha(const ImageInfo& info) {

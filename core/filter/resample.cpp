@@ -35,7 +35,7 @@ float mitchell(float x) {
   return x < 2 ? (-7.0f / 3 * x * x2 + 12 * x2 - 20 * x + 32.0f / 3) / 6 : 0;
 }
 
-/// A kernel that reaches so far to either side of its centre; `at`: of the distance from there, 0 or more.
+/// A kernel, its reach to either side, and its value `at` a distance of 0 or more from its centre.
 struct Kernel {
   const char* name;
   float reach;
@@ -58,7 +58,7 @@ std::vector<Taps> taps_of(const AxisFilter& filter, int first, int count) {
   return taps;
 }
 
-/// The source positions that any of the taps touch: first and one past the last.
+/// The source positions that the taps read: the first and one past the last.
 std::pair<int, int> span_of(const std::vector<Taps>& taps) {
   int first = taps.front().first, last = first;
   for (const Taps& t : taps) {
@@ -88,12 +88,12 @@ void add_weighted(const float* in, float weight, size_t count, float* out) {
   for (size_t i = 0; i < count; i++) out[i] += weight * in[i];
 }
 
-/// As span_of, for all results between two: taps move on with them.
+/// The span of `count` results: the taps of the first and the last include all others.
 std::pair<int, int> span_between(const AxisFilter& filter, int first, int count) {
   return span_of({filter.taps(first), filter.taps(first + count - 1)});
 }
 
-/// What rows of the result are made from; may lie outside the source.
+/// The part of the source from which rows are filtered; may lie outside it.
 Rect around_in_rows(const AxisFilter& filter, const Rect& region) {
   const auto [left, right] = span_between(filter, region.x, region.width);
   return {left, region.y, right - left, region.height};

@@ -24,7 +24,7 @@ double correlation(const std::vector<float>& a, const std::vector<float>& b) {
 }  // namespace
 
 Size structure_grid(Size a, Size b) {
-  constexpr int largest = 128;  // finer grids cost time and see noise; photographed exemplars are told apart by this
+  constexpr int largest = 128;  // enough to tell photographed exemplars apart; finer grids cost time and see noise
   return {std::min({a.width, b.width, largest}), std::min({a.height, b.height, largest})};
 }
 

@@ -7,7 +7,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Keeps divisions by what is left of a pure metal's diffuse, or a pure dielectric's specular part, finite.
+/// Keeps divisions finite by the diffuse part of a pure metal and by the specular part of a pure dielectric.
 constexpr double least_part = 1e-6;
 
 double luminance(const Vector3d& color) {
@@ -35,7 +35,7 @@ double solved_metallic(double diffuse, double specular) {
 
 MetallicColors to_metallic(const SpecularColors& colors) {
   const double f0 = dielectric_specular;
-  // What a dielectric base of the same diffuse light would be.
+  // The base colour of a dielectric with the same diffuse light.
   const Vector3d diffuse = colors.diffuse * ((1 - largest(colors.specular)) / (1 - f0));
   const double m = solved_metallic(luminance(diffuse), luminance(colors.specular));
   const Vector3d of_diffuse = diffuse / std::max(1 - m, least_part);

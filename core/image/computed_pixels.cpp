@@ -65,7 +65,7 @@ int rows_of(Size size, int channels, int64_t values) {
   return int(std::max<int64_t>(computed_pixels_tuning->strip_rows, values / (int64_t{size.width} * channels)));
 }
 
-/// Limits the memory of all threads' pulls, of a few images each, to a part of the budget.
+/// Limits the memory of all threads' pulls, with a few images each, to a part of the budget.
 int64_t most_values_at_once() {
   constexpr uint64_t share = 64;
   return std::min<int64_t>(computed_pixels_tuning->most_values_at_once, int64_t(memory_budget() / share));
@@ -77,7 +77,7 @@ int longest_pull() {
   return computed_pixels_tuning->longest_pull;
 }
 
-/// The pixels during computation. Threads take strips until none are left.
+/// Pixels being computed. Threads take strips until none are left.
 struct ComputedPixels::Filling {
   Filling(Size size, int channels)
       : pixels(size, channels),
@@ -103,7 +103,7 @@ struct ComputedPixels::Filling {
   std::condition_variable changed;
   int next = 0;               ///< the first strip not taken yet
   int done = 0;               ///< number of computed strips
-  std::vector<int> returned;  ///< taken by threads that were cancelled
+  std::vector<int> returned;  ///< strips of cancelled threads, to be taken again
   std::exception_ptr failure;
 };
 
@@ -121,7 +121,7 @@ std::shared_ptr<const ComputedPixels> ComputedPixels::of(const Image& image) {
   return std::dynamic_pointer_cast<const ComputedPixels>(image.source());
 }
 
-/// Decides whether the sources' pixels are to be kept, given one more reader.
+/// Decides whether to keep the sources' pixels, now that there is one more reader.
 void ComputedPixels::choose_kept() {
   std::set<std::shared_ptr<const ComputedPixels>> sources;
   for (const ImagePtr& image : operation_->sources)
@@ -183,7 +183,7 @@ void ComputedPixels::compute_strip(Filling& filling, int strip) const {
   const int y = strip * filling.rows;
   const Rect region{0, y, size_.width, std::min(filling.rows, size_.height - y)};
   PullPlan plan(*this, PullPlan::Until::kept);
-  if (plan.length() == 0) return;  // another thread has computed everything since
+  if (plan.length() == 0) return;  // another thread has computed everything meanwhile
   if (float* rows = filling.pixels.rows_in_memory(y)) return plan.pull(region, rows);
   const std::unique_ptr<float[]> pixels(new float[size_t(region.area()) * channels_]);
   plan.pull(region, pixels.get());
@@ -196,7 +196,7 @@ void ComputedPixels::help(Filling& filling) const {
     try {
       compute_strip(filling, strip);
     } catch (const Cancelled&) {
-      // Other threads may continue with it.
+      // Other threads can take the strip.
       const std::lock_guard lock(filling.mutex);
       filling.returned.push_back(strip);
       filling.changed.notify_all();

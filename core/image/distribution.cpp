@@ -18,7 +18,7 @@ constexpr int strip_rows = 32;
 struct Range {
   float min = std::numeric_limits<float>::max();
   float max = std::numeric_limits<float>::lowest();
-  /// Computed pixels may have any value; non-finite ones are ignored.
+  /// Ignores values that are not finite, which computed pixels may have.
   void include(float v) {
     if (!std::isfinite(v)) return;
     min = std::min(min, v);
@@ -36,7 +36,7 @@ struct Bin {
   Range values;
 };
 
-/// Shows every strip to `visit(state of this thread, pixels, count)`. Fills the part [from, from + 0.5] of the
+/// Calls `visit(state of this thread, pixels, count)` for every strip. Takes the part [from, from + 0.5] of the
 /// progress.
 template <typename State, typename Visit>
 void visit_strips(const Image& image, tbb::enumerable_thread_specific<State>& states, const Task& task, double from,
@@ -117,7 +117,7 @@ std::vector<Distribution> Distribution::of(const Image& image, const Task& task)
   for (const std::vector<Bin>& channel : bins_of(image, ranges_of(image, task), task)) {
     std::vector<Atom> atoms;
     for (const Bin& b : channel) {
-      // A bin with one value keeps it exactly; others use the middle of their values' range.
+      // A bin of one value keeps that exactly; other bins use the middle of their values' range.
       const double middle = 0.5 * (double(b.values.min) + b.values.max);
       if (b.count) atoms.push_back({float(middle), b.count});
     }

@@ -132,7 +132,7 @@ ImagePtr Image::from_halfs(ImageInfo info, std::vector<uint16_t> pixels) {
 
 namespace {
 
-/// Releases what may be the last reference to a long chain of images without recursion.
+/// Releases a source, possibly the last reference to a long chain of images, without recursion.
 void release_later(std::shared_ptr<const PixelSource> source) {
   static thread_local std::vector<std::shared_ptr<const PixelSource>>* pending = nullptr;
   if (!source) return;
@@ -140,7 +140,7 @@ void release_later(std::shared_ptr<const PixelSource> source) {
   std::vector<std::shared_ptr<const PixelSource>> released;
   pending = &released;
   while (source) {
-    source.reset();  // its sources join the queue
+    source.reset();  // appends its sources to the queue
     if (released.empty()) continue;
     source = std::move(released.back());
     released.pop_back();
@@ -213,8 +213,8 @@ std::vector<float> Image::read(const Rect& region) const {
 
 namespace {
 
-/// Consecutive positions along one axis of a padded region that are read from consecutive positions of the image, or
-/// all from one.
+/// Consecutive positions along one axis of a padded region that show consecutive positions of the image, or all the
+/// same one.
 struct Run {
   int at = 0;      ///< in the region
   int source = 0;  ///< in the image

@@ -22,7 +22,7 @@ constexpr uint64_t mib = uint64_t{1} << 20;
 
 /// Peak memory of reading: the file's values, of at most 16 bits or kept as they are, plus floats.
 constexpr int64_t bytes_per_value = 6;
-/// Multiple of the budget for images read into a temporary file, which take disk space and time but hardly memory.
+/// Multiple of the budget for images read into a temporary file, which take disk space and time but little memory.
 constexpr int64_t budgets_on_disk = 16;
 /// Share of the budget. The rest is for nodes, decoders and encoders.
 constexpr uint64_t share_of_pixels = 4, share_of_kept = 8, share_of_a_file = 8;
@@ -41,7 +41,7 @@ std::string shown(double bytes) {
   return fmt::format("{:.1f} {}", value, units[unit]);
 }
 
-/// A size that suffices, as options take it.
+/// An option that sets a sufficient size.
 std::string as_option(const char* option, uint64_t bytes) {
   return bytes < mib ? fmt::format("{} {}K", option, (bytes + 1023) / 1024)
                      : fmt::format("{} {}M", option, (bytes + mib - 1) / mib);

@@ -36,7 +36,7 @@ void renormalize(float* pixels, int channels, int64_t count) {
 
 namespace {
 
-/// 1 - v; of a step of a file with `steps` steps exactly the opposite step.
+/// 1 - v; exactly the opposite step if v is one of a file's `steps` steps.
 float opposite(float v, float steps) {
   const float step = std::floor(v * steps + 0.5f);
   return step / steps == v ? (steps - step) / steps : 1 - v;

@@ -9,7 +9,7 @@ namespace terrazzo {
 
 namespace {
 
-/// A small part of what a run may take in all; one map of 4096x4096 pixels and 4 channels.
+/// One map of 4096x4096 pixels and 4 channels: a small part of a run's memory.
 constexpr uint64_t usual_limit = uint64_t{256} << 20;
 
 std::atomic<uint64_t> in_use{0};

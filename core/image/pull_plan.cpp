@@ -33,7 +33,7 @@ double cost_of_union(const Rect& a, const Rect& b) {
          double(pull_plan_tuning->area_of_a_call);
 }
 
-/// Adds a part to those that are needed of an image.
+/// Adds a part to the needed parts of an image.
 void add_part(std::vector<Rect>& parts, Rect part) {
   if (part.empty()) return;
   while (!parts.empty()) {
@@ -100,7 +100,7 @@ void PullPlan::order(const PulledImage& image, Until until) {
     const bool ends = !source || (until == Until::to_be_kept && source->to_be_kept());
     std::shared_ptr<const Operation> operation = ends ? nullptr : source->operation();
     if (operation) {
-      enter(std::move(source), std::move(operation));  // and come back when it has a place
+      enter(std::move(source), std::move(operation));  // comes back to this source when it has a step
     } else {
       top.step.sources.push_back(-1);
       top.next++;
@@ -120,7 +120,7 @@ void PullPlan::keep_pixels() {
   steps_.clear();
 }
 
-/// Determines the needed parts of each image for a region of the last one.
+/// Determines the parts of each image that a region of the last one needs.
 void PullPlan::demand(const Rect& region) {
   for (Step& step : steps_) {
     step.parts.clear();
@@ -168,7 +168,7 @@ void PullPlan::pull(const Rect& region, float* out) {
   }
 }
 
-/// Of images that are neither computed nor in memory.
+/// Values that a step reads from images that are neither computed nor in memory.
 int64_t PullPlan::values_read(const Step& step) {
   int64_t values = 0;
   for (size_t i = 0; i < step.sources.size(); i++) {

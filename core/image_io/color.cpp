@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Our names for the spaces everybody has, and what other configurations call them.
+/// Our names for common spaces, and their names in other configurations.
 struct CommonSpace {
   std::string name;
   std::vector<std::string> aliases;
@@ -40,7 +40,7 @@ const CommonSpace* find_common(const std::string& name) {
   return nullptr;
 }
 
-/// What the configuration itself calls a space; empty if it has none of that name.
+/// The configuration's own name of a space; empty if it does not have the space.
 std::string name_in_config(const Configuration& c, const std::string& name) {
   if (std::string found = c.config->find(name); !found.empty()) return found;
   const CommonSpace* common = find_common(name);

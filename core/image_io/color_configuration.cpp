@@ -21,9 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint64_t longest_config = uint64_t{1} << 26;  // bytes; those of large studios have a million
+constexpr uint64_t longest_config = uint64_t{1} << 26;  // bytes; large studios' have a million
 
-/// With this variable OpenColorIO computes otherwise, in every configuration.
+/// This variable changes what OpenColorIO computes, whatever the configuration.
 constexpr const char* optimization = "OCIO_OPTIMIZATION_FLAGS";
 
 /// The four spaces that need no file. Their names are known here, so that only conversions load OpenColorIO.
@@ -47,14 +47,14 @@ class BuiltInColors final : public ColorConfiguration {
   std::string expanded(const std::string& text, std::map<std::string, std::string>&) const override { return text; }
 };
 
-/// Empty for the built-in configuration.
+/// The path given or in OCIO; empty for the built-in configuration.
 std::string config_path(const std::string& given) {
   if (!given.empty()) return given;
   const char* variable = std::getenv("OCIO");
   return variable ? variable : "";
 }
 
-/// Of all variables: which of them a configuration uses is known only once it is read.
+/// The digest of all variables: which ones a configuration uses is unknown until it is read.
 Digest environment_digest() {
   Hasher h;
   for (char** v = environ; v && *v; v++) h.add(*v);
@@ -78,7 +78,7 @@ void require_plain(const fs::path& file) {
   if (!kind.empty()) throw Error(fmt::format("cannot read {}: it is {}; expected a regular file", file.string(), kind));
 }
 
-/// The configurations that have been read, by path, as long as they stay as they are.
+/// Caches configurations by path until they change.
 class Configurations {
  public:
   struct Read {
@@ -87,7 +87,7 @@ class Configurations {
     ColorFiles files;
   };
 
-  /// Throws Error. Does not look whether the files it names are regular.
+  /// Throws Error. Does not check whether the files it names are regular.
   Read read(const std::string& path) {
     require_plain(path);
     const std::lock_guard lock(mutex_);
@@ -96,7 +96,7 @@ class Configurations {
     if (!known.config || known.text != text || known.environment != environment) load(known, path, text, environment);
     known.files = find_color_files(*known.config);
     const Digest identity = identity_of(known);
-    // The library keeps look-up files, and where it found them.
+    // The library caches look-up files and their places: load the configuration anew if they have changed.
     if (known.identity != Digest() && known.identity != identity) load(known, path, text, environment);
     known.identity = identity;
     return known;
@@ -130,7 +130,7 @@ std::map<std::string, std::string> variables_of_library() {
   return flags ? std::map<std::string, std::string>{{optimization, flags}} : std::map<std::string, std::string>();
 }
 
-/// With what the library reads of the environment.
+/// The identity together with the library's variables.
 Digest with_library(const Digest& identity) {
   const std::map<std::string, std::string> variables = variables_of_library();
   if (variables.empty()) return identity;

@@ -47,11 +47,11 @@ std::string path_in_tag(const fs::path& file, const std::string& xml, size_t at)
   return tag.substr(quote + 1, end - quote - 1);
 }
 
-/// What the elements `Reference` of a CLF or CTF file name; of other files nothing.
+/// The files that the `Reference` elements of a CLF or CTF file name; none for other files.
 std::vector<std::string> references_in(const fs::path& file) {
   if (!is_xml(file)) return {};
   std::string xml = read_file(file);
-  std::erase(xml, '\0');  // of UTF-16
+  std::erase(xml, '\0');  // makes UTF-16 readable
   const std::string lower = lowercase(xml);
   if (lower.find("<!entity") != std::string::npos) refuse_reference(file);
   std::vector<std::string> out;
@@ -72,7 +72,7 @@ class FileFinder {
   }
 
  private:
-  /// Where OpenColorIO finds it; none if it finds nothing.
+  /// The place where OpenColorIO finds the file, if it does.
   std::optional<fs::path> place_of(const fs::path& name) const {
     std::error_code missing;
     for (const fs::path folder : sources_.folders)

@@ -80,7 +80,7 @@ Rect FilePixels::as_stored(const Rect& region) const {
   return layout_.is_turned() ? Rect{r.y, r.x, r.height, r.width} : r;
 }
 
-/// A region that lies inside what is stored.
+/// Reads a region of the stored pixels.
 template <typename T>
 void FilePixels::read_stored(const Rect& region, T* out) const {
   const Rect& stored = layout_.stored;

@@ -47,7 +47,7 @@ FormatFacts tiff(const std::filesystem::path& path) {
   FormatFacts facts;
   const bool has_alpha = tiff.samples == 2 || tiff.samples == 4;
   if (is({white_is_zero})) {
-    // The library inverts 8 bits and less, and alpha with them.
+    // The library inverts values of up to 8 bits, alpha included.
     constexpr int most_inverted_bits = 8;
     if (tiff.format != is_unsigned)
       return refused(
@@ -62,7 +62,7 @@ FormatFacts tiff(const std::filesystem::path& path) {
   return facts;
 }
 
-/// Microsoft's BITMAPINFOHEADER and what followed it.
+/// Microsoft's BITMAPINFOHEADER and its successors.
 FormatFacts bmp(const FileNumbers& file) {
   constexpr uint64_t size_of_info = 40, size_with_masks = 52, size_with_alpha = 56;
   enum : uint64_t { plain = 0, masks_follow = 3, four_masks_follow = 6 };
@@ -75,7 +75,7 @@ FormatFacts bmp(const FileNumbers& file) {
   const bool has_alpha_mask = header >= size_with_alpha || compression == four_masks_follow;
   for (size_t i = 0; i < (has_alpha_mask ? 4 : 3); i++) masks[i] = file.number(14 + size_of_info + 4 * i, 4);
   static_assert(size_with_masks == size_of_info + 3 * 4);
-  // The library takes all for blue, green, red, alpha.
+  // The library assumes blue, green, red, alpha.
   if (masks[0] != 0xff0000 || masks[1] != 0xff00 || masks[2] != 0xff || (masks[3] != 0 && masks[3] != 0xff000000))
     return refused("its channels do not lie in the usual order (blue, green, red, alpha); save it as PNG");
   if (masks[3] != 0) return {};
@@ -88,7 +88,7 @@ FormatFacts tga(const FileNumbers& file) {
   enum : uint64_t { no_alpha = 0, ignore = 1, premultiplied = 4 };
   enum : uint64_t { grey = 3, packed_grey = 11, attribute_bits = 0xf };
   const uint64_t depth = file.number(16, 1), kind = file.number(2, 1);
-  // The library takes the two bytes for grey and alpha of 8 bits each.
+  // The library reads the two bytes as 8-bit grey and alpha.
   if ((kind == grey || kind == packed_grey) && depth == 16 && (file.number(17, 1) & attribute_bits) == 0)
     return refused("its header says grey values of 16 bits, which TGA does not know; save it as 16-bit PNG");
   if ((depth != 32 && depth != 16) || file.size() < footer_size) return {};
@@ -146,7 +146,7 @@ FormatFacts dds(const FileNumbers& file) {
     while ((mask & 1) == 0) mask >>= 1;
     return mask <= 0xff;
   };
-  // The library hangs where a colour has no mask, and cuts values of more than 8 bits off.
+  // The library hangs if a colour has no mask, and truncates values of more than 8 bits.
   const bool has_colours = (flags & rgb) != 0 && std::ranges::all_of(masks, is_readable);
   const bool is_grey = (flags & luminance) != 0 && is_readable(masks[0]);
   const bool is_alpha = (flags & (alpha_only | rgb | luminance)) == alpha_only;
@@ -155,7 +155,7 @@ FormatFacts dds(const FileNumbers& file) {
       "its pixels are neither compressed nor red, green and blue of at most 8 bits; save it as PNG, EXR or BC5");
 }
 
-/// The extended header of Google's "WebP Container Specification". Of animated files only the library reads a frame,
+/// The extended header of Google's "WebP Container Specification". Only OpenImageIO reads a frame of animated files,
 /// and it multiplies colours by alpha.
 FormatFacts webp(const FileNumbers& file) {
   constexpr uint64_t is_animated = 0x2, has_alpha = 0x10, both = is_animated | has_alpha;
@@ -163,8 +163,8 @@ FormatFacts webp(const FileNumbers& file) {
   return refused("it is an animation with alpha; expected a single picture: save the wanted frame as PNG");
 }
 
-/// Whether the first colour specification in the header box (ITU T.800, annex I) names something else than sRGB, grey
-/// or sYCC.
+/// Whether the first colour specification in the header box (ITU T.800, annex I) names a space other than sRGB, grey
+/// and sYCC.
 FormatFacts jpeg2000(const FileNumbers& file) {
   enum : uint64_t { cmyk = 12, lab = 14, srgb = 16, grey = 17, sycc = 18 };
   constexpr size_t most_header = 4096, after_name = 7;
@@ -197,7 +197,7 @@ FormatFacts format_facts(const std::filesystem::path& path) {
   if (begins("SIMPLE  ="))
     return refused(
         "it is FITS, whose numbers have no range that says what black and white are; save it as TIFF or EXR of floats");
-  // TGA has no mark at its beginning.
+  // TGA files have no signature.
   return lowercase(path.extension().string()) == ".tga" ? tga(file) : FormatFacts();
 }
 

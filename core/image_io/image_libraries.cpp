@@ -21,8 +21,8 @@ std::filesystem::path libraries_path() {
   return module_path("terrazzo_libraries.so", "the module for JPEG, TIFF and EXR files");
 }
 
-/// Releases unmodified pages of loaded libraries: code and tables. They are paged in again on use; most were needed
-/// only for loading.
+/// Releases unmodified pages of loaded libraries, code and tables. Most were needed only for loading; the others are
+/// paged in again on use.
 void release_library_pages() {
   const auto release = [](dl_phdr_info* library, size_t, void*) {
     const auto page = uintptr_t(::sysconf(_SC_PAGESIZE));
@@ -47,7 +47,7 @@ void load_largest_first() {
 
 const ImageLibraries& load() {
   const std::filesystem::path path = libraries_path();
-  // What it brings along starts threads of its own while it is loaded, OpenVDB's logger four of them.
+  // Libraries that it depends on start threads while they are loaded: OpenVDB's logger starts four.
   require_threads(6);
   if (memory_budget_is_set()) load_largest_first();
   const auto fail = [&] { return Error(fmt::format("cannot load {}: {}", path.string(), ::dlerror())); };

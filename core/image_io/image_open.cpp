@@ -32,7 +32,7 @@ void fail_to_read(const fs::path& path, const std::string& reason) {
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-  constexpr size_t most = 300;  // the library repeats itself where it finds many faults
+  constexpr size_t most = 300;  // the library repeats itself if it finds many faults
   if (text.size() > most) text = text.substr(0, most) + " ...";
   return text.empty() ? "the image library gives no reason" : text;
 }
@@ -66,7 +66,7 @@ std::unique_ptr<ImageDecoder> decoder_of(const fs::path& path) {
     refuse_other_content(path);
     const std::string reason = one_line(e.what());
     if (reason.find("Not a ") == reason.npos && reason.find("not a ") == reason.npos) fail_to_read(path, reason);
-    // The image library says only of what format it is not.
+    // The image library's message only says which format it is not.
     fail_to_read(path, fmt::format("it is no image of a known format ({}); save it as PNG, TIFF, EXR or JPEG", reason));
   }
 }
@@ -105,14 +105,14 @@ void require_visible_pixels(const fs::path& path, const StoredImage& header) {
                            seen.width, seen.height, seen.x + header.left, seen.y + header.top));
 }
 
-/// Of a progressive JPEG file decoders hold all coefficients.
+/// Decoders hold all coefficients of a progressive JPEG file.
 void require_coefficients_fit(const fs::path& path, Size size, int components) {
   constexpr uint64_t bytes_per_coefficient = 2;
   require_decoding_fits(path, uint64_t(size.area()) * uint64_t(components) * bytes_per_coefficient,
                         "it is a progressive JPEG");
 }
 
-/// What decoders hold at once of images that do not come row by row.
+/// Decoders hold images that do not come row by row as a whole.
 void require_whole_fits(const fs::path& path, const StoredImage& header) {
   const bool is_png = header.format == "png";
   const size_t bytes_per_value = !is_png ? sizeof(float) : header.depth == Depth::u8 ? 1 : 2;
@@ -218,8 +218,8 @@ void require_image_file(const fs::path& path) {
 
 namespace {
 
-/// A plan looks at the same file several times, and programs plan the same graphs again and again. What is known holds
-/// for as long as the file stays; the limits are asked each time.
+/// A plan reads the same header several times, and programs plan the same graphs repeatedly. Facts are kept until the
+/// file changes; limits are checked each time.
 FileFacts<bool> complete_files, plain_pngs;
 FileFacts<FileInfo> headers;
 
@@ -244,7 +244,7 @@ void require_readable_image(const fs::path& path) {
 
 FileInfo read_image_info(const fs::path& path, const std::string& layer) {
   require_image_file(path);
-  // Such a file needs no decoder to be known.
+  // A JPEG header needs no decoder.
   const JpegFacts jpeg = read_jpeg_facts(path, false);
   if (layer.empty() && (jpeg.components == 1 || jpeg.components == 3) && jpeg.bits == 8 && jpeg.size.area() > 0 &&
       !jpeg.has_exif) {
@@ -262,7 +262,7 @@ std::vector<FileInfo> read_layer_infos(const fs::path& path) {
   require_image_file(path);
   const OpenFile file{decoder_of(path)};
   const std::vector<std::string> layers = file.in->layers();
-  if (layers.size() == 1) require_flat_picture(path, file);  // of several, reading one says what is wrong with it
+  if (layers.size() == 1) require_flat_picture(path, file);  // with several, only reading one reports its faults
   std::vector<FileInfo> infos;
   for (size_t i = 0; i < layers.size(); i++) {
     file.in->select(i);

@@ -61,7 +61,7 @@ std::vector<T> read_stored(const fs::path& path, const OpenFile& file, Depth as)
   return out;
 }
 
-/// Puts the stored pixels where they belong in the upright image; what is not stored is 0.
+/// Places the stored pixels in the upright image; all others are 0.
 template <typename T>
 std::vector<T> placed(const OpenFile& file, std::vector<T> stored) {
   const Rect from = file.header().stored, all = whole(file.header().size);
@@ -136,8 +136,7 @@ void warn_of_signed_normals(const fs::path& path, const Warn& warn) {
                    path.filename().string()));
 }
 
-/// If all parts have the same window the message does not name the layer, so that readers of several layers report it
-/// once.
+/// If all parts have the same window, the message does not name the layer, so that it is reported once for all layers.
 void warn_of_window(const fs::path& path, const StoredImage& header, const std::string& layer, const Warn& warn) {
   warn(
       fmt::format("{}{}{}: its data window, {}, is larger than its display window; the display window of {} was read: "
@@ -158,7 +157,7 @@ void warn_of_layout(const fs::path& path, OpenFile& file, const std::string& lay
   if (file.in->has_more_images()) warn(fmt::format("{}: it holds several images; the first was read", name));
 }
 
-/// Nothing was asked for, and the file holds more than was read.
+/// No layer was asked for, and the file holds further layers.
 void warn_of_layers(const fs::path& path, const OpenFile& file, const std::string& layer, const Warn& warn) {
   const std::vector<std::string> layers = file.in->layers();
   if (layer.empty() && layers.size() > 1)
@@ -166,7 +165,7 @@ void warn_of_layers(const fs::path& path, const OpenFile& file, const std::strin
                      listed_layers(layers)));
 }
 
-/// The stored pixels strip by strip; what does not come by rows in one.
+/// The stored pixels strip by strip, or as one strip if they do not come row by row.
 template <typename T>
 void for_stored_strips(const fs::path& path, const OpenFile& file, Depth as,
                        const std::function<void(int first, int rows, std::span<T> values)>& visit) {
@@ -231,7 +230,7 @@ ImagePtr read_to_disk(const fs::path& path, const OpenFile& file, const ImageInf
   return FilePixels::image(info, pixels);
 }
 
-/// The stored pixels as the file means them, placed upright. Halfs come as their bits.
+/// The upright pixels with the values that the file means. Halfs come as their bits.
 template <typename T>
 std::vector<T> read_meant(const fs::path& path, const OpenFile& file, const ImageInfo& info, Depth as,
                           const Warn& warn) {

@@ -26,7 +26,7 @@ EncodedImage encoded(const Image& image, const WriteOptions& options) {
   return out;
 }
 
-/// Floats as the file's values; counts those that were clipped.
+/// Converts floats to the file's values and counts clipped ones.
 class Converter {
  public:
   Converter(int in_channels, int out_channels) : in_channels_(in_channels), out_channels_(out_channels) {}
@@ -166,7 +166,7 @@ Clipping write_image(const Image& image, const std::filesystem::path& path, cons
     file.check();
     refuse(reason);
   };
-  // TIFF's library finishes half-float files by ways of its own, so it gets no proxy; what it wrote is checked below.
+  // libtiff finishes half-float files without the proxy, so it gets none; its file is checked below.
   const bool is_tiff = options.format == FileFormat::tiff || options.format == FileFormat::tx;
   const Clipping clipped = write_through(image, path.string(), is_tiff ? nullptr : &file, options, progress, fail);
   file.close_and_check();

@@ -20,7 +20,7 @@ struct CloseFile {
 };
 using CFile = std::unique_ptr<std::FILE, CloseFile>;
 
-/// What libpng calls; it must not return, so it jumps to where the reading or writing began.
+/// libpng's error function. It must not return, so it jumps back to where reading or writing began.
 [[noreturn]] void keep_reason(png_structp png, const char* reason) {
   auto& kept = *static_cast<std::array<char, 200>*>(png_get_error_ptr(png));
   std::snprintf(kept.data(), kept.size(), "%s", reason);
@@ -76,7 +76,7 @@ class PngDecoder final : public ImageDecoder {
   }
 
  private:
-  /// What names a colour space counts more than gAMA (PNG, third edition, 4.3).
+  /// Chunks that name a colour space take precedence over gAMA (PNG, third edition, 4.3).
   bool says_linear() const {
     double gamma = 0;
     const png_uint_32 others = PNG_INFO_sRGB | PNG_INFO_iCCP;

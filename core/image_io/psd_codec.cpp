@@ -16,14 +16,14 @@ namespace {
 enum : uint64_t { grey = 1, indexed = 2, rgb = 3 };
 constexpr size_t palette_size = 256;
 
-/// What stands in front of the composite, and where that begins.
+/// Facts from before the composite, and where that begins.
 struct PsdLayout {
   bool is_big = false;  ///< PSB: lengths have twice as many bytes
   int channels = 0, bits = 0;
   Size size;
   uint64_t mode = 0;
   uint64_t palette = 0;
-  bool has_transparency = false;  ///< the first channel after the colours is that of the layers
+  bool has_transparency = false;  ///< the first channel after the colours is the layers' transparency
   uint64_t composite = 0;
 
   int colours() const { return mode == rgb ? 3 : 1; }
@@ -32,8 +32,7 @@ struct PsdLayout {
   size_t bytes() const { return size_t(bits) / 8; }
 };
 
-/// Whether the tagged blocks from `at` to `end` say that the composite is transparent: files of 16 and 32 bits say it
-/// there.
+/// Whether the tagged blocks from `at` to `end` say that the composite is transparent, as in files of 16 and 32 bits.
 bool says_transparency(const FileNumbers& file, const PsdLayout& psd, uint64_t at, uint64_t end) {
   constexpr std::array<std::string_view, 8> long_keys = {"LMsk", "Lr16", "Lr32", "Layr",
                                                          "Mt16", "Mt32", "Mtrn", "Alph"};
@@ -70,7 +69,7 @@ PsdLayout psd_layout_of(const FileNumbers& file) {
   return psd;
 }
 
-/// Apple's PackBits. Returns where the input ends that made `size` bytes; null if it ends before.
+/// Apple's PackBits. Returns the end of the input that gave `size` bytes; null if there are fewer.
 const uint8_t* unpack_bits(const uint8_t* in, const uint8_t* in_end, uint8_t* out, size_t size) {
   const uint8_t* const out_end = out + size;
   while (out < out_end) {
@@ -89,7 +88,7 @@ const uint8_t* unpack_bits(const uint8_t* in, const uint8_t* in_end, uint8_t* ou
   return in;
 }
 
-/// Parts a colour that was blended onto white from it.
+/// Removes the white onto which a colour was blended.
 template <typename T>
 void part_from_white(T* pixels, int64_t count, int channels) {
   constexpr bool is_float = std::is_floating_point_v<T>;

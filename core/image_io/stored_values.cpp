@@ -38,7 +38,7 @@ struct Integers {
   static bool is_zero(T v) { return v == 0; }
   static float number(T v) { return float(v) / float(one); }
   static T inverted(T v) { return T(one - v); }
-  /// A colour that was multiplied by alpha, which is not 0.
+  /// Undoes the multiplication of a colour by alpha, which is not 0.
   static T divided(T v, T alpha) { return T(std::min(one, (uint32_t{v} * one + alpha / 2u) / alpha)); }
 };
 
@@ -153,7 +153,7 @@ std::vector<StoredValues::Hole> StoredValues::filled_holes(const std::function<v
 }
 
 std::vector<StoredValues::Remark> StoredValues::remarks() const {
-  constexpr float least_of_shades = 1.0f / 256;  // what 8 bits tell from 0
+  constexpr float least_of_shades = 1.0f / 256;  // distinguishable from 0 in 8 bits
   const auto are_ids = [&](float largest) { return largest > 0 && largest < least_of_shades; };
   if (const auto ids = std::ranges::find_if(largest_, are_ids); meaning_.integer_range > 0 && ids != largest_.end())
     throw Error(

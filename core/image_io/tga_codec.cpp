@@ -9,7 +9,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Of the header (Truevision TGA File Format Specification 2.0).
+/// Facts from the header (Truevision TGA File Format Specification 2.0).
 struct TgaLayout {
   enum : uint64_t { true_colour = 2, packed_true_colour = 10 };
   uint64_t type = 0, bits = 0, descriptor = 0, begin = 0;

@@ -35,7 +35,7 @@ struct Shelf {
   std::vector<size_t> items;
 };
 
-/// First come, first placed: sizes in the order given, a new shelf whenever one would become wider than `width`.
+/// Places sizes in the order given and starts a new shelf whenever one would become wider than `width`.
 std::vector<Shelf> shelves_of(const std::vector<Size>& sizes, const std::vector<size_t>& order, int64_t width,
                               int gap) {
   std::vector<Shelf> shelves;
@@ -60,7 +60,7 @@ struct Extent {
       height = s.top + s.height;
     }
   }
-  /// What a layout costs: its area, and less so how far it is from a square.
+  /// The cost of a layout: its area plus a little for its distance from a square.
   double cost() const {
     return double(width) * double(height) +
            atlas_tuning->unlike_sides * double(width - height) * double(width - height);
@@ -94,7 +94,7 @@ Layout layout_of(const std::vector<Size>& sizes, int gap, int multiple) {
                                          extent.width, extent.height, longest_side));
   Layout layout{
       {int(extent.width), int(extent.height)}, std::vector<Rect>(sizes.size()), std::vector<Rect>(sizes.size())};
-  const int before = gap / 2 / multiple * multiple;  // the part of a gap that belongs to what follows it
+  const int before = gap / 2 / multiple * multiple;  // the part of a gap that belongs to the exemplar after it
   for (size_t s = 0; s < best.size(); s++) {
     const int top = int(best[s].top) - (s > 0 ? before : 0);
     const int bottom = s + 1 < best.size() ? int(best[s + 1].top) - before : layout.size.height;
@@ -112,7 +112,7 @@ Layout layout_of(const std::vector<Size>& sizes, int gap, int multiple) {
 
 // --- Images
 
-/// What one exemplar shows in a map of the atlas.
+/// One exemplar's share of a map of the atlas.
 struct Part {
   ImagePtr image;
   Rect place, cell;
@@ -122,7 +122,7 @@ Rect divided(const Rect& r, int by) {
   return {r.x / by, r.y / by, r.width / by, r.height / by};
 }
 
-/// What a part shows of its image in what a region shows of the part.
+/// A rectangle of the atlas in the coordinates of a part's image.
 Rect shown_of(const Part& part, const Rect& shown) {
   return {shown.x - part.place.x, shown.y - part.place.y, shown.width, shown.height};
 }
@@ -140,7 +140,7 @@ void read_parts(const std::vector<Part>& parts, std::span<const PixelView> image
   }
 }
 
-/// What is common to images that show parts.
+/// The sources and reads of an image made of parts.
 Operation operation_on(const std::vector<Part>& parts, Outside outside) {
   Operation operation{.sources = {}, .compute = {}};
   for (const Part& p : parts) operation.sources.push_back(p.image);
@@ -163,7 +163,7 @@ ImagePtr map_of_parts(const ImageInfo& info, const std::vector<Part>& parts, Out
   return Image::computed(info, recipe.digest(), std::move(operation));
 }
 
-/// How many times smaller than the material a map can be in the atlas.
+/// The largest factor by which a map can be smaller than the material in the atlas.
 int common_divisor(const std::vector<Exemplar>& exemplars, const std::string& map) {
   int divisor = 0;
   for (const Exemplar& e : exemplars)

@@ -27,14 +27,14 @@ bool has_word(const std::string& name, std::string_view word) {
   return std::ranges::any_of(words_in(name), [&](const NameWord& w) { return without_digits(w.text) == word; });
 }
 
-/// A file's layers, each with what its name says.
+/// A file's layers, each with the reading of its name.
 using Layers = std::vector<UnnamedPicture>;
 
 bool is_picture(const UnnamedPicture& layer) {
   return layer.file.channels == 0 || layer.file.channels >= 3;
 }
 
-/// The layer that the name of a file of several layers speaks of; null if there is none, or if it is not clear which.
+/// The layer that a file's name is about, among several; null if there is none or more than one.
 const UnnamedPicture* layer_of_file_name(const Layers& layers, Candidates& out) {
   const UnnamedPicture* found = nullptr;
   for (const UnnamedPicture& l : layers) {
@@ -53,7 +53,7 @@ const UnnamedPicture* layer_of_file_name(const Layers& layers, Candidates& out) 
   return found;
 }
 
-/// Renderers write how far the camera is beside what it sees.
+/// Renderers write the distance from the camera beside the picture.
 bool is_render_depth(const UnnamedPicture& layer, const UnnamedPicture* picture) {
   return layer.reading.told_by_layer && picture && is_picture(*picture) && has_word(layer.file.layer, "depth");
 }

@@ -18,7 +18,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// By spelling, or by what the word would mean in a file's name: "ao" is "ambient_occlusion".
+/// Suggests by spelling, or by the word's meaning in a file's name: "ao" is "ambient_occlusion".
 std::string did_you_mean_map(const std::string& name, const std::vector<std::string>& known) {
   if (std::string question = did_you_mean(name, known); !question.empty()) return question;
   for (const RecognisedMap& m : recognise_map({.name = name + ".png", .size = {}}))
@@ -26,7 +26,7 @@ std::string did_you_mean_map(const std::string& name, const std::vector<std::str
   return "";
 }
 
-/// The maps of `from` that the other surely has not.
+/// The maps of `from` that are certainly missing in the other.
 std::vector<std::string> maps_missing(const KnownMaps& from, const KnownMaps& other) {
   if (!other.possible_maps) return {};
   std::vector<std::string> missing = from.maps;

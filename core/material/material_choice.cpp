@@ -21,7 +21,7 @@ bool has_color(const std::vector<const Candidate*>& maps) {
   return std::ranges::any_of(maps, [](const Candidate* c) { return is_color_map(*c); });
 }
 
-/// Files of one stem but for fillers, of which two hold the same map.
+/// Stems of which two files, different in filler words only, hold the same map.
 std::set<std::string> clashing_stems(const std::vector<Candidate>& maps) {
   std::map<std::pair<std::string, std::string>, std::set<std::string>> spellings;  // by stem and map
   for (const Candidate& c : maps) spellings[{c.stem().key(), c.map.map}].insert(c.file.stem_with_fillers.key());
@@ -57,8 +57,7 @@ std::set<std::string> maps_of_stem(const std::vector<Candidate>& maps, const std
   return out;
 }
 
-/// Of a material that was named by one of its stems: leaves out those of another name, and those that hold the same
-/// maps.
+/// For a material asked for by one of its stems: leaves out stems of another name, and stems that hold the same maps.
 void keep_named_stem(Candidates& candidates, const std::string& key, MaterialChoice& out) {
   FolderMaterial& material = out.meant.front();
   const auto asked = std::ranges::find_if(candidates.maps, [&](const Candidate& c) { return c.stem().key() == key; });

@@ -33,7 +33,7 @@ void note_choice(const Candidate& chosen, const RecognisedMap& passed_over, cons
                                     passed_over.place(), size_text(files, passed_over)));
 }
 
-/// Keeps files whose names say no map, of the materials that are meant, as data maps named after the rest of the name.
+/// Keeps files of the chosen materials whose names are of no known map, as data maps named after the rest of the name.
 void keep_as_data(const std::vector<std::string>& patterns, const std::vector<FolderMaterial>& meant,
                   const std::vector<MapFile>& files, std::vector<Candidate>& candidates, Recognition& out) {
   const auto is_wanted = [&](const std::string& file) {

@@ -46,8 +46,7 @@ int index_of_channel(char c) {
   return c == 'r' ? 0 : c == 'g' ? 1 : c == 'b' ? 2 : 3;
 }
 
-/// The channels of the file that make the map. Grey maps stored in colour are reduced to one channel; alpha is left out
-/// of everything but colours.
+/// The file's channels for the map. Grey maps stored in colour are reduced to one channel; only colours keep alpha.
 std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::vector<std::string>& notes) {
   require_channels(m, file.channels());
   std::vector<int> channels;
@@ -74,7 +73,7 @@ std::vector<int> channels_for(const RecognisedMap& m, const Image& file, std::ve
 }  // namespace
 
 int channels_of_map(const RecognisedMap& source, int file_channels) {
-  if (source.semantic == Semantic::normal) return 3;  // where the file has no z, it is rebuilt
+  if (source.semantic == Semantic::normal) return 3;  // z is rebuilt if the file has none
   if (!source.channels.empty()) return int(source.channels.size());
   if (is_one_value(source.semantic)) return 1;
   return file_channels % 2 == 0 ? file_channels - 1 : file_channels;

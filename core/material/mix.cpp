@@ -34,7 +34,8 @@ const Tunable<MixTuning> mix_tuning("mix",
 
 // --- Areas of the materials
 
-/// The map in the materials' size; values between two labels stand for neither, so those of many are not interpolated.
+/// The map in the materials' size. With more than two labels nothing is interpolated: a value between two labels would
+/// stand for a third.
 ImagePtr map_at_size(const ImagePtr& map, Size size, size_t materials, const MixOptions& options) {
   if (materials > 2) return nearest_at_size(map, size);
   const Outside outside = options.wraps_x && options.wraps_y ? Outside::wrap : Outside::clamp;
@@ -51,7 +52,7 @@ Rect surroundings(const Rect& region, int by, Size size, const MixOptions& optio
   return out;
 }
 
-/// How far each pixel lies inside what a material covers, negative outside; exact up to half a border.
+/// How far each pixel lies inside a material's area, negative outside; exact up to half a border.
 ImagePtr distances_inside(const ImagePtr& map, size_t material, size_t materials, const MixOptions& options,
                           double half) {
   const Size size = map->size();
@@ -77,7 +78,7 @@ ImagePtr distances_inside(const ImagePtr& map, size_t material, size_t materials
   return Image::computed({.size = size, .channels = 1}, recipe.digest(), std::move(operation));
 }
 
-/// One image for each material; of two materials one for both, the second's.
+/// One image for each material; only the second's for two materials.
 std::vector<ImagePtr> all_distances(const ImagePtr& map, size_t materials, const MixOptions& options, double half) {
   std::vector<ImagePtr> out;
   for (size_t i = materials == 2 ? 1 : 0; i < materials; i++)
@@ -96,7 +97,7 @@ std::vector<double> parts_of(const Image& map, size_t materials) {
 
 // --- Mixed pixels
 
-/// Data shared by all maps of a mix.
+/// The inputs that all maps of a mix share.
 struct MixLayers {
   BorderShape shape;
   std::vector<ImagePtr> distances{};
@@ -132,7 +133,7 @@ std::vector<ImagePtr> compared_heights(const std::vector<MaterialPtr>& materials
   return heights;
 }
 
-/// Pixels of one map, mixed as the shares say.
+/// The pixels of one map, mixed by the shares.
 class MixedPixels {
  public:
   MixedPixels(const MixLayers& layers, const ImageInfo& info, bool sinks)

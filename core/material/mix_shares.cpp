@@ -7,7 +7,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr double least_softness = 1e-6;  ///< so that something is left of equal heights
+constexpr double least_softness = 1e-6;  ///< so that equal heights keep a share
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void MixShares::fade(const float* distance) {
 
 void MixShares::compare(const float* distance, const float* height) {
   const double softness = std::max(shape_.softness, least_softness);
-  // Sunk by this, the highest of an intruder lies lower than the lowest of all others, by more than what is mixed.
+  // Lowered by this, an intruder's highest point lies below all others' lowest points by more than the softness.
   const double deepest = 1 + softness + std::fabs(shape_.offset) * double(shares_.size() - 1);
   double top = -deepest;
   for (size_t i = 0; i < shares_.size(); i++) {

@@ -41,12 +41,12 @@ std::string without_extension(const std::string& file) {
   return lowercase(file.substr(0, file.rfind('.')));
 }
 
-/// As mask_moss.png does.
+/// Whether the file's name is that of a mask, such as mask_moss.png.
 bool names_a_map(const std::string& file, Semantic semantic) {
   return semantic_of_map(without_extension(file)) == semantic;
 }
 
-/// A program that dropped channels may have kept the description.
+/// Whether the description is of more channels: a program may have dropped channels and kept the description.
 bool needs_more_channels(const FileDescription& said, int channels) {
   const std::string_view held = std::string_view("rgba").substr(0, channels ? size_t(channels) : 4);
   return std::any_of(said.maps.begin(), said.maps.end(),
@@ -138,7 +138,7 @@ RecognisedFile recognise_file(const MapFile& file) {
                     .color_space = said->color_space,
                     .said_by = "its description"});
   if (maps.size() > 1 || !maps.front().channels.empty()) return out;
-  // The file's name may know better which of several of that kind it is, and which way green points.
+  // The file's name may be more precise about the map and the direction of green.
   RecognisedMap& only = maps.front();
   const bool agree = named_maps.size() == 1 && named_maps.front().semantic == only.semantic;
   if (agree && !only.normal_y) only.normal_y = named_maps.front().normal_y;

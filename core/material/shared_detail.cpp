@@ -71,7 +71,7 @@ double mean(const Grid& g) {
   return sum / double(g.values.size());
 }
 
-/// 1 if one of them is flat.
+/// The correlation of two grids; 1 if one of them is flat.
 double correlation(const Grid& a, const Grid& b) {
   const double mean_a = mean(a), mean_b = mean(b);
   double ab = 0, aa = 0, bb = 0;
@@ -81,7 +81,7 @@ double correlation(const Grid& a, const Grid& b) {
     aa += da * da;
     bb += db * db;
   }
-  constexpr double flat = 1e-9;  // below what 8 bits keep
+  constexpr double flat = 1e-9;  // less than 8 bits can store
   const double count = double(a.values.size());
   return aa < flat * count || bb < flat * count ? 1 : std::abs(ab) / std::sqrt(aa * bb);
 }

@@ -42,7 +42,7 @@ double mean_of(const Image& image) {
   return sum / (double(image.size().area()) * image.channels());
 }
 
-/// Heights as far from their mean as a body `factor` times as large has them.
+/// Heights as far from their mean as on a body `factor` times as large.
 ImagePtr deepened(const ImagePtr& height, double factor) {
   const float mean = float(mean_of(*height)), by = float(factor);
   const ImageInfo info = height->info();
@@ -156,7 +156,7 @@ std::array<float, 4> cubic_weights(double fraction) {
           (0.5f * t - 0.5f) * t * t};
 }
 
-/// Source pixels around what a tile shows, ready to be averaged.
+/// Source pixels around a tile's, ready to be averaged.
 struct Block {
   Rect rect;
   int channels;
@@ -166,7 +166,7 @@ struct Block {
   }
 };
 
-/// What a tile of the result is averaged from; may lie outside the source.
+/// The part of the source from which a tile is averaged; may lie outside it.
 Rect rect_around(const Affine& affine, const Rect& tile) {
   double low[2] = {1e30, 1e30}, high[2] = {-1e30, -1e30};
   for (const int x : {tile.x, tile.right() - 1})
@@ -196,7 +196,7 @@ void sample(const Block& block, double x, double y, bool interpolated, float* ou
   }
 }
 
-/// Shows each of a region's square tiles to `visit`: what they need of a rotated source is little more than they are.
+/// Calls `visit` for each of a region's square tiles: a rotated source covers a square with little waste.
 void for_each_tile(const Rect& region, const std::function<void(const Rect&)>& visit) {
   constexpr int side = 128;
   for (int y = region.y; y < region.bottom(); y += side)
@@ -239,7 +239,7 @@ ImagePtr turned(const ImagePtr& map, const Turn& turn, Outside outside) {
   return Image::computed(info, recipe.digest(), std::move(operation));
 }
 
-/// 1 in the part of a rotated material that lies between pixel centres of the exemplar, none of it beyond its border.
+/// 1 where a rotated material shows points between pixel centres of the exemplar, not beyond its border.
 ImagePtr coverage(const Turn& turn) {
   const ImageInfo info{.size = turn.to, .channels = 1, .semantic = Semantic::mask, .depth = Depth::u8};
   Hasher recipe;
@@ -264,7 +264,7 @@ ImagePtr both(const ImagePtr& a, const ImagePtr& b) {
 
 // --- Whole exemplars
 
-/// What all maps' whole divisors divide: sizes that are multiples of it fit every map.
+/// The least common multiple of the factors by which maps are smaller: sizes that are multiples of it fit every map.
 int common_divisor_multiple(const Material& material) {
   int multiple = 1;
   for (const Map& m : material.maps()) multiple = std::lcm(multiple, divisor_of(m.image->size(), material.size()));

@@ -16,7 +16,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-/// What channels of one picture or vector are called, in their order in a pixel.
+/// The names of a picture's or a vector's channels, in their order in a pixel.
 using Places = std::array<std::array<std::string_view, 2>, 4>;
 constexpr Places picture = {{{"r", "red"}, {"g", "green"}, {"b", "blue"}, {"a", "alpha"}}};
 constexpr Places vector = {{{"x", "u"}, {"y", "v"}, {"z", ""}, {"w", ""}}};
@@ -37,7 +37,7 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/// A channel's place: its layer, and what it is called there.
+/// A channel's layer and its name there.
 struct Name {
   std::string layer;
   std::string channel;
@@ -50,7 +50,7 @@ Name parted_at_dot(const std::string& channel) {
   return {channel.substr(0, dot), channel.substr(dot + 1)};
 }
 
-/// "normalX", "normal_x": what stands before the last letter, if that may be a channel of a picture or a vector.
+/// "normalX", "normal_x": "normal" and the letter, if that may be a channel of a picture or a vector.
 Name parted_at_letter(const std::string& channel) {
   if (channel.size() < 2 || place_of(channel.substr(channel.size() - 1)) == picture.size()) return {"", channel};
   std::string layer = channel.substr(0, channel.size() - 1);
@@ -75,14 +75,14 @@ bool is_numbered(const std::string& channel, const std::vector<std::string>& all
   return std::ranges::count_if(all, [&](const std::string& other) { return without_number(other) == rest; }) > 1;
 }
 
-/// The channels of one prefix, as they are called after it.
+/// The channels of one prefix, by their names after it.
 class Siblings {
  public:
   explicit Siblings(const std::vector<std::string>& names) : names_(names) {}
 
   bool are_picture_or_vector() const { return are_picture() || are_vector(); }
-  /// Whether a channel is part of their picture, vector or grey value; else it is a layer of its own, as depth beside
-  /// red, green and blue is.
+  /// Whether a channel is part of their picture, vector or grey value; else it is a layer of its own, such as depth
+  /// beside red, green and blue.
   bool is_part(const std::string& name) const {
     const bool of_picture = place_in(picture, name) < picture.size(), is_alpha = place_in(picture, name) == 3;
     if (is_chroma(name)) return true;
@@ -98,7 +98,7 @@ class Siblings {
   }
   bool are_picture() const { return has(picture, 0) + has(picture, 1) + has(picture, 2) >= 2; }
   bool are_vector() const { return has(vector, 0) && has(vector, 1); }
-  /// Of luminance and chroma, which OpenEXR keeps as Y, RY and BY.
+  /// Chroma beside luminance: OpenEXR keeps them as RY and BY beside Y.
   bool is_chroma(const std::string& name) const {
     return has(vector, 1) && (lower(name) == "ry" || lower(name) == "by");
   }
@@ -106,10 +106,10 @@ class Siblings {
   std::vector<std::string> names_;
 };
 
-/// For each of the channels of one prefix the layer below that; empty: the prefix itself.
+/// The layer below a prefix for each of the prefix's channels; empty: the prefix itself.
 std::vector<Name> layers_below(const std::vector<std::string>& channels) {
   const Siblings siblings(channels);
-  std::map<std::string, std::vector<std::string>> by_stem;  // normalX and normalY are those of "normal"
+  std::map<std::string, std::vector<std::string>> by_stem;  // "normal": X and Y of normalX and normalY
   for (const std::string& c : channels)
     if (const Name parted = parted_at_letter(c); !siblings.is_part(c) && !parted.layer.empty())
       by_stem[parted.layer].push_back(parted.channel);
@@ -127,13 +127,13 @@ std::vector<Name> layers_below(const std::vector<std::string>& channels) {
   return out;
 }
 
-/// A channel that is alone says by its name what it is, unless that is a letter or a number.
+/// Whether the name of a channel that is alone, a letter or a number, does not say what it is.
 bool says_nothing(const std::string& channel) {
   return place_of(channel) < picture.size() || is_numbered(channel, {});
 }
 
-/// Alpha without a layer beside others is that of the only other layer, or else a layer of its own: the picture it may
-/// have belonged to is not there.
+/// Alpha without a layer belongs to the only other layer. If there are several, it becomes a layer of its own: its
+/// picture is missing.
 void settle_bare_alpha(std::vector<Name>& names) {
   const auto bare = std::ranges::find(names, "", &Name::layer);
   if (bare == names.end() || place_in(picture, bare->channel) != 3) return;

@@ -75,8 +75,8 @@ void apply(const OCIO::ConstCPUProcessorRcPtr& processor, float* pixels, int cha
   processor->apply(image);
 }
 
-/// Making a processor asks for environment variables, which the library (2.1) reads into one static string; and nobody
-/// may make one while the library forgets its files.
+/// Making a processor reads environment variables, for which the library (2.1) has one static string; and none may be
+/// made while the library clears its file cache.
 std::mutex& library_mutex() {
   static std::mutex mutex;
   return mutex;
@@ -106,7 +106,7 @@ class OcioColors final : public ColorConfiguration {
   }
   Conversion conversion(const std::string& from, const std::string& to) const override {
     return with_library([&]() -> Conversion {
-      // Lossless: without the approximations of pow that would shift 16-bit values.
+      // Lossless: approximations of pow would shift 16-bit values.
       const OCIO::ConstCPUProcessorRcPtr processor =
           config_->getProcessor(from.c_str(), to.c_str())->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
       return [processor](float* pixels, int channels, int64_t count) { apply(processor, pixels, channels, count); };
@@ -132,7 +132,7 @@ class OcioColors final : public ColorConfiguration {
   OCIO::ConstConfigRcPtr config_;
 };
 
-/// The library looks for files beside the configuration only where it has read that itself.
+/// The library looks for files beside the configuration only if it has read the configuration itself.
 OCIO::ConstConfigRcPtr config_in(const std::string& path, const std::string& text) {
   std::istringstream in(text);
   const OCIO::ConfigRcPtr config = OCIO::Config::CreateFromStream(in)->createEditableCopy();

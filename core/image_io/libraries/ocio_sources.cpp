@@ -44,7 +44,7 @@ class SourceFinder {
  private:
   std::string add(const char* text) { return expand(*context_, text, out_.variables); }
 
-  /// As the library takes them: without spaces around, and without slashes at the end.
+  /// Folders in the library's form: without surrounding spaces and trailing slashes.
   void find_folders() {
     const std::filesystem::path beside = context_->getWorkingDir();
     for (int i = 0; i < context_->getNumSearchPaths(); i++) {

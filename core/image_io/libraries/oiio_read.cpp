@@ -83,7 +83,7 @@ class OiioDecoder final : public ImageDecoder {
   const StoredImage& header() const override { return header_; }
   bool has_more_images() override {
     if (layers_.size() > 1) return false;
-    // Not by `in_`: of a WebP file the library (2.4) says that it cannot be decoded once it has looked for more.
+    // Not by `in_`: the library (2.4) cannot decode a WebP file any more once it has looked for further images.
     const std::unique_ptr<OIIO::ImageInput> again = OIIO::ImageInput::open(path_);
     return again && again->seek_subimage(1, 0);
   }
@@ -104,7 +104,7 @@ class OiioDecoder final : public ImageDecoder {
     header_.channels.pop_back();
   }
   void read(Depth as, void* out) override {
-    // The library (2.4) multiplies colours by alpha in any case.
+    // The library (2.4) always multiplies colours by alpha.
     if (header_.format == "webp" && header_.channels.size() == 4) return read_webp(path_, header_.size, out);
     read_layer(as, header_.stored.height, out, [&](int begin, int end, const OIIO::TypeDesc& type, void* to) {
       return in_->read_image(layer_->part, 0, begin, end, type, to);
@@ -133,9 +133,9 @@ class OiioDecoder final : public ImageDecoder {
     const auto [least, most] = std::minmax_element(channels.begin(), channels.end());
     const int first = *least, count = *most + 1 - first;
     const auto read_channels = [&](void* to) {
-      in_->geterror();  // what opening has left
+      in_->geterror();  // clears errors of opening
       const bool done = read(first, first + count, type, to);
-      // What decoders make up for damaged data they tell by an error alone.
+      // Decoders that fill in for damaged data report success and an error.
       if (const std::string said = in_->geterror(); !done || !said.empty()) throw Error(said);
     };
     const bool in_order = std::is_sorted(channels.begin(), channels.end()) && count == int(channels.size());

@@ -53,7 +53,7 @@ OIIO::ImageSpec make_spec(const EncodedImage& image) {
       spec.attribute("tiff:half", 1);
       spec.tile_width = spec.tile_height = tile;
       spec.tile_depth = 1;
-      // What tells texture systems that further images in the file are its mip levels.
+      // Tells texture systems that further images in the file are its mip levels.
       spec.attribute("textureformat", "Plain Texture");
       spec.attribute("wrapmodes", "periodic,periodic");
       break;
@@ -137,7 +137,7 @@ class OiioEncoder final : public ImageEncoder {
   }
   std::string name_;
   OIIO::ImageSpec spec_;
-  std::vector<uint8_t> tiles_;  ///< rows of a row of tiles
+  std::vector<uint8_t> tiles_;  ///< pixel rows of one row of tiles
   std::unique_ptr<SinkProxy> proxy_;
   std::unique_ptr<OIIO::ImageOutput> out_;
 };

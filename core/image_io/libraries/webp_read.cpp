@@ -13,8 +13,8 @@ namespace terrazzo {
 
 namespace {
 
-/// libwebp's simple interface, unchanged since 2010. OpenImageIO loads the library; its headers are a package that
-/// nothing else needs.
+/// libwebp's simple interface, unchanged since 2010, declared here because nothing else needs the package of its
+/// headers. OpenImageIO loads the library.
 struct WebpLibrary {
   uint8_t* (*decode)(const uint8_t* data, size_t size, int* width, int* height) = nullptr;
   void (*release)(void* pixels) = nullptr;
