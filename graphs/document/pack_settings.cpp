@@ -15,8 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a node's name in an override is this node or one of its iterations, or stands for it: "walls/brick" does for
-/// "walls[red]/brick".
+/// Whether a name in an override means this node. Names may omit iterations: "walls/brick" means "walls[red]/brick".
 bool names_node(std::string_view given, std::string_view node) {
   while (!given.empty() || !node.empty()) {
     const std::string_view wanted = given.substr(0, given.find('/'));
@@ -37,7 +36,7 @@ bool is_set(const std::vector<Override>& given, std::string_view node, std::stri
   return std::ranges::any_of(given, [&](const Override& o) { return sets(o, node, name); });
 }
 
-/// Whether all paths of a file name pattern lie in the folder: those of "/a/b{map}.png" lie in "/a".
+/// Whether all paths of a file name pattern lie in the folder: "/a/b{map}.png" lies in "/a".
 bool is_in(const fs::path& folder, const std::string& pattern) {
   const size_t open = pattern.find('{');
   return lies_in(folder,

@@ -10,7 +10,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr size_t most_wires = 1000000;  // loops that read loops may exceed any memory
+constexpr size_t most_wires = 1000000;  // loops that read loops may otherwise exceed any memory
 
 using Positions = std::map<std::string, size_t, std::less<>>;
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t longest = 10000;  // bytes
 constexpr int deepest = 60;        // parts within parts
-constexpr int most_parts = 1000;   // of an expression; evaluation of a long sum goes as deep
+constexpr int most_parts = 1000;   // evaluating a long sum recurses once per part
 
 /// The binary operators by ascending precedence.
 const std::array<std::vector<std::string_view>, 6> levels = {{

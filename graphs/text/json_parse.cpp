@@ -93,7 +93,7 @@ class Parser {
     at_ = end - 1;
   }
 
-  /// Where blank lines are kept, besides between comments.
+  /// Where blank lines are kept, in addition to those between comments.
   enum class Blank : uint8_t { above, below, both };
 
   std::vector<std::string> take_comments(Blank blank = Blank::both) {
@@ -251,7 +251,7 @@ class Parser {
     at_++;
     skip_space();
     if (last.comment_after.empty()) last.comment_after = take_comment_on(comma_line);
-    return peek() == close ? end_of(container) : true;  // a comma at the end is taken, as comments are
+    return peek() == close ? end_of(container) : true;  // trailing commas are accepted, like comments
   }
 
   /// Skips the closing bracket.
@@ -310,9 +310,9 @@ class Parser {
   std::string_view text_;
   size_t at_;
   int line_ = 1;
-  int column_ = 1;  ///< of the character at counted_
+  int column_ = 1;  ///< column of the character at counted_
   size_t counted_;
-  std::vector<Comment> comments_;  ///< not taken yet; a blank line is one without text
+  std::vector<Comment> comments_;  ///< comments not attached yet; a blank line is one without text
   bool is_blank_ = false;          ///< the line is empty so far
 };
 

@@ -70,21 +70,21 @@ std::string all_described(const std::string& file, const std::vector<Problem>& p
 
 const std::vector<std::string>& problem_codes() {
   static const std::vector<std::string> codes = {
-      "syntax",     // no JSON, a name given twice, a version that is not known
+      "syntax",     // not JSON, a duplicate name, an unknown version
       "document",   // a key, a section, or the declaration of a parameter, preset, input or output
       "override",   // --set, --preset, --params
       "node",       // its name, its type, a loop, a subgraph
       "parameter",  // a value of a node's parameter
       "wire",       // a wire, or a port without one
-      "cycle",      // wires or expressions that go in a circle
+      "cycle",      // wires or expressions in a cycle
       "unset",      // a parameter or an input without a value
-      "input",      // what a source would read, or another node would refuse
+      "input",      // something that a source would read, or another node would refuse
       "unused-parameter",
       "unused-graph",
       "unused-node",
       "no-sink",
       "conversion",
-      "doubt",  // allowed, and probably unintended
+      "doubt",  // allowed but probably unintended
   };
   return codes;
 }

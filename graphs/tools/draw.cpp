@@ -31,24 +31,24 @@ std::string_view box_colour(const NodeType& type) {
   return type.category == "sink" ? "#eceff1" : "#ffffff";
 }
 
-/// One wire by positions: of nodes in the graph, of ports in the lists of their boxes.
+/// One wire by the positions of its nodes in the graph and of its ports in their boxes.
 struct DrawnWire {
   size_t from = 0, output = 0, to = 0, input = 0;
   ValueType type = ValueType::image;
 };
 
 struct Box {
-  std::string path, name;                    ///< of the subgraph it is in, "walls/"; within that
-  std::vector<std::string> inputs, outputs;  ///< the wired ones, in the descriptor's order
+  std::string path, name;                    ///< the path of its subgraph, "walls/"; its name in there
+  std::vector<std::string> inputs, outputs;  ///< the wired ports, in the descriptor's order
   BoxSize size;
 
   double ports_top() const { return title_height + (path.empty() ? 0 : path_height); }
-  /// Of a port, from the top of the box.
+  /// The position of a port, from the top of the box.
   double row_y(size_t row) const { return ports_top() + row_height * (double(row) + 0.5); }
   double ports_bottom() const { return ports_top() + row_height * double(std::max(inputs.size(), outputs.size())) + 6; }
 };
 
-/// The offset of the name within the subgraph. Text in brackets, as in "walls [out=a/b]", is no path.
+/// The offset of the name within the subgraph. Text in brackets, as in "walls [out=a/b]", is not a path.
 size_t path_length(const std::string& name) {
   const size_t slash = name.substr(0, name.find(" [")).rfind('/');
   return slash == name.npos ? 0 : slash + 1;
@@ -151,7 +151,7 @@ class Drawing {
     }
   }
 
-  /// Around the nodes of each subgraph of the graph itself.
+  /// Draws a frame around the nodes of each direct subgraph.
   void draw_frames(const Layout& layout) {
     std::map<std::string, Frame> frames;
     const auto outermost = [&](size_t i) { return boxes_[i].path.substr(0, boxes_[i].path.find('/')); };

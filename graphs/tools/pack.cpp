@@ -84,7 +84,7 @@ class Embedding {
     return name;
   }
 
-  /// `what` it is the name of, for people.
+  /// `what`: what the name belongs to, for messages.
   std::string free_name(const std::string& wanted, const std::string& what) {
     std::string plain;
     for (const char c : wanted) plain += is_node_name(std::string(1, c)) ? c : '_';
@@ -143,7 +143,7 @@ class Packing {
     out_.bytes += fs::file_size(file, missing);
   }
 
-  /// The path of a file or folder in the pack. Adds its files, as far as they are in `all`, the files that are read.
+  /// The path of a file or folder in the pack. Adds those of its files that are in `all`, the files that are read.
   std::string place_of(const fs::path& path, const std::vector<fs::path>& all) {
     const auto [at, is_new] = places_.try_emplace(path);
     if (is_new) at->second = fmt::format("inputs/{}/{}", places_.size(), path.filename().string());
@@ -190,7 +190,7 @@ class Packing {
     return out;
   }
 
-  /// Sets something of a node, unless one of `sources` is set.
+  /// Sets a node's parameter or input, unless one of `sources` is set.
   void add_setting(const std::string& node, const std::string& name, JsonValue value,
                    const std::vector<Settable>& sources) {
     const std::string target = in_all_iterations(node, sources) + "." + name;
@@ -202,7 +202,7 @@ class Packing {
     if (!names.items.empty()) sources_.insert_or_assign(target, std::move(names));
   }
 
-  /// The names that a loop finds, without content: its nodes get their inputs by their own settings.
+  /// Packs the names that a loop finds, without content: its nodes get their inputs by their own settings.
   void pack_loop(const LoopSource& loop) {
     const std::string place = fmt::format("loops/{}", loops_++);
     JsonValue given = JsonValue::empty_object();
@@ -239,7 +239,7 @@ class Packing {
   const fs::path& file_;
   const LoadedGraph& loaded_;
   TarWriter archive_;
-  std::map<std::string, JsonValue> settings_, sources_;  ///< sources of settings: what can be set instead
+  std::map<std::string, JsonValue> settings_, sources_;  ///< sources: the names that can be set instead
   std::set<std::string> written_;                        ///< parameters of the graph with output paths
   PackedFiles out_;
   std::map<fs::path, std::string> places_;

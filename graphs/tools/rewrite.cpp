@@ -128,7 +128,7 @@ class Rewriter {
 
   std::string expression(const std::string& text) const {
     std::string out;
-    char before = 0;  // the last that is no space
+    char before = 0;  // the last character that is no space
     for (size_t at = 0; at < text.size();) {
       const char c = text[at];
       size_t end = at + 1;
@@ -160,7 +160,7 @@ class Rewriter {
     return out;
   }
 
-  /// 'text', which may be a wire.
+  /// The literal 'text', which may be a wire.
   std::string literal(const std::string& text) const {
     const JsonValue inside = JsonValue::of(text.substr(1, text.size() - 2));
     if (!is_wire(inside)) return text;

@@ -27,7 +27,7 @@ bool is_safe(const std::string& name) {
          (own.contains(name) || name.starts_with("inputs/") || name.starts_with("loops/"));
 }
 
-/// The files in a pack. Throws Error for what is no pack.
+/// The files in a pack. Throws Error if the file is not a pack.
 std::vector<TarEntry> entries_of(const fs::path& pack) {
   std::vector<TarEntry> entries = tar_entries(pack);
   const auto has = [&](const char* name) { return std::ranges::find(entries, name, &TarEntry::name) != entries.end(); };

@@ -28,7 +28,7 @@ bool has_kind_of(const JsonValue& v, ParamType type) {
   }
 }
 
-/// ".5", "5." and "+5" as JSON spells them; anything else as it is.
+/// ".5", "5." and "+5" in JSON's spelling; anything else unchanged.
 std::string json_spelling(const std::string& number) {
   const auto digit_at = [](const std::string& text, size_t i) { return i < text.size() && is_digit(text[i]); };
   std::string out = number.starts_with('+') && !number.starts_with("+-") ? number.substr(1) : number;

@@ -99,7 +99,7 @@ class Reader {
   bool in_range(double d) const { return !(param_.min && d < *param_.min) && !(param_.max && d > *param_.max); }
 
   std::optional<int64_t> integer(const JsonValue& v) {
-    constexpr double exact = 9007199254740992;  // Doubles hold every integer up to here.
+    constexpr double exact = 9007199254740992;  // doubles hold every integer up to here
     if (!v.is_number()) return wrong(v);
     const bool is_whole = v.kind == Kind::integer || (std::trunc(v.number) == v.number && std::abs(v.number) <= exact);
     if (is_whole && in_range(v.number)) return v.kind == Kind::integer ? v.integer : static_cast<int64_t>(v.number);
@@ -107,7 +107,7 @@ class Reader {
     return std::abs(v.number) < beyond ? wrong(v) : report(v, "an integer" + full_range());
   }
 
-  /// With the bounds that every integer has, where the parameter sets none.
+  /// The range of an integer parameter; the limits of 64-bit integers stand for missing bounds.
   std::string full_range() const {
     using Limits = std::numeric_limits<int64_t>;
     const auto bound = [](const std::optional<double>& own, int64_t limit) {
@@ -179,7 +179,7 @@ class Reader {
     if (!v.is_list() && (v.is_text() || param_.min_count > 1)) return wrong(v, brackets(v));
     return number_list(v, expectation(param_));
   }
-  /// What is typed as 200,300 lacks but its brackets.
+  /// A hint on missing brackets: 200,300 was probably meant as a list.
   static std::string brackets(const JsonValue& v) {
     const bool lacks_them = v.is_text() && v.text.find(',') != std::string::npos &&
                             v.text.find_first_not_of("0123456789.,-+ ") == std::string::npos;

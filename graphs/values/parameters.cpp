@@ -15,7 +15,7 @@ namespace terrazzo {
 
 namespace {
 
-/// The end of a message about a graph parameter that is not there.
+/// The end of a message about a graph parameter that does not exist.
 std::string hint_for(const std::string& wrong, const std::vector<std::string>& names, const NodeTypes& nodes) {
   std::vector<std::string> of_nodes;
   for (const auto& [node, type] : nodes) {
@@ -42,7 +42,7 @@ Diagnostics Formula::diagnostics(std::vector<Problem>& problems, const std::stri
 Place place_in(const JsonValue& text, size_t offset) {
   Place out = text.place;
   const auto is_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
-  // The quote, the =, and what comes before.
+  // The quote, the = and the text before the offset.
   if (out.column > 0)
     out.column += 1 + int(std::ranges::count_if(std::string_view(text.text).substr(0, offset + 1), is_character));
   return out;

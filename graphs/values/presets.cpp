@@ -122,7 +122,7 @@ void check_targets(const std::vector<const Preset*>& presets, const std::vector<
       if (!parameter_names.contains(o.name)) refuse(o, "the graph has no parameter", o.name, parameter_names);
       return;
     }
-    if (o.node.find_first_of("/[") != o.node.npos) return;  // known once subgraphs and loops have been read
+    if (o.node.find_first_of("/[") != o.node.npos) return;  // not known before subgraphs and loops have been read
     const auto node = types.find(o.node);
     if (node == types.end()) return refuse(o, "the graph has no node", o.node, types);
     const NodeType* type = node->second;

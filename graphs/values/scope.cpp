@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-/// A size counts pixels even where nobody says so.
+/// Sizes are in pixels by default.
 std::string unit_of(const Param& param) {
   const std::string unit = expression::plain_unit(param.unit);
   return unit.empty() && param.type == ParamType::size ? "pixels" : unit;
@@ -114,7 +114,7 @@ bool GraphScope::check_names(const Expression& expression, const JsonValue& text
     const std::set<std::string>& known_nodes = around_ ? around_->node_names_ : node_names_;
     if (known_nodes.contains(name)) continue;
     known = false;
-    std::vector<std::string> all;  // to look for the nearest one in; not for problems that will not be shown
+    std::vector<std::string> all;  // candidates for a suggestion; none for problems that will not be shown
     if (hints_++ < most_problems_shown) all.assign(known_nodes.begin(), known_nodes.end());
     diagnostics.add(place_in(text, offset),
                     fmt::format("@{} leads to no node{}, in {}", name, suggestion(name, all), excerpt(text.text)));
@@ -190,11 +190,11 @@ void GraphScope::evaluate_parameters() {
   for (GraphParameter& p : parameters_) evaluate(p);
 }
 
-/// What is made from itself, or from too many others in a row, is a problem.
+/// Reports parameters that depend on themselves or on too long a chain of others.
 void GraphScope::report_cycles() {
-  constexpr int most = 100;  // keeps evaluation off the end of the stack
+  constexpr int most = 100;  // keeps evaluation from overflowing the stack
   constexpr int open = -1;
-  std::map<std::string, int> heights;  // of the parameters in a row that each is made from
+  std::map<std::string, int> heights;  // the length of the chain that each parameter depends on
   std::vector<std::string> path;
   const auto report = [&](GraphParameter& p, const std::string& message) {
     p.formula->diagnostics(problems_, where(p)).add(p.formula->text.place, message);

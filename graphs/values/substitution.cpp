@@ -25,14 +25,14 @@ JsonValue placed(JsonValue value, Place place) {
   return value;
 }
 
-/// A value of an expression as text, for a parameter that takes texts.
+/// An expression's value as text, for a parameter that takes texts.
 JsonValue as_text(const JsonValue& v, const ParamValue& value) {
   JsonValue out = JsonValue::of(text_of(value));
   out.place = v.place;
   return out;
 }
 
-/// How "$size/2" is written, where arithmetic was meant.
+/// A hint on how to write "$size/2" if arithmetic was meant.
 std::string expression_hint(const std::string& text, const Param& param) {
   if (takes_texts(param.type) || text.find('$') == std::string::npos) return "";
   if (text.find_first_of("+-*/%") == std::string::npos) return "";
@@ -81,8 +81,8 @@ std::optional<JsonValue> Substitution::expand_part(const JsonValue& value, const
   return complete ? std::optional(std::move(out)) : std::nullopt;
 }
 
-/// Counts what names put into a value: short texts that name one another, or are named often, stand for more than any
-/// memory holds.
+/// Limits the text that names insert into a value: short texts that name one another, or are named often, could exceed
+/// any memory.
 bool Substitution::has_room(const ParamValue& value, Place place, Diagnostics& diagnostics) {
   put_in_ += expression::bytes_of(value);
   if (put_in_ <= expression::most_text_bytes) return true;
@@ -90,7 +90,7 @@ bool Substitution::has_room(const ParamValue& value, Place place, Diagnostics& d
   return false;
 }
 
-/// Notes what there is not yet.
+/// Records what is lacking; false if anything is.
 bool Substitution::has_all(const Lacking& lacking) {
   lacking_.add(lacking);
   return lacking.nothing();

@@ -20,7 +20,7 @@ struct Row {
   std::vector<Place> places;
 };
 
-constexpr size_t most_cells = 1000000;  // each is many times as large in memory as in the file
+constexpr size_t most_cells = 1000000;  // a cell is many times as large in memory as in the file
 
 [[noreturn]] void refuse_cells(const fs::path& file) {
   throw Error(fmt::format("{}: expected at most {} values in a table, found more", file.string(), most_cells));

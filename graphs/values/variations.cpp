@@ -23,7 +23,7 @@ namespace {
   throw Error(fmt::format("more than {} variations; sweep over fewer values", most_variations));
 }
 
-/// Each value keeps it.
+/// The beginning of a sweep, for messages; every value of the sweep keeps one.
 std::string beginning_of(const std::string& sweep) {
   size_t end = 80;
   if (sweep.size() <= end) return sweep;
@@ -68,8 +68,8 @@ int64_t integer_in(const std::string& sweep, std::string_view text) {
       fmt::format("\"{}\": expected integers from {} to {}, found {}", sweep, Limits::min(), Limits::max(), text));
 }
 
-/// The integers from `first` to `last`, exactly: numbers with a fraction hold only those up to 2^53. `step` leads from
-/// one to the other. Computed modulo 2^64, where nothing overflows.
+/// The exact integers from `first` to `last`; doubles are exact only up to 2^53. `step` has the direction's sign.
+/// Computed modulo 2^64, without overflow.
 std::vector<std::string> integer_range(int64_t first, int64_t last, int64_t step) {
   const uint64_t distance = last >= first ? uint64_t(last) - uint64_t(first) : uint64_t(first) - uint64_t(last);
   const uint64_t stride = step > 0 ? uint64_t(step) : uint64_t{0} - uint64_t(step);
@@ -108,13 +108,13 @@ std::vector<std::string> range_in(const std::string& sweep, const std::string& t
       if (by == 0 || (from != to && (from < to) != (by > 0))) throw leads_nowhere();
       return integer_range(from, to, by);
     }
-    constexpr double exact = 9007199254740992;  // numbers with a fraction hold every integer up to here
+    constexpr double exact = 9007199254740992;  // doubles hold every integer up to here
     if (std::max(std::abs(*first), std::abs(*last)) > exact)
       throw Error(fmt::format("\"{}\": beyond {} a step must be an integer", sweep, int64_t(exact)));
   }
   const auto step = has_step ? number_in(step_text) : std::optional(*first <= *last ? 1.0 : -1.0);
   if (!step || *step == 0 || (*last - *first) * *step < 0) throw leads_nowhere();
-  // Each value by itself, so that rounding does not add up; a last value that is missed by rounding alone counts.
+  // Each value separately, so that rounding errors do not add up; a last value missed only by rounding counts.
   const double count = std::floor((*last - *first) / *step * (1 + 1e-12)) + 1;
   if (count > double(most_variations)) too_many();
   std::vector<std::string> out;
@@ -126,7 +126,7 @@ std::vector<std::string> range_in(const std::string& sweep, const std::string& t
   return out;
 }
 
-/// Parameters into a digest that is equal for equal nodes.
+/// A digest that is equal for nodes of equal parameters and sources.
 Digest signature_of(const GraphNode& node, const std::map<std::string, std::string>& names) {
   Hasher h;
   h.add(node.type->name);
@@ -155,7 +155,7 @@ std::vector<std::string> Variation::overrides() const {
 
 namespace {
 
-/// "1..8" of "1-8" and "1:8"; empty of others.
+/// "1..8" for "1-8" and "1:8"; empty otherwise.
 std::string range_meant(const std::string& value) {
   const size_t sign = value.find_first_of("-:", 1);
   if (sign == value.npos) return "";
@@ -238,14 +238,14 @@ void GraphMerger::add(Graph graph, const std::string& label) {
     merged_.summary = graph.summary;
     merged_.settings = graph.settings;
   }
-  // What is set alike in all of them; the others' values are in the labels.
+  // Keep settings that are equal in all graphs; the labels show the others.
   std::map<std::string_view, const GraphSetting*> settings;
   for (const GraphSetting& s : graph.settings) settings.emplace(s.name, &s);
   std::erase_if(merged_.settings, [&](const GraphSetting& s) {
     const auto at = settings.find(s.name);
     return at == settings.end() || at->second->value != s.value;
   });
-  // In the order of wires: what reads nodes that are not alike is not alike either.
+  // Sources come first: nodes with different sources are different.
   for (GraphNode& n : graph.nodes) {
     const std::string signature = signature_of(n, signatures).hex();
     signatures[n.name] = signature;

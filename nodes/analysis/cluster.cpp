@@ -13,7 +13,7 @@ namespace terrazzo {
 
 namespace {
 
-/// The channels of both, side by side.
+/// Pixels with the channels of both.
 Planes joined(const Planes& a, const Planes& b) {
   Planes out{a.size, a.channels + b.channels, a.wraps, {}};
   out.values.reserve(a.values.size() + b.values.size());

@@ -21,7 +21,7 @@ ImagePtr label_image(const Elements& elements) {
   return Image::from_floats(info, std::move(labels));
 }
 
-/// A colour for each element, such that neighbours hardly ever have similar ones.
+/// A colour for each element; neighbours rarely have similar ones.
 ImagePtr coloured(const Elements& elements) {
   const ImageInfo info{
       .size = elements.size, .channels = 3, .semantic = Semantic::base_color, .color_space = "srgb_texture"};

@@ -66,7 +66,7 @@ MaterialPtr stand_in(const Forecast& material, const Texts& maps) {
   return Material::make("", std::move(out));
 }
 
-/// Of an atlas of materials that have these maps; nullopt if a size is not known.
+/// The forecast of an atlas of materials with these maps; nullopt if a size is unknown.
 std::optional<Forecast> sizes_in_atlas(const std::vector<Forecast>& materials, const Texts& maps, int gap,
                                        const ExemplarsOf& exemplars_of) {
   const auto has_size = [](const Forecast& material, const std::string& map) {

@@ -28,7 +28,7 @@ Port mask_port() {
 
 namespace {
 
-/// Several nodes need it for the same exemplar, often concurrently; the first computes it.
+/// Cached: several nodes ask about the same exemplar, often concurrently.
 bool found_to_tile(const Material& material, const ImagePtr& mask, const Task& task) {
   constexpr size_t most_known = 64;
   static std::mutex mutex;

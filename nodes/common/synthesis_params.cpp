@@ -217,7 +217,7 @@ void tell_of_parts(NodeContext& node, const Index& index, const UvMap& result, b
   const std::vector<LatticePart>& parts = index.appearance()->repeats().parts;
   if (parts.size() < 2) return;
   std::vector<int64_t> counts(parts.size(), 0);
-  size_t part = 0;  // neighbours mostly show the same
+  size_t part = 0;  // neighbouring pixels mostly show the same part
   for (const ExemplarPixel& p : result.pixels()) {
     const auto shows = [&](const LatticePart& l) { return contains(l.place, p.x, p.y); };
     if (!shows(parts[part]))

@@ -39,7 +39,7 @@ std::string bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// The upper left corner is (0, 0) of the texture, as glTF has it: v points down, and so does -bitangent.
+/// The upper left corner is (0, 0) of the texture, as in glTF: v points down, and so does -bitangent.
 std::vector<Part> plane_parts(PhysicalSize size) {
   const auto x = float(size.width / 2), y = float(size.height / 2);
   std::vector<float> normals, tangents;
@@ -54,7 +54,7 @@ std::vector<Part> plane_parts(PhysicalSize size) {
           {nullptr, "SCALAR", 6, 1, bytes_of(std::vector<uint16_t>{0, 1, 2, 0, 2, 3})}};
 }
 
-/// Characters that a URI cannot hold, escaped.
+/// The name with characters escaped that a URI cannot hold.
 std::string uri_of(const std::string& name) {
   std::string out;
   for (const char c : name) {
@@ -74,7 +74,7 @@ class Writer {
  public:
   explicit Writer(const MaterialScene& scene) : scene_(scene) {}
 
-  /// `images`: their bytes, to lie in the buffer; null: they lie beside the document.
+  /// `images`: bytes of the images to store in the buffer; null: they are files beside the document.
   ordered_json document(const std::vector<std::string>* images) {
     add_geometry();
     add_images(images);
@@ -119,7 +119,7 @@ class Writer {
   void add_geometry() {
     const PhysicalSize plane = scene_.plane();
     for (const Part& p : plane_parts(plane)) {
-      // Without normals nothing reads them.
+      // Without a normal map nothing reads tangents.
       if (p.name && p.name == std::string_view("TANGENT") && !scene_.find("normal")) continue;
       const int view = add_view(p.bytes, p.name ? array_buffer : element_array_buffer);
       ordered_json accessor = {{"bufferView", view},

@@ -19,7 +19,7 @@ struct Slot {
 struct Surface {
   const char* node;
   std::vector<Slot> slots;
-  const char* opacity;  ///< its input, and the type of that
+  const char* opacity;  ///< the input for opacity, and its type
   const char* opacity_type;
   const char* glow;  ///< the input that scales emission
 };
@@ -91,7 +91,7 @@ class MaterialxWriter {
   }
 
  private:
-  /// A node that reads a map, and its name.
+  /// Adds a node that reads a map; returns the node's name.
   std::string image(const char* map, const char* type) {
     const SceneFile& file = *scene_.find(map);
     std::string name = std::string(map) + "_image";

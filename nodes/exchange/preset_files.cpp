@@ -40,7 +40,7 @@ class Sources {
   std::vector<Map> maps_;
 };
 
-/// The channels of a file for the maps that there are.
+/// The channels of a file for the maps that exist.
 std::vector<Channel> channels_for(const PresetFile& file, const Sources& sources) {
   std::vector<Channel> out;
   for (const ChannelSource& s : file.channels) {

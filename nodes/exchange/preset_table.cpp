@@ -6,7 +6,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Colour, with opacity as alpha if there is any.
+/// Colour, with opacity as alpha if the material has it.
 PresetFile colour(std::string_view suffix) {
   return {suffix, {{"base_color", 0}, {"base_color", 1}, {"base_color", 2}, {"opacity"}}, {"base_color"}};
 }
@@ -26,7 +26,7 @@ constexpr ChannelSource metallic{.map = "metallic", .otherwise = 0};
 constexpr ChannelSource smoothness{.map = "roughness", .inverted = true, .otherwise = 0.5};
 const std::vector<std::string_view> surface = {"ambient_occlusion", "roughness", "metallic"};
 
-/// Separate files, for documents that name each of them.
+/// One file per map, for documents that name each of them.
 std::vector<PresetFile> separate() {
   return {three("_base_color", "base_color"), three("_normal", "normal"),   one("_roughness", "roughness"),
           one("_metallic", "metallic"),       one("_opacity", "opacity"),   three("_emission", "emission"),

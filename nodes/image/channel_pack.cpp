@@ -47,7 +47,7 @@ void require_any(bool connected) {
   if (!connected) throw Error("r", "expected an image on at least one of r, g, b and a, found none");
 }
 
-/// One per channel of the result, which ends with the last that is connected or filled.
+/// One per channel of the result; its last channel is the last one that is connected or filled.
 std::vector<Source> sources_of(const NodeContext& node) {
   const NumberMap& fill = node.number_map("fill");
   std::vector<Source> sources;

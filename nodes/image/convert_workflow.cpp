@@ -26,7 +26,7 @@ Swap swap_of(const std::string& to) {
   return to == "metallic" ? Swap{"specular", "metallic"} : Swap{"metallic", "specular"};
 }
 
-/// A pixel as a colour; of one value or two, grey.
+/// A pixel as a colour; grey if it has fewer than three channels.
 Vector3d color_at(const float* pixel, int channels) {
   if (channels < 3) return Vector3d(1, 1, 1) * double(pixel[0]);
   return {pixel[0], pixel[1], pixel[2]};
@@ -36,7 +36,7 @@ void write_color(const Vector3d& color, float* pixel) {
   for (int c = 0; c < 3; c++) pixel[c] = float(color[c]);
 }
 
-/// The two maps that decide, in linear light.
+/// The two maps to convert, in linear light.
 struct Sources {
   ImagePtr base, other;
 };

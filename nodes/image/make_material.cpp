@@ -77,7 +77,7 @@ void compute_make_material(NodeContext& node) {
   node.output("material", material);
 }
 
-/// What is known of the i-th of the images, with the semantic that it is given.
+/// The facts known about the i-th image, with the semantic that the parameters give it.
 ImageFacts added_facts(const Params& params, const InputForecasts& inputs, size_t i) {
   ImageFacts image = image_at(inputs, "images", i);
   const Texts& semantics = std::get<Texts>(params.at("semantics"));
@@ -95,8 +95,8 @@ OutputForecasts infer_make_material(const Params& params, const InputForecasts& 
   for (size_t i = 0; i < count; i++) {
     const ImageFacts image = added_facts(params, inputs, i);
     if (names.empty() && !image.semantic) {
-      out.possible_maps.reset();  // what the image means will name it
-      out.images.clear();         // and may replace any
+      out.possible_maps.reset();  // the image's unknown semantic will name it
+      out.images.clear();         // and it may replace any map
       continue;
     }
     const std::string name = names.empty() ? std::string(name_of(*image.semantic)) : names[i];

@@ -19,7 +19,7 @@ double within_a_turn(double degrees) {
   return rest < 0 ? rest + 360 : rest;
 }
 
-/// The original first; none twice.
+/// The original first; no duplicates.
 std::vector<Variant> asked_variants(const Params& params) {
   const std::string& mirror = std::get<std::string>(params.at("mirror"));
   std::vector<Variant> all;

@@ -178,7 +178,7 @@ NodeType load_map_node() {
       if (image.semantic != Semantic::normal || file.channels == 3)
         image.channels = file.channels;
       else if (file.channels == 2)
-        image.channels = 3;  // of four, pixels tell whether z is among them
+        image.channels = 3;  // with four channels the pixels decide whether z is among them
     } catch (const TooManyPixels&) {
       throw;
     } catch (const Error&) {

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A file and a layer of it.
+/// A file and one of its layers.
 using FilePlace = std::pair<std::string, std::string>;
 
 /// Includes dangling links, pipes and devices, so that reading them fails: otherwise the material would silently lack a
@@ -107,7 +107,7 @@ std::string maps_of_other_endings(const Texts& present) {
                           folder.string(), found, advice_on_map_names));
 }
 
-/// Names the folder's files, the ignored ones taken out.
+/// The folder's files, without ignored ones.
 std::vector<MapFile> files_to_recognise(const Params& params, const std::set<FilePlace>& taken, Texts& notes) {
   const fs::path folder = folder_of(params);
   std::vector<std::string> names = image_names(folder);

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 constexpr int known_format = 1;
 constexpr std::string_view first_of_name = "terrazzo-material", last_of_name = ".json";
 
-/// A value and where it stands, for messages: `"files": "orm.png"`.
+/// A value and its place for messages: `"files": "orm.png"`.
 struct Entry {
   const Json& value;
   std::string where;

@@ -47,7 +47,7 @@ std::vector<OrientedFile> oriented_files(const fs::path& folder, const std::vect
                        .info = read_image_info(folder / m.file, m.layer),
                        .asked = m.interpretation.as_stored});
     } catch (const Error&) {
-      files.push_back({.name = m.file, .map = m.map, .info = {}});  // reading it says what is wrong
+      files.push_back({.name = m.file, .map = m.map, .info = {}});  // reading reports the error
     }
     readings.push_back({place, m.semantic});
   }
@@ -75,7 +75,7 @@ Sources read_sources(NodeContext& node, const fs::path& folder, const std::vecto
   };
   settle_orientations_by_pixels(files, pictures, read_as_stored, notes);
   Sources sources;
-  std::set<std::string> said;  // once, what holds for all layers of a file
+  std::set<std::string> said;  // notes about all layers of a file appear once
   for (size_t i = 0; i < readings.size(); i++) {
     const bool is_again = pictures[i] != readings[i].image;
     sources[readings[i].place] = {pictures[i], files[i].info.channel_names};

@@ -19,7 +19,7 @@ namespace {
 
 using Notes = std::vector<std::string>;
 
-/// As `maps` of load_material takes it: "wall.png:g", "wall.exr:arm.g".
+/// The syntax of load_material's `maps`: "wall.png:g", "wall.exr:arm.g".
 std::string channel_of(const RecognisedMap& m, char channel) {
   return fmt::format("{}:{}{}{}", m.file, m.layer, m.layer.empty() ? "" : ".", channel);
 }
@@ -89,7 +89,7 @@ bool is_full(const Image& image) {
   return is_constant(image) && image.read({0, 0, 1, 1})[0] == 1;
 }
 
-/// Of albedo_height and the like.
+/// Whether a map is the alpha of a pair such as albedo_height.
 bool is_alpha_of_pair(const RecognisedMap& m) {
   return m.channels == "a" && !m.inverted && m.semantic != Semantic::opacity && m.said_by.empty();
 }
@@ -128,7 +128,7 @@ namespace {
 /// Whether a channel is neither constant nor a copy of one of `used`.
 bool holds_more(const Image& file, int channel, const std::set<int>& used) {
   constexpr float noise =
-      8.0f / 255;  // higher: faint maps are lost silently; lower: what JPEG makes of constants warns
+      8.0f / 255;  // higher: faint maps are lost silently; lower: JPEG artefacts in constants cause warnings
   const int channels = file.channels();
   float least = 1e30f, most = -1e30f;
   std::vector<bool> is_copy(size_t(channels), true);
@@ -192,7 +192,7 @@ void settle_only_alpha(RecognisedMap& map, const Image& file, Notes& notes) {
 }
 
 void leave_out_unrelated(const std::vector<RecognisedMap>& sources, std::vector<Map>& maps, Notes& notes) {
-  constexpr double least_shared = 0.06;  // higher: a map is lost; lower: that of another material is mixed in
+  constexpr double least_shared = 0.06;  // higher: a map is lost; lower: another material's map is mixed in
   const auto find = [&](const RecognisedMap& m) { return std::ranges::find(maps, m.map, &Map::name); };
   for (const RecognisedMap& m : sources) {
     const auto map = find(m);
@@ -229,10 +229,10 @@ std::string with_article(const std::string& map) {
   return (map == "opacity" ? "an " : "a ") + map;
 }
 
-/// On exemplars heights correlate with the slopes by 0.77 and more; roughness runs against them. Occlusion of scans
-/// stays below 0.42, that of generated exemplars does not, and is taken for height.
+/// On exemplars heights correlate with the slopes by 0.77 and more, roughness negatively, occlusion of scans by less
+/// than 0.42. Occlusion of generated exemplars correlates more and is mistaken for height.
 bool is_height_of(const RecognisedMap& normal, const ImagePtr& alpha, const std::vector<Map>& maps) {
-  constexpr double least = 0.6;  // higher: heights are left out; lower: more occlusion is taken for height
+  constexpr double least = 0.6;  // higher: heights are left out; lower: more occlusion is mistaken for height
   const auto map = std::ranges::find(maps, normal.map, &Map::name);
   if (map == maps.end() || map->image->channels() < 3) return false;
   const ConventionEvidence e = convention_from_height(*map->image, *alpha);

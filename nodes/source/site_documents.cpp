@@ -50,7 +50,7 @@ std::string text_or_nothing(const fs::path& path) {
 }  // namespace
 
 std::vector<fs::path> site_documents(const fs::path& folder) {
-  constexpr uintmax_t largest = 1 << 20;  // of the site that is known they have some kilobytes
+  constexpr uintmax_t largest = 1 << 20;  // the known site's documents have some kilobytes
   std::vector<fs::path> files;
   std::error_code failure;
   for (const fs::directory_entry& e : fs::directory_iterator(folder, failure))

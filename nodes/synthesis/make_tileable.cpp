@@ -17,7 +17,7 @@ namespace terrazzo {
 
 namespace {
 
-/// The width of the border along a side of that length; 0 where the result need not wrap.
+/// The width of the border along a side of this length; 0 if the result need not wrap.
 int border_pixels(double border, int side, bool wraps) {
   if (!wraps) return 0;
   const int pixels = std::max(1, int(std::floor((border < 1 ? border * side : border) + 0.5)));
@@ -28,8 +28,8 @@ int border_pixels(double border, int side, bool wraps) {
   return pixels;
 }
 
-/// The exemplar within a result of that size. Most of the border is kept at first, so that the seam between old and new
-/// does not run straight.
+/// The exemplar within a result of this size. Most of the border is kept at first, so that the seam between old and new
+/// pixels is not straight.
 ExistingPixels interior(Size exemplar, Size result, Size border) {
   const auto keep = [](int x, int side, int border) {
     const int inside = std::min(x, side - 1 - x);
@@ -47,7 +47,7 @@ ExistingPixels interior(Size exemplar, Size result, Size border) {
   return kept;
 }
 
-/// An exemplar that wraps around as it is.
+/// Outputs an exemplar unchanged that already wraps.
 void leave(NodeContext& node, const Index& index) {
   const Size size = index.appearance()->size();
   node.note(

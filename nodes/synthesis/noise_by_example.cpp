@@ -49,7 +49,7 @@ std::vector<Param> noise_by_example_params() {
       tiles_param()};
 }
 
-/// Of a whole number of pixels, as large as asked for.
+/// The requested cell in whole pixels.
 int asked_cell(double cell, Size exemplar) {
   const double pixels = cell < 1 ? cell * std::min(exemplar.width, exemplar.height) : cell;
   return std::max(1, int(pixels + 0.5));
@@ -90,8 +90,8 @@ std::vector<std::string> check_noise_by_example(const Params& params) {
   return {"\"origin\": expected two whole numbers, [x, y]"};
 }
 
-/// For each pixel of the exemplar: a map that may hold labels as it is; of the others the components, of which there
-/// are at most as many as channels, and one of them once more while its histogram is taken.
+/// Per pixel of the exemplar: at most one component per channel (label maps are held unchanged), and a copy of one
+/// component while its histogram is computed.
 uint64_t memory_of(Size exemplar, int channels) {
   return uint64_t(exemplar.area()) * uint64_t(channels + 1) * sizeof(float);
 }

@@ -84,9 +84,9 @@ struct Held {
   void add(const ImageInfo& map, const Params& params) {
     const bool joins = std::get<double>(params.at("join")) > 0 && can_join(map);
     const bool blends = std::get<double>(params.at("blend")) > 0 && !joins && can_blend(map.semantic);
-    // For blending also linear pixels and their local means.
+    // Blending also needs linear pixels and their local means.
     values += double(map.size.area()) * map.channels * (blends ? 3 : 1);
-    // The solution and its forces at half the result's size, and those of all coarser levels.
+    // The solution and its forces at half the result's size and at all coarser levels.
     if (joins) per_result_pixel += 2.0 / 3;
   }
   double bytes(Size result) const { return sizeof(float) * (values + per_result_pixel * double(result.area())); }
@@ -116,13 +116,13 @@ uint64_t memory_ahead_of_resolve_uv(const Params& params, const InputForecasts& 
               .semantic = map.semantic.value_or(Semantic::data)},
              params);
   }
-  // The result of "make_tileable" may have any size near the exemplar's: the maps are held in any case.
+  // The result of "make_tileable" may have any size near the exemplar's; only the maps are certain to be held.
   if (!uv.size || !uv.exemplar) return uint64_t(held.bytes({}));
   return uint64_t(held.bytes(resolved_size(*uv.size, *uv.exemplar, *size))) +
          uint64_t(uv.size->area()) * sizeof(ExemplarPixel);
 }
 
-/// Throws Error about "material" if it is known not to be the analysed one.
+/// Throws Error about "material" if it is certainly not the analysed one.
 void require_analysed(const Material& material, const UvMap& uv, const Task& task) {
   if (!uv.fingerprint()) return;
   const std::optional<Likeness> found = likeness(*uv.fingerprint(), material, task);

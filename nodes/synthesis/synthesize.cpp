@@ -14,7 +14,7 @@ namespace terrazzo {
 
 namespace {
 
-/// Which part of which surface is made.
+/// The part of a surface that is synthesized.
 struct Part {
   Size surface;
   Rect region;
@@ -68,7 +68,7 @@ std::vector<std::string> check_synthesize(const Params& params) {
   return problems;
 }
 
-/// Of the coarse levels, if they are made here.
+/// Memory of the coarse levels, if they are synthesized here.
 uint64_t memory_of_coarse(const Part& part, bool has_coarse) {
   return part.is_whole() || has_coarse ? 0 : coarse_memory(part.surface);
 }

@@ -94,7 +94,7 @@ OutputForecasts infer_transfer(const Params& params, const InputForecasts& input
   return {{"uv", {.size = std::get<Size>(params.at("size")), .exemplar = exemplar}}};
 }
 
-/// `values`: of a pixel in all targets together.
+/// `values`: per pixel, of all targets together.
 SynthesisMemory memory_of(const Params& params, int values) {
   const uint64_t distances = std::get<double>(params.at("leeway")) > 0 ? label_distances_memory : 0;
   return {new_pixels_memory.per_pixel + control_value_memory * uint64_t(values) + distances};

@@ -53,7 +53,7 @@ void replace_node(GraphNode& node, const Value& value, std::deque<NodeType>& typ
 }  // namespace
 
 struct CheckedJob::State {
-  std::deque<NodeType> given;  ///< their addresses stay
+  std::deque<NodeType> given;  ///< a deque, so that addresses stay valid
   LoadedGraph loaded;
 };
 
@@ -67,7 +67,7 @@ const std::vector<Problem>& CheckedJob::warnings() const {
 
 Job Job::open(const std::filesystem::path& graph) {
   Job job = from_text(read_document(graph), graph);
-  job.parameters();  // throws if the text is no graph
+  job.parameters();  // throws if the text is not a graph
   return job;
 }
 

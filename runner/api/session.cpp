@@ -10,13 +10,13 @@ namespace terrazzo {
 
 namespace {
 
-/// Beside the cache; a graph without a name has none.
+/// The history beside the cache; nullopt for a graph without a file.
 std::optional<History> history_of(const Graph& graph, const Cache* cache) {
   if (!cache || graph.file.empty()) return std::nullopt;
   return History(cache->folder(), graph.file);
 }
 
-/// Documents in memory have none either: several may share a name.
+/// Documents in memory have no history either: several may share a name.
 std::optional<History> history_of(const CheckedJob& job, const Cache* cache) {
   std::error_code missing;
   return std::filesystem::exists(job.graph().file, missing) ? history_of(job.graph(), cache) : std::nullopt;

@@ -24,7 +24,7 @@ std::vector<uint8_t> sealed(ByteWriter out) {
   return out.bytes();
 }
 
-/// The content of sealed bytes, without magic and name.
+/// The content of sealed bytes after magic and name.
 ByteReader unsealed(std::string_view magic, const Digest& name, const std::vector<uint8_t>& bytes) {
   constexpr size_t seal = sizeof(uint64_t);
   if (bytes.size() < magic.size() + sizeof(Digest) + seal) throw DamagedFile("it ends too early");

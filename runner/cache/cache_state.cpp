@@ -32,7 +32,7 @@ void CacheState::warn_unwritten(const Error& why) {
 
 void CacheState::discard(const std::filesystem::path& path, const Error& why) {
   const bool is_gone = ::unlink(path.c_str()) == 0 || errno == ENOENT;
-  if (dynamic_cast<const OutdatedFile*>(&why)) return;  // as after every change of the format
+  if (dynamic_cast<const OutdatedFile*>(&why)) return;  // normal after a change of the format
   warn(fmt::format("a damaged cache entry {}: {}", is_gone ? "was removed" : "is not used, and cannot be removed",
                    why.what()));
 }

@@ -31,7 +31,7 @@ void write_total(const std::filesystem::path& path, const CacheTotal& total, con
     write_whole_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()},
                      path.parent_path() / fmt::format("total-{}.tmp", owner));
   } catch (const FileError&) {
-    // Then the next run counts.
+    // The next run counts anew.
   }
 }
 

@@ -65,7 +65,7 @@ bool claim_lease(const fs::path& lease, const LeaseHolder& holder) {
   if (failure == 0) failure = errno == ENOTEMPTY ? EEXIST : errno;
   remove_folder(made);
   if (failure == ENOTDIR && ::unlink(lease.c_str()) == 0) failure = EEXIST;  // a file of an earlier version
-  if (failure == EEXIST) ::rmdir(lease.c_str());  // if it is empty, where such a one is in the way after all
+  if (failure == EEXIST) ::rmdir(lease.c_str());  // some file systems do not replace an empty folder
   errno = failure;
   return false;
 }

@@ -40,7 +40,7 @@ Graph analysing_graph(const LibraryAddition& asked, const fs::path& target) {
       .graph;
 }
 
-/// The same nodes for an analysis that exists.
+/// The same nodes for an existing analysis.
 Graph copying_graph(const LibraryAddition& asked, const fs::path& target) {
   if (!asked.set.empty()) throw UsageError("--set goes with a folder of maps; SOURCE is a file, analysed already");
   Graph graph;
@@ -65,7 +65,7 @@ GraphNode picture_node() {
   return node;
 }
 
-/// For an analysis without maps: its first channel, coarse as its fingerprint is.
+/// A picture of an analysis without maps: the first channel of its coarse fingerprint.
 ImagePtr picture_of(const Fingerprint& fingerprint) {
   if (fingerprint.channels.empty()) return nullptr;
   std::vector<float> pixels;
@@ -90,7 +90,7 @@ std::string today() {
   return fmt::format("{:%Y-%m-%d}", fmt::localtime(now));
 }
 
-/// Where the maps lie, and what is in their files.
+/// Adds the folder, the names of the maps and the content of their files.
 void add_material(LibraryEntry& entry, const GraphNode& exemplar, const Material& material) {
   entry.material = std::get<std::string>(exemplar.params.at("path"));
   for (const Map& map : material.maps()) entry.maps.push_back(map.name);

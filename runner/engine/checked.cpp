@@ -108,7 +108,7 @@ void require_declared(const Stage& stage, const NodeContext& context, const Watc
                       type.name, variable));
 }
 
-/// What a graph is checked by must hold.
+/// Throws if a node's forecasts do not hold.
 void require_foreseen(const NodeContext& node) {
   for (const auto& [port, forecast] : node.inferred()) {
     const auto value = const_cast<NodeContext&>(node).outputs().find(port);

@@ -125,7 +125,7 @@ void Coordinator::start_computing(int stage) {
   enqueue(StageJob::Kind::compute, stage);
 }
 
-/// A stage's values are now in memory.
+/// Called when a stage's values are in memory.
 void Coordinator::values_there(int stage, ValueEvent event) {
   move(stage, event);
   for (const int reader : plan_.stages[stage].readers) {
@@ -312,7 +312,7 @@ void Coordinator::skip_if_lost(int stage) {
   lose(stage);
 }
 
-/// Retried after jobs that have arrived in the meantime.
+/// Puts the job behind those that have arrived meanwhile.
 void Coordinator::resume(const StageJobPtr& job) {
   outcomes_.add(job->span);
   job->resumed = job->busy = false;

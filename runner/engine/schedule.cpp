@@ -137,7 +137,7 @@ RunResult run_plan(Plan plan, const RunOptions& options) {
   const int threads = useful_threads(options.checked ? 1 : options.threads);
   const uint64_t memory = options.memory > 0 ? options.memory : memory_budget();
   if (options.observer) options.observer->planned(plan);
-  // This thread is one of the computing ones; two more renew leases and wait for them.
+  // This thread is one of the workers; two more threads renew leases and wait for them.
   require_threads(threads - 1 + 2);
 
   Coordinator coordinator(plan, options, threads, memory);

@@ -43,7 +43,7 @@ Demand demand_of(const Unit& unit, const std::optional<UnitCost>& known, uint64_
                  const ArrayOptions& options) {
   Demand d{unit.seconds, usual_cores, usual_memory};
   if (known) {
-    // Headroom for other seeds; the process itself and its libraries are in what was measured.
+    // Headroom for other seeds; the measurement includes the process itself and its libraries.
     constexpr uint64_t a_little = uint64_t{128} << 20;
     d = {known->seconds, int(std::lround(known->cpu_seconds / std::max(known->seconds, 0.001))),
          rounded(known->memory + known->memory / 4 + a_little)};
@@ -106,7 +106,7 @@ std::vector<TaskArray> arrays_of(const std::vector<Unit>& units, const std::vect
   std::vector<TaskArray> arrays;
   std::map<std::string, size_t> array_of;  // by unit
   for (const auto& [where, group] : groups) {
-    const double each = std::max(group.demand.seconds, 0.05);  // the start of a process
+    const double each = std::max(group.demand.seconds, 0.05);  // at least the start of a process
     const auto per_task = size_t(std::max(1.0, std::floor(options.pack_seconds / each)));
     const size_t per_array = per_task * size_t(options.limits.tasks);
     for (size_t first = 0; first < group.units.size(); first += per_array) {

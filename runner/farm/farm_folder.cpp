@@ -52,7 +52,7 @@ bool write_if_other(const fs::path& file, const std::string& text) {
   try {
     if (read_file(file, text.size()) == text) return false;
   } catch (const FileError&) {
-    // Missing, longer, or not readable.
+    // Missing, too long or unreadable.
   }
   write_whole_file(file, text);
   return true;

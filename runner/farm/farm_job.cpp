@@ -25,7 +25,7 @@ std::string text_of(const Json& json) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// Of all other members.
+/// The checksum of all other members.
 std::string seal_of(const Json& json) {
   return Hasher().add("farm job").add(text_of(json)).digest().hex();
 }
@@ -65,7 +65,7 @@ Unit unit_in(const Json& json) {
   return u;
 }
 
-/// What an input file is the copy of; `file` is below FarmFolder::inputs.
+/// The original of an input file; `file` is below FarmFolder::inputs.
 std::string original_of(const FarmJob& job, const fs::path& file) {
   const fs::path copies = *file.begin();
   const auto origin = job.origins.find(copies.string());

@@ -9,7 +9,7 @@ namespace terrazzo {
 
 LeftOut left_out_of(const Plan& plan) {
   LeftOut out;
-  std::map<int, std::string> causes;  // by stage, of all that are left out: the node that fails
+  std::map<int, std::string> causes;  // the failing node, by left-out stage
   for (size_t i = 0; i < plan.stages.size(); i++) {
     const Stage& s = plan.stages[i];
     const std::string& name = s.node->name;

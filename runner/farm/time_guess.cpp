@@ -11,7 +11,7 @@ namespace {
 /// an analysis 1 s at a quarter, writing five maps 0.5 s at one.
 constexpr double of_slow = 4, of_quick = 0.5;
 
-/// Of draft, normal and best, measured likewise.
+/// Factors for draft, normal and best, measured likewise.
 constexpr std::array<double, 3> quality_factors = {0.25, 1, 1.25};
 
 double quality_factor(const GraphNode& node) {

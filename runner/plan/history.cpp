@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Stands where the name of an ingredient would.
+/// Takes the place of an ingredient's name.
 constexpr std::string_view seconds_line = "seconds";
 
 /// Smaller differences in time do not justify rewriting the file.
@@ -57,7 +57,7 @@ std::string difference(const Ingredient& before, const Ingredient& now) {
   return fmt::format("{} changed from {} to {}", now.what, before.shown, now.shown);
 }
 
-/// What was saved; empty if it cannot be read.
+/// The saved lines; empty if they cannot be read.
 std::string lines_in(const fs::path& file) {
   try {
     const auto bytes = CacheFolder::read(file);

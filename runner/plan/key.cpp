@@ -72,7 +72,7 @@ std::vector<Ingredient> ingredients_of(const GraphNode& node, const InputNames& 
         const fs::path place = place_under(path, files[i]);
         if (place.empty()) continue;
         covered = true;
-        // A folder's own name may become the material's, so it counts where the files lie inside it.
+        // A folder's own name may become the material's, so it is part of the key.
         places[i] = place == "." ? "." : (path.filename() / place).generic_string();
       }
     }

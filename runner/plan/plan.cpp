@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Why a sink's files are not what it wrote; empty if they are.
+/// How a sink's files differ from what it wrote; empty if they do not.
 std::string trouble_with_files(const StageRecord& record, Cache* cache) {
   for (const OutputFile& f : record.files) {
     std::error_code missing;

@@ -12,7 +12,7 @@ namespace terrazzo {
 
 namespace {
 
-/// A bar from 0 to the value. Its scale ends at 1, which is marked, or at the value if that is larger. Negative figures
+/// A bar from 0 to the value, on a scale to 1, which is marked, or to the value if that is larger. Negative figures
 /// have no bar.
 std::string bar(double value) {
   if (!std::isfinite(value) || value < 0) return "";

@@ -82,7 +82,7 @@ Histogram histogram_of(const Image& image) {
   return out;
 }
 
-/// `image` holds values as they are shown.
+/// `image` holds display values.
 std::string uri_of(const Image& image, bool is_colour) {
   if (is_colour && image.size().area() >= least_jpeg_area) try {
       return "data:image/jpeg;base64," +

@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-/// Lets something through at most once per interval and key.
+/// Limits events to one per interval and key.
 class Throttle {
  public:
   explicit Throttle(std::chrono::milliseconds interval) : interval_(interval) {}

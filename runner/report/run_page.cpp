@@ -40,7 +40,7 @@ ShownMaterials first_of(ShownMaterials all) {
   return {first_of(std::move(all.results)), first_of(std::move(all.exemplars))};
 }
 
-/// A surface has colour, shape or both.
+/// Only surfaces can be lit: materials with colour or shape.
 bool can_be_lit(const Material& material) {
   return material.find(Semantic::base_color) || material.find(Semantic::normal) || material.find(Semantic::height);
 }

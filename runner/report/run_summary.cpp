@@ -44,7 +44,7 @@ Json files_json(const StageOutcome& outcome) {
   return files;
 }
 
-/// The bytes of its results in the cache; equal results of two stages count for both.
+/// The bytes of a stage's results in the cache; equal results of two stages count for both.
 uint64_t stored_bytes(const StageOutcome& outcome, const Cache* cache) {
   uint64_t bytes = 0;
   if (cache)
@@ -61,7 +61,7 @@ Json notes_json(const StageOutcome& outcome) {
   return notes;
 }
 
-/// A node shared by several variations has none.
+/// Adds the variation of a node, unless several variations share it.
 void add_variation(Json& out, const std::string& node, const RunSummary& s) {
   if (const auto at = s.variations.find(node); at != s.variations.end()) out["variation"] = at->second;
 }

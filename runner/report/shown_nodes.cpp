@@ -59,7 +59,7 @@ bool is_cheap(const Stage& stage) {
   return stage.type().persist == Persist::payload ? stage.loadable() : stage.sources.empty();
 }
 
-/// The value as a material for display; null if it is none.
+/// The value as a material for display; null if it is neither a material nor a base colour.
 MaterialPtr as_material(const Value& value) {
   if (const MaterialPtr* m = std::get_if<MaterialPtr>(&value)) return *m;
   const ImagePtr* image = std::get_if<ImagePtr>(&value);

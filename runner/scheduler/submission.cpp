@@ -119,7 +119,7 @@ std::vector<fs::path> write_job(const PreparedJob& prepared, Cache& cache) {
   try {
     job.units = read_farm_job(folder).units;  // tasks in the queue go by their names
   } catch (const Error&) {
-    // There is none, or none that can be used.
+    // There is no usable job.
   }
   if (write_farm_job(job, folder)) mended.push_back(folder / "job.json");
   return is_new ? std::vector<fs::path>() : mended;

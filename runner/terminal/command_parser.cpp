@@ -10,7 +10,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int any_number = -1;  // CLI11's constant for it
+constexpr int any_number = -1;  // CLI11's constant
 
 /// A CLI11 parser built from commands.
 class Parser {

@@ -71,7 +71,7 @@ bool is_plain_text(std::string_view text) {
 
 bool looks_like_picture(const fs::path& path, std::string_view text) {
   using namespace std::string_view_literals;
-  if (lowercase(path.extension().string()) == ".tga") return true;  // has no mark at its beginning
+  if (lowercase(path.extension().string()) == ".tga") return true;  // TGA has no signature
   constexpr std::string_view marks[] = {"\x89PNG"sv, "\xff\xd8\xff"sv, "II*\0"sv,
                                         "MM\0*"sv,   "II+\0"sv,        "\x76\x2f\x31\x01"sv};
   return std::ranges::any_of(marks, [&](std::string_view mark) { return text.starts_with(mark); });

@@ -9,7 +9,7 @@
 
 namespace {
 
-/// `by`: an address in the code that asks.
+/// `by`: an address in the calling code.
 using Tell = void (*)(char kind, const char* what, int flags, const void* by);
 std::atomic<Tell> teller = nullptr;
 
