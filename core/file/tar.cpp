@@ -199,7 +199,7 @@ std::vector<TarEntry> tar_entries(const fs::path& archive) {
       out.push_back({long_name.empty() ? std::string(text_in(b, name_field)) : long_name, at, *bytes});
       long_name.clear();
     } else if (type != '5') {
-      throw refuse(fmt::format("the archive holds \"{}\", which is no regular file", text_in(b, name_field)));
+      throw refuse(fmt::format("the archive holds \"{}\", which is not a regular file", text_in(b, name_field)));
     }
     at += (*bytes + block - 1) / block * block;
   }

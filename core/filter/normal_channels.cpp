@@ -197,7 +197,7 @@ NormalLayout layout_of_many(const ImagePtr& image, const Image* height, const st
   if (look.misfit() <= normal_channels_tuning->misfit || std::abs(look.follows()) > normal_channels_tuning->follows)
     return {};
   if (!look.is_empty(2))
-    return {.doubt = fmt::format("its blue is no z that belongs to red and green (correlation {:.2f}, off by {:.2f})",
+    return {.doubt = fmt::format("its blue is not the z of red and green (correlation {:.2f}, off by {:.2f})",
                                  look.follows(), look.misfit())};
   return without_z(fmt::format("its blue is {} throughout", look.is_near(2, 0)   ? "0"
                                                             : look.is_near(2, 1) ? "full"
@@ -280,8 +280,8 @@ NormalLayout normal_layout(const ImagePtr& image, const std::vector<std::string>
   out.overlong = overlong_share(*image, out);
   if (!out.is_given && out.overlong > normal_channels_tuning->overlong)
     throw Error(
-        fmt::format("{}, but in {:.0f} % of the pixels x and y are longer than a normal: it is no normal map, or "
-                    "x was in a channel that is lost. Say what it is by {}, or leave it out",
+        fmt::format("{}, but in {:.0f} % of the pixels x and y are longer than a normal: it is not a normal map, or x "
+                    "was in a channel that is lost. Say what it is by {}, or leave it out",
                     out.reason, 100 * out.overlong, advice));
   return out;
 }

@@ -19,7 +19,7 @@ auto blaming(const std::string& maker, const Call& call) -> decltype(call()) {
   } catch (const std::exception& e) {
     throw PixelError(maker, e.what());
   } catch (...) {
-    throw PixelError(maker, "what makes its pixels threw something that is no std::exception");
+    throw PixelError(maker, "what makes its pixels threw something other than a std::exception");
   }
 }
 

@@ -77,7 +77,7 @@ FormatFacts bmp(const FileNumbers& file) {
   static_assert(size_with_masks == size_of_info + 3 * 4);
   // The library assumes blue, green, red, alpha.
   if (masks[0] != 0xff0000 || masks[1] != 0xff00 || masks[2] != 0xff || (masks[3] != 0 && masks[3] != 0xff000000))
-    return refused("its channels do not lie in the usual order (blue, green, red, alpha); save it as PNG");
+    return refused("its channels are not in the usual order (blue, green, red, alpha); save it as PNG");
   if (masks[3] != 0) return {};
   return {.unused_alpha = true, .note = "the fourth byte of its pixels is unused, as its header says"};
 }
@@ -99,14 +99,14 @@ FormatFacts tga(const FileNumbers& file) {
   const uint64_t type = file.number(extension + at_attributes_type, 1);
   if (type == premultiplied) return {.premultiplied = true};
   if (type != no_alpha && type != ignore) return {};
-  return {.unused_alpha = true, .note = "its extension area says that its fourth channel is no alpha"};
+  return {.unused_alpha = true, .note = "its extension area says that its fourth channel is not alpha"};
 }
 
 FormatFacts psd(const FileNumbers& file) {
   constexpr std::array<std::string_view, 10> modes = {"",        "",   "", "", "CMYK", "", "", "multichannel (inks)",
                                                       "duotone", "Lab"};
   const uint64_t mode = file.big_endian(24, 2);
-  if (mode >= modes.size()) return refused("its header says no colour mode that is known");
+  if (mode >= modes.size()) return refused("its header has an unknown colour mode");
   return modes[mode].empty() ? FormatFacts() : refused_space(modes[mode]);
 }
 
@@ -130,13 +130,13 @@ FormatFacts dds(const FileNumbers& file) {
     // BC4, BC5, BC6H (both), BC7.
     if (has_dx10 && std::ranges::count(std::array{80, 83, 95, 96, 98}, file.number(128, 4)) == 0)
       return refused(
-          fmt::format("its format, number {} of DXGI, is none that is read; save it as PNG or EXR, or with "
+          fmt::format("its format, number {} of DXGI, is not supported; save it as PNG or EXR, or with "
                       "the header of DirectX 9 as DXT1, DXT5 or BC5U",
                       file.number(128, 4)));
     constexpr std::array<std::string_view, 9> known = {"DXT1", "DXT3", "DXT5", "ATI1", "ATI2",
                                                        "BC4U", "BC5U", "RXGB", "DX10"};
     if (std::ranges::find(known, code) == known.end())
-      return refused("its pixels have a format that is not read; save it as PNG or EXR, or as DXT1, DXT5 or BC5U");
+      return refused("the format of its pixels is not supported; save it as PNG or EXR, or as DXT1, DXT5 or BC5U");
     return {};
   }
   std::array<uint64_t, 3> masks{};

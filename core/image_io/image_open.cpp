@@ -67,7 +67,8 @@ std::unique_ptr<ImageDecoder> decoder_of(const fs::path& path) {
     const std::string reason = one_line(e.what());
     if (reason.find("Not a ") == reason.npos && reason.find("not a ") == reason.npos) fail_to_read(path, reason);
     // The image library's message only says which format it is not.
-    fail_to_read(path, fmt::format("it is no image of a known format ({}); save it as PNG, TIFF, EXR or JPEG", reason));
+    fail_to_read(path,
+                 fmt::format("it is not an image of a known format ({}); save it as PNG, TIFF, EXR or JPEG", reason));
   }
 }
 
@@ -188,8 +189,7 @@ void require_complete(const fs::path& path, const OpenFile& file) {
       (format == "png" && !png_is_complete(path)))
     fail_cut_off(path);
   if (format == "tiff" && !tiff_is_sound(path))
-    fail_to_read(path,
-                 "it is damaged: a checksum or a length in it does not fit; get the file again from where it came");
+    fail_to_read(path, "it is damaged: a checksum or a length in it is wrong; get the file again from its source");
 }
 
 void require_image_file(const fs::path& path) {

@@ -116,7 +116,7 @@ class PsdDecoder final : public ImageDecoder {
     header_.depth = psd_.bits == 8 ? Depth::u8 : psd_.bits == 16 ? Depth::u16 : Depth::f32;
     header_.type = psd_.bits == 8 ? "uint8" : psd_.bits == 16 ? "uint16" : "float";
     if (psd_.has_alpha() && psd_.has_transparency)
-      header_.note = "its layers' transparency blends its colours with white; they were parted from it";
+      header_.note = "its layers' transparency blends its colours with white; the white was removed";
     else if (psd_.channels > psd_.colours() + 1)
       header_.note = "of its extra channels the first is read, as alpha";
   }

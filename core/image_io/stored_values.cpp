@@ -163,9 +163,9 @@ std::vector<StoredValues::Remark> StoredValues::remarks() const {
                     double(*ids) * meaning_.integer_range, meaning_.integer_range));
   std::vector<Remark> out;
   if (!meaning_.facts.note.empty()) out.push_back({meaning_.facts.note});
-  if (meaning_.facts.inverted_colours) out.push_back({"0 is white in it, as it says; its values were inverted"});
+  if (meaning_.facts.inverted_colours) out.push_back({"it says that 0 is white; its values were inverted"});
   if (meaning_.facts.premultiplied) {
-    std::string text = "its colours are multiplied by alpha, as it says; they were divided by it";
+    std::string text = "it says that its colours are multiplied by alpha; they were divided by it";
     if (without_colour_ > 0)
       text += fmt::format(". {} of alpha 0 {} black", counted(without_colour_, "pixel"),
                           without_colour_ == 1 ? "stays" : "stay");

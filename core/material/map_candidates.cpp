@@ -43,7 +43,7 @@ const UnnamedPicture* layer_of_file_name(const Layers& layers, Candidates& out) 
     if (!is_picture(l)) continue;
     if (found) {
       out.notes.push_back(fmt::format(
-          "{}{}: neither of its layers {} and {} says what it is; both are left out. `maps` takes one in, as in "
+          "{}{}: neither of its layers {} and {} says what it is; both are left out. Choose one with `maps`, as in "
           "{{\"base_color\": \"{}:{}\"}}",
           warning_mark, l.file.name, found->file.layer, l.file.layer, l.file.name, found->file.layer));
       return nullptr;

@@ -133,7 +133,7 @@ void Levels::refuse_unknown(const Level& level, const std::vector<RoutedOverride
       const std::vector<std::string>& iterations = iterations_in(o.plain, *items);
       if (!std::ranges::binary_search(iterations, o.name)) refuse_name(o.name, iterations);
     } else if (!o.rest.empty() && !items->empty() && !items->front().inner && !items->front().draft->muted) {
-      refuse(fmt::format("{} is no graph that has nodes", in_quotes(o.name)));
+      refuse(fmt::format("{} is not a graph with nodes", in_quotes(o.name)));
     }
   }
 }
@@ -204,7 +204,7 @@ void Levels::read_iteration(Level& level, const JsonMember& member, const std::s
     is_full_ = true;
   };
   if (nodes_.size() + others_.size() >= most_nodes)
-    return refuse(fmt::format("a graph may have at most {} nodes, those of its subgraphs included", most_nodes));
+    return refuse(fmt::format("a graph may have at most {} nodes, including those of its subgraphs", most_nodes));
   std::vector<const Override*> own;
   std::vector<RoutedOverride> deeper;
   for (const RoutedOverride& o : overrides) {
@@ -235,7 +235,8 @@ void Levels::read_iteration(Level& level, const JsonMember& member, const std::s
   }
   if (graph || !is_graph) read_node(draft, member.value, own, problems_);
   text_ += bytes_of_values(draft.node.params);
-  if (text_ > most_text) return refuse("the values of all nodes together, with what they name, are longer than 64 MiB");
+  if (text_ > most_text)
+    return refuse("the values of all nodes, with the names in them replaced, are longer than 64 MiB in all");
   if (graph) parameters_ += graph->parameters.size();
   if (parameters_ > most_parameters)
     return refuse(fmt::format("the subgraphs of a graph may have at most {} parameters together", most_parameters));
@@ -299,7 +300,7 @@ std::optional<int64_t> Levels::read_seed(Level& level) {
   Substitution& substitution = *level.names.substitution;
   const std::optional<JsonValue> value = substitution.expand(given, param, diagnostics);
   if (!substitution.take_lacking().nodes.empty())
-    diagnostics.add(given.place, "the seed cannot be made from what nodes give: they may depend on it");
+    diagnostics.add(given.place, "the seed cannot depend on the results of nodes, which may depend on it");
   if (!value) return std::nullopt;
   const std::optional<ParamValue> read = read_param(*value, param, level.graph->folder, diagnostics);
   return read ? std::optional(std::get<int64_t>(*read)) : std::nullopt;

@@ -222,7 +222,7 @@ class Loader {
     levels_.set_forecasts([&](const std::string& name) -> const Forecast& {
       const std::string node = node_behind(name);
       if (const Forecast* found = forecasts.find(node)) return *found;
-      throw Error(fmt::format("what \"{}\" gives is not known before it runs", node));
+      throw Error(fmt::format("the results of \"{}\" are not known before it runs", node));
     });
     for (const size_t i : order) {
       NodeDraft& d = drafts[i];
@@ -319,7 +319,7 @@ class Loader {
     for (const Port& input : inputs)
       if (unset.contains(input.name))
         problems_.push_back({document_.find("inputs")->place, "input " + in_quotes(input.name),
-                             "nothing comes into it: a graph with inputs runs as a node of another graph"});
+                             "it is not connected: a graph with inputs runs as a node of another graph"});
   }
 
   /// The nodes without problems whose values are complete except for queried results.

@@ -127,7 +127,7 @@ class LoopReader {
         kind->value, {.name = kind->name, .type = is_path ? ParamType::path : ParamType::numbers}, diagnostics_);
     const Lacking lacking = substitution_.take_lacking();
     lacking_.add(lacking);
-    if (!lacking.nodes.empty()) report("a loop cannot depend on what nodes give");
+    if (!lacking.nodes.empty()) report("a loop cannot depend on the results of nodes");
     if (!given) return std::nullopt;
     if (is_path && !given->is_text()) {
       report(fmt::format("expected a text for \"{}\", found {}", kind->name, found(*given)));
@@ -229,7 +229,7 @@ class LoopReader {
     if (values.empty())
       return report(
           "expected at least one value, found an empty list; no wire could come from a node without iterations: give a "
-          "value, or take the node out");
+          "value, or remove the node");
     if (values.size() > most_variations)
       return report(fmt::format("expected at most {} values, found {}", most_variations, values.size()));
     const std::optional<ParamType> type = common_type(values);

@@ -82,7 +82,8 @@ class NodeReader {
     const std::optional<JsonValue> value = substitution_.expand(mute, param, diagnostics);
     const Lacking lacking = substitution_.take_lacking();
     draft_.unset.insert(lacking.unset.begin(), lacking.unset.end());
-    if (!lacking.nodes.empty()) diagnostics.add(mute.place, "whether a node is muted cannot depend on what nodes give");
+    if (!lacking.nodes.empty())
+      diagnostics.add(mute.place, "whether a node is muted cannot depend on the results of nodes");
     if (!value) return;
     if (const auto read = read_param(*value, param, reading_.graph_folder, diagnostics))
       draft_.muted = std::get<bool>(*read);
@@ -331,7 +332,7 @@ std::optional<JsonValue> expand_wires(const JsonValue& given, Substitution& subs
   std::optional<JsonValue> out = substitution.expand(given, {.name = "", .type = ParamType::texts}, diagnostics);
   const Lacking lacking = substitution.take_lacking();
   unset.insert(lacking.unset.begin(), lacking.unset.end());
-  if (!lacking.nodes.empty()) diagnostics.add(given.place, "a wire cannot depend on what nodes give");
+  if (!lacking.nodes.empty()) diagnostics.add(given.place, "a wire cannot depend on the results of nodes");
   return out;
 }
 

@@ -68,10 +68,10 @@ void refuse_others(const std::vector<Override>& settings, const std::vector<Over
   for (const Override& o : others) {
     const auto is_own = [&](const Override& s) { return !s.node.empty() && s.node == o.node && s.name == o.name; };
     if (std::ranges::any_of(settings, is_own)) continue;
-    o.diagnostics(problems).add(o.place,
-                                "the pack has no sources.json, which tells what of its inputs goes with what is set: "
-                                "an older version made it, or it is damaged. Pack it again (terrazzo pack), or run it "
-                                "as it is");
+    o.diagnostics(problems).add(
+        o.place,
+        "the pack has no sources.json, which says which of its inputs belong to which settings: an older version made "
+        "it, or it is damaged. Pack it again (terrazzo pack), or run it unchanged");
   }
 }
 
@@ -125,10 +125,10 @@ std::vector<Problem> writes_elsewhere(const Drafts& drafts, const fs::path& fold
         return !s.path.empty() && is_at(s.path, path) && is_set(given, s.node, s.name);
       };
       if (by != d.set_by.end() && std::ranges::any_of(by->second, allows)) continue;
-      out.push_back(problem_of(node, param.name,
-                               fmt::format("may not write {}: a pack writes into the folder that it lies in, {}, and "
-                                           "elsewhere only what --set or --params names",
-                                           path, folder.string())));
+      out.push_back(problem_of(
+          node, param.name,
+          fmt::format("may not write {}: a pack writes only into its own folder, {}, and where --set or --params says",
+                      path, folder.string())));
     }
   }
   return out;

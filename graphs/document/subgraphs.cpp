@@ -317,7 +317,7 @@ void Subgraphs::read_output(Subgraph& graph, const JsonMember& member) {
     const Port* source = is_wire(*from) ? port_behind(graph, *from) : nullptr;
     if (is_expression_)
       reader.diagnostics().add(member.value.place,
-                               "where an expression chooses the wire, its type must be given: {\"from\": \"=...\", "
+                               "if an expression chooses the wire, its type must be given: {\"from\": \"=...\", "
                                "\"type\": \"material\"}");
     if (!source) graph.is_wrong = true;
     if (source) reader.port().type = source->type;

@@ -178,7 +178,7 @@ class WireFollower {
     for (const Port& port : muted.node.type->inputs)
       for (const PortWires& p : muted.ports)
         if (p.port->name == port.name && port.type == type && !p.wires.empty()) return follow(level, p.wires.front());
-    asking_.add(end.place, fmt::format("the node {} is muted, and nothing of type {} comes into it that could pass",
+    asking_.add(end.place, fmt::format("the node {} is muted, and has no connected input of type {} to pass through",
                                        in_quotes(muted.node.name), name_of(type)));
     out_.is_faulty = true;
   }
@@ -209,8 +209,7 @@ void connect_port(NodeDraft& draft, PortWires& port) {
     draft.unset.merge(found.open);
   } else if (!port.port->optional) {
     const std::string use = draft.level->use ? draft.level->use->node.name : "";
-    refuse(
-        fmt::format("needs a wire, and nothing comes into {} of the node {}", in_quotes(end.spelled), in_quotes(use)));
+    refuse(fmt::format("needs a wire, and {} of the node {} is not connected", in_quotes(end.spelled), in_quotes(use)));
   }
 }
 

@@ -18,7 +18,8 @@ ExpressionValue size_in(const Forecast& forecast, const Node& fact) {
   for (const auto& [map, facts] : forecast.images)
     if (facts.size) sizes[map] = *facts.size;
   if (sizes.empty() && forecast.size) sizes[""] = *forecast.size;
-  if (sizes.empty()) throw Error(fmt::format("the size of what \"{}\" gives is not known before it runs", fact.name));
+  if (sizes.empty())
+    throw Error(fmt::format("the size of the result of \"{}\" is not known before it runs", fact.name));
   if (!fact.detail.empty()) {
     const auto at = sizes.find(fact.detail);
     std::vector<std::string> maps;

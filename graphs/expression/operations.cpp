@@ -127,11 +127,11 @@ ExpressionValue arithmetic(const std::string& op, const ExpressionValue& a, cons
   if (op == "-") return {value_of(pairwise(left, right, difference)), common_unit("a difference", a.unit, b.unit)};
   if (op == "%") return {value_of(pairwise(left, right, remainder)), common_unit("a remainder", a.unit, b.unit)};
   if (op == "*") {
-    if (!a.unit.empty() && !b.unit.empty()) throw Error(fmt::format("{} times {} is no unit here", a.unit, b.unit));
+    if (!a.unit.empty() && !b.unit.empty()) throw Error(fmt::format("{} times {} is not a unit here", a.unit, b.unit));
     return {value_of(pairwise(left, right, product)), a.unit.empty() ? b.unit : a.unit};
   }
   if (!b.unit.empty() && a.unit != b.unit)
-    throw Error(fmt::format("{} divided by {} is no unit here", a.unit.empty() ? "a number" : a.unit, b.unit));
+    throw Error(fmt::format("{} divided by {} is not a unit here", a.unit.empty() ? "a number" : a.unit, b.unit));
   return {value_of(pairwise(left, right, quotient)), b.unit.empty() ? a.unit : ""};
 }
 
@@ -348,7 +348,7 @@ ExpressionValue called(const std::string& function, const std::vector<Expression
                           [](const Number& n) { return real(n) < 0 ? difference(int64_t(0), n) : n; })),
             v.unit};
   if (function == "sqrt") {
-    if (!v.unit.empty()) throw Error(fmt::format("the square root of {} is no unit here", v.unit));
+    if (!v.unit.empty()) throw Error(fmt::format("the square root of {} is not a unit here", v.unit));
     return {value_of(each(elements_of(v, function), [](const Number& n) {
       if (real(n) < 0) throw Error(fmt::format("the square root of {}", real(n)));
       return simplest(std::sqrt(real(n)));

@@ -140,14 +140,14 @@ class Parser {
     const size_t offset = at_;
     if (accept("(")) {
       NodePtr out = choice();
-      expect(")", "at the end of what ( began");
+      expect(")", "to close (");
       return out;
     }
     if (accept("[")) return several({.kind = Node::Kind::list, .offset = offset}, "]");
     if (accept("@")) return fact(offset);
     if (accept("$")) {
       at_ = offset;
-      fail(fmt::format("a parameter's name stands here without $: {}", text_.substr(offset + 1, 40)));
+      fail(fmt::format("parameter names have no $ here: {}", text_.substr(offset + 1, 40)));
     }
     if (accept("'")) return text(offset);
     if (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.')) return number();

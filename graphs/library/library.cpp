@@ -151,7 +151,7 @@ fs::path library_file(std::string_view reference, LibraryFile what) {
   if (what == LibraryFile::analysis) return entry.analysis;
   if (entry.material.empty())
     throw Error(
-        fmt::format("the library does not say where the maps of {} lie; name their folder here, or tell the "
+        fmt::format("the library does not say where the maps of {} are; name their folder here, or tell the "
                     "library: terrazzo library add {} FILE --material FOLDER --force",
                     name, name));
   return entry.material;

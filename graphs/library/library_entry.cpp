@@ -86,7 +86,7 @@ LibraryEntry entry_from_json(std::string_view text, const std::string& name, con
     if (e.analysis.empty()) throw Error("it names no analysis");
     return e;
   } catch (const ordered_json::exception& e) {
-    throw Error(fmt::format("{} is no entry of a library: {}", file.string(), e.what()));
+    throw Error(fmt::format("{} is not an entry of a library: {}", file.string(), e.what()));
   } catch (const Error& e) {
     throw Error(fmt::format("{} cannot be used: {}", file.string(), e.what()));
   }

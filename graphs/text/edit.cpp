@@ -93,11 +93,11 @@ std::string with_member(std::string text, const JsonValue& object, size_t begin,
 
 std::string with_value(const std::string& text, const std::vector<std::string>& path, const JsonValue& value) {
   const ParsedJson parsed = parse_json(text);
-  if (!parsed.value) throw Error("the document is no JSON: " + parsed.problems.front().message);
+  if (!parsed.value) throw Error("the document is not JSON: " + parsed.problems.front().message);
   const JsonValue* at = &*parsed.value;
   for (size_t i = 0; i < path.size(); i++) {
     if (!at->is_object())
-      throw Error(fmt::format("{} cannot be set: what is around it is {}", in_quotes(path[i]), found(*at)));
+      throw Error(fmt::format("{} cannot be set: it would be inside {}", in_quotes(path[i]), found(*at)));
     const JsonValue* inner = at->find(path[i]);
     if (!inner) {
       std::string member = compact(value);

@@ -42,8 +42,8 @@ class Grouping {
     rename_in_presets();
     if (facts_.size() > 1)
       throw Error(
-          fmt::format("expressions outside ask for {}, and can ask a subgraph only for its first output; move "
-                      "fewer nodes, or those too that ask",
+          fmt::format("expressions outside query {}, and can query only the first output of a subgraph; move fewer "
+                      "nodes, or the querying nodes too",
                       listed({facts_.begin(), facts_.end()})));
     put_node(*nodes);
     section(document_, "graphs").set(name_, graph_with(std::move(inside)));

@@ -53,10 +53,10 @@ std::string ungrouped(std::string_view text, const fs::path& file, const std::st
   const Subgraph* graph = type ? document.graphs.find(*type, *document.main) : nullptr;
   document.throw_problems();
   if (!graph)
-    throw Error(fmt::format("the node {} is of type {}, which is no graph", in_quotes(node),
+    throw Error(fmt::format("the node {} is of type {}, which is not a graph", in_quotes(node),
                             in_quotes(type ? type->text : "")));
   if (graph->folder != document.main->folder)
-    throw Error(fmt::format("{} lies in another folder, which the paths in it are relative to", in_quotes(type->text)));
+    throw Error(fmt::format("{} is in another folder, and its paths are relative to that", in_quotes(type->text)));
   JsonValue out = document.json;
   detail::ungroup(out, *graph, node);
   return formatted(out);

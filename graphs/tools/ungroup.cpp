@@ -86,8 +86,9 @@ class Ungrouping {
                   if (const auto name = names_.find(from); name != names_.end()) return name->second;
                   const JsonValue* outer = input(from);
                   if (!outer || !is_wire(*outer))
-                    throw Error(fmt::format("an expression in it asks for its input {}, which comes from no one node",
-                                            in_quotes(from)));
+                    throw Error(fmt::format(
+                        "an expression in it queries its input {}, which does not come from exactly one node",
+                        in_quotes(from)));
                   return wire_parts(outer->text).first;
                 },
             .parameter = [this](const std::string& name) { return parameter(name); }};

@@ -86,7 +86,7 @@ std::optional<JsonValue> Substitution::expand_part(const JsonValue& value, const
 bool Substitution::has_room(const ParamValue& value, Place place, Diagnostics& diagnostics) {
   put_in_ += expression::bytes_of(value);
   if (put_in_ <= expression::most_text_bytes) return true;
-  diagnostics.add(place, "what it names makes it longer than 1 MiB");
+  diagnostics.add(place, "with the names in it replaced, it is longer than 1 MiB");
   return false;
 }
 

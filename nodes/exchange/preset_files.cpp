@@ -153,7 +153,7 @@ std::vector<FileContent> preset_files(const ExportPreset& preset, const Material
     out.push_back(whole_file(prefix + "_" + m.name, m, preset.normal_y));
     if (!preset.files.empty())
       notes.push_back(
-          fmt::format("{}: nothing of {} takes it; it is written as a file of its own", m.name, preset.name));
+          fmt::format("{}: no file of {} has a place for it; it is written as a separate file", m.name, preset.name));
   }
   return out;
 }

@@ -110,17 +110,18 @@ std::optional<Size> size_of_all(const std::vector<Forecast>& materials) {
 OutputForecasts mix_forecast(const Params& params, const InputForecasts& inputs) {
   const std::vector<Forecast>& materials = inputs.at("materials");
   std::optional<Size> size;
-  check_all([&] { require_one_channel("mix", image_at(inputs, "mix")); },
-            [&] {
-              if (wires_at(inputs, "masks") > 0)
-                throw Error("masks",
-                            "say where exemplars that lie side by side may be sampled; with \"mix\", which "
-                            "lays materials over each other, leave them open");
-            },
-            [&] {
-              if (border_of(params) == Border::height) require_compared_heights(known_maps(inputs));
-            },
-            [&] { size = size_of_all(materials); });
+  check_all(
+      [&] { require_one_channel("mix", image_at(inputs, "mix")); },
+      [&] {
+        if (wires_at(inputs, "masks") > 0)
+          throw Error(
+              "masks",
+              "are for exemplars side by side; with \"mix\", which lays materials over each other, leave them open");
+      },
+      [&] {
+        if (border_of(params) == Border::height) require_compared_heights(known_maps(inputs));
+      },
+      [&] { size = size_of_all(materials); });
   const auto unless_they_differ = [&](const std::string& map, ImageFacts& facts) {
     for (const Forecast& m : materials)
       if (map_of(m, map).size != facts.size) facts.size.reset();
@@ -140,8 +141,7 @@ OutputForecasts infer_combine(const Params& params, const InputForecasts& inputs
             [&] {
               if (!lays_over && border_of(params) != Border::hard)
                 throw Error("border",
-                            "is where materials meet that are laid over each other; connect \"mix\", which "
-                            "says where each shows");
+                            "is for materials laid over each other; connect \"mix\", which says where each shows");
             });
   if (lays_over) return mix_forecast(params, inputs);
   for (size_t i = 0; i < materials.size(); i++) require_mask_of(inputs, "masks", i, inputs.at("materials")[i]);

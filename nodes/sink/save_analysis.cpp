@@ -17,7 +17,8 @@ void require_no_other_kind(const std::filesystem::path& path) {
   } catch (const OutdatedFile&) {
     return;  // an analysis of an earlier terrazzo
   } catch (const DamagedFile&) {
-    throw Error("path", fmt::format("{} exists and is no analysis; name another file, or remove it", path.string()));
+    throw Error("path",
+                fmt::format("{} exists and is not an analysis; name another file, or remove it", path.string()));
   }
 }
 

@@ -79,8 +79,8 @@ std::string maps_of_other_endings(const Texts& present) {
   for (const std::string& name : present) {
     const bool is_file = !name.ends_with('/') && !looks_like_image(name);
     if (!is_file || extension_of(name).empty() || recognise_map({.name = name, .size = {}}).empty()) continue;
-    out += fmt::format("; {} would be a map by its name, but .{} is no ending of an image that is read", name,
-                       extension_of(name));
+    out +=
+        fmt::format("; {} would be a map by its name, but .{} files are not read as images", name, extension_of(name));
   }
   return out;
 }

@@ -40,7 +40,7 @@ auto guarded(const std::string& plugin, const Call& call) -> decltype(call()) {
   } catch (const std::exception& e) {
     throw Error(fmt::format("plug-in \"{}\" failed: {}", plugin, e.what()));
   } catch (...) {
-    throw Error(fmt::format("plug-in \"{}\" failed, and threw something that is no std::exception", plugin));
+    throw Error(fmt::format("plug-in \"{}\" failed, and threw something other than a std::exception", plugin));
   }
 }
 
@@ -79,7 +79,7 @@ const PluginInfo& info_of(const fs::path& file) {
   void* library = guarded(file.filename().string(), [&] { return ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); });
   if (!library) fail(file, ::dlerror());
   void* symbol = ::dlsym(library, "terrazzo_plugin");
-  if (!symbol) fail(file, "it is no plug-in of terrazzo: it has no TERRAZZO_PLUGIN");
+  if (!symbol) fail(file, "it is not a plug-in of terrazzo: it has no TERRAZZO_PLUGIN");
   const PluginInfo* info =
       guarded(file.filename().string(), [&] { return reinterpret_cast<const PluginInfo* (*)()>(symbol)(); });
   if (!info) fail(file, "it says nothing of itself");

@@ -59,7 +59,7 @@ Findings look_at(const CheckFlags& flags) {
     note(fmt::format("nodes that depend on an unset parameter were not checked: --set {}=VALUE", unset->param.name));
   } else if (!loaded.inputs.empty()) {
     check_what_is_set(loaded.graph);
-    note("nodes that depend on the graph's inputs were checked only as far as that goes without them");
+    note("nodes that depend on the graph's inputs were checked only as far as possible without them");
   } else {
     Session({.use_cache = false}).plan(loaded.graph);
   }

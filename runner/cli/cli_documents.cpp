@@ -155,7 +155,8 @@ int draw(const DocumentFlags& flags) {
 
 void add_document_commands(Command& program) {
   const auto add_out = [](Command& command, DocumentFlags& flags) {
-    command.add_option("-o,--out", &flags.out, "Write here and leave the graph file as it is").takes("FILE.json");
+    command.add_option("-o,--out", &flags.out, "Write to this file and leave the graph file unchanged")
+        .takes("FILE.json");
     command.add_flag("--force", &flags.force, force_help);
   };
   const auto add = [&](const char* name, const char* help, const char* footer, int (*act)(const DocumentFlags&)) {
@@ -188,7 +189,7 @@ void add_document_commands(Command& program) {
   group_command->add_option("NODE", &group_flags->nodes, "The nodes to move into it").required();
   group_command
       ->add_option("--to", &group_flags->to,
-                   "Put the subgraph into a file of its own, which other graphs use as \"type\": \"FILE.json\"")
+                   "Write the subgraph to its own file, which other graphs use as \"type\": \"FILE.json\"")
       .takes("FILE.json");
   add_out(*group_command, *group_flags);
   const auto [ungroup_command, ungroup_flags] = add("ungroup", "Turns a subgraph of a graph back into nodes",
@@ -196,7 +197,7 @@ void add_document_commands(Command& program) {
   ungroup_command->add_option("NODE", &ungroup_flags->name, "The node that is a subgraph").required();
   add_out(*ungroup_command, *ungroup_flags);
   const auto [diff_command, diff_flags] =
-      add("diff", "Says in words what differs between two graph files",
+      add("diff", "Describes how two graph files differ",
           "Order, layout and comments do not count. Exit code 0 if nothing differs, 1 if something does.\n"
           "Example:\n  terrazzo diff bricks.json bricks-new.json",
           diff);

@@ -84,9 +84,9 @@ void add_value_flags(Command& command, GraphFlags& flags) {
   };
   add("--set", flags.set, "NAME=VALUE",
       "Sets a graph parameter, or node.parameter; may be given several times. GRAPH --help lists the parameters");
-  add("--preset", flags.presets, "NAME", "Sets what a preset of the graph says; of several, the last counts most");
+  add("--preset", flags.presets, "NAME", "Sets the values of a preset of the graph; later presets take precedence");
   add("--params", flags.settings, "FILE.json",
-      "Sets what a file says, an object of values by name. Counts more than presets, less than --set");
+      "Sets the values in a JSON file, an object. Takes precedence over presets, --set over it");
 }
 
 namespace {

@@ -251,7 +251,7 @@ void add_library_command(Command& program) {
   adding.add_option("--material", &flags->addition.material, "Of a file: the folder of the maps that were analysed")
       .takes("DIR");
   adding.add_flag("--other-material", &flags->addition.other_material,
-                  "Take --material though it does not look like what was analysed");
+                  "Accept --material even if it does not look like the analysed material");
   adding.add_option("--tag", &flags->tags, "A word to find it by; may be given several times").takes("TAG").repeated();
   adding.add_option("--summary", &flags->summary, "A line about it").takes("TEXT");
   adding
@@ -265,7 +265,7 @@ void add_library_command(Command& program) {
 
   Command& listing = sub("list", "Lists analyses: all, or those with these words in name, summary or tags", list);
   listing.add_option("WORD", &flags->names, "What to look for");
-  listing.add_option("--tag", &flags->tags, "Only those with this tag; may be given several times")
+  listing.add_option("--tag", &flags->tags, "Only analyses with this tag; may be given several times")
       .takes("TAG")
       .repeated();
   listing.add_option("--sheet", &flags->sheet, "Write a sheet of their pictures, a picture or a page (.html)")
@@ -274,7 +274,7 @@ void add_library_command(Command& program) {
   listing.add_flag("--force", &flags->force, force_help);
   listing.add_flag("--json", &flags->json, "For programs");
 
-  sub("check", "Reads every file, and looks whether the maps are still those that were analysed; exit code 1 if not",
+  sub("check", "Reads every file and checks that the maps have not changed since the analysis; exit code 1 if one has",
       check)
       .add_option("NAME", &flags->names, "Only these");
   sub("remove", "Removes analyses from the library", remove)

@@ -100,7 +100,7 @@ void add_new_command(Command& program) {
   add_limit_flags(command, flags->limits);
   command.add_flag("--force", &flags->force, "Overwrite the graph file if it exists");
   command.footer =
-      "It looks at the maps, weights them, looks for what repeats, and says in comments what it chose and why.\n"
+      "It inspects the maps, weights them, looks for repeats, and explains its choices in comments.\n"
       "Examples:\n"
       "  terrazzo new bricks/ -o bricks.json && terrazzo run bricks.json\n"
       "  terrazzo new bricks/ -o tiling.json --like make_tileable";

@@ -293,9 +293,9 @@ void add_run_flags(Command& command, RunFlags& flags) {
                    "After a failure, go on with everything that does not need the failed node; the exit code is 1 all "
                    "the same");
   command
-      .add_option("--sandbox", &flags.sandbox,
-                  "Refuse to read or write anything for nodes outside of this folder, but for what --set names; links "
-                  "count as where they lead")
+      .add_option(
+          "--sandbox", &flags.sandbox,
+          "Let nodes read and write only in this folder and at paths that --set names; links count as their targets")
       .takes("DIR");
   command.add_option("--trace", &flags.trace, "Write a timeline for chrome://tracing").takes("FILE.json");
   command.add_flag("--force", &flags.force, force_help);
@@ -314,7 +314,8 @@ int run_with_flags(const LoadGraph& load, const RunFlags& flags) {
     throw UsageError(fmt::format("--report takes a file that ends in .html; \"{}\" does not", flags.report));
   check_protected(files_of(flags), flags.reads);
   check_replaced(files_of(flags), flags.force);
-  if (flags.is_checked() && !is_watching()) warn(flags, "what nodes read is not watched: " + why_not_watching());
+  if (flags.is_checked() && !is_watching())
+    warn(flags, "the files that nodes read are not watched: " + why_not_watching());
   const CancelOnSignal signals;
   Session session(open_cache(flags), {.threads = flags.threads, .checked = flags.is_checked()});
   if (flags.watch) return watch(load, flags, session, signals.flag());

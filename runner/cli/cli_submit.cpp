@@ -175,11 +175,12 @@ void show(const fs::path& folder, const FarmJob& job, const JobState& state, boo
   }
   for (const auto& [node, why] : job.left_out) table.push_back({node, "left out", "", why});
   if (table.size() > 1) print_result("\n{}", aligned(table));
-  if (!job.left_out.empty()) print_result("\nsubmit the same again once what was left out is mended\n");
+  if (!job.left_out.empty())
+    print_result("\nsubmit the same again once the errors are mended, for the nodes left out\n");
   if (state.count(UnitState::elsewhere) > 0)
     print_result("\nwritten to {} for another scheduler, which alone knows what is running\n", state.assignment.file);
   else if (!state.is_moving() && !state.is_complete())
-    print_result("\nlogs are in {}; submit the same again to make what is missing\n", (folder / "logs").string());
+    print_result("\nlogs are in {}; submit the same again to make missing results\n", (folder / "logs").string());
 }
 
 int wait_until_done(const fs::path& folder, const FarmJob& job, const SubmitFlags& flags, Cache& cache,

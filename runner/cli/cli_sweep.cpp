@@ -76,7 +76,7 @@ void add_sweep_flags(Command& command, SweepFlags& flags) {
       .takes("FILE.csv");
   command
       .add_option("--best", &flags.best,
-                  "Of a sweep or table: names the variation that is best by a figure, such as swd; NAME:min or "
+                  "With a sweep or table: names the variation with the best figure, such as swd; NAME:min or "
                   "NAME:max say which way is better")
       .takes("FIGURE");
 }
@@ -202,8 +202,7 @@ std::vector<T> Sweep::of_each(const std::string& base, const std::function<T(con
     const auto node = names_[v].find(base);
     if (node == names_[v].end())
       throw UsageError(fmt::format(
-          "--sheet, --figures, --best: {} has no node \"{}\", as what it is made from cannot be read; leave this "
-          "variation out",
+          "--sheet, --figures, --best: {} has no node \"{}\", as its sources cannot be read; leave this variation out",
           variations_[v].label(), base));
     auto at = made.find(node->second);
     if (at == made.end()) at = made.emplace(node->second, make(node->second)).first;

@@ -141,8 +141,8 @@ void add_synth_command(Command& program) {
       .takes("FORMAT");
   synth
       .add_option("--set", &flags->set,
-                  "Sets a parameter of the graph that this stands for (graphs/material.json, or graphs/noise.json), or "
-                  "of one of its nodes, as for run; may be given several times")
+                  "Sets a parameter of the stock graph (graphs/material.json or graphs/noise.json) or of one of its "
+                  "nodes, as for run; may be given several times")
       .takes("NAME=VALUE")
       .repeated();
   synth

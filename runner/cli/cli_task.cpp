@@ -115,12 +115,12 @@ std::vector<std::string> units_meant(const TaskFlags& flags, const fs::path& fol
       throw UsageError(fmt::format("--index {}: the array has tasks 0 to {}", flags.index, tasks.size() - 1));
     units = tasks[size_t(flags.index)];
   }
-  if (units.empty()) throw UsageError("which unit? `terrazzo task JOB --list` says what there is");
+  if (units.empty()) throw UsageError("which unit? `terrazzo task JOB --list` lists them");
   std::vector<std::string> names;
   for (const Unit& u : job.units) names.push_back(u.name);
   for (const std::string& u : units)
     if (!job.find(u)) throw UsageError(fmt::format("job {} has no unit \"{}\"{}", job.name, u, suggestion(u, names)));
-  if (!flags.stamp.empty() && units.size() != 1) throw UsageError("--stamp goes with one unit");
+  if (!flags.stamp.empty() && units.size() != 1) throw UsageError("--stamp needs exactly one unit");
   return units;
 }
 
@@ -146,7 +146,7 @@ void add_task_command(Command& program) {
       program.add_command("task", "Makes a part of a job that `submit` has frozen: for schedulers, which call it");
   const auto flags = std::make_shared<TaskFlags>();
   command.add_option("JOB", &flags->job, "The job's folder or name").required().takes("JOB");
-  command.add_option("UNIT", &flags->units, "What to make; --list says what there is, and what needs what")
+  command.add_option("UNIT", &flags->units, "The units to make; --list shows all units and what they need")
       .takes("UNIT");
   command.add_option("--array", &flags->array, "What to make, as a task of one of the job's arrays")
       .takes("ID")
@@ -157,9 +157,11 @@ void add_task_command(Command& program) {
       .not_negative();
   command.add_flag("--list", &flags->list, "Print the job's units, what they need and their states, as JSON");
   command
-      .add_option("--stamp", &flags->stamp, "When it is made, write what it is, by digest, for Snakemake or Nextflow")
+      .add_option("--stamp", &flags->stamp,
+                  "Write the digests of the unit's results here when they are made, for Snakemake or Nextflow")
       .takes("FILE.json");
-  command.add_option("--cache", &flags->cache, "Folder of the cache, if not the one that the job lies in").takes("DIR");
+  command.add_option("--cache", &flags->cache, "Folder of the cache, if not the one that contains the job")
+      .takes("DIR");
   command.add_option("--threads", &flags->threads, "Threads to use; one per core if not given")
       .takes("N")
       .from_to(1, 1024);

@@ -34,13 +34,13 @@ std::map<std::string, std::string> ExemplarFlags::interpretations() const {
 void add_exemplar_flags(Command& command, ExemplarFlags& flags) {
   command.add_option("FOLDER", &flags.folder, "The folder of the exemplar's maps").required().takes("DIR");
   command
-      .add_option("--name", &flags.name,
-                  "Which material of a folder that holds several: what the names of its files begin with; '*' takes "
-                  "all files as one")
+      .add_option(
+          "--name", &flags.name,
+          "Which material of a folder with several: the beginning of its files' names; '*' takes all files as one")
       .takes("STEM");
   command
       .add_option("--interpret", &flags.interpret,
-                  fmt::format("What the file of a map holds where neither its name nor its pixels say it; may be given "
+                  fmt::format("What a map's file holds if neither its name nor its pixels say so; may be given "
                               "several times. {}",
                               interpretation_help))
       .takes("MAP=HOW")

@@ -42,7 +42,7 @@ Graph analysing_graph(const LibraryAddition& asked, const fs::path& target) {
 
 /// The same nodes for an existing analysis.
 Graph copying_graph(const LibraryAddition& asked, const fs::path& target) {
-  if (!asked.set.empty()) throw UsageError("--set goes with a folder of maps; SOURCE is a file, analysed already");
+  if (!asked.set.empty()) throw UsageError("--set needs a folder of maps; SOURCE is a finished analysis");
   Graph graph;
   graph.nodes = {memory_node("index", "load_analysis", {{"path", absolute(asked.source)}}),
                  memory_node("file", "save_analysis", {{"path", target.string()}})};
@@ -107,7 +107,7 @@ std::optional<LibraryEntry> made_entry(const LibraryAddition& asked, const fs::p
                                        const std::atomic<bool>& cancelled, RunResult& result) {
   const bool is_folder = fs::is_directory(asked.source);
   if (is_folder && !asked.material.empty())
-    throw UsageError("--material goes with an analysis; SOURCE is the folder of the maps already");
+    throw UsageError("--material needs an analysis; SOURCE already is the folder of the maps");
   LibraryEntry entry;
   entry.analysis = place / "new.analysis";
   Graph graph = is_folder ? analysing_graph(asked, entry.analysis) : copying_graph(asked, entry.analysis);

@@ -131,7 +131,7 @@ bool takes_a_folder(std::string_view graph) {
 
 std::string starting_graph(const ExemplarFindings& look, std::string_view stock) {
   ParsedJson parsed = parse_json(stock);
-  if (!parsed.value) throw std::logic_error("the stock graph is no JSON");
+  if (!parsed.value) throw std::logic_error("the stock graph is not JSON");
   JsonValue& graph = *parsed.value;
   // Defaults are literal: "$" and "@" have no special meaning.
   folder_parameter(graph)->set("default", JsonValue::of(look.folder.generic_string()));

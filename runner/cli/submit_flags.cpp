@@ -26,7 +26,7 @@ void add_choices(Command& command, SubmitFlags& flags) {
       .not_with("--openjd")
       .not_with("--cancel");
   command.add_flag("--json", &flags.json, "With --status: for programs").only_with("--status");
-  command.add_option("--retries", &flags.retries, "With --wait: how often what got lost is handed over again")
+  command.add_option("--retries", &flags.retries, "With --wait: how often lost units are submitted again")
       .takes("N")
       .not_negative();
 }
@@ -50,7 +50,9 @@ void add_demands(Command& command, SubmitFlags& flags) {
                   "Short work is put into one task until it takes about this many seconds")
       .takes("SECONDS")
       .not_negative();
-  command.add_option("--program", &flags.program, "Where terrazzo is on the farm's machines, if not where it is here")
+  command
+      .add_option("--program", &flags.program,
+                  "The path of terrazzo on the farm's machines, if it differs from this one")
       .takes("FILE");
 }
 
@@ -64,9 +66,9 @@ void add_submit_flags(Command& command, SubmitFlags& flags) {
   command.add_option("--only", &flags.only, "Make only this node and what it needs; may be given several times")
       .takes("NODE")
       .repeated();
-  command.add_flag("--keep-going", &flags.keep_going,
-                   "Leave out what needs a source that cannot be read, and submit all else; the exit code is 1 all the "
-                   "same");
+  command.add_flag(
+      "--keep-going", &flags.keep_going,
+      "Leave out nodes that need an unreadable source, and submit the others; the exit code is 1 nevertheless");
   command
       .add_option("--cache", &flags.cache,
                   "Folder of the cache, which all machines must share; jobs are kept in its folder farm")

@@ -95,10 +95,8 @@ void require_declared(const Stage& stage, const NodeContext& context, const Watc
     if (declared.contains(path) || is_of_the_system(path) || !fs::is_regular_file(path, unresolved)) continue;
     const std::string_view declares =
         type.origin.name == "Python" ? "no parameter of type Path names" : "its `files_read` does not name";
-    throw Error(
-        fmt::format("checked: {} reads {}, which {}: when that file changes, results of before would be taken for "
-                    "those of now",
-                    type.name, path.string(), declares));
+    throw Error(fmt::format("checked: {} reads {}, which {}: when that file changes, outdated results would be reused",
+                            type.name, path.string(), declares));
   }
   for (const std::string& variable : reads.variables())
     if (std::ranges::find(color_variables, variable) == color_variables.end())

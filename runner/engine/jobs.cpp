@@ -299,7 +299,7 @@ void perform(StageJob& job, const Plan& plan, const RunOptions& options) {
   } catch (const std::exception& e) {
     fail("", fmt::format("internal error: {}", e.what()));
   } catch (...) {
-    fail("", "internal error: it threw something that is no std::exception");
+    fail("", "internal error: it threw something other than a std::exception");
   }
   if (job.busy) return;
   if (job.context) job.made_folders = job.context->made_folders();

@@ -109,8 +109,8 @@ std::string Sandbox::trouble_with(const char* verb, const fs::path& path) const 
                             : *place != path ? fmt::format(" (a link to {})", place->string())
                                              : "";
   return fmt::format(
-      "may not {} {}{}: it lies outside of the sandbox {}; give it to a parameter of type path with --set (a text "
-      "opens nothing), or choose a place in the sandbox",
+      "may not {} {}{}: it is outside the sandbox {}; give it to a parameter of type path with --set (a text opens "
+      "nothing), or choose a place in the sandbox",
       verb, path.string(), leads, given_.string());
 }
 

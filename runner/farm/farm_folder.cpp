@@ -43,7 +43,7 @@ fs::path FarmFolder::find_job(const std::string& which) const {
   if (fitting.size() == 1) return jobs() / fitting.front();
   if (fitting.size() > 1)
     throw Error(fmt::format("\"{}\" is the beginning of several jobs: {}", which, fmt::join(fitting, ", ")));
-  if (names.empty()) throw Error(fmt::format("\"{}\" is no graph file, and {} has no jobs", which, root_.string()));
+  if (names.empty()) throw Error(fmt::format("\"{}\" is not a graph file, and {} has no jobs", which, root_.string()));
   throw Error(
       fmt::format("\"{}\" is neither a graph file nor a job in {}{}", which, root_.string(), suggestion(which, names)));
 }

@@ -135,7 +135,7 @@ FarmJob read_farm_job(const fs::path& folder) {
     return job;
   } catch (const std::exception& e) {
     throw DamagedJob(
-        fmt::format("{} is no job of terrazzo, or has been altered or damaged: {}", file.string(), e.what()));
+        fmt::format("{} is not a job of terrazzo, or has been altered or damaged: {}", file.string(), e.what()));
   }
 }
 
@@ -160,7 +160,7 @@ void check_inputs(const FarmJob& job, const GraphNode& node, const fs::path& fol
       return job.inputs.contains(place_under(inputs, f).generic_string());
     };
     for (const fs::path& stranger : strangers_in(inputs / copies, is_known))
-      throw DamagedJob(fmt::format("farm/inputs/{} lies among the job's inputs and is none of them",
+      throw DamagedJob(fmt::format("farm/inputs/{} is in the folder of the job's inputs, but is not one of them",
                                    place_under(inputs, stranger).string()));
   }
 }

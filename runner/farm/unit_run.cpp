@@ -70,7 +70,8 @@ bool has_all_it_needs(const FarmJob& job, const Unit& unit, const std::set<std::
 StageRecord verified(const Stage& stage, Cache& cache) {
   if (!stage.known || !stage.known->record) throw Error("its record is not in the cache");
   for (const OutputFile& f : stage.known->record->files)
-    if (content_digest(f.path) != f.content) throw Error(fmt::format("{} is not what was written", f.path.string()));
+    if (content_digest(f.path) != f.content)
+      throw Error(fmt::format("{} has changed since it was written", f.path.string()));
   if (stage.type().persist == Persist::payload)
     for (const auto& [port, value] : stage.known->record->outputs)
       if (!cache.load_value(value)) throw Error(fmt::format("its output {} cannot be read", port));

@@ -126,17 +126,14 @@ class PreflightChecker {
     for (fs::path above = place.parent_path(); above.has_relative_path(); above = above.parent_path())
       if (const auto writer = writers_.find(above); writer != writers_.end())
         return fmt::format(
-            "{} would be both a file, which the node \"{}\" writes, and a folder, for {}; name one of "
-            "them otherwise",
+            "{} would be both a file, which the node \"{}\" writes, and a folder, for {}; rename one of them",
             above.string(), writer->second.node, path.string());
     const auto below = writers_.upper_bound(place);
     if (below == writers_.end() ||
         std::mismatch(place.begin(), place.end(), below->first.begin(), below->first.end()).first != place.end())
       return {};
-    return fmt::format(
-        "{} would be both a file and a folder, for {}, which the node \"{}\" writes; name one of them "
-        "otherwise",
-        path.string(), below->second.path.string(), below->second.node);
+    return fmt::format("{} would be both a file and a folder, for {}, which the node \"{}\" writes; rename one of them",
+                       path.string(), below->second.path.string(), below->second.node);
   }
 
   void check_files(const GraphNode& node, const std::vector<FutureFile>& files) {

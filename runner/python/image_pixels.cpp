@@ -120,7 +120,7 @@ void bind_images(py::module_& module) {
       .def(
           "numpy", &pixels_of,
           "A read-only view of the pixels as float32: (height, width) or (height, width, channels). Keeps them alive;\n"
-          "no copy where they lie in memory.")
+          "no copy if they are in memory.")
       .def("__array__", &as_array, py::arg("dtype") = py::none(), py::arg("copy") = py::none())
       .def_property_readonly("width", [](const ImageHandle& i) { return i.image->width(); })
       .def_property_readonly("height", [](const ImageHandle& i) { return i.image->height(); })

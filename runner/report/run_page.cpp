@@ -95,8 +95,9 @@ std::string RunPage::warnings() const {
   for (const Failure& f : result_.failures) out += fmt::format("<p class=\"failed\">{}</p>\n", markup(f.message));
   out += list_html(notes_html(result_, true), "warning");
   if (left_out_ > 0)
-    out += fmt::format("<p class=\"quiet\">This page shows what the first nodes gave; that of {} is left out.</p>\n",
-                       counted(left_out_, "more node"));
+    out += fmt::format(
+        "<p class=\"quiet\">This page shows the results of the first nodes; those of {} are left out.</p>\n",
+        counted(left_out_, "more node"));
   return out;
 }
 

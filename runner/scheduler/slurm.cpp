@@ -105,7 +105,7 @@ std::string Slurm::why_unreachable() const {
   if (has_answered_) return "";
   const std::string message = ping.out.empty() ? last_line(ping.err) : first_line(ping.out);
   if (!configuration)
-    return message + ". SLURM_CONF is not set: set it to the cluster's slurm.conf, unless Slurm finds that by itself";
+    return message + ". SLURM_CONF is not set: set it to the cluster's slurm.conf, unless Slurm finds it without";
   return fmt::format("{}. SLURM_CONF is {}: it must be the cluster's slurm.conf, and slurmctld must run there", message,
                      configuration);
 }

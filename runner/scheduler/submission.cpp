@@ -36,7 +36,7 @@ std::shared_ptr<Lease> lease_of(const std::string& job, Cache& cache) {
     if (!attempt.taken) return attempt.lease;
     std::this_thread::sleep_for(pause);
   }
-  throw Error(fmt::format("job {} is being handed over by another process, which does not come to an end", job));
+  throw Error(fmt::format("job {} is still being submitted by another process", job));
 }
 
 std::string batch_job_of(const QueuedTask& task) {

@@ -25,10 +25,9 @@ bool CheckedFlag::holds(const std::string& cache) const {
 }
 
 void add_checked_flag(Command& command, CheckedFlag& flag) {
-  command.add_flag(
-      "--checked", &flag.yes,
-      "Run every node twice and watch what it reads: one that is not deterministic, or reads files or variables of the "
-      "environment that its key does not cover, fails. Uses one thread and no cache");
+  command.add_flag("--checked", &flag.yes,
+                   "Run every node twice and watch what it reads. A node fails if it is not deterministic, or reads "
+                   "files or environment variables that its key does not cover. Uses one thread and no cache");
   if (is_for_debugging)
     command.add_flag("--no-checked", &flag.no, "Do not, as this program, which is built for debugging, does otherwise")
         .not_with("--checked");

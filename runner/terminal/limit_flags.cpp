@@ -22,10 +22,9 @@ void add_limit_flags(Command& command, LimitFlags& flags) {
                   "read into a temporary file")
       .takes("SIZE");
   command
-      .add_option(
-          "--max-pixels", &flags.max_pixels,
-          "Read no image of more pixels; as many as fit into half of the machine's memory if not given, or into "
-          "16 times what --memory says")
+      .add_option("--max-pixels", &flags.max_pixels,
+                  "Read no image of more pixels. Default: as many as fit into half of the machine's memory, or into 16 "
+                  "times --memory")
       .takes("N")
       .checked_by([](const std::string& text) {
         int64_t pixels = 0;

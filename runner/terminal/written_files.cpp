@@ -159,8 +159,7 @@ void check_replaced(const std::vector<WrittenFile>& files, bool force) {
             fmt::format("{} {}: {} names the same file; name another", file.option, file.path, files[j].option));
     if (!force && is_regular(file.path) && !is_of_kind(file.path, file.kind))
       throw UsageError(
-          fmt::format("{} {}: there is a file of that name that is no {}; name another, or overwrite it with "
-                      "--force",
+          fmt::format("{} {}: a file of that name exists and is no {}; name another, or overwrite it with --force",
                       file.option, file.path, name_of(file.kind)));
   }
 }

@@ -119,8 +119,7 @@ TEST_CASE("TIFF that stores 0 as white is inverted at every depth, and alpha is 
   for (const bool big : {false, true}) {
     const Tiff tiff{.photometric = 0, .bits = 16, .is_big_endian = big};
     CHECK(pixels(tiff, packed({0, 16384, 65535}, 2, big)) == std::vector<float>{1, 49151 / 65535.0f, 0});
-    CHECK(contains(read_with_warnings(path).warnings,
-                   "white.tif: 0 is white in it, as it says; its values were inverted"));
+    CHECK(contains(read_with_warnings(path).warnings, "white.tif: it says that 0 is white; its values were inverted"));
   }
   CHECK(pixels({.photometric = 0, .bits = 32}, packed({0, 1u << 30, 0xffffffff}, 4)) ==
         std::vector<float>{1, 0.75f, 0});
@@ -156,7 +155,7 @@ TEST_CASE("colours of TIFF that are multiplied by alpha are divided by it") {
   const ReadImage r = read_as(associated, {100, 50, 25, 128, 0, 0, 0, 0});
   CHECK(r.pixels() == std::vector<float>{199 / 255.0f, 100 / 255.0f, 50 / 255.0f, 128 / 255.0f, 0, 0, 0, 0});
   CHECK(r.warnings ==
-        "warning: alpha.tif: its colours are multiplied by alpha, as it says; they were divided by it. 1 pixel of "
+        "warning: alpha.tif: it says that its colours are multiplied by alpha; they were divided by it. 1 pixel of "
         "alpha 0 stays black\n");
   {
     const PixelRoom no_room{uint64_t{1} << 60};
@@ -227,7 +226,7 @@ TEST_CASE("the fourth byte of BMP pixels is alpha only where the header says so"
   CHECK(channels({.header = 124, .compression = 3, .masks = all}) == 4);
   CHECK(channels({.compression = 6, .masks = all}) == 4);
   write_bytes(path, make_bmp({.compression = 3, .masks = {0xff000000, 0xff0000, 0xff00}}, pixel));
-  CHECK(contains(read_error(path), "its channels do not lie in the usual order"));
+  CHECK(contains(read_error(path), "its channels are not in the usual order"));
 }
 
 TEST_CASE("DDS comes with the channels that it stores; what is no flat picture is refused") {

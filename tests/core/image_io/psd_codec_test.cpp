@@ -92,7 +92,7 @@ TEST_CASE("palettes and packed rows of PSD files are expanded") {
   CHECK(read_psd(path).pixels() == fractions({9, 1, 5, 9, 2, 6, 9, 3, 6, 9, 4, 6, 9, 4, 6}, 255));
 }
 
-TEST_CASE("colours under the transparency of layers are parted from white") {
+TEST_CASE("colours under the transparency of layers are freed from white") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "x.psd";
   // 200, 100, 50 at alpha 128 on white; and at alpha 0.
@@ -101,7 +101,7 @@ TEST_CASE("colours under the transparency of layers are parted from white") {
                          Psd{.version = 2, .channels = 4, .block = "Mt16"}}) {
     write_bytes(path, make_psd(psd, planes));
     CHECK(read_psd(path).pixels() == fractions({199, 100, 50, 128, 255, 255, 255, 0}, 255));
-    CHECK(contains(read_psd(path).warnings, "they were parted from it"));
+    CHECK(contains(read_psd(path).warnings, "the white was removed"));
   }
   write_bytes(path, make_psd({.channels = 4, .layers = 1}, planes));
   CHECK(read_psd(path).pixels()[0] == 227 / 255.0f);

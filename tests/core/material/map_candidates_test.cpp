@@ -68,7 +68,7 @@ TEST_CASE("of two pictures that a file's name may mean neither is taken") {
   const Recognition r = recognised("wall_color.exr", {{"left", 3}, {"right", 3}});
   CHECK(r.maps.empty());
   CHECK(has_note(r, R"(warning: wall_color.exr: neither of its layers left and right says what it is; both are left )"
-                    R"(out. `maps` takes one in, as in {"base_color": "wall_color.exr:left"})"));
+                    R"(out. Choose one with `maps`, as in {"base_color": "wall_color.exr:left"})"));
 }
 
 TEST_CASE("layers of several materials in one file are told apart by the words before the map") {

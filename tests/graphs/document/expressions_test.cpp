@@ -185,7 +185,7 @@ TEST_CASE("an expression cannot ask for what is made from it, nor for what is no
   CHECK(problem(R"("a": {"type": "pattern", "size": 64}, "w": {"type": "weight", "material": "@a"},)"
                 R"("s": {"type": "pca", "features": "@w"}, "i": {"type": "index", "appearance": "@s"},)"
                 R"("b": {"type": "make_tileable", "index": "@i"}, "c": {"type": "noise", "size": "=@b.size"})")
-            .find("the size of what \"b\" gives is not known before it runs") != std::string::npos);
+            .find("the size of the result of \"b\" is not known before it runs") != std::string::npos);
   CHECK(problem(R"("a": {"type": "noise", "size": "=@wrong.size"})").find("@wrong leads to no node") !=
         std::string::npos);
   CHECK(problem(R"("a": {"type": "load_map", "path": "missing.png"}, "b": {"type": "noise", "size": "=@a.size"})")

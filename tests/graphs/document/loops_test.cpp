@@ -109,7 +109,7 @@ TEST_CASE("what is wrong about a loop") {
   CHECK(problem(R"({"values": [1], "files": "x"})").starts_with("expected one of"));
   CHECK(problem(R"({"values": []})")
             .ends_with("found an empty list; no wire could come from a node without iterations: "
-                       "give a value, or take the node out"));
+                       "give a value, or remove the node"));
   CHECK(problem(R"({"values": [1, "a"]})").starts_with("expected values of one kind"));
   CHECK(problem(R"({"values": "1..x"})").starts_with("expected a list of values, or a range"));
   CHECK(problem(R"({"values": "1..99999"})").starts_with("more than 10000 variations"));

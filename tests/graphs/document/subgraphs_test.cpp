@@ -94,7 +94,7 @@ TEST_CASE("subgraphs nest, and overrides reach every level") {
   CHECK(std::get<double>(node_of(loaded, "b/other/first").params.at("low")) == -1);
   CHECK(problems_of(text, {"b/othr.amount=1", "b/other/first/x.low=1", "b/other.amont=1"}) ==
         "test.json: override \"b/other.amont=1\": twice has no port or parameter \"amont\" (did you mean \"amount\"?)\n"
-        "test.json: override \"b/other/first/x.low=1\": \"first\" is no graph that has nodes\n"
+        "test.json: override \"b/other/first/x.low=1\": \"first\" is not a graph with nodes\n"
         "test.json: override \"b/othr.amount=1\": \"b\" has no node \"othr\" (did you mean \"other\"?)");
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("a graph with inputs can be checked by itself, and run only as a node"
   const std::string text = R"({"terrazzo": 1, "inputs": {"m": {"type": "material"}}, "nodes": {
     "w": {"type": "write", "material": "@m", "path": "x.png"}}})";
   CHECK(
-      problems_of(text).ends_with("input \"m\": nothing comes into it: a graph with inputs runs as a node of another "
+      problems_of(text).ends_with("input \"m\": it is not connected: a graph with inputs runs as a node of another "
                                   "graph"));
   const LoadedGraph loaded = load_graph_text(text, "/p/t.json", {}, {.types = fake_types(), .allow_unset = true});
   REQUIRE(loaded.graph.nodes.size() == 1);
@@ -227,8 +227,8 @@ TEST_CASE("a muted node does not run, and what comes into it passes") {
         std::vector<std::string>{"a", "b"});
   CHECK(problems_of(document(R"("b": {"type": "photo", "file": "a.png", "mute": true})" + written))
             .ends_with(
-                "node \"out\", port \"material\": the node \"b\" is muted, and nothing of type image comes into it "
-                "that could pass"));
+                "node \"out\", port \"material\": the node \"b\" is muted, and has no connected input of type image "
+                "to pass through"));
 }
 
 TEST_CASE("seeds come from the path, so that two uses of a subgraph have different ones") {

@@ -154,8 +154,8 @@ TEST_CASE("units of sums, comparisons and lists agree") {
   CHECK(trouble("radius + turn") == "7: a sum of pixels and degrees: the units differ");
   CHECK(trouble("radius < turn") == "7: a comparison of pixels and degrees: the units differ");
   CHECK(trouble("radius == turn") == "7: a comparison of pixels and degrees: the units differ");
-  CHECK(trouble("radius * size.x") == "7: pixels times pixels is no unit here");
-  CHECK(trouble("1 / radius") == "2: a number divided by pixels is no unit here");
+  CHECK(trouble("radius * size.x") == "7: pixels times pixels is not a unit here");
+  CHECK(trouble("1 / radius") == "2: a number divided by pixels is not a unit here");
   CHECK(trouble("[radius, turn]") == "0: a list of pixels and degrees: the units differ");
   CHECK(trouble("max(radius, turn)") == "0: max of pixels and degrees: the units differ");
 }
@@ -191,7 +191,7 @@ TEST_CASE("facts of nodes are what is known before they run") {
   CHECK(shown("@bricks.maps") == "['height', 'normal']");
   CHECK(shown("@mixed.size") == "the size 128x64 pixels");  // as a material has it: that of its largest map
   CHECK(trouble("@bricks.heigt.size").starts_with("0: \"bricks\" gives no map \"heigt\" whose size is known (did you"));
-  CHECK(trouble("@nothing.size") == "0: the size of what \"nothing\" gives is not known before it runs");
+  CHECK(trouble("@nothing.size") == "0: the size of the result of \"nothing\" is not known before it runs");
   CHECK(trouble("@some.count") == "0: which maps \"some\" gives is not known before it runs");
   CHECK(trouble("@bricks.height.mean") == "15: of a map only the size is known before it is made, found mean");
   CHECK(trouble("@bricks") == "7: expected .size, .MAP.size, .count or .maps after @bricks");
@@ -207,11 +207,11 @@ TEST_CASE("errors say where they are and what was expected") {
   CHECK(trouble("") == "0: expected a number, a name, 'text' or (, found the end");
   CHECK(trouble("1 +") == "3: expected a number, a name, 'text' or (, found the end");
   CHECK(trouble("1 2") == "2: expected an operator or the end, found 2");
-  CHECK(trouble("(1") == "2: expected ) at the end of what ( began, found the end");
+  CHECK(trouble("(1") == "2: expected ) to close (, found the end");
   CHECK(trouble("max(1, 2") == "8: expected ) or a comma, found the end");
   CHECK(trouble("true ? 1") == "8: expected : and what holds otherwise, found the end");
   CHECK(trouble("'abc") == "0: expected ' at the end of the text");
-  CHECK(trouble("$size / 2") == "0: a parameter's name stands here without $: size / 2");
+  CHECK(trouble("$size / 2") == "0: parameter names have no $ here: size / 2");
   CHECK(trouble("3px") == "0: expected an operator after the number; a unit is not written");
   CHECK(trouble("seed = 7") == "5: a comparison is written ==");
   CHECK(trouble("1 + wrong") == "4: no wrong");

@@ -120,6 +120,6 @@ TEST_CASE("what cannot be grouped or ungrouped") {
   CHECK_THROWS_WITH(grouped(text, "t.json", "files", {"space"}),
                     "there is a node \"files\" already; choose another name");
   CHECK_THROWS_WITH(grouped(text, "t.json", "a b", {"space"}), "\"a b\": expected a name of letters, digits, _ and -");
-  CHECK_THROWS_WITH(ungrouped(text, "t.json", "space"), "the node \"space\" is of type \"pca\", which is no graph");
+  CHECK_THROWS_WITH(ungrouped(text, "t.json", "space"), "the node \"space\" is of type \"pca\", which is not a graph");
   CHECK_THROWS_WITH(ungrouped(text, "t.json", "spce"), "the graph has no node \"spce\" (did you mean \"space\"?)");
 }

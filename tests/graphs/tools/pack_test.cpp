@@ -201,7 +201,7 @@ TEST_CASE("a pack writes beside itself, and elsewhere only where it is told to")
   CHECK(refused(*near, {"w.path=/somewhere/{map}.png"}) == "");
   CHECK(contains(refused(*near, {}, {"far"}), "(--set out): may not write /elsewhere/{map}.png"));
   const auto far = packed_with("$out/{map}.png", "/elsewhere");
-  CHECK(contains(refused(*far), "a pack writes into the folder that it lies in"));
+  CHECK(contains(refused(*far), "a pack writes only into its own folder"));
   CHECK(refused(*far, {"out=/somewhere"}) == "");
   CHECK_FALSE(refused(*packed_with("../{map}.png", "out")).empty());
   // Only a path opens a place, and only that.

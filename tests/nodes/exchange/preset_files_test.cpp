@@ -101,7 +101,7 @@ TEST_CASE("what a material lacks is a constant, and what a preset does not take 
   CHECK(f.first_pixel("T_wall_data_cavity") == Pixel{0.15f});
   CHECK(f.notes.size() == 3);
   CHECK(contains(f.notes[0], "no ambient_occlusion, so channel r is 1"));
-  CHECK(contains(f.notes[2], "data_cavity: nothing of unreal takes it"));
+  CHECK(contains(f.notes[2], "data_cavity: no file of unreal has a place for it"));
   CHECK(files("unity_hdrp", material({"roughness"})).first_pixel("wall_MaskMap")[3] == 0.5f);
   const Files plain = files("unreal", material({"metallic", "ambient_occlusion", "roughness"}));
   CHECK(plain.first_pixel("T_wall_ORM").empty());

@@ -330,7 +330,7 @@ TEST_CASE("pictures of rarer formats are maps, and those of formats that are not
   CHECK_FALSE(run.says("sketch"));
   fs::remove(folder.path() / "wall_color.ppm");
   const std::string error = error_of("load_material", {{"path", folder.path().string()}});
-  CHECK(contains(error, "wall_height.kra would be a map by its name, but .kra is no ending of an image that is read"));
+  CHECK(contains(error, "wall_height.kra would be a map by its name, but .kra files are not read as images"));
   CHECK_FALSE(contains(error, "sketch.kra would"));
   CHECK(contains(error, "`terrazzo nodes load_material` has them all"));
 }

@@ -311,10 +311,10 @@ TEST_CASE("blue that is another map is a warning, and `interpret` settles it") {
   const auto with_blue = [](float x, float y, float) { return Pixel{x, y, 0.5f + 0.3f * std::sin(7919 * x)}; };
   const Written file("wall_normal.png", with_blue);
   const NodeRun one = run_node("load_map", {{"path", (file.path() / file.name).string()}, {"semantic", "normal"}});
-  CHECK(one.says("warning: wall_normal.png: its blue is no z that belongs to red and green"));
+  CHECK(one.says("warning: wall_normal.png: its blue is not the z of red and green"));
   CHECK(one.says("`interpret` \"xy\" rebuilds z from red and green"));
   const NodeRun all = run_node("load_material", {{"path", file.path().string()}});
-  CHECK(all.says("warning: normal: wall_normal.png: its blue is no z"));
+  CHECK(all.says("warning: normal: wall_normal.png: its blue is not the z"));
   file.check(eight_bits, "it is said to have no z", "xy");
   for (const char* type : {"uint8", "half"}) {
     const Written whole(

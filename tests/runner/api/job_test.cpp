@@ -83,7 +83,7 @@ TEST_CASE("an input of the graph takes a value from memory") {
   Session session({.use_cache = false});
   Job job = Job::from_text(graph_with_input);
   REQUIRE(job.check().size() == 1);
-  CHECK(contains(job.check()[0].message, "nothing comes into it"));
+  CHECK(contains(job.check()[0].message, "it is not connected"));
   job.give("surface", grey(0.5f));
   CHECK(job.check().empty());
   CHECK(first_pixel(session.run(job.checked(), {.keep = {"pale"}}), "pale") == doctest::Approx(0.75));

@@ -93,8 +93,8 @@ TEST_CASE("library add takes a folder or an analysis, and replaces only by force
   refused({"bricks", "bricks"}, "--force replaces it");
   CHECK(w.run({"library", "add", "bricks", "bricks", "--force"}).code == 0);
   refused({"other", "b.analysis", "--material", "gravel"}, "these are not the maps that were analysed");
-  refused({"other", "b.analysis", "--set", "weighted.weights.height=2"}, "--set goes with a folder");
-  refused({"other", "bricks", "--material", "bricks"}, "--material goes with an analysis");
+  refused({"other", "b.analysis", "--set", "weighted.weights.height=2"}, "--set needs a folder");
+  refused({"other", "bricks", "--material", "bricks"}, "--material needs an analysis");
   refused({"../other", "bricks"}, "cannot be the name of an entry");
   refused({"other", "nothing-here"}, "SOURCE: cannot read");
   refused({"other", "library"}, "SOURCE: no maps recognised");

@@ -71,7 +71,7 @@ TEST_CASE("no option overwrites what the command reads or what its nodes write, 
             "out=='out/' + radius"},
            "it is the table of --table"},
           {{"run", "saves.json", "--set", "file.path=saves.json"},
-           "saves.json exists and is no analysis; name another file"},
+           "saves.json exists and is not an analysis; name another file"},
           {{"synth", "maps", "-o", "out", "--force", "--trace", "maps/stone_basecolor.png"},
            "the node \"exemplar\" reads it"},
           {{"upgrade", "soft.json", "--force", "-o", "soft.html"}, "it is the graph file"},
@@ -94,7 +94,7 @@ TEST_CASE("files of another kind are overwritten with --force only") {
   write_text(w.path / "analysis", "no analysis");
   const std::string& report = "--report";
   check_refused(w, {
-                       {{"run", "soft.json", report, "thesis.html"}, "that is no page of terrazzo; name another, or"},
+                       {{"run", "soft.json", report, "thesis.html"}, "is no page of terrazzo; name another, or"},
                        {{"run", "soft.json", "--trace", "data.json"}, "no timeline of terrazzo"},
                        {{"run", "soft.json", "--trace", "photo.png"}, "no timeline of terrazzo"},
                        {{"upgrade", "soft.json", "-o", "data.json"}, "no graph file"},

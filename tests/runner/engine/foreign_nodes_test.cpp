@@ -75,7 +75,7 @@ TEST_CASE("pixels that cannot be made are a failure of the node that makes them,
     REQUIRE(r.failures.size() == 1);
     CHECK(r.failures[0].node == "maker");
     const std::string says =
-        is_exception ? "out of luck" : "what makes its pixels threw something that is no std::exception";
+        is_exception ? "out of luck" : "what makes its pixels threw something other than a std::exception";
     CHECK_MESSAGE(r.failures[0].message.find(says) != std::string::npos, r.failures[0].message);
   }
 }

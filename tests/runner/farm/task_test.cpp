@@ -176,12 +176,12 @@ TEST_CASE("a job that was damaged is refused by the name of the file, and mended
       {"another size", [&] { replace_in(graph, "[64, 64]", "[32, 32]"); }, graph.string() + " is not the graph"},
       {"a cut graph", [&] { fs::resize_file(graph, 100); }, graph.string() + " is not the graph"},
       {"no graph", [&] { fs::remove(graph); }, graph.string()},
-      {"no job", [&] { fs::remove(document); }, document.string() + " is no job of terrazzo"},
-      {"a cut job", [&] { fs::resize_file(document, 200); }, document.string() + " is no job of terrazzo"},
+      {"no job", [&] { fs::remove(document); }, document.string() + " is not a job of terrazzo"},
+      {"a cut job", [&] { fs::resize_file(document, 200); }, document.string() + " is not a job of terrazzo"},
       {"an altered job", [&] { replace_in(document, "\"wanted\": true", "\"wanted\": false"); },
-       document.string() + " is no job of terrazzo"},
+       document.string() + " is not a job of terrazzo"},
       {"another format", [&] { replace_in(document, "\"format\": 2", "\"format\": 1"); },
-       document.string() + " is no job of terrazzo"},
+       document.string() + " is not a job of terrazzo"},
       {"a lost input", [&] { fs::remove(input); }, copy + ", " + original + ", has been lost"},
       {"a cut input", [&] { fs::resize_file(input, 50); }, copy + ", " + original + ", has been altered"},
       {"an altered input",
@@ -191,7 +191,7 @@ TEST_CASE("a job that was damaged is refused by the name of the file, and mended
        copy + ", " + original + ", has been altered"},
       {"an input that looks unaltered", [&] { alter_unseen(input); }, copy + ", " + original + ", has been altered"},
       {"one input more", [&] { fs::copy_file(input, input.parent_path() / "b.png"); },
-       "b.png lies among the job's inputs"},
+       "b.png is in the folder of the job's inputs"},
   };
   for (const Damage& damage : all) {
     CAPTURE(damage.what);
@@ -246,7 +246,7 @@ TEST_CASE("wrong names of jobs, units and arrays") {
   CHECK(none.code == 2);
   CHECK(none.err.find("neither a graph file nor a job") != std::string::npos);
   write_text(job.folder / "job.json", "{}");
-  CHECK(job.task({"x"}).err.find("no job of terrazzo, or has been altered or damaged") != std::string::npos);
+  CHECK(job.task({"x"}).err.find("not a job of terrazzo, or has been altered or damaged") != std::string::npos);
 }
 
 TEST_CASE("submit without Slurm says what is missing, and prints what it would do") {

@@ -237,7 +237,7 @@ TEST_CASE("a controller that cannot be reached is given up after seconds; the me
     tools.add("scontrol", "echo 'fetching' >&2; echo 'scontrol: fatal: no configuration source' >&2; exit 1");
     CHECK(message() ==
           "cannot reach Slurm: scontrol: fatal: no configuration source. SLURM_CONF is not set: set it to the "
-          "cluster's slurm.conf, unless Slurm finds that by itself. --print and --openjd need no Slurm");
+          "cluster's slurm.conf, unless Slurm finds it without. --print and --openjd need no Slurm");
     CHECK(slurm.limits({}).tasks == 1001);
   }
   SUBCASE("a configuration that is not there") {
