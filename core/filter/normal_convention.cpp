@@ -31,7 +31,7 @@ const Tunable<NormalConventionTuning> normal_convention_tuning(
          "of the two slopes of a normal map by itself. Higher: more maps stay undecided; lower: noise decides",
          "not measured: taken over from the code before constants were listed", 0, 1},
         {&NormalConventionTuning::largest_grid, "largest_grid", "cells a side",
-         "over which maps are averaged. Higher: fine relief has a say; costs time", "not measured: bounds the time"},
+         "over which maps are averaged. Higher: fine relief counts; costs time", "not measured: bounds the time"},
     });
 
 /// Channels of an image averaged over the cells of a regular grid, one plane per channel.

@@ -169,7 +169,7 @@ ColorConfiguration::Conversion color_conversion(const Configuration& c, const st
   for (const std::string& file : read)
     if (std::ranges::find(known, fs::path(file).lexically_normal()) == known.end())
       throw Error(
-          fmt::format("OpenColorIO reads {}, which was not to be foreseen from the configuration; name the "
+          fmt::format("OpenColorIO reads {}, which cannot be foreseen from the configuration; name the "
                       "file there",
                       file));
   return out;

@@ -17,16 +17,15 @@ namespace terrazzo {
 namespace {
 
 struct JoinedHeightsTuning {
-  double firm = 1000;
+  double constraint_weight = 1000;
   int sweeps = 3;
   int rounds = 3;
 };
 const Tunable<JoinedHeightsTuning> joined_heights_tuning(
     "joined_heights",
     {
-        {&JoinedHeightsTuning::firm, "firm", "links to a neighbour",
-         "what a pixel that is kept is held by. Higher: it moves less; lower: heights around it are found in fewer "
-         "rounds",
+        {&JoinedHeightsTuning::constraint_weight, "constraint_weight", "links to a neighbour",
+         "that holds a kept pixel. Higher: it moves less; lower: heights around it are found in fewer rounds",
          "not measured: all its neighbours together move it by a few thousandths of what they differ", 0, 1000000},
         {&JoinedHeightsTuning::sweeps, "sweeps", "rounds",
          "of smoothing the finest level, before and after the coarse part is added. Higher: less is left of steps; "
@@ -86,7 +85,7 @@ class JoinedPixels : public PixelSource {
         same_(map_->size() == layout_->exemplar()),
         heights_(map_->in_memory()),
         sweeps_(joined_heights_tuning->sweeps),
-        firm_(float(joined_heights_tuning->firm)),
+        constraint_weight_(float(joined_heights_tuning->constraint_weight)),
         steps_(smoothing_steps(sweeps_)),
         size_(layout_->size()),
         kept_(kept, size_),
@@ -201,8 +200,8 @@ class JoinedPixels : public PixelSource {
           if (sources_[i].x < 0 ||
               !of_.holds(placed(of_.x_, area_.x + x), placed(of_.y_, area_.y + y), sources_[i], by))
             continue;
-          holds_[i] = of_.firm_;
-          forces_[i] += of_.firm_ * by;
+          holds_[i] = of_.constraint_weight_;
+          forces_[i] += of_.constraint_weight_ * by;
           values_[i] = by;
         }
     }
@@ -303,7 +302,7 @@ class JoinedPixels : public PixelSource {
         layout_->shown(0, y, size_.width, sources.data());
         for (int x = 0; x < size_.width; x++)
           if (float by; holds(x, y, sources[size_t(x)], by))
-            out[size_t(row) * size_t(columns) + size_t(x / 2)] += firm_;
+            out[size_t(row) * size_t(columns) + size_t(x / 2)] += constraint_weight_;
       }
     });
     return out;
@@ -333,7 +332,7 @@ class JoinedPixels : public PixelSource {
   bool same_;             ///< the map has the exemplar's size
   const float* heights_;  ///< of the map
   int sweeps_;
-  float firm_;
+  float constraint_weight_;
   std::vector<float> steps_;
   Size size_;
   KeptLookup kept_;

@@ -194,8 +194,8 @@ void warn_unless_repeats_fit(NodeContext& node, const Index& index, const Synthe
   std::string advice = "no size near it would";
   // The smaller the allowed distortion, the closer the size must be to whole repeats.
   for (const int part : {1, 4, 16}) {
-    const Size give{std::max(1, options.size.width / part), std::max(1, options.size.height / part)};
-    const Size would = best_wrapping_size(lattice, options.size, options.tile_x, options.tile_y, give);
+    const Size slack{std::max(1, options.size.width / part), std::max(1, options.size.height / part)};
+    const Size would = best_wrapping_size(lattice, options.size, options.tile_x, options.tile_y, slack);
     if (!fits(would)) continue;
     advice = fmt::format("{} would", describe(would));
     break;

@@ -24,11 +24,11 @@ const Tunable<WrappingSizeTuning> wrapping_size_tuning(
     });
 
 /// The length of a side, near `length`, that wraps best.
-int best_side(const Lattice& lattice, int length, bool along_x, int give) {
+int best_side(const Lattice& lattice, int length, bool along_x, int slack) {
   int best = length;
   double least = std::numeric_limits<double>::max();
   for (int n = length / 2 + 1; n <= length + length / 8; n++) {
-    const int room = give + std::max(0, n - length);
+    const int room = slack + std::max(0, n - length);
     const double bent = lattice.bent({n, n}, along_x, !along_x, {room, room});
     if (bent > Lattice::most_bent() && n != length) continue;
     const double badness = std::abs(portable::log(double(n) / length)) + wrapping_size_tuning->bending_weight * bent;
@@ -41,10 +41,10 @@ int best_side(const Lattice& lattice, int length, bool along_x, int give) {
 
 }  // namespace
 
-Size best_wrapping_size(const Lattice& lattice, Size size, bool wraps_x, bool wraps_y, Size give) {
+Size best_wrapping_size(const Lattice& lattice, Size size, bool wraps_x, bool wraps_y, Size slack) {
   if (lattice.rank == 0) return size;
-  return {wraps_x ? best_side(lattice, size.width, true, give.width) : size.width,
-          wraps_y ? best_side(lattice, size.height, false, give.height) : size.height};
+  return {wraps_x ? best_side(lattice, size.width, true, slack.width) : size.width,
+          wraps_y ? best_side(lattice, size.height, false, slack.height) : size.height};
 }
 
 }  // namespace terrazzo

@@ -21,7 +21,7 @@ void add_choices(Command& command, SubmitFlags& flags) {
   command
       .add_flag(
           "--wait", &flags.wait,
-          "Wait until the job is done; tasks that get lost are handed over again. Ctrl-C ends the waiting, not the job")
+          "Wait until the job is done; lost tasks are submitted again. Ctrl-C ends the waiting, not the job")
       .not_with("--print")
       .not_with("--openjd")
       .not_with("--cancel");

@@ -25,7 +25,7 @@ constexpr Reserved reserved_options[] = {
     {"--job-name", "-J", found_by},
     {"--comment", "", found_by},
     {"--array", "-a", "which tasks there are depends on the graph"},
-    {"--clusters", "-M", "the queue of another cluster is not looked at; set SLURM_CONF to that cluster's slurm.conf"},
+    {"--clusters", "-M", "the queue of another cluster is not queried; set SLURM_CONF to that cluster's slurm.conf"},
     {"--wait", "-W", "sbatch would not return; `terrazzo submit --wait` waits"},
     {"--wrap", "", "the script is written already"},
     {"--test-only", "", "nothing would be submitted; --print shows the scripts"},

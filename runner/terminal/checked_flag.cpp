@@ -29,7 +29,7 @@ void add_checked_flag(Command& command, CheckedFlag& flag) {
                    "Run every node twice and watch what it reads. A node fails if it is not deterministic, or reads "
                    "files or environment variables that its key does not cover. Uses one thread and no cache");
   if (is_for_debugging)
-    command.add_flag("--no-checked", &flag.no, "Do not, as this program, which is built for debugging, does otherwise")
+    command.add_flag("--no-checked", &flag.no, "Do not check nodes; this debugging build does by default")
         .not_with("--checked");
 }
 
