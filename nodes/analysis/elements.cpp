@@ -5,9 +5,9 @@
 #include "core/analysis/elements/find_elements.h"
 #include "core/base/hash.h"
 #include "core/node/node.h"
-#include "nodes/common/analysis_memory.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
+#include "nodes/common/synthesis/analysis_memory.h"
 
 namespace terrazzo {
 

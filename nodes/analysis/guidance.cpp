@@ -4,10 +4,10 @@
 #include "core/analysis/space/weighting.h"
 #include "core/image_io/color.h"
 #include "core/material/map_names.h"
-#include "nodes/common/analysis_memory.h"
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
+#include "nodes/common/synthesis/analysis_memory.h"
 
 namespace terrazzo {
 

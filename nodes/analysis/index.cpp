@@ -1,6 +1,6 @@
 #include "core/analysis/space/k_coherence.h"
 #include "core/node/node.h"
-#include "nodes/common/analysis_memory.h"
+#include "nodes/common/synthesis/analysis_memory.h"
 
 namespace terrazzo {
 

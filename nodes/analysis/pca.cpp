@@ -4,8 +4,8 @@
 #include "core/analysis/space/planes.h"
 #include "core/base/text.h"
 #include "core/node/node.h"
-#include "nodes/common/analysis_memory.h"
 #include "nodes/common/shape_rules.h"
+#include "nodes/common/synthesis/analysis_memory.h"
 
 namespace terrazzo {
 

@@ -8,8 +8,8 @@
 #include "core/analysis/repeats/part_lattices.h"
 #include "core/analysis/repeats/streaks.h"
 #include "core/node/node.h"
-#include "nodes/common/analysis_memory.h"
 #include "nodes/common/shape_rules.h"
+#include "nodes/common/synthesis/analysis_memory.h"
 
 namespace terrazzo {
 

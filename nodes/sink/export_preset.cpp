@@ -19,7 +19,7 @@
 #include "nodes/exchange/scene.h"
 #include "nodes/sink/export_paths.h"
 #include "nodes/sink/map_files.h"
-#include "nodes/source/material_sidecar.h"
+#include "nodes/source/maps/material_sidecar.h"
 
 namespace terrazzo {
 

@@ -12,8 +12,8 @@
 #include "nodes/common/color_space.h"
 #include "nodes/common/exemplar_lint.h"
 #include "nodes/common/node_helpers.h"
-#include "nodes/source/depth_checks.h"
-#include "nodes/source/normal_maps.h"
+#include "nodes/source/maps/depth_checks.h"
+#include "nodes/source/maps/normal_maps.h"
 
 namespace terrazzo {
 

@@ -16,13 +16,13 @@
 #include "nodes/common/exemplar_lint.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
-#include "nodes/source/depth_checks.h"
-#include "nodes/source/material_folder.h"
-#include "nodes/source/material_sources.h"
-#include "nodes/source/normal_checks.h"
-#include "nodes/source/normal_maps.h"
-#include "nodes/source/packing_checks.h"
-#include "nodes/source/unnamed_packings.h"
+#include "nodes/source/maps/depth_checks.h"
+#include "nodes/source/maps/material_folder.h"
+#include "nodes/source/maps/material_sources.h"
+#include "nodes/source/maps/normal_checks.h"
+#include "nodes/source/maps/normal_maps.h"
+#include "nodes/source/maps/packing_checks.h"
+#include "nodes/source/maps/unnamed_packings.h"
 
 namespace terrazzo {
 

@@ -7,9 +7,9 @@
 #include "core/synthesis/state/fixed_pixels.h"
 #include "core/synthesis/steps.h"
 #include "nodes/common/shape_rules.h"
-#include "nodes/common/synthesis_memory.h"
-#include "nodes/common/synthesis_params.h"
-#include "nodes/common/synthesis_steps.h"
+#include "nodes/common/synthesis/synthesis_memory.h"
+#include "nodes/common/synthesis/synthesis_params.h"
+#include "nodes/common/synthesis/synthesis_steps.h"
 
 namespace terrazzo {
 

@@ -9,7 +9,7 @@
 #include "nodes/common/exemplar_tiles.h"
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
-#include "nodes/common/synthesis_params.h"
+#include "nodes/common/synthesis/synthesis_params.h"
 
 namespace terrazzo {
 

@@ -1,10 +1,10 @@
 #include "core/analysis/space/appearance_space.h"
 #include "core/synthesis/steps.h"
 #include "core/synthesis/synthesize.h"
-#include "nodes/common/analysis_memory.h"
-#include "nodes/common/synthesis_memory.h"
-#include "nodes/common/synthesis_params.h"
-#include "nodes/common/synthesis_steps.h"
+#include "nodes/common/synthesis/analysis_memory.h"
+#include "nodes/common/synthesis/synthesis_memory.h"
+#include "nodes/common/synthesis/synthesis_params.h"
+#include "nodes/common/synthesis/synthesis_steps.h"
 
 namespace terrazzo {
 

@@ -6,9 +6,9 @@
 #include "core/synthesis/state/labels.h"
 #include "core/synthesis/steps.h"
 #include "nodes/common/shape_rules.h"
-#include "nodes/common/synthesis_memory.h"
-#include "nodes/common/synthesis_params.h"
-#include "nodes/common/synthesis_steps.h"
+#include "nodes/common/synthesis/synthesis_memory.h"
+#include "nodes/common/synthesis/synthesis_params.h"
+#include "nodes/common/synthesis/synthesis_steps.h"
 
 namespace terrazzo {
 

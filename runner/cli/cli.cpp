@@ -16,7 +16,7 @@
 #include "core/file/path_spelling.h"
 #include "core/image_io/image_file.h"
 #include "graphs/text/problem.h"
-#include "nodes/source/material_folder.h"
+#include "nodes/source/maps/material_folder.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/engine/checked.h"
