@@ -94,7 +94,7 @@ for
   i in 0 1 2 3;
 do odd $i; done
 refuses 'plug-in "odd" failed: no types today' "$terrazzo" nodes --plugin odd1.so
-refuses 'the node type "blur" of odd is already there, from terrazzo' "$terrazzo" nodes --plugin odd2.so
+refuses 'the node type "blur" of odd already exists, from terrazzo' "$terrazzo" nodes --plugin odd2.so
 refuses 'it was compiled for another terrazzo' "$terrazzo" nodes --plugin odd3.so
 echo '{"terrazzo": 1, "nodes": {"a": {"type": "odd"}}}' >odd.json
 refuses 'node "a" (odd), parameter "how": it is odd' "$terrazzo" run odd.json --plugin odd0.so

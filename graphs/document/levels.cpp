@@ -258,7 +258,7 @@ Level* Levels::read_use(Level& outer, NodeDraft& use, const Subgraph& graph,
     chain = level->graph->title + " -> " + chain;
     if (level->graph != &graph && depth < deepest) continue;
     const std::string message = level->graph == &graph ? "the graph is part of itself: " + chain
-                                                       : fmt::format("more than {} graphs within one another", deepest);
+                                                       : fmt::format("graphs nested more than {} deep", deepest);
     problems_.push_back({use.node.place, "node " + in_quotes(use.node.name), message, use.node.name, use.node.file});
     return nullptr;
   }

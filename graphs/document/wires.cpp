@@ -231,7 +231,7 @@ class Walk {
       for (const std::string& asked : drafts[i].asked)
         if (const auto at = positions.find(asked); at != positions.end()) {
           sources_[i].push_back(at->second);
-          reads_ = "the wires, and expressions that ask for nodes, form a cycle: ";
+          reads_ = "the wires, and expressions that query nodes, form a cycle: ";
         }
   }
 
@@ -340,7 +340,7 @@ void connect(Levels& levels, std::vector<Problem>& problems) {
     if (wires >= most_wires) {
       problems.push_back(
           {d.node.place, "node " + in_quotes(d.node.name),
-           fmt::format("a graph may have fewer than {} wires, all iterations of loops counted", most_wires),
+           fmt::format("a graph may have fewer than {} wires, counting all iterations of loops", most_wires),
            d.node.name, d.node.file});
       return;
     }

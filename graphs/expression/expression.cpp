@@ -38,7 +38,7 @@ ExpressionValue size_in(const Forecast& forecast, const Node& fact) {
 ExpressionValue fact_of(const Forecast& forecast, const Node& fact) {
   if (fact.member == "size") return size_in(forecast, fact);
   if (forecast.maps.empty() || (forecast.possible_maps && !forecast.possible_maps->empty()))
-    throw Error(fmt::format("which maps \"{}\" gives is not known before it runs", fact.name));
+    throw Error(fmt::format("the maps of \"{}\" are not known before it runs", fact.name));
   if (fact.member == "count") return {int64_t(forecast.maps.size())};
   return {Texts(forecast.maps)};
 }

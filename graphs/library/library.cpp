@@ -264,7 +264,7 @@ std::vector<std::string> Library::faults_of(const LibraryEntry& entry) {
   }
   if (!entry.picture.empty() && !fs::exists(entry.picture, missing)) out.emplace_back("its picture is missing");
   if (!entry.material.empty() && !fs::is_directory(entry.material, missing))
-    out.push_back(fmt::format("the folder of its maps is not there: {}", entry.material.string()));
+    out.push_back(fmt::format("the folder of its maps does not exist: {}", entry.material.string()));
   else
     for (const auto& [name, digest] : entry.files)
       if (const std::optional<Digest> now = content_digest(entry.material / name); now != digest)

@@ -55,7 +55,7 @@ std::string quoted(const std::string& text) {
 }
 
 std::string wire_text(const JsonValue& wire) {
-  if (!wire.is_text()) throw Error("an expression chooses one wire, and here would stand several");
+  if (!wire.is_text()) throw Error("an expression chooses one wire, but there would be several here");
   return wire.text;
 }
 

@@ -18,7 +18,7 @@ class Ungrouping {
   void run() {
     for (const char* key : {"foreach", "mute"})
       if (use_.find(key))
-        throw Error(fmt::format("the node {} has \"{}\", which its nodes would each need; take it away first",
+        throw Error(fmt::format("the node {} has \"{}\", which its nodes would each need; remove it first",
                                 in_quotes(node_), key));
     name_nodes();
     JsonValue* nodes = document_.find("nodes");
@@ -120,7 +120,7 @@ class Ungrouping {
                                   if (from != node_) return from;
                                   const JsonValue wire = output("");
                                   if (!is_wire(wire))
-                                    throw Error("an expression outside asks for an output that an expression chooses");
+                                    throw Error("an expression outside queries an output that an expression chooses");
                                   return wire_parts(wire.text).first;
                                 },
                             .parameter = [](const std::string& name) { return JsonValue::of("$" + name); }};
@@ -136,7 +136,7 @@ class Ungrouping {
       if (!set) continue;
       for (JsonMember& m : set->members) {
         if (m.name.starts_with(node_ + "."))
-          throw Error(fmt::format("the preset {} sets {}, which would be there no longer; take it away first",
+          throw Error(fmt::format("the preset {} sets {}, which would no longer exist; remove that first",
                                   in_quotes(preset.name), in_quotes(m.name)));
         if (!m.name.starts_with(node_ + "/")) continue;
         const std::string rest = m.name.substr(node_.size() + 1);

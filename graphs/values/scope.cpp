@@ -137,7 +137,7 @@ void GraphScope::check_condition(GraphParameter& p) {
   if (condition && !condition->nodes().empty())
     diagnostics.add(
         place_in(*p.visible_if, condition->nodes().begin()->second),
-        fmt::format("\"visible_if\" is asked before anything is known of nodes, in {}", excerpt(p.visible_if->text)));
+        fmt::format("\"visible_if\" is evaluated before nodes are known, in {}", excerpt(p.visible_if->text)));
   else if (condition && check_names(*condition, *p.visible_if, diagnostics))
     return;
   p.visible_if.reset();
@@ -206,7 +206,7 @@ void GraphScope::report_cycles() {
     const auto [known, is_new] = heights.emplace(p.param.name, open);
     if (!is_new && known->second != open) return known->second;
     if (!is_new)
-      return report(p, fmt::format("its value is made from itself: {} -> {}",
+      return report(p, fmt::format("its value depends on itself: {} -> {}",
                                    fmt::join(std::ranges::find(path, p.param.name), path.end(), " -> "), p.param.name));
     int height = 0;
     path.push_back(p.param.name);
@@ -215,7 +215,7 @@ void GraphScope::report_cycles() {
         if (GraphParameter* other = position(name)) height = std::max(height, visit(*other));
     path.pop_back();
     if (height >= most || path.size() >= size_t(most))
-      return report(p, fmt::format("its value is made from more than {} others in a row", most));
+      return report(p, fmt::format("its value depends on a chain of more than {} others", most));
     return known->second = height + 1;
   };
   for (GraphParameter& p : parameters_) visit(p);

@@ -41,7 +41,7 @@ class Registry {
     if (at == next->end())
       next->push_back(std::move(type));
     else if (at->origin.name.empty() || at->origin.name != type.origin.name)
-      throw Error(fmt::format("the node type \"{}\" of {} is already there, from {}", type.name, type.origin.name,
+      throw Error(fmt::format("the node type \"{}\" of {} already exists, from {}", type.name, type.origin.name,
                               at->origin.name.empty() ? "terrazzo" : at->origin.name));
     else
       *at = std::move(type);

@@ -185,7 +185,9 @@ void check_paths(const Command& command) {
 
 void add_commands(Command& program, ProgressMode mode) {
   program.add_flag("--version", {}, "Display program version information and exit");
-  program.add_option("--plugin", {}, "Loads node types from a shared library; several times, and behind commands too")
+  program
+      .add_option("--plugin", {},
+                  "Loads node types from a shared library; may be given several times, also after a command")
       .takes("FILE.so");
   program.footer = examples;
   add_run_command(program);

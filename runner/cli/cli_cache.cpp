@@ -103,7 +103,7 @@ void add_cache_command(Command& program) {
   const auto add = [&](const char* name, const char* help,
                        const std::function<int(const CacheFlags&)>& act) -> Command& {
     Command& sub = cache.add_command(name, help);
-    sub.add_option("--cache", &flags->folder, "The cache's folder, if not the usual one").takes("DIR");
+    sub.add_option("--cache", &flags->folder, "The cache's folder, if not the default").takes("DIR");
     sub.run = [flags, act] { return act(*flags); };
     return sub;
   };

@@ -261,7 +261,7 @@ void add_run_flags(Command& command, RunFlags& flags) {
   command.add_option("--only", &flags.only, "Run only this node and what it needs; may be given several times")
       .takes("NODE")
       .repeated();
-  command.add_option("--cache", &flags.cache, "Folder of the cache, if not the usual one").takes("DIR");
+  command.add_option("--cache", &flags.cache, "Folder of the cache, if not the default").takes("DIR");
   command
       .add_option(
           "--cache-size", &flags.cache_size,
@@ -289,9 +289,9 @@ void add_run_flags(Command& command, RunFlags& flags) {
                   "Write what was done as JSON, also if the run fails or is cancelled: stages, times, files with "
                   "digests, failures")
       .takes("FILE.json");
-  command.add_flag("--keep-going", &flags.keep_going,
-                   "After a failure, go on with everything that does not need the failed node; the exit code is 1 all "
-                   "the same");
+  command.add_flag(
+      "--keep-going", &flags.keep_going,
+      "After a failure, go on with everything that does not need the failed node; the exit code is 1 nevertheless");
   command
       .add_option(
           "--sandbox", &flags.sandbox,

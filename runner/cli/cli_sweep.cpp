@@ -70,9 +70,9 @@ void add_variation_flags(Command& command, SweepFlags& flags) {
 void add_sweep_flags(Command& command, SweepFlags& flags) {
   add_variation_flags(command, flags);
   command
-      .add_option("--sheet", &flags.sheet, "Of a sweep or table: writes a contact sheet, a picture or a page (.html)")
+      .add_option("--sheet", &flags.sheet, "With a sweep or table: writes a contact sheet, a picture or a page (.html)")
       .takes("FILE");
-  command.add_option("--figures", &flags.figures, "Of a sweep or table: writes the figures of all variations")
+  command.add_option("--figures", &flags.figures, "With a sweep or table: writes the figures of all variations")
       .takes("FILE.csv");
   command
       .add_option("--best", &flags.best,

@@ -98,7 +98,7 @@ std::string Slurm::why_unreachable() const {
   const char* configuration = std::getenv("SLURM_CONF");
   std::error_code missing;
   if (configuration && !std::filesystem::is_regular_file(configuration, missing))
-    return fmt::format("SLURM_CONF names {}, which is not there. Set it to the cluster's slurm.conf", configuration);
+    return fmt::format("SLURM_CONF names {}, which does not exist. Set it to the cluster's slurm.conf", configuration);
   const ToolResult ping = run_slurm({"scontrol", "ping"});
   if (ping.exit_code == 127) return first_line(ping.err) + ". Slurm's tools must be on $PATH";
   has_answered_ = ping.out.find(mark_of_up) != ping.out.npos;

@@ -224,10 +224,9 @@ void note_unused_patterns(const Params& params, const Recognition& found, Texts&
     if (std::none_of(found.maps.begin(), found.maps.end(), [&](const RecognisedMap& m) {
           return m.map.starts_with("data_") && matches_pattern(m.file, pattern);
         }))
-      notes.push_back(
-          fmt::format("the pattern \"{}\" of the parameter `data` keeps no file: none of that name is left "
-                      "whose name says no map",
-                      pattern));
+      notes.push_back(fmt::format(
+          "the pattern \"{}\" of the parameter `data` keeps no file: none that matches it has a name that says no map",
+          pattern));
 }
 
 /// The maps recognised by file name, without those that the parameters set or exclude.
@@ -262,7 +261,7 @@ Texts notes_on_folders(const fs::path& folder) {
   std::error_code failure;
   for (const fs::directory_entry& e : fs::directory_iterator(folder, failure))
     if (!is_no_folder(e) && looks_like_image(e.path()))
-      notes.push_back(fmt::format("{}{} is a folder, and so no map; if it holds one, move that out of it", warning_mark,
+      notes.push_back(fmt::format("{}{} is a folder, not a map; if it holds one, move that out of it", warning_mark,
                                   e.path().filename().string()));
   std::sort(notes.begin(), notes.end());
   return notes;

@@ -137,7 +137,7 @@ Sidecar parsed(const Json& json, const fs::path& folder) {
   if (!files || !files->value.is_object()) all.fail("expected \"files\" with an object for each file");
   if (files->value.empty())
     files->fail(
-        "none is named: the last export wrote no maps but into one binary file. To read the images in the folder "
+        "none is named: the last export wrote its maps into one binary file only. To read the images in the folder "
         "by their names, remove " +
         sidecar_name(out.name));
   for (const auto& [file, entry] : files->value.items()) read_file_entry(files->inside(file, entry), file, folder, out);

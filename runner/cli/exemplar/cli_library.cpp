@@ -238,7 +238,7 @@ void add_library_command(Command& program) {
   const auto flags = std::make_shared<LibraryFlags>();
   const auto sub = [&](const char* name, const char* help, int (*act)(const LibraryFlags&)) -> Command& {
     Command& command = library.add_command(name, help);
-    command.add_option("--library", &flags->folder, "The library's folder, if not the usual one").takes("DIR");
+    command.add_option("--library", &flags->folder, "The library's folder, if not the default").takes("DIR");
     command.run = [flags, act] { return act(*flags); };
     return command;
   };
@@ -248,11 +248,11 @@ void add_library_command(Command& program) {
   adding.add_option("SOURCE", &flags->addition.source, "A folder of maps, or a file that save_analysis wrote")
       .required()
       .takes("PATH");
-  adding.add_option("--material", &flags->addition.material, "Of a file: the folder of the maps that were analysed")
+  adding.add_option("--material", &flags->addition.material, "For an analysis file: the folder of the analysed maps")
       .takes("DIR");
   adding.add_flag("--other-material", &flags->addition.other_material,
                   "Accept --material even if it does not look like the analysed material");
-  adding.add_option("--tag", &flags->tags, "A word to find it by; may be given several times").takes("TAG").repeated();
+  adding.add_option("--tag", &flags->tags, "A tag to find it by; may be given several times").takes("TAG").repeated();
   adding.add_option("--summary", &flags->summary, "A line about it").takes("TEXT");
   adding
       .add_option("--set", &flags->addition.set,
@@ -261,7 +261,7 @@ void add_library_command(Command& program) {
       .takes("NAME=VALUE")
       .repeated();
   add_limit_flags(adding, flags->limits);
-  adding.add_flag("--force", &flags->force, "Replace the one that has this name");
+  adding.add_flag("--force", &flags->force, "Replace an existing entry of this name");
 
   Command& listing = sub("list", "Lists analyses: all, or those with these words in name, summary or tags", list);
   listing.add_option("WORD", &flags->names, "What to look for");

@@ -143,7 +143,7 @@ int run_task(const TaskFlags& flags) {
 
 void add_task_command(Command& program) {
   Command& command =
-      program.add_command("task", "Makes a part of a job that `submit` has frozen: for schedulers, which call it");
+      program.add_command("task", "Makes a unit of a job that `submit` has frozen; called by schedulers");
   const auto flags = std::make_shared<TaskFlags>();
   command.add_option("JOB", &flags->job, "The job's folder or name").required().takes("JOB");
   command.add_option("UNIT", &flags->units, "The units to make; --list shows all units and what they need")

@@ -5,13 +5,13 @@ namespace terrazzo {
 namespace {
 
 void add_choices(Command& command, SubmitFlags& flags) {
-  command.add_flag("--print", &flags.print, "Print the scripts that would be handed over; write and submit nothing");
+  command.add_flag("--print", &flags.print, "Print the scripts that would be submitted; write and submit nothing");
   command
       .add_option("--openjd", &flags.openjd,
                   "Write an Open Job Description template instead, for Deadline Cloud and others")
       .takes("FILE.json")
       .not_with("--print");
-  command.add_flag("--status", &flags.status, "Say how far a job is; without a name, list all jobs")
+  command.add_flag("--status", &flags.status, "Show the progress of a job; without a name, list all jobs")
       .not_with("--print")
       .not_with("--openjd");
   command.add_flag("--cancel", &flags.cancel, "End a job's tasks")
@@ -42,7 +42,9 @@ void add_demands(Command& command, SubmitFlags& flags) {
                   "Cores of each task; if not given, as many as earlier ones of its kind have used")
       .takes("N")
       .from_to(1, 1024);
-  command.add_option("--memory", &flags.memory, "Memory of each task, such as 4G; if not given, likewise")
+  command
+      .add_option("--memory", &flags.memory,
+                  "Memory of each task, such as 4G; if not given, as much as earlier ones of its kind have used")
       .takes("SIZE");
   command
       .add_option("--pack", &flags.arrays.pack_seconds,

@@ -192,7 +192,7 @@ TEST_CASE("facts of nodes are what is known before they run") {
   CHECK(shown("@mixed.size") == "the size 128x64 pixels");  // as a material has it: that of its largest map
   CHECK(trouble("@bricks.heigt.size").starts_with("0: \"bricks\" gives no map \"heigt\" whose size is known (did you"));
   CHECK(trouble("@nothing.size") == "0: the size of the result of \"nothing\" is not known before it runs");
-  CHECK(trouble("@some.count") == "0: which maps \"some\" gives is not known before it runs");
+  CHECK(trouble("@some.count") == "0: the maps of \"some\" are not known before it runs");
   CHECK(trouble("@bricks.height.mean") == "15: of a map only the size is known before it is made, found mean");
   CHECK(trouble("@bricks") == "7: expected .size, .MAP.size, .count or .maps after @bricks");
 }

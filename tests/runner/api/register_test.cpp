@@ -44,7 +44,7 @@ TEST_CASE("a node type that is registered is found, and one of the same origin r
   CHECK(node_types().size() == count + 1);
   NodeType other = sample("registered_one");
   other.origin.name = "others";
-  CHECK(contains(error(other), "is already there, from the tests"));
+  CHECK(contains(error(other), "already exists, from the tests"));
 }
 
 TEST_CASE("descriptors that cannot work, and names that are taken, are refused") {
@@ -53,7 +53,7 @@ TEST_CASE("descriptors that cannot work, and names that are taken, are refused")
     change(t);
     return error(std::move(t));
   };
-  CHECK(contains(error(sample("blur")), "the node type \"blur\" of the tests is already there, from terrazzo"));
+  CHECK(contains(error(sample("blur")), "the node type \"blur\" of the tests already exists, from terrazzo"));
   CHECK(contains(changed([](NodeType& t) { t.name = "2 words"; }), "must begin with a letter"));
   CHECK(contains(changed([](NodeType& t) { t.compute = nullptr; }), "no compute function"));
   CHECK(contains(changed([](NodeType& t) { t.category = "images"; }), "its category is \"images\""));

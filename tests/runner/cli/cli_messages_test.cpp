@@ -240,6 +240,6 @@ TEST_CASE("a folder with the name of a map is told of") {
   write_text(w.path / "maps.json", R"({"terrazzo": 1, "nodes": {"all": {"type": "load_material", "path": "maps"}}})");
   const ProgramRun r = w.run({"run", "maps.json"});
   CHECK_MESSAGE(r.code == 0, r.err);
-  CHECK_MESSAGE(r.err.find("warning: node \"all\": stone_height.png is a folder, and so no map") != std::string::npos,
+  CHECK_MESSAGE(r.err.find("warning: node \"all\": stone_height.png is a folder, not a map") != std::string::npos,
                 r.err);
 }
