@@ -17,14 +17,14 @@ inline const TuningConstant& tuning_constant(const std::string& name) {
 }
 
 /// Another value of a tuning constant for a while: the other tests of this process must not notice.
-class Override {
+class TuningOverride {
  public:
-  Override(const std::string& name, double value) : name_(name), usual_(tuning_constant(name).number()) {
+  TuningOverride(const std::string& name, double value) : name_(name), usual_(tuning_constant(name).number()) {
     override_tuning(name, value);
   }
-  ~Override() { override_tuning(name_, usual_); }
-  Override(const Override&) = delete;
-  Override& operator=(const Override&) = delete;
+  ~TuningOverride() { override_tuning(name_, usual_); }
+  TuningOverride(const TuningOverride&) = delete;
+  TuningOverride& operator=(const TuningOverride&) = delete;
 
  private:
   std::string name_;

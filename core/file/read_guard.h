@@ -8,16 +8,14 @@
 namespace terrazzo {
 
 /// While it lives, `check` is called before this thread reads a file or lists a folder that a graph names beyond the
-/// `files_read` of its nodes; it may throw. `named` is called before that for paths that come from the command line
-/// instead of the graph; `by` is the command line's value, for messages.
+/// `files_read` of its nodes; it may throw. `allow` is called before that for paths that the user names, instead of
+/// the graph.
 class ReadGuard {
  public:
-  using Check = std::function<void(const std::filesystem::path& path)>;
+  using Act = std::function<void(const std::filesystem::path& path)>;
 
-  using Named = std::function<void(const std::string& by, const std::filesystem::path& path)>;
-
-  explicit ReadGuard(Check check, Named named = {})
-      : check_(std::move(check)), named_(std::move(named)), before_(std::exchange(current_, this)) {}
+  explicit ReadGuard(Act check, Act allow = {})
+      : check_(std::move(check)), allow_(std::move(allow)), before_(std::exchange(current_, this)) {}
   ~ReadGuard() { current_ = before_; }
   ReadGuard(const ReadGuard&) = delete;
   ReadGuard& operator=(const ReadGuard&) = delete;
@@ -26,14 +24,13 @@ class ReadGuard {
   static void check(const std::filesystem::path& path) {
     if (current_ && current_->check_) current_->check_(path);
   }
-  static void name(const std::string& by, const std::filesystem::path& path) {
-    if (current_ && current_->named_) current_->named_(by, path);
+  static void allow(const std::filesystem::path& path) {
+    if (current_ && current_->allow_) current_->allow_(path);
   }
 
  private:
   static inline thread_local ReadGuard* current_ = nullptr;
-  Check check_;
-  Named named_;
+  Act check_, allow_;
   ReadGuard* before_;
 };
 

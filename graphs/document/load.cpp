@@ -75,7 +75,7 @@ class Loader {
     return out;
   }
 
-  LoadedGraph graph(const std::vector<std::string>& override_texts, const LoadOptions& options) {
+  LoadedGraph graph(const std::vector<Override>& given, const LoadOptions& options) {
     LoadedGraph out;
     GraphInterface head = interface();
     out.graph.file = file_;
@@ -85,7 +85,7 @@ class Loader {
     out.inputs = std::move(head.inputs);
 
     coded("document");
-    std::vector<Override> overrides = overrides_from(out.presets, override_texts, options);
+    std::vector<Override> overrides = all_overrides(out.presets, given, options);
     auto owned = std::make_unique<Level>();
     Level& root = *owned;
     root.graph = main_;
@@ -154,15 +154,23 @@ class Loader {
 
  private:
   /// In order of precedence: command line, settings files, presets.
-  std::vector<Override> overrides_from(const std::vector<Preset>& presets, const std::vector<std::string>& texts,
-                                       const LoadOptions& options) {
+  std::vector<Override> all_overrides(const std::vector<Preset>& presets, const std::vector<Override>& given,
+                                      const LoadOptions& options) {
     std::vector<Override> out = chosen_presets(presets, options.presets, problems_);
     const auto of_presets = ptrdiff_t(out.size());
     const auto add = [&](std::vector<Override> more) {
       out.insert(out.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     };
     for (const fs::path& file : options.settings) add(read_settings(file, problems_));
-    add(read_overrides(texts, working_folder(), problems_));
+    for (size_t i = 0; i < given.size(); i++) {
+      Override o = given[i];
+      o.position = i;
+      if (o.base.empty()) o.base = working_folder();
+      if (!o.name.empty())
+        out.push_back(std::move(o));
+      else
+        o.diagnostics(problems_).add({}, "expected name=value for a graph's parameter, or node.parameter=value");
+    }
     if (!options.pack.empty()) {
       given_to_pack_.assign(out.begin() + of_presets, out.end());
       std::vector<Override> packed = pack_settings(options.pack, out, problems_);
@@ -354,12 +362,12 @@ class Loader {
 
 }  // namespace
 
-LoadedGraph load_graph_text(std::string_view text, const fs::path& path, const std::vector<std::string>& overrides,
+LoadedGraph load_graph_text(std::string_view text, const fs::path& path, const std::vector<Override>& overrides,
                             const LoadOptions& options) {
   return Loader(text, path, options).graph(overrides, options);
 }
 
-LoadedGraph load_graph(const fs::path& path, const std::vector<std::string>& overrides, const LoadOptions& options) {
+LoadedGraph load_graph(const fs::path& path, const std::vector<Override>& overrides, const LoadOptions& options) {
   return load_graph_text(read_document(path), path, overrides, options);
 }
 

@@ -60,15 +60,15 @@ struct LoadedGraph {
   std::vector<Problem> conversions, warnings;
 };
 
-/// Reads a document. `overrides` are `name=value` for a parameter of the graph and `node.parameter=value` (or a wire
-/// into a port); the last one for a target wins. Relative paths in the document start at its folder, those in overrides
-/// at the working directory. Throws only GraphError, with all problems.
-LoadedGraph load_graph(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
+/// Reads a document. `overrides` set parameters of the graph, and parameters or ports of nodes; the last one for a target
+/// wins. Relative paths in the document start at its folder, those in overrides at the working directory. Throws only
+/// GraphError, with all problems.
+LoadedGraph load_graph(const std::filesystem::path& path, const std::vector<Override>& overrides = {},
                        const LoadOptions& options = {});
 
 /// The same for text in memory; `path` is for messages and relative paths, and need not exist.
 LoadedGraph load_graph_text(std::string_view text, const std::filesystem::path& path,
-                            const std::vector<std::string>& overrides = {}, const LoadOptions& options = {});
+                            const std::vector<Override>& overrides = {}, const LoadOptions& options = {});
 
 /// The interface of a graph as a document or as a node.
 struct GraphInterface {

@@ -144,7 +144,7 @@ class NodeReader {
 
   Diagnostics complaints_about(const NodeEntry& e, std::string_view kind) {
     return e.by ? e.by->diagnostics(problems_)
-                : Diagnostics(problems_, fmt::format("{}, {} {}", where_, kind, in_quotes(e.name)));
+                : Diagnostics(problems_, fmt::format("{}, {} {}", where_, kind, in_quotes(e.name)), e.name);
   }
 
   void read_entry(const NodeEntry& e) {
@@ -193,8 +193,8 @@ class NodeReader {
     const std::filesystem::path& base = e.by ? e.by->base : reading_.graph_folder;
     if (std::optional<ParamValue> read = read_param(*value, param, base, diagnostics)) {
       const bool is_literal = value->is_text() && given.is_text() && value->text == given.text;
-      if (e.by && !e.by->json && param.type == ParamType::path && is_literal)
-        ReadGuard::name(e.by->where, std::get<std::string>(*read));
+      if (e.by && e.by->allows_reading && param.type == ParamType::path && is_literal)
+        ReadGuard::allow(std::get<std::string>(*read));
       draft_.node.params.emplace(param.name, std::move(*read));
     }
   }

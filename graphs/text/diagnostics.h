@@ -11,10 +11,13 @@ namespace terrazzo {
 /// Collects the problems of one part of a document, with their places.
 class Diagnostics {
  public:
-  Diagnostics(std::vector<Problem>& all, std::string where) : all_(all), where_(std::move(where)) {}
+  Diagnostics(std::vector<Problem>& all, std::string where, std::string parameter = {})
+      : Diagnostics(all, Problem{.place = {}, .where = std::move(where), .message = "", .parameter = parameter}) {}
+  /// `about`: what all problems have in common; its message is added to theirs.
+  Diagnostics(std::vector<Problem>& all, Problem about) : all_(all), about_(std::move(about)) {}
 
-  /// Drops places, since values from the command line have none.
-  Diagnostics& from_command_line() {
+  /// For values from outside of the document: all problems have the place of `about`.
+  Diagnostics& at_one_place() {
     has_places_ = false;
     return *this;
   }
@@ -22,12 +25,14 @@ class Diagnostics {
   void set_origin(std::string origin) { origin_ = std::move(origin); }
 
   void add(Place place, const std::string& message) {
-    all_.push_back({has_places_ ? place : Place{}, where_, message + origin_});
+    Problem& problem = all_.emplace_back(about_);
+    if (has_places_) problem.place = place;
+    problem.message = message + origin_ + about_.message;
   }
 
  private:
   std::vector<Problem>& all_;
-  std::string where_;
+  Problem about_;
   std::string origin_;
   bool has_places_ = true;
 };

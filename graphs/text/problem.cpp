@@ -126,7 +126,7 @@ Problem problem_of(const GraphNode& node, const std::string& about, const std::s
   if (node.type->find_input(about)) where += fmt::format(", input \"{}\"{}", about, files(node, about, "made from "));
   const std::string param = about.substr(0, about.find('.'));
   if (node.type->find_param(param)) where += fmt::format(", parameter \"{}\"{}", param, files(node, param, ""));
-  return {node.place_of(about), where, message, node.name, node.file, ""};
+  return {node.place_of(about), where, message, node.name, node.file, "", about};
 }
 
 GraphError::GraphError(const std::string& file, std::vector<Problem> problems)

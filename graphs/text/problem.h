@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct Problem {
   std::string node{};   ///< the node's name, if the problem is about one
   std::string file{};   ///< the file of `place`; empty: the document itself
   std::string code{};   ///< its kind, for programs; see problem_codes
+  /// The parameter or port of the node, or else of the graph, or a part of one ("weights.height"), if it is about one.
+  std::string parameter{};
+  /// The position of the override it is about among those given to load_graph, if it is about one.
+  std::optional<size_t> override_position{};
 };
 
 /// Sets the node of the problems from position `first` on.

@@ -249,7 +249,7 @@ class Packing {
 
 }  // namespace
 
-PackedFiles write_pack(const fs::path& graph, const std::vector<std::string>& overrides, const LoadOptions& options,
+PackedFiles write_pack(const fs::path& graph, const std::vector<Override>& overrides, const LoadOptions& options,
                        const fs::path& target) {
   LoadOptions tracing = options;
   tracing.traces = true;

@@ -24,7 +24,7 @@ struct PackedFiles {
 
 /// Packs a graph with these values (see load_graph). Output paths become relative to the pack's location. Throws
 /// GraphError, Error or FileError.
-PackedFiles write_pack(const std::filesystem::path& graph, const std::vector<std::string>& overrides,
+PackedFiles write_pack(const std::filesystem::path& graph, const std::vector<Override>& overrides,
                        const LoadOptions& options, const std::filesystem::path& target);
 
 /// Whether a file is an archive, and so probably a pack.

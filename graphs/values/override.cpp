@@ -23,8 +23,8 @@ bool split_target(const std::string& target, Override& out) {
 }  // namespace
 
 Diagnostics Override::diagnostics(std::vector<Problem>& all) const {
-  Diagnostics out(all, where);
-  if (place.line == 0) out.from_command_line();
+  Diagnostics out(all, {source.place, where, source.advice, "", source.file, "", name, position});
+  if (place.line == 0) out.at_one_place();
   return out;
 }
 
@@ -49,22 +49,20 @@ std::optional<JsonValue> with_member(JsonValue map, const std::string& member, c
   return map;
 }
 
-std::string where_of_override(const std::string& spelled) {
-  return "override " + in_quotes(spelled);
+Override override_of(const std::string& target, const std::string& value) {
+  Override out{.value = value, .where = "override " + in_quotes(target + "=" + value)};
+  if (!split_target(target, out)) out.name.clear();
+  return out;
 }
 
-std::vector<Override> read_overrides(const std::vector<std::string>& texts, const fs::path& base,
-                                     std::vector<Problem>& problems) {
+std::vector<Override> overrides_from(const std::vector<std::string>& texts) {
   std::vector<Override> out;
   for (const std::string& text : texts) {
-    Override o{.node = "", .name = "", .value = "", .base = base, .where = where_of_override(text)};
     const size_t equals = text.find('=');
-    if (!split_target(text.substr(0, equals), o) || equals == text.npos) {
-      o.diagnostics(problems).add({}, "expected name=value for a graph's parameter, or node.parameter=value");
-      continue;
-    }
-    o.value = text.substr(equals + 1);
-    out.push_back(std::move(o));
+    if (equals == text.npos)
+      out.push_back({.where = "override " + in_quotes(text)});
+    else
+      out.push_back(override_of(text.substr(0, equals), text.substr(equals + 1)));
   }
   return out;
 }
@@ -79,7 +77,7 @@ std::vector<Override> read_override_object(const JsonValue& object, const fs::pa
     return out;
   }
   for (const JsonMember& m : object.members) {
-    Override o{.node = "", .name = "", .value = "", .json = m.value, .base = base, .where = ""};
+    Override o{.json = m.value, .base = base};
     if (in_graph) {
       o.place = m.place;
       o.where = fmt::format("{}, {}", where, in_quotes(m.name));

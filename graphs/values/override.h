@@ -15,13 +15,23 @@ struct Param;
 /// A value for a graph's parameter, or for a parameter or port of one of its nodes, from the command line, a settings
 /// file or a preset.
 struct Override {
-  std::string node;  ///< empty for a graph parameter
-  std::string name;
-  std::string value;                ///< as spelled on the command line
+  /// Where a value comes from, if from outside of the document.
+  struct Source {
+    std::string file{};  ///< for messages, with the place in it; may be empty
+    Place place{};
+    std::string advice{};  ///< is added to messages
+  };
+  std::string node{};               ///< empty for a graph parameter
+  std::string name{};               ///< parameter or port, or part of a map: "weights.height"; empty: malformed
+  std::string value{};              ///< as spelled on the command line
   std::optional<JsonValue> json{};  ///< replaces `value` if it comes from a file
-  std::filesystem::path base;       ///< absolute; relative paths start here
-  std::string where;                ///< for messages
+  std::filesystem::path base{};     ///< absolute; relative paths start here; empty: the working folder
+  std::string where{};              ///< for messages
   Place place{};                    ///< for overrides in the graph file itself
+  Source source{};
+  bool allows_reading = false;  ///< a sandbox lets nodes read the path that it names
+  /// Its position among those given to load_graph, which sets it; empty for others, such as those of presets.
+  std::optional<size_t> position{};
 
   Diagnostics diagnostics(std::vector<Problem>& all) const;
   /// The unexpanded value for this parameter.
@@ -32,13 +42,12 @@ struct Override {
 std::optional<JsonValue> with_member(JsonValue map, const std::string& member, const Override& by,
                                      std::vector<Problem>& problems);
 
-/// Problem::where for the override with this spelling.
-std::string where_of_override(const std::string& spelled);
+/// Sets `target`, a graph parameter ("seed") or one of a node ("layout.seed", also a port), to a value as the command
+/// line spells it. Loading reports targets that are malformed.
+Override override_of(const std::string& target, const std::string& value);
 
-/// `name=value` for a graph parameter, `node.parameter=value` (or a port) for a node. Relative paths start at `base`.
-/// Texts without "=" or without a name become problems.
-std::vector<Override> read_overrides(const std::vector<std::string>& texts, const std::filesystem::path& base,
-                                     std::vector<Problem>& problems);
+/// The same for texts: `name=value`, `node.parameter=value`.
+std::vector<Override> overrides_from(const std::vector<std::string>& texts);
 
 /// The members of an object, {"seed": 3, "weighted.weights": {"height": 2}}, as overrides. `where`: a prefix for
 /// messages. `in_graph`: the object is in the graph file itself, so problems have places in it.

@@ -109,8 +109,8 @@ void set_parameters(std::vector<GraphParameter>& parameters, const std::vector<O
     } else {
       p.value = read_param(json, p.param, o.base, diagnostics);
       p.is_wrong = !p.value;
-      if (!o.json && p.value && p.param.type == ParamType::path)
-        ReadGuard::name(o.where, std::get<std::string>(*p.value));
+      if (o.allows_reading && p.value && p.param.type == ParamType::path)
+        ReadGuard::allow(std::get<std::string>(*p.value));
     }
   }
 }

@@ -13,7 +13,6 @@
 
 #include "core/base/hash.h"
 #include "graphs/text/json.h"
-#include "graphs/values/override.h"
 
 namespace terrazzo {
 
@@ -126,6 +125,14 @@ std::vector<std::string> range_in(const std::string& sweep, const std::string& t
   return out;
 }
 
+/// "1..8" for "1-8" and "1:8"; empty otherwise.
+std::string range_meant(const std::string& value) {
+  const size_t sign = value.find_first_of("-:", 1);
+  if (sign == value.npos) return "";
+  const std::string first = value.substr(0, sign), last = value.substr(sign + 1);
+  return number_in(first) && number_in(last) ? fmt::format("{}..{}", first, last) : "";
+}
+
 /// A digest that is equal for nodes of equal parameters and sources.
 Digest signature_of(const GraphNode& node, const std::map<std::string, std::string>& names) {
   Hasher h;
@@ -147,38 +154,18 @@ std::string Variation::label() const {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::vector<std::string> Variation::overrides() const {
-  std::vector<std::string> out;
-  for (const auto& [name, value] : values) out.push_back(name + "=" + value);
-  return out;
-}
-
-namespace {
-
-/// "1..8" for "1-8" and "1:8"; empty otherwise.
-std::string range_meant(const std::string& value) {
-  const size_t sign = value.find_first_of("-:", 1);
-  if (sign == value.npos) return "";
-  const std::string first = value.substr(0, sign), last = value.substr(sign + 1);
-  return number_in(first) && number_in(last) ? fmt::format("{}..{}", first, last) : "";
-}
-
-}  // namespace
-
-std::vector<Problem> with_origins(std::vector<Problem> problems, const Variation& variation) {
-  for (const auto& [name, value] : variation.values) {
-    const auto origin = variation.origins.find(name);
-    if (origin == variation.origins.end()) continue;
-    for (Problem& p : problems) {
-      if (p.where != where_of_override(name + "=" + value)) continue;
-      p.where = origin->second.where;
-      p.file = origin->second.file;
-      p.place = origin->second.place;
-      if (const std::string range = range_meant(value); !range.empty() && p.file.empty())
-        p.message += fmt::format("; a range is written {}={}", name, range);
-    }
+std::vector<Override> Variation::overrides() const {
+  std::vector<Override> out;
+  for (const auto& [name, value] : values) {
+    Override& o = out.emplace_back(override_of(name, value));
+    const auto origin = origins.find(name);
+    if (origin == origins.end()) continue;
+    o.where = origin->second.where;
+    o.source = {origin->second.file, origin->second.place};
+    if (const std::string range = range_meant(value); !range.empty() && o.source.file.empty())
+      o.source.advice = fmt::format("; a range is written {}={}", name, range);
   }
-  return problems;
+  return out;
 }
 
 std::vector<Variation> swept(const std::vector<std::string>& sweeps) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "graphs/text/graph.h"
-#include "graphs/text/problem.h"
+#include "graphs/values/override.h"
 
 /// Runs of one graph with many sets of values.
 namespace terrazzo {
@@ -24,13 +24,10 @@ struct Variation {
   std::vector<std::pair<std::string, std::string>> values;
   std::map<std::string, Origin> origins{};  ///< by name
 
-  std::string label() const;                   ///< "seed=3, size=512"
-  std::vector<std::string> overrides() const;  ///< "seed=3", "size=512"
+  std::string label() const;  ///< "seed=3, size=512"
+  /// Problems with them name the values' origins, with a hint on how to write ranges if a value looks like one.
+  std::vector<Override> overrides() const;
 };
-
-/// Adds the origins of a variation's values to its problems, and a hint on how to write ranges if a value looks like
-/// one.
-std::vector<Problem> with_origins(std::vector<Problem> problems, const Variation& variation);
 
 /// The most variations; more are probably unintended.
 inline constexpr size_t most_variations = 10000;

@@ -93,9 +93,9 @@ Job& Job::unset(const std::string& name) {
   return *this;
 }
 
-std::vector<std::string> Job::overrides() const {
-  std::vector<std::string> out;
-  for (const auto& [name, value] : values_) out.push_back(name + "=" + value);
+std::vector<Override> Job::overrides() const {
+  std::vector<Override> out;
+  for (const auto& [name, value] : values_) out.push_back(override_of(name, value));
   return out;
 }
 

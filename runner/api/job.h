@@ -8,6 +8,7 @@
 
 #include "core/node/node.h"
 #include "graphs/text/problem.h"
+#include "graphs/values/override.h"
 
 /// A graph and the values to run it with, for programs. Equivalent to `terrazzo run GRAPH --set ...`: the same
 /// messages, cache keys and bytes.
@@ -107,7 +108,7 @@ class Job {
   std::vector<std::filesystem::path> settings_;
   std::vector<std::pair<std::string, Value>> given_;
 
-  std::vector<std::string> overrides() const;
+  std::vector<Override> overrides() const;
 };
 
 }  // namespace terrazzo

@@ -119,16 +119,13 @@ std::string Job::pointer_to(const Problem& problem) const {
     const ParsedJson parsed = parse_json(text_);
     return parsed.value ? terrazzo::pointer_to(*parsed.value, problem.place) : "";
   }
-  for (const auto& [name, value] : values_) {
-    if (problem.where != where_of_override(name + "=" + value)) continue;
-    std::string out;
-    for (const std::string& step : path_of(outline(), name)) {
-      out += '/';
-      for (const char c : step) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-    }
-    return out;
+  if (!problem.override_position || *problem.override_position >= values_.size()) return "";
+  std::string out;
+  for (const std::string& step : path_of(outline(), values_[*problem.override_position].first)) {
+    out += '/';
+    for (const char c : step) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
   }
-  return "";
+  return out;
 }
 
 std::string Job::text(const fs::path& folder) const {

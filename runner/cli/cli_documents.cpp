@@ -127,8 +127,9 @@ int pack(const DocumentFlags& flags) {
   options.presets = flags.presets;
   options.settings.assign(flags.settings.begin(), flags.settings.end());
   check_out(flags, WrittenKind::pack);
-  check_protected({{"-o", flags.out, WrittenKind::pack}}, inputs_of(load_graph(flags.graph, flags.set, options).graph));
-  const PackedFiles packed = write_pack(flags.graph, flags.set, options, flags.out);
+  const std::vector<Override> set = overrides_from(flags.set);
+  check_protected({{"-o", flags.out, WrittenKind::pack}}, inputs_of(load_graph(flags.graph, set, options).graph));
+  const PackedFiles packed = write_pack(flags.graph, set, options, flags.out);
   for (const std::string& renamed : packed.renamed) print_message("note: {}\n", renamed);
   for (const std::string& file : packed.left_out)
     print_message("warning: {} is not in the pack: no parameter of a node names it\n", file);

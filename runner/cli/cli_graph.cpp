@@ -51,12 +51,20 @@ std::vector<fs::path> GraphFlags::unpack_for_run(bool keeps, const std::string& 
   return pack.empty() ? std::vector<fs::path>() : std::vector{pack};
 }
 
-LoadedGraph GraphFlags::load(LoadOptions options) const {
+std::vector<Override> GraphFlags::overrides() const {
+  std::vector<Override> out = overrides_from(set);
+  for (Override& o : out) o.allows_reading = true;
+  return out;
+}
+
+LoadedGraph GraphFlags::load(LoadOptions options, const std::vector<Override>& more) const {
+  std::vector<Override> all = overrides();
+  all.insert(all.end(), more.begin(), more.end());
   options.presets = presets;
   options.settings.assign(settings.begin(), settings.end());
-  if (pack.empty()) return load_graph(graph, set, options);
+  if (pack.empty()) return load_graph(graph, all, options);
   options.pack = pack;
-  return load_graph_text(read_document(pack / "graph.json"), graph, set, options);
+  return load_graph_text(read_document(pack / "graph.json"), graph, all, options);
 }
 
 std::vector<ProtectedFile> GraphFlags::files() const {

@@ -27,8 +27,11 @@ struct GraphFlags {
   void open_pack();
   /// The same with a run's cache, unless it uses none (`keeps` is false). Returns the folders to read from.
   std::vector<std::filesystem::path> unpack_for_run(bool keeps, const std::string& cache);
-  /// Loads the graph with its presets and settings files added to `options`. Throws GraphError.
-  LoadedGraph load(LoadOptions options) const;
+  /// The values of --set, whose paths a sandbox lets nodes read.
+  std::vector<Override> overrides() const;
+  /// Loads the graph with these values, then `more`, and with its presets and settings files added to `options`. Throws
+  /// GraphError.
+  LoadedGraph load(LoadOptions options, const std::vector<Override>& more = {}) const;
   /// The files named on the command line.
   std::vector<ProtectedFile> files() const;
 };

@@ -9,7 +9,6 @@
 
 #include "core/file/read_guard.h"
 #include "graphs/document/load.h"
-#include "graphs/values/override.h"
 #include "runner/api/session.h"
 #include "runner/cache/cache_limit.h"
 #include "runner/cli/cli_commands.h"
@@ -155,14 +154,9 @@ struct Guarded {
 Guarded load_guarded(const LoadGraph& load, const RunFlags& flags) {
   Guarded out{{}, sandbox_of(flags, flags.unpack ? flags.unpack() : std::vector<fs::path>())};
   std::optional<ReadGuard> guard;
-  const auto is_given = [&](const std::string& by) {
-    return std::ranges::any_of(flags.values, [&](const std::string& v) { return where_of_override(v) == by; });
-  };
   if (out.sandbox)
     guard.emplace([&](const fs::path& path) { out.sandbox->check("read", path); },
-                  [&](const std::string& by, const fs::path& path) {
-                    if (is_given(by)) out.sandbox->open(path);
-                  });
+                  [&](const fs::path& path) { out.sandbox->open(path); });
   const auto look_ahead = [&](const std::vector<GraphNode>& nodes) {
     std::vector<Problem> problems;
     if (out.sandbox) problems = sandbox_problems(nodes, *out.sandbox);
@@ -367,7 +361,6 @@ void add_run_command(Command& program) {
   run.run = [flags] {
     flags->graph = flags->graph_values.graph;
     flags->reads = flags->graph_values.files();
-    flags->values = flags->graph_values.set;
     if (!flags->variations.sheet.empty()) flags->files.push_back(flags->variations.sheet);
     if (flags->variations.asked()) return run_sweep(flags->graph_values, flags->variations, *flags);
     for (const std::string* left : {&flags->variations.sheet, &flags->variations.figures, &flags->variations.best})

@@ -33,8 +33,7 @@ struct RunFlags {
   bool keep_going = false;
   bool force = false;
   std::string sandbox;
-  std::vector<std::string> values{};  ///< NAME=VALUE of the command line
-  std::vector<std::string> files{};   ///< further files on the command line
+  std::vector<std::string> files{};  ///< further files on the command line
   std::string progress = "auto";
   std::vector<WrittenFile> writes{};                ///< in addition to report and trace
   std::vector<ProtectedFile> reads{};               ///< in addition to the graph and its nodes' files

@@ -102,22 +102,20 @@ std::vector<std::string> Sweep::labels() const {
   return out;
 }
 
-Graph Sweep::load(const std::function<Graph(const std::vector<std::string>&)>& load) {
+Graph Sweep::load(const std::function<Graph(const std::vector<Override>&)>& load) {
   GraphMerger merger;
   Graph first;
-  std::map<std::vector<std::string>, size_t> loaded;  // by overrides
-  for (size_t i = 0; i < variations_.size(); i++) try {
-      const auto [same, is_new] = loaded.emplace(variations_[i].overrides(), i);
-      if (!is_new) {
-        merger.add_again(same->second);
-        continue;
-      }
-      Graph graph = load(variations_[i].overrides());
-      if (i == 0) first = graph;
-      merger.add(std::move(graph), variations_[i].label());
-    } catch (const GraphError& e) {
-      throw GraphError(e.file(), with_origins(e.problems(), variations_[i]));
+  std::map<std::vector<std::pair<std::string, std::string>>, size_t> loaded;  // by values
+  for (size_t i = 0; i < variations_.size(); i++) {
+    const auto [same, is_new] = loaded.emplace(variations_[i].values, i);
+    if (!is_new) {
+      merger.add_again(same->second);
+      continue;
     }
+    Graph graph = load(variations_[i].overrides());
+    if (i == 0) first = graph;
+    merger.add(std::move(graph), variations_[i].label());
+  }
   MergedGraph all = merger.merged();
   names_ = std::move(all.names);
   Nodes nodes;
@@ -135,10 +133,8 @@ Graph Sweep::load(const std::function<Graph(const std::vector<std::string>&)>& l
 Graph Sweep::load(const GraphFlags& values, const LoadOptions& options,
                   const std::function<void(const std::string&)>& warn) {
   std::set<std::string> warned;
-  return load([&](const std::vector<std::string>& overrides) {
-    GraphFlags variation = values;
-    variation.set.insert(variation.set.end(), overrides.begin(), overrides.end());
-    LoadedGraph loaded = variation.load(options);
+  return load([&](const std::vector<Override>& overrides) {
+    LoadedGraph loaded = values.load(options, overrides);
     for (const Problem& w : loaded.warnings)
       if (const std::string text = describe(values.graph, w); warned.insert(text).second) warn(text);
     return std::move(loaded.graph);

@@ -34,7 +34,7 @@ class Sweep {
 
   /// Loads every variation by calling `load` with its overrides, and merges them into one graph. Adds the nodes for
   /// contact sheet and figures. Throws GraphError, and UsageError if the graph has nothing to show or to compare.
-  Graph load(const std::function<Graph(const std::vector<std::string>&)>& load);
+  Graph load(const std::function<Graph(const std::vector<Override>&)>& load);
 
   /// The same for a graph and values from the command line; calls `warn` once per warning.
   Graph load(const GraphFlags& values, const LoadOptions& options, const std::function<void(const std::string&)>& warn);

@@ -120,7 +120,7 @@ LoadedGraph GoldenSession::load(const GoldenDocument& document) const {
     s = replaced(s, "{in}", (folder_.path() / "in").string());
     s = replaced(s, "{out}", out_of(document).string());
   }
-  return load_graph(document.graph, settings);
+  return load_graph(document.graph, overrides_from(settings));
 }
 
 std::vector<GoldenCase> GoldenSession::run(const GoldenDocument& document) const {

@@ -52,7 +52,7 @@ TEST_CASE("every stock graph that resolves a uv map lets its user blend seams, a
     REQUIRE(blend != loaded.parameters.end());
     CHECK(blend->param.min == node->type->find_param("blend")->min);
     CHECK(blend->param.max == node->type->find_param("blend")->max);
-    const LoadedGraph soft = load_graph(path, {"blend=2.5"}, {.allow_unset = true});
+    const LoadedGraph soft = load_graph(path, {override_of("blend", "2.5")}, {.allow_unset = true});
     for (const GraphNode& n : soft.graph.nodes)
       if (resolves(n)) CHECK(std::get<double>(n.params.at("blend")) == 2.5);
   }
@@ -66,7 +66,7 @@ TEST_CASE("stock graphs join heights and let their user choose how far") {
     const fs::path path = fs::path(TERRAZZO_SOURCE_DIR) / "graphs" / (std::string(name) + ".json");
     for (const auto& [overrides, reach] :
          {std::pair(std::vector<std::string>(), 0.03), {std::vector<std::string>{"join=32"}, 32.0}})
-      for (const GraphNode& n : load_graph(path, overrides, {.allow_unset = true}).graph.nodes)
+      for (const GraphNode& n : load_graph(path, overrides_from(overrides), {.allow_unset = true}).graph.nodes)
         if (n.type->name == "resolve_uv") CHECK(std::get<double>(n.params.at("join")) == reach);
   }
 }

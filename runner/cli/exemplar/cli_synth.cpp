@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -19,20 +18,24 @@ namespace {
 /// An argument of `synth`, and the parameter of the stock graph that it sets.
 struct Argument {
   std::string name, parameter, value;
-
-  std::string override_text() const { return parameter + "=" + value; }
 };
+
+/// The values of the arguments, then those of --set.
+std::vector<Override> overrides_of(const std::vector<Argument>& arguments, const std::vector<std::string>& set) {
+  std::vector<Override> out;
+  for (const Argument& a : arguments) out.push_back(override_of(a.parameter, a.value));
+  for (Override& o : overrides_from(set)) out.push_back(std::move(o));
+  for (Override& o : out) o.allows_reading = true;
+  return out;
+}
 
 /// Reports problems in terms of the arguments of `synth`, the folder first, instead of the stock graph.
 GraphError about_arguments(const GraphError& error, const std::vector<Argument>& arguments) {
   std::vector<Problem> problems;
   for (const Problem& p : error.problems()) {
     const bool is_source = p.node == "exemplar" || p.node == "weighted";  // the latter checks the maps' shapes
-    const auto argument = std::find_if(arguments.begin(), arguments.end(), [&](const Argument& a) {
-      return p.where == where_of_override(a.override_text());
-    });
-    if (argument != arguments.end())
-      problems.push_back({{}, argument->name + " " + argument->value, p.message});
+    if (const size_t at = p.override_position.value_or(arguments.size()); at < arguments.size())
+      problems.push_back({{}, arguments[at].name + " " + arguments[at].value, p.message});
     else if (is_source || p.node == "files")
       problems.push_back({{}, is_source ? "FOLDER" : "-o", for_command_line(p.message, arguments.front().value)});
     else
@@ -167,10 +170,6 @@ void add_synth_command(Command& program) {
     set_if_given("--join", "join", flags->join);
     set_if_given("--format", "format", flags->format);
     set_if_given("--tileable", "tileable", flags->tileable);
-    std::vector<std::string> set;
-    for (const Argument& a : arguments) set.push_back(a.override_text());
-    set.insert(set.end(), flags->set.begin(), flags->set.end());
-    flags->values = set;
     if (same_folder(flags->exemplar.folder, flags->out))
       throw UsageError(fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
     try {
@@ -179,7 +178,7 @@ void add_synth_command(Command& program) {
       const std::string file = fmt::format("stock graph {}.json", graph.name);
       return run_with_flags(
           [&](const LoadOptions& options) {
-            return load_graph_text(stock_graph(graph.name), file, set, options).graph;
+            return load_graph_text(stock_graph(graph.name), file, overrides_of(arguments, flags->set), options).graph;
           },
           *flags);
     } catch (const GraphError& e) {

@@ -34,8 +34,8 @@ std::string absolute(const std::string& path) {
 
 /// The stock graph that analyses a folder.
 Graph analysing_graph(const LibraryAddition& asked, const fs::path& target) {
-  std::vector<std::string> set = {"material=" + asked.source, "out=" + target.string()};
-  set.insert(set.end(), asked.set.begin(), asked.set.end());
+  std::vector<Override> set = {override_of("material", asked.source), override_of("out", target.string())};
+  for (Override& o : overrides_from(asked.set)) set.push_back(std::move(o));
   return load_graph_text(stock_graph("analyse"), "stock graph analyse.json", set, {.look_ahead = preflight_of_nodes})
       .graph;
 }

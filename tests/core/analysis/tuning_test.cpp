@@ -64,7 +64,7 @@ TEST_CASE("another value of a constant changes what is found of an exemplar, and
     const Digest usual = found.of();
     for (const Nudge& n : found.changed_by) {
       CAPTURE(std::string(n.name));
-      const Override other(n.name, n.value);
+      const TuningOverride other(n.name, n.value);
       CHECK(found.of() != usual);
     }
     CHECK(found.of() == usual);

@@ -28,7 +28,7 @@ TEST_CASE("an override takes part in the result and in its cache key, and only a
   const auto result = [&] { return synthesize(*index, {.size = {90, 80}}, Task())->digest(); };
   const Digest usual = result(), key = key_of_synthesis();
   {
-    const Override other("correction.repeat_penalty", 2);
+    const TuningOverride other("correction.repeat_penalty", 2);
     CHECK(result() != usual);
     CHECK(key_of_synthesis() != key);
   }

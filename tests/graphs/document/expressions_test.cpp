@@ -125,7 +125,7 @@ TEST_CASE("a parameter that only another one uses is used") {
 TEST_CASE("sizes of sources are known to expressions before anything runs") {
   const auto load = [](const std::string& nodes, const std::string& parameters,
                        const std::vector<std::string>& overrides = {}) {
-    return load_graph_text(document(nodes, parameters), "/project/test.json", overrides);
+    return load_graph_text(document(nodes, parameters), "/project/test.json", overrides_from(overrides));
   };
   const std::string twice = R"("size": {"type": "size", "default": "=@stones.size * 2"})";
   const std::string nodes = R"("far": {"type": "noise", "size": "$size"},)"
@@ -218,7 +218,7 @@ TEST_CASE("nodes derive their seeds from the graph's and their names, whatever t
                           const std::vector<std::string>& overrides = {}) {
     const std::string text = R"({"terrazzo": 1, "parameters": {"s": {"type": "int", "default": 5}}, )" + seed +
                              R"("nodes": {)" + nodes + "}}";
-    const LoadedGraph loaded = load_graph_text(text, "/project/test.json", overrides);
+    const LoadedGraph loaded = load_graph_text(text, "/project/test.json", overrides_from(overrides));
     return std::get<int64_t>(loaded.graph.find(node)->params.at("seed"));
   };
   const std::string a = R"("a": {"type": "noise", "size": 64})", b = R"("b": {"type": "noise", "size": 64})";

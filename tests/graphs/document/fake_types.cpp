@@ -107,7 +107,7 @@ const std::vector<NodeType>& fake_types() {
 }
 
 LoadedGraph load_fake(const std::string& text, const std::vector<std::string>& overrides, const std::string& path) {
-  return load_graph_text(text, path, overrides, {.types = fake_types()});
+  return load_graph_text(text, path, overrides_from(overrides), {.types = fake_types()});
 }
 
 std::string problems_of(const std::string& text, const std::vector<std::string>& overrides, const std::string& path) {

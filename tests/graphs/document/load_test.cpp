@@ -214,7 +214,7 @@ TEST_CASE("a graph can be looked at before its parameters are set") {
   CHECK_THROWS_WITH_AS(load_graph_text(text, "t.json", {}, {.types = fake_types(), .allow_unset = true}),
                        doctest::Contains("amount"), GraphError);
   const LoadedGraph loaded =
-      load_graph_text(text, "t.json", {"b.amount=1"}, {.types = fake_types(), .allow_unset = true});
+      load_graph_text(text, "t.json", {override_of("b.amount", "1")}, {.types = fake_types(), .allow_unset = true});
   CHECK_FALSE(loaded.parameters[0].value);
   CHECK_FALSE(loaded.graph.find("a")->params.contains("file"));
   CHECK(loaded.graph.find("b")->inputs.at("image")[0].node == "a");
@@ -225,7 +225,7 @@ TEST_CASE("what only some nodes need is all that must be set for them") {
                                        "c": {"type": "photo", "file": "$q"})",
                                     R"("p": {"type": "path"}, "q": {"type": "path"}, "idle": {"type": "int"})");
   const auto load = [&](const std::vector<std::string>& set, const std::vector<std::string>& only) {
-    return load_graph_text(text, "t.json", set, {.types = fake_types(), .only = only});
+    return load_graph_text(text, "t.json", overrides_from(set), {.types = fake_types(), .only = only});
   };
   CHECK(order_of(load({"p=a.png"}, {"b"}).graph) == std::vector<std::string>{"a", "b"});
   CHECK(order_of(load({"p=a.png", "q=c.png"}, {"b"}).graph).size() == 3);
@@ -281,6 +281,12 @@ TEST_CASE("the problems of a document are there one by one, in the order of the 
     CHECK(e.problems()[2].where == "node \"b\"");
     CHECK(e.problems()[3].where == "override \"x=1\"");
     CHECK(e.problems()[3].place.line == 0);
+    CHECK(e.problems()[0].node == "a");
+    CHECK(e.problems()[0].parameter == "amount");
+    CHECK(!e.problems()[0].override_position);
+    CHECK(e.problems()[1].parameter == "image");
+    CHECK(e.problems()[3].parameter == "x");
+    CHECK(e.problems()[3].override_position == 0);
   }
 }
 

@@ -30,13 +30,14 @@ const std::vector<NodeType>& reading_types() {
 /// Packs and loads again from another place.
 struct Packed {
   explicit Packed(const fs::path& graph, const std::vector<std::string>& set = {}) {
-    files = write_pack(graph, set, {.types = reading_types()}, elsewhere.path() / "p.tzpack");
+    files = write_pack(graph, overrides_from(set), {.types = reading_types()}, elsewhere.path() / "p.tzpack");
     place = unpacked(elsewhere.path() / "p.tzpack", elsewhere.path() / "packs");
   }
   Graph load(const std::vector<std::string>& set = {}, const std::vector<std::string>& presets = {},
              const std::vector<fs::path>& settings = {}) const {
     const LoadOptions options{.types = reading_types(), .presets = presets, .settings = settings, .pack = place};
-    return load_graph_text(read_text(place / "graph.json"), elsewhere.path() / "p.tzpack", set, options).graph;
+    return load_graph_text(read_text(place / "graph.json"), elsewhere.path() / "p.tzpack", overrides_from(set), options)
+        .graph;
   }
   TemporaryFolder elsewhere;
   PackedFiles files;

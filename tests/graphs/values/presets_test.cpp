@@ -26,7 +26,7 @@ std::string graph(const std::string& presets) {
 
 LoadedGraph load(const fs::path& file, const std::vector<std::string>& presets,
                  const std::vector<fs::path>& settings = {}, const std::vector<std::string>& set = {}) {
-  return load_graph(file, set, {.types = fake_types(), .presets = presets, .settings = settings});
+  return load_graph(file, overrides_from(set), {.types = fake_types(), .presets = presets, .settings = settings});
 }
 
 int64_t steps(const LoadedGraph& loaded) {

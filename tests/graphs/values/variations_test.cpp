@@ -41,7 +41,7 @@ TEST_CASE("sweeps give every combination, the last one changing fastest") {
         "seed=1, size=512x256 | seed=1, size=64 | seed=2, size=512x256 | seed=2, size=64");
   CHECK(labels(swept({R"(w={"a": 1, "b": 2},{"a": 3})"})) == R"(w={"a": 1, "b": 2} | w={"a": 3})");
   CHECK(labels(swept({"out=../x"})) == "out=../x");
-  CHECK(swept({"layout.seed=4"}).front().overrides() == std::vector<std::string>{"layout.seed=4"});
+  CHECK(swept({"layout.seed=4"}).front().label() == "layout.seed=4");
   CHECK(swept({}).empty());
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("merged variations share what is the same, and differ where their valu
   std::vector<Graph> graphs;
   std::vector<std::string> names;
   for (const Variation& v : all) {
-    graphs.push_back(load_fake(text, v.overrides()).graph);
+    graphs.push_back(load_fake(text, {v.label()}).graph);
     names.push_back(v.label());
   }
   const MergedGraph one = merged(graphs, names);

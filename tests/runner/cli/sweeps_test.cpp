@@ -37,7 +37,7 @@ TEST_CASE("a sweep makes a contact sheet of its variants out of one folder of ma
 TEST_CASE("every picture of a sweep has a caption") {
   int sheets = 0;
   for (const auto& file : fs::directory_iterator(root + "examples/sweeps")) {
-    const LoadedGraph loaded = load_graph(file.path(), {"material=" + root + "examples"});
+    const LoadedGraph loaded = load_graph(file.path(), {override_of("material", root + "examples")});
     for (const GraphNode& node : loaded.graph.nodes) {
       if (node.type->name != "contact_sheet") continue;
       CHECK_MESSAGE(node.inputs.at("images").size() == std::get<Texts>(node.params.at("captions")).size(),

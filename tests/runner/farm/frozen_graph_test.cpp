@@ -127,11 +127,11 @@ TEST_CASE("every graph that comes with the program keeps its keys") {
   int graphs = 0;
   for (const char* name : {"material", "texture", "variants", "make_tileable", "analyse", "engine"}) {
     const fs::path file = fs::path(TERRAZZO_SOURCE_DIR) / "graphs" / (std::string(name) + ".json");
-    std::vector<std::string> values;
+    std::vector<Override> values;
     for (const GraphParameter& p : load_graph(file, {}, {.allow_unset = true}).parameters) {
       if (p.value || p.param.type != ParamType::path) continue;
       const bool is_map = p.param.name == "map" || p.param.name == "image";
-      values.push_back(p.param.name + "=" + (w.path / (is_map ? "wall/wall_basecolor.png" : "wall")).string());
+      values.push_back(override_of(p.param.name, w.path / (is_map ? "wall/wall_basecolor.png" : "wall")));
     }
     const Frozen f(w, load_graph(file, values).graph);
     graphs++;
