@@ -86,12 +86,13 @@ void summarize(const RunFlags& flags, const RunSummary& summary) {
   if (!flags.summary.empty()) write_run_summary(summary, flags.summary);
 }
 
-/// Runs `work`, which plans a graph or prepares that; if it throws, writes the reason to the summary.
+/// Calls `act`, which plans a graph or prepares that; if it throws, writes the reason to the summary.
 template <typename Act>
-auto summarizing_failure(const RunFlags& flags, const Act& act) {
+auto summarizing_failure(const RunFlags& flags, const std::string& graph,
+                         const std::map<std::string, std::string>& variations, const Act& act) {
   const auto tell = [&](const std::exception& e, int code) {
-    RunSummary summary{flags.graph};
-    summary.variations = flags.variations;
+    RunSummary summary{graph};
+    summary.variations = variations;
     summary.error = &e;
     summary.exit_code = code;
     summarize(flags, summary);
@@ -117,8 +118,8 @@ std::vector<WrittenFile> without_pictures(std::vector<WrittenFile> files) {
 }
 
 /// The files that a run's options write.
-std::vector<WrittenFile> files_of(const RunFlags& flags) {
-  std::vector<WrittenFile> out = flags.writes;
+std::vector<WrittenFile> files_of(const CommandRun& run, const RunFlags& flags) {
+  std::vector<WrittenFile> out = run.writes;
   out.push_back({"--report", flags.report, WrittenKind::page});
   out.push_back({"--trace", flags.trace, WrittenKind::trace});
   out.push_back({"--summary", flags.summary, WrittenKind::summary});
@@ -126,13 +127,13 @@ std::vector<WrittenFile> files_of(const RunFlags& flags) {
 }
 
 /// Nullopt if no sandbox is requested. Paths in `readable` may be read too. Throws UsageError.
-std::optional<Sandbox> sandbox_of(const RunFlags& flags, const std::vector<fs::path>& readable) {
+std::optional<Sandbox> sandbox_of(const CommandRun& run, const RunFlags& flags, const std::vector<fs::path>& readable) {
   if (flags.sandbox.empty()) return std::nullopt;
   std::error_code missing;
   if (!fs::is_directory(flags.sandbox, missing))
     throw UsageError(fmt::format("--sandbox {}: there is no such folder; make it first", flags.sandbox));
   Sandbox out(flags.sandbox);
-  for (const std::string& file : flags.files) out.open(file);
+  for (const std::string& file : run.files) out.open(file);
   for (const fs::path& path : readable) out.open_to_read(path);
   return out;
 }
@@ -146,13 +147,13 @@ void check_sandbox(const Graph& graph, const std::optional<Sandbox>& sandbox) {
 
 /// A graph and its sandbox.
 struct Guarded {
-  Graph graph;
+  GraphToRun what;
   std::optional<Sandbox> sandbox;
 };
 
 /// Loads a graph that reads only files its sandbox allows.
-Guarded load_guarded(const LoadGraph& load, const RunFlags& flags) {
-  Guarded out{{}, sandbox_of(flags, flags.unpack ? flags.unpack() : std::vector<fs::path>())};
+Guarded load_guarded(const CommandRun& run, const RunFlags& flags) {
+  Guarded out{{}, sandbox_of(run, flags, run.unpack ? run.unpack() : std::vector<fs::path>())};
   std::optional<ReadGuard> guard;
   if (out.sandbox)
     guard.emplace([&](const fs::path& path) { out.sandbox->check("read", path); },
@@ -162,22 +163,25 @@ Guarded load_guarded(const LoadGraph& load, const RunFlags& flags) {
     if (out.sandbox) problems = sandbox_problems(nodes, *out.sandbox);
     return problems.empty() ? preflight_of_nodes(nodes) : problems;
   };
-  out.graph = load({.only = flags.only, .keep_going = flags.keep_going, .look_ahead = look_ahead});
+  out.what = run.load({.only = flags.only, .keep_going = flags.keep_going, .look_ahead = look_ahead});
   return out;
 }
 
-int run_once(const Guarded& guarded, const RunFlags& flags, Session& session, const std::atomic<bool>& cancelled) {
-  const auto& [graph, sandbox] = guarded;
-  RunRequest request{.only = flags.only,
-                     .keep = flags.keep,
+int run_once(const Guarded& guarded, const CommandRun& run, const RunFlags& flags, Session& session,
+             const std::atomic<bool>& cancelled) {
+  const GraphToRun& what = guarded.what;
+  const Graph& graph = what.graph;
+  const std::optional<Sandbox>& sandbox = guarded.sandbox;
+  RunRequest request{.only = what.only,
+                     .keep = what.keep,
                      .keep_going = flags.keep_going,
                      .sandbox = sandbox ? &*sandbox : nullptr,
                      .cancelled = &cancelled};
-  const Plan plan = summarizing_failure(flags, [&, &graph = graph, &sandbox = sandbox] {
+  const Plan plan = summarizing_failure(flags, run.graph, what.variations, [&] {
     check_sandbox(graph, sandbox);
     try {
       if (!flags.report.empty())
-        for (std::string& name : nodes_for_report(graph, flags.only, session)) request.keep.push_back(std::move(name));
+        for (std::string& name : nodes_for_report(graph, what.only, session)) request.keep.push_back(std::move(name));
       return session.plan(graph, request);
     } catch (const GraphError&) {
       throw;
@@ -185,7 +189,7 @@ int run_once(const Guarded& guarded, const RunFlags& flags, Session& session, co
       throw UsageError(fmt::format("--only: {}", e.what()));
     }
   });
-  const std::vector<WrittenFile> written = files_of(flags);
+  const std::vector<WrittenFile> written = files_of(run, flags);
   check_protected(written, inputs_of(graph));
   check_protected(without_pictures(written), outputs_of(plan));
   if (flags.dry_run) {
@@ -201,11 +205,11 @@ int run_once(const Guarded& guarded, const RunFlags& flags, Session& session, co
   progress->closed(result);
   if (mode != ProgressMode::json) print_end(result, mode);
   RunSummary summary{graph.file, &plan, &result, session.cache(), std::move(warnings)};
-  summary.variations = flags.variations;
+  summary.variations = what.variations;
   summary.exit_code = result.cancelled ? exit_cancelled : result.ok() ? exit_done : exit_failed;
   try {
     check_protected(without_pictures(written), outputs_of(result));  // checks names that were unknown before the run
-    if (flags.after) flags.after(result);
+    if (run.after) run.after(result);
     if (!flags.trace.empty()) write_trace(result, flags.trace);
     if (!flags.report.empty()) write_html_report(plan, result, flags.report);
   } catch (const std::exception& e) {
@@ -218,20 +222,20 @@ int run_once(const Guarded& guarded, const RunFlags& flags, Session& session, co
   return summary.exit_code;
 }
 
-int watch(const LoadGraph& load, const RunFlags& flags, Session& session, const std::atomic<bool>& cancelled) {
+int watch(const CommandRun& run, const RunFlags& flags, Session& session, const std::atomic<bool>& cancelled) {
   Watch watched;
   const ProgressMode mode = *progress_mode_from(flags.progress);
   Guarded guarded;
-  guarded.graph.file = flags.graph;
-  watched.look_at(guarded.graph);
+  guarded.what.graph.file = run.graph;
+  watched.look_at(guarded.what.graph);
   for (;;) {
     int code = exit_usage;
     watched.look_again();  // if loading fails, a change of the previous files may fix it
     try {
-      guarded = summarizing_failure(flags, [&] { return load_guarded(load, flags); });
-      watched.look_at(guarded.graph);
+      guarded = summarizing_failure(flags, run.graph, {}, [&] { return load_guarded(run, flags); });
+      watched.look_at(guarded.what.graph);
       watched.until_change(cancelled,
-                           [&](const std::atomic<bool>& stop) { code = run_once(guarded, flags, session, stop); });
+                           [&](const std::atomic<bool>& stop) { code = run_once(guarded, run, flags, session, stop); });
     } catch (const Error& e) {
       write_error(mode, std::cerr, e);
     }
@@ -299,58 +303,76 @@ void add_run_flags(Command& command, RunFlags& flags) {
       .any_case();
 }
 
-int run_with_flags(const LoadGraph& load, const RunFlags& flags) {
+int run_with_flags(const CommandRun& run, const RunFlags& flags) {
   flags.limits.apply();
   const std::string ending = fs::path(flags.report).extension().string();
   std::error_code missing;
   const bool is_device = fs::exists(flags.report, missing) && !fs::is_regular_file(flags.report, missing);
   if (!flags.report.empty() && !is_device && ending != ".html" && ending != ".htm")
     throw UsageError(fmt::format("--report takes a file that ends in .html; \"{}\" does not", flags.report));
-  check_protected(files_of(flags), flags.reads);
-  check_replaced(files_of(flags), flags.force);
+  check_protected(files_of(run, flags), run.reads);
+  check_replaced(files_of(run, flags), flags.force);
   if (flags.is_checked() && !is_watching())
     warn(flags, "the files that nodes read are not watched: " + why_not_watching());
   const CancelOnSignal signals;
   Session session(open_cache(flags), {.threads = flags.threads, .checked = flags.is_checked()});
-  if (flags.watch) return watch(load, flags, session, signals.flag());
-  const Guarded guarded = summarizing_failure(flags, [&] { return load_guarded(load, flags); });
-  return run_once(guarded, flags, session, signals.flag());
+  if (flags.watch) return watch(run, flags, session, signals.flag());
+  const Guarded guarded = summarizing_failure(flags, run.graph, {}, [&] { return load_guarded(run, flags); });
+  return run_once(guarded, run, flags, session, signals.flag());
 }
 
 namespace {
 
-int run_sweep(GraphFlags values, const SweepFlags& asked, const RunFlags& given) {
-  Sweep sweep(asked);
-  RunFlags flags = given;
-  flags.writes = {{"--sheet", asked.sheet, is_page(asked.sheet) ? WrittenKind::page : WrittenKind::picture},
-                  {"--figures", asked.figures, WrittenKind::table}};
-  if (!asked.table.empty()) flags.reads.push_back({asked.table, "it is the table of --table"});
-  flags.after = [&](const RunResult& result) { sweep.report(result); };
-  flags.unpack = [&] { return values.unpack_for_run(flags.keeps(), flags.cache); };
-  return run_with_flags(
-      [&](LoadOptions options) {
-        options.only = given.only;
-        Graph graph = sweep.load(values, options, [&](const std::string& text) { warn(flags, text); });
-        flags.keep = sweep.kept();
-        flags.variations = sweep.of_one_variation();
-        flags.only = sweep.names_of(given.only);
-        if (!flags.only.empty()) flags.only.insert(flags.only.end(), sweep.targets().begin(), sweep.targets().end());
-        return graph;
-      },
-      flags);
+struct RunCommandFlags : RunFlags {
+  GraphFlags values;
+  SweepFlags variations;
+};
+
+/// Makes the variations' graph the one to run, and reports on them.
+void run_variations(CommandRun& run, Sweep& sweep, const RunCommandFlags& flags) {
+  const SweepFlags& asked = flags.variations;
+  run.writes = {{"--sheet", asked.sheet, is_page(asked.sheet) ? WrittenKind::page : WrittenKind::picture},
+                {"--figures", asked.figures, WrittenKind::table}};
+  if (!asked.table.empty()) run.reads.push_back({asked.table, "it is the table of --table"});
+  run.after = [&](const RunResult& result) { sweep.report(result); };
+  run.load = [&](const LoadOptions& options) {
+    GraphToRun out{sweep.load(flags.values, options, [&](const std::string& text) { warn(flags, text); })};
+    out.only = sweep.names_of(options.only);
+    if (!out.only.empty()) out.only.insert(out.only.end(), sweep.targets().begin(), sweep.targets().end());
+    out.keep = sweep.kept();
+    out.variations = sweep.of_one_variation();
+    return out;
+  };
+}
+
+int run_command(RunCommandFlags& flags) {
+  GraphFlags& values = flags.values;
+  const SweepFlags& asked = flags.variations;
+  CommandRun run{.graph = values.graph, .reads = values.files()};
+  if (!asked.sheet.empty()) run.files.push_back(asked.sheet);
+  run.unpack = [&] { return values.unpack_for_run(flags.keeps(), flags.cache); };
+  if (asked.asked()) {
+    Sweep sweep(asked);
+    run_variations(run, sweep, flags);
+    return run_with_flags(run, flags);
+  }
+  for (const std::string* left : {&asked.sheet, &asked.figures, &asked.best})
+    if (!left->empty()) throw UsageError("--sheet, --figures and --best go with --sweep or --table");
+  run.load = [&](const LoadOptions& options) {
+    LoadedGraph loaded = values.load(options);
+    for (const std::string& w : shown_warnings(values.graph, loaded.warnings)) warn(flags, w);
+    return GraphToRun{std::move(loaded.graph), options.only};
+  };
+  return run_with_flags(run, flags);
 }
 
 }  // namespace
 
 void add_run_command(Command& program) {
   Command& run = program.add_command("run", "Runs a graph: only what has changed since it last ran");
-  struct Flags : RunFlags {
-    GraphFlags graph_values;
-    SweepFlags variations;
-  };
-  const auto flags = std::make_shared<Flags>();
-  add_graph_argument(run, flags->graph_values);
-  add_value_flags(run, flags->graph_values);
+  const auto flags = std::make_shared<RunCommandFlags>();
+  add_graph_argument(run, flags->values);
+  add_value_flags(run, flags->values);
   add_sweep_flags(run, flags->variations);
   add_run_flags(run, *flags);
   run.footer =
@@ -358,22 +380,7 @@ void add_run_command(Command& program) {
       "  terrazzo run bricks.json --set seed=7 --set size=2048x2048\n"
       "  terrazzo run bricks.json --only layout --dry-run\n"
       "  terrazzo run bricks.json --sweep seed=1..8 --set \"out=='out/' + seed\" --sheet sheet.png --best swd";
-  run.run = [flags] {
-    flags->graph = flags->graph_values.graph;
-    flags->reads = flags->graph_values.files();
-    if (!flags->variations.sheet.empty()) flags->files.push_back(flags->variations.sheet);
-    if (flags->variations.asked()) return run_sweep(flags->graph_values, flags->variations, *flags);
-    for (const std::string* left : {&flags->variations.sheet, &flags->variations.figures, &flags->variations.best})
-      if (!left->empty()) throw UsageError("--sheet, --figures and --best go with --sweep or --table");
-    flags->unpack = [&] { return flags->graph_values.unpack_for_run(flags->keeps(), flags->cache); };
-    return run_with_flags(
-        [&](const LoadOptions& options) {
-          LoadedGraph loaded = flags->graph_values.load(options);
-          for (const std::string& w : shown_warnings(flags->graph, loaded.warnings)) warn(*flags, w);
-          return std::move(loaded.graph);
-        },
-        *flags);
-  };
+  run.run = [flags] { return run_command(*flags); };
 }
 
 }  // namespace terrazzo

@@ -17,7 +17,6 @@ namespace terrazzo {
 
 /// The options of every command that runs a graph.
 struct RunFlags {
-  std::string graph;  ///< the graph file; empty for a stock graph
   std::vector<std::string> only;
   std::string cache;
   std::string cache_size;
@@ -33,19 +32,31 @@ struct RunFlags {
   bool keep_going = false;
   bool force = false;
   std::string sandbox;
-  std::vector<std::string> files{};  ///< further files on the command line
   std::string progress = "auto";
-  std::vector<WrittenFile> writes{};                ///< in addition to report and trace
-  std::vector<ProtectedFile> reads{};               ///< in addition to the graph and its nodes' files
-  std::map<std::string, std::string> variations{};  ///< see RunSummary
-  std::vector<std::string> keep{};                  ///< further targets, whose values are kept for `after`
-  /// Called before each load. The sandbox allows reading the returned folders.
-  std::function<std::vector<std::filesystem::path>()> unpack{};
-  std::function<void(const RunResult&)> after{};  ///< called with the result of each run
 
   /// Whether to use a cache.
   bool keeps() const { return !no_cache && !is_checked(); }
   bool is_checked() const { return checked.holds(cache); }
+};
+
+/// A loaded graph, and what of it is to run.
+struct GraphToRun {
+  Graph graph;
+  std::vector<std::string> only{};                  ///< empty: everything
+  std::vector<std::string> keep{};                  ///< further targets, whose values are kept for CommandRun::after
+  std::map<std::string, std::string> variations{};  ///< see RunSummary
+};
+
+/// What a command runs, and what it does besides.
+struct CommandRun {
+  std::function<GraphToRun(const LoadOptions&)> load{};
+  std::string graph{};                 ///< the graph file; empty for a stock graph
+  std::vector<ProtectedFile> reads{};  ///< in addition to the nodes' files
+  std::vector<WrittenFile> writes{};   ///< in addition to those of the options
+  std::vector<std::string> files{};    ///< further files on the command line, which a sandbox opens
+  /// Called before each load. The sandbox allows reading the returned folders.
+  std::function<std::vector<std::filesystem::path>()> unpack{};
+  std::function<void(const RunResult&)> after{};  ///< called with the result of each run
 };
 
 /// Prints the nodes' warnings.
@@ -53,10 +64,8 @@ void print_warnings(const RunResult& result);
 
 void add_run_flags(Command& command, RunFlags& flags);
 
-using LoadGraph = std::function<Graph(const LoadOptions&)>;
-
-/// Runs the graph from `load`; returns the exit code. With `watch`, loads and runs it again whenever one of its files
-/// changes. Throws UsageError and GraphError.
-int run_with_flags(const LoadGraph& load, const RunFlags& flags);
+/// Loads and runs a graph; returns the exit code. With `watch`, does so again whenever one of its files changes. Throws
+/// UsageError and GraphError.
+int run_with_flags(const CommandRun& run, const RunFlags& flags);
 
 }  // namespace terrazzo

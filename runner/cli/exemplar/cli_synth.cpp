@@ -76,13 +76,15 @@ ChosenGraph suitable_graph(const SynthFlags& flags) {
   looking.limits = flags.limits;
   looking.sandbox = flags.sandbox;
   looking.progress = "none";
-  looking.keep = {"elements"};
   FeaturesPtr features;
-  looking.after = [&](const RunResult& result) {
+  CommandRun run{.files = {flags.exemplar.folder}};
+  run.load = [&](const LoadOptions&) {
+    return GraphToRun{.graph = inspection_graph(flags.exemplar), .keep = {"elements"}};
+  };
+  run.after = [&](const RunResult& result) {
     if (result.ok()) features = std::get<FeaturesPtr>(result.kept.at("elements").at("features"));
   };
-  looking.files = {flags.exemplar.folder};
-  const int code = run_with_flags([&](const LoadOptions&) { return inspection_graph(flags.exemplar); }, looking);
+  const int code = run_with_flags(run, looking);
   if (!features) return {nullptr, code};
   const MethodChoice choice = suitable_method(*features, Task());
   print_message("{}\n", choice.sentence());
@@ -176,11 +178,11 @@ void add_synth_command(Command& program) {
       const ChosenGraph graph = chosen_graph(*flags);
       if (!graph.name) return graph.code;
       const std::string file = fmt::format("stock graph {}.json", graph.name);
-      return run_with_flags(
-          [&](const LoadOptions& options) {
-            return load_graph_text(stock_graph(graph.name), file, overrides_of(arguments, flags->set), options).graph;
-          },
-          *flags);
+      const auto load = [&](const LoadOptions& options) {
+        const std::vector<Override> set = overrides_of(arguments, flags->set);
+        return GraphToRun{load_graph_text(stock_graph(graph.name), file, set, options).graph, options.only};
+      };
+      return run_with_flags({.load = load}, *flags);
     } catch (const GraphError& e) {
       throw about_arguments(e, arguments);
     }
