@@ -60,9 +60,9 @@ struct LoadedGraph {
   std::vector<Problem> conversions, warnings;
 };
 
-/// Reads a document. `overrides` set parameters of the graph, and parameters or ports of nodes; the last one for a target
-/// wins. Relative paths in the document start at its folder, those in overrides at the working directory. Throws only
-/// GraphError, with all problems.
+/// Reads a document. `overrides` set parameters of the graph, and parameters or ports of nodes; the last one for a
+/// target wins. Relative paths in the document start at its folder, those in overrides at the working directory. Throws
+/// only GraphError, with all problems.
 LoadedGraph load_graph(const std::filesystem::path& path, const std::vector<Override>& overrides = {},
                        const LoadOptions& options = {});
 

@@ -51,7 +51,9 @@ class NodeReader {
 
  private:
   const NodeType& type() const { return *draft_.node.type; }
-  void report(Place place, const std::string& message) { problems_.push_back({place, where_, message}); }
+  void report(Place place, const std::string& message, const std::string& parameter = "") {
+    Diagnostics(problems_, where_, parameter).add(place, message);
+  }
 
   bool find_type(const JsonValue& value) {
     const JsonValue* given = value.find("type");
@@ -237,7 +239,8 @@ class NodeReader {
     for (const Port& p : type().inputs)
       if (!p.optional && !given_.contains(p.name))
         report(draft_.node.place,
-               fmt::format("the port \"{}\" must be given: expected a wire of type {}", p.name, name_of(p.type)));
+               fmt::format("the port \"{}\" must be given: expected a wire of type {}", p.name, name_of(p.type)),
+               p.name);
     for (const Param& p : type().params) {
       if (given_.contains(p.name)) continue;
       if (p.name == "seed" && p.type == ParamType::integer && reading_.seed) {
@@ -246,7 +249,7 @@ class NodeReader {
         draft_.node.params.emplace(p.name, default_of(p, reading_.graph_folder));
       } else {
         report(draft_.node.place,
-               fmt::format("the parameter \"{}\" must be given: expected {}", p.name, expectation(p)));
+               fmt::format("the parameter \"{}\" must be given: expected {}", p.name, expectation(p)), p.name);
       }
     }
   }
@@ -256,18 +259,21 @@ class NodeReader {
     const bool is_foreign = !type().origin.name.empty();
     try {
       if (type().check)
-        for (const std::string& message : type().check(draft_.node.params)) report(place_of(message), message);
+        for (const std::string& message : type().check(draft_.node.params)) {
+          const std::string about = subject_of(message);
+          report(draft_.node.place_of(about), message, about);
+        }
       // Many callers use files_read and do not expect it to throw.
       if (is_foreign && type().files_read) type().files_read(draft_.node.params);
     } catch (const Error& e) {
-      report(draft_.node.place_of(e.about()), e.what());
+      report(draft_.node.place_of(e.about()), e.what(), e.about());
     }
   }
 
-  /// The place of the quoted parameter at the beginning of a message; else that of the node.
-  Place place_of(const std::string& message) const {
+  /// The quoted parameter at the beginning of a message; empty if there is none.
+  static std::string subject_of(const std::string& message) {
     const size_t end = message.find('"', 1);
-    return draft_.node.place_of(message.starts_with('"') && end != message.npos ? message.substr(1, end - 1) : "");
+    return message.starts_with('"') && end != message.npos ? message.substr(1, end - 1) : "";
   }
 
   NodeDraft& draft_;

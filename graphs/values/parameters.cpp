@@ -35,8 +35,9 @@ std::string hint_for(const std::string& wrong, const std::vector<std::string>& n
 
 }  // namespace
 
-Diagnostics Formula::diagnostics(std::vector<Problem>& problems, const std::string& where) const {
-  return by ? by->diagnostics(problems) : Diagnostics(problems, where);
+Diagnostics Formula::diagnostics(std::vector<Problem>& problems, const std::string& where,
+                                 const std::string& parameter) const {
+  return by ? by->diagnostics(problems) : Diagnostics(problems, where, parameter);
 }
 
 Place place_in(const JsonValue& text, size_t offset) {

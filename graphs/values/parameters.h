@@ -24,7 +24,8 @@ struct Formula {
   std::filesystem::path base;    ///< relative paths start here
   std::optional<Override> by{};  ///< empty if it is from the document
 
-  Diagnostics diagnostics(std::vector<Problem>& problems, const std::string& where) const;
+  /// `where` and `parameter` are for formulas of the document.
+  Diagnostics diagnostics(std::vector<Problem>& problems, const std::string& where, const std::string& parameter) const;
 };
 
 /// What is missing to compute a value: unset parameters of the graph, and nodes whose forecasts it queries.

@@ -126,13 +126,13 @@ void GraphScope::check_formulas() {
   for (GraphParameter& p : parameters_) {
     if (p.visible_if) check_condition(p);
     if (!p.formula || p.is_wrong) continue;
-    Diagnostics diagnostics = p.formula->diagnostics(problems_, where(p));
+    Diagnostics diagnostics = p.formula->diagnostics(problems_, where(p), p.param.name);
     p.is_wrong = !check_names(*p.formula->expression, p.formula->text, diagnostics);
   }
 }
 
 void GraphScope::check_condition(GraphParameter& p) {
-  Diagnostics diagnostics(problems_, where(p));
+  Diagnostics diagnostics(problems_, where(p), p.param.name);
   const std::optional<Expression> condition = parse_expression(*p.visible_if, diagnostics);
   if (condition && !condition->nodes().empty())
     diagnostics.add(
@@ -162,7 +162,7 @@ std::optional<ParamValue> GraphScope::evaluate(const Expression& expression, con
 
 void GraphScope::evaluate(GraphParameter& p) {
   if (p.value || p.is_wrong || p.pending || !p.formula || !lacking(p.param.name).nothing()) return;
-  Diagnostics diagnostics = p.formula->diagnostics(problems_, where(p));
+  Diagnostics diagnostics = p.formula->diagnostics(problems_, where(p), p.param.name);
   const std::optional<ParamValue> result =
       evaluate(*p.formula->expression, p.formula->text, unit_of(p.param), diagnostics);
   if (result) {
@@ -197,7 +197,7 @@ void GraphScope::report_cycles() {
   std::map<std::string, int> heights;  // the length of the chain that each parameter depends on
   std::vector<std::string> path;
   const auto report = [&](GraphParameter& p, const std::string& message) {
-    p.formula->diagnostics(problems_, where(p)).add(p.formula->text.place, message);
+    p.formula->diagnostics(problems_, where(p), p.param.name).add(p.formula->text.place, message);
     p.is_wrong = true;
     return 0;
   };
