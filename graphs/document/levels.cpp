@@ -306,24 +306,4 @@ std::optional<int64_t> Levels::read_seed(Level& level) {
   return read ? std::optional(std::get<int64_t>(*read)) : std::nullopt;
 }
 
-void Levels::set_forecasts(const GraphScope::Forecasts& forecasts) {
-  for (const std::unique_ptr<Level>& level : levels_) {
-    level->names.scope->set_forecasts(forecasts);
-    for (const std::unique_ptr<NodeScope>& iteration : level->iterations) iteration->scope->set_forecasts(forecasts);
-  }
-}
-
-void Levels::read_deferred(Level& level, const std::set<std::string>& known) {
-  if (!level.use) return;
-  read_deferred(*level.outer, known);
-  NodeDraft& use = *level.use;
-  if (use.waiting.empty() || !std::ranges::all_of(use.asked, [&](const std::string& n) { return known.contains(n); }))
-    return;
-  const size_t before = problems_.size();
-  read_waiting(use, problems_);
-  set_file(problems_, before, use.node.file);
-  use.asked.clear();
-  bind_parameters(level);
-}
-
 }  // namespace terrazzo

@@ -12,7 +12,8 @@
 
 #include "graphs/document/level.h"
 
-/// Reads the nodes of a graph and its subgraphs.
+/// The first pass over a document: reads the nodes of a graph and its subgraphs, except values that query results of
+/// nodes.
 namespace terrazzo {
 
 /// An override of "walls[brick]/layout" in the level of the node "walls", on its way down.
@@ -51,11 +52,6 @@ class Levels {
   const std::vector<LoopSource>& made_from() const { return made_from_; }
   /// Parameters without a value that loops need.
   const std::set<std::string>& unset_for_loops() const { return unset_for_loops_; }
-
-  /// Reads deferred parameters in this level and enclosing ones, once the nodes that they query are in `known`.
-  void read_deferred(Level& level, const std::set<std::string>& known);
-  /// Sets the source of forecasts for every scope.
-  void set_forecasts(const GraphScope::Forecasts& forecasts);
 
  private:
   void read_level(Level& level, const std::vector<RoutedOverride>& overrides);

@@ -1,7 +1,6 @@
 #include "graphs/document/load.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -9,7 +8,7 @@
 #include "core/base/paths.h"
 #include "core/base/suggest.h"
 #include "graphs/document/file_origins.h"
-#include "graphs/document/forecasts.h"
+#include "graphs/document/forecast_pass.h"
 #include "graphs/document/left_out.h"
 #include "graphs/document/levels.h"
 #include "graphs/document/member_overrides.h"
@@ -86,33 +85,17 @@ class Loader {
 
     coded("document");
     std::vector<Override> overrides = all_overrides(out.presets, given, options);
-    auto owned = std::make_unique<Level>();
-    Level& root = *owned;
-    root.graph = main_;
-    root.names.parameters = std::move(head.parameters);
-    std::vector<GraphParameter>& parameters = root.names.parameters;
-    merge_members(overrides, parameters, main_->sources, problems_);
-    set_parameters(parameters, overrides, main_->sources, problems_);
-    coded("override");
-    root.names.scope = std::make_unique<GraphScope>(parameters, main_->sources, "", problems_);
-    root.names.scope->evaluate_parameters();
-    coded("document");
-    root.names.substitution = std::make_unique<Substitution>(*root.names.scope);
-    levels_.read(std::move(owned), overrides);
-    coded("node");
-    if (levels_.is_full()) finish();  // further checks would process everything read so far
     std::vector<Problem> conversions;
-    for (const std::unique_ptr<Level>& level : levels_.all()) check_wires(*level, problems_, conversions);
-    connect(levels_, problems_);
-    coded("wire");
+    Level& root = first_pass(std::move(head.parameters), overrides, conversions);
+    std::vector<GraphParameter>& parameters = root.names.parameters;
     Drafts& drafts = levels_.nodes();
-    for (NodeDraft& d : drafts) resolve_queried_nodes(d);
-    for (NodeDraft& d : levels_.others()) resolve_queried_nodes(d);
+    forecasts_.resolve_queries();
     const std::vector<size_t> order = execution_order(drafts, problems_);
     coded("cycle");
-    read_deferred(order, root);
+    forecasts_.run(order, root);
     const std::set<std::string> wanted = wanted_nodes(drafts, options.only);
-    const bool is_part = options.keep_going ? !of_sources_.empty() : report_sources(asked_too(drafts, wanted));
+    const bool is_part =
+        options.keep_going ? !forecasts_.problems_of_sources().empty() : report_sources(asked_too(drafts, wanted));
     coded("parameter");
     if (!options.allow_unset) require_set(parameters, out.inputs, wanted);
     coded("unset");
@@ -153,6 +136,29 @@ class Loader {
   }
 
  private:
+  /// Reads all values but those that query results of nodes, and connects the nodes.
+  Level& first_pass(std::vector<GraphParameter> parameters, std::vector<Override>& overrides,
+                    std::vector<Problem>& conversions) {
+    auto owned = std::make_unique<Level>();
+    owned->graph = main_;
+    NodeScope& names = owned->names;
+    names.parameters = std::move(parameters);
+    merge_members(overrides, names.parameters, main_->sources, problems_);
+    set_parameters(names.parameters, overrides, main_->sources, problems_);
+    coded("override");
+    names.scope = std::make_unique<GraphScope>(names.parameters, main_->sources, "", problems_);
+    names.scope->evaluate_parameters();
+    coded("document");
+    names.substitution = std::make_unique<Substitution>(*names.scope);
+    Level& root = levels_.read(std::move(owned), overrides);
+    coded("node");
+    if (levels_.is_full()) finish();  // further checks would process everything read so far
+    for (const std::unique_ptr<Level>& level : levels_.all()) check_wires(*level, problems_, conversions);
+    connect(levels_, problems_);
+    coded("wire");
+    return root;
+  }
+
   /// In order of precedence: command line, settings files, presets.
   std::vector<Override> all_overrides(const std::vector<Preset>& presets, const std::vector<Override>& given,
                                       const LoadOptions& options) {
@@ -184,117 +190,10 @@ class Loader {
     return out;
   }
 
-  /// The source of results that an expression queries, resolved through inputs and subgraphs.
-  WireSources sources_behind(const std::string& asked) const {
-    const size_t name = asked.rfind('/') + 1;  // 0 if there is none
-    const Level* level = levels_.find(asked.substr(0, name));
-    std::vector<Problem> ignored;
-    Diagnostics diagnostics(ignored, "");
-    return level ? sources_of(*level, {asked.substr(name), "", {}, ""}, diagnostics) : WireSources{};
-  }
-
-  /// The node whose results an expression queries. Throws Error if there is not exactly one.
-  std::string node_behind(const std::string& asked) const {
-    const WireSources found = sources_behind(asked);
-    if (found.wires.size() > 1)
-      throw Error(fmt::format("\"{}\" is a loop, of {} iterations", asked, found.wires.size()));
-    if (found.wires.empty()) throw Error(fmt::format("nothing comes into \"{}\"", asked));
-    return found.wires.front().node;
-  }
-
-  /// Replaces the names in a node's queries by those of the resolved nodes.
-  void resolve_queried_nodes(NodeDraft& draft) const {
-    std::set<std::string> nodes;
-    for (const std::string& name : draft.asked) {
-      WireSources found = sources_behind(name);
-      if (found.is_faulty || !found.open.empty()) nodes.emplace(never_known);
-      if (found.wires.size() == 1) nodes.insert(found.wires.front().node);
-      draft.unset.merge(found.open);
-    }
-    draft.asked = std::move(nodes);
-  }
-
-  /// Evaluates values that query forecasts, node by node, so that each can query earlier ones.
-  void read_deferred(const std::vector<size_t>& order, Level& root) {
-    Drafts& drafts = levels_.nodes();
-    std::vector<std::string> asked;
-    for (const NodeDraft& d : drafts) asked.insert(asked.end(), d.asked.begin(), d.asked.end());
-    for (const NodeDraft& d : levels_.others()) asked.insert(asked.end(), d.asked.begin(), d.asked.end());
-    if (asked.empty() && !has_waiting()) return;
-    std::map<std::string, const NodeDraft*> by_name;
-    for (const NodeDraft& d : drafts) by_name[d.node.name] = &d;
-    const std::set<std::string> needed = needed_nodes(drafts, asked);
-    std::set<std::string> incomplete = {never_known};  // problems and unset values are reported elsewhere
-    std::set<std::string> known;
-    Forecasts forecasts;
-    levels_.set_forecasts([&](const std::string& name) -> const Forecast& {
-      const std::string node = node_behind(name);
-      if (const Forecast* found = forecasts.find(node)) return *found;
-      throw Error(fmt::format("the results of \"{}\" are not known before it runs", node));
-    });
-    for (const size_t i : order) {
-      NodeDraft& d = drafts[i];
-      bool complete = true;
-      for (const std::string& source : d.asked) {
-        complete &= !incomplete.contains(source);
-        if (const auto at = by_name.find(source); at != by_name.end())
-          d.unset.insert(at->second->unset.begin(), at->second->unset.end());
-      }
-      const size_t before = problems_.size();
-      if (complete) levels_.read_deferred(*d.level, known);
-      if (complete && !d.waiting.empty()) read_waiting(d, problems_);
-      set_file(problems_, before, d.node.file);
-      if (needed.contains(d.node.name) && !(complete && look_ahead(d, forecasts, incomplete)))
-        incomplete.insert(d.node.name);
-      if (!incomplete.contains(d.node.name)) known.insert(d.node.name);
-    }
-    evaluate_rest(root, incomplete);
-    levels_.set_forecasts({});
-  }
-
-  /// The document's own parameters that no node uses, as far as their queries are known.
-  void evaluate_rest(Level& root, const std::set<std::string>& incomplete) {
-    GraphScope& scope = *root.names.scope;
-    for (const GraphParameter& p : root.names.parameters) {
-      if (!p.formula) continue;
-      const auto is_known = [&](const std::pair<const std::string, size_t>& asked) {
-        const WireSources found = sources_behind(asked.first);
-        return !found.is_faulty && found.open.empty() && found.wires.size() == 1 &&
-               !incomplete.contains(found.wires.front().node);
-      };
-      if (std::ranges::all_of(p.formula->expression->nodes(), is_known)) scope.find(p.param.name);
-    }
-  }
-
-  bool has_waiting() {
-    const auto waits = [](const NodeDraft& d) { return !d.waiting.empty(); };
-    return std::ranges::any_of(levels_.nodes(), waits) || std::ranges::any_of(levels_.others(), waits);
-  }
-
-  /// Whether the forecast succeeded; errors of the node's hooks become problems.
-  bool look_ahead(const NodeDraft& draft, Forecasts& forecasts, const std::set<std::string>& incomplete) {
-    const GraphNode& node = draft.node;
-    if (!is_complete(draft)) return false;
-    for (const auto& [port, wires] : node.inputs)
-      for (const Wire& w : wires)
-        if (incomplete.contains(w.node)) return false;
-    const size_t before = of_sources_.size();
-    try {
-      forecasts.add(node);
-      return true;
-    } catch (const Errors& all) {
-      for (const Error& e : all.all()) of_sources_.push_back(problem_of(node, e.about(), e.what()));
-    } catch (const Error& e) {
-      of_sources_.push_back(problem_of(node, e.about(), e.what()));
-    }
-    set_file(of_sources_, before, node.file);
-    return false;
-  }
-
   /// Reports problems of these nodes' sources. Returns whether other nodes have errors; they are left out.
   bool report_sources(const std::set<std::string>& nodes) {
     bool is_part = false;
-    for (Problem& p : of_sources_) {
+    for (Problem& p : forecasts_.problems_of_sources()) {
       if (nodes.contains(p.node))
         problems_.push_back(std::move(p));
       else
@@ -307,7 +206,7 @@ class Loader {
   std::set<std::string> without_faulty(const std::vector<size_t>& order, const std::set<std::string>& wanted) {
     const std::set<std::string> asked = asked_too(levels_.nodes(), wanted);
     std::set<std::string> faulty;
-    for (const Problem& p : of_sources_)
+    for (const Problem& p : forecasts_.problems_of_sources())
       if (asked.contains(p.node)) faulty.insert(p.node);
     for (NodeDraft& d : levels_.nodes()) d.node.fails = faulty.contains(d.node.name);
     return nodes_left(levels_.nodes(), order, wanted, faulty);
@@ -322,8 +221,8 @@ class Loader {
       if (wanted.contains(d.node.name)) unset.insert(d.unset.begin(), d.unset.end());
     for (const GraphParameter& p : parameters)
       if (!p.value && !p.is_wrong && !p.formula && (wanted.size() == drafts.size() || unset.contains(p.param.name)))
-        problems_.push_back({p.place, "parameter " + in_quotes(p.param.name),
-                             fmt::format("has no default and must be set: --set {}=VALUE", p.param.name)});
+        Diagnostics(problems_, "parameter " + in_quotes(p.param.name), p.param.name)
+            .add(p.place, fmt::format("has no default and must be set: --set {}=VALUE", p.param.name));
     for (const Port& input : inputs)
       if (unset.contains(input.name))
         problems_.push_back({document_.find("inputs")->place, "input " + in_quotes(input.name),
@@ -343,20 +242,17 @@ class Loader {
     return out;
   }
 
-  /// Represents a queried node whose results cannot be known, for reasons that have been reported.
-  static constexpr const char* never_known = "?";
-
   std::string file_;
   fs::path path_, folder_;
   JsonValue document_;
   std::vector<Problem> problems_;
-  std::vector<Problem> of_sources_;  ///< problems found by looking ahead, some of which may be about unneeded nodes
-  size_t coded_ = 0;                 ///< number of problems that have a code
+  size_t coded_ = 0;  ///< number of problems that have a code
   std::vector<std::string> given_;
   std::vector<Override> given_to_pack_;  ///< overrides that do not come from the pack itself
   KnownTypes types_;
   Subgraphs subgraphs_;
   Levels levels_;
+  ForecastPass forecasts_{levels_, problems_};
   Subgraph* main_ = nullptr;
 };
 
