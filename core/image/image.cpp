@@ -65,7 +65,7 @@ size_t value_count(const ImageInfo& info) {
 }
 
 template <typename T>
-Digest content_digest(const ImageInfo& info, const std::vector<T>& pixels) {
+Digest pixel_digest(const ImageInfo& info, const std::vector<T>& pixels) {
   Hasher h;
   h.add("image");
   info.add_to(h);
@@ -117,7 +117,7 @@ Image::Image(ImageInfo info, const Digest& digest, std::shared_ptr<const PixelSo
 ImagePtr Image::from_floats(ImageInfo info, std::vector<float> pixels) {
   info.check();
   if (pixels.size() != value_count(info)) throw std::logic_error("pixel count does not match the image's size");
-  const Digest digest = content_digest(info, pixels);
+  const Digest digest = pixel_digest(info, pixels);
   auto source = std::make_shared<FloatPixels>(info, std::move(pixels));
   return ImagePtr(new Image(std::move(info), digest, std::move(source)));
 }
@@ -125,7 +125,7 @@ ImagePtr Image::from_floats(ImageInfo info, std::vector<float> pixels) {
 ImagePtr Image::from_halfs(ImageInfo info, std::vector<uint16_t> pixels) {
   info.check();
   if (pixels.size() != value_count(info)) throw std::logic_error("pixel count does not match the image's size");
-  const Digest digest = content_digest(info, pixels);
+  const Digest digest = pixel_digest(info, pixels);
   auto source = std::make_shared<HalfPixels>(info, std::move(pixels));
   return ImagePtr(new Image(std::move(info), digest, std::move(source)));
 }

@@ -40,7 +40,7 @@ Correlogram normalized(const std::vector<std::complex<double>>& sums, bool imagi
   return out;
 }
 
-using Grid = std::vector<std::complex<double>>;
+using ComplexGrid = std::vector<std::complex<double>>;
 
 Size padded_size(const Planes& image, Size lags) {
   return {padded_length(image.size.width + lags.width), padded_length(image.size.height + lags.height)};
@@ -48,16 +48,16 @@ Size padded_size(const Planes& image, Size lags) {
 
 /// The power spectra of channels c and c + 1 as real and imaginary parts: one complex transform serves two real
 /// channels. The imaginary part is 0 if c is the last channel.
-Grid power_spectra(const Planes& image, int c, Size padded) {
+ComplexGrid power_spectra(const Planes& image, int c, Size padded) {
   const bool two = c + 1 < image.channels;
-  Grid grid(size_t(padded.area()));
+  ComplexGrid grid(size_t(padded.area()));
   for (int y = 0; y < image.size.height; y++)
     for (int x = 0; x < image.size.width; x++) {
       const float* v = image.at(x, y) + c;
       grid[size_t(y) * padded.width + x] = {v[0], two ? v[1] : 0.0};
     }
   transform_2d(grid, padded.width, padded.height, false, image.size.height, padded.width);
-  Grid power(grid.size());
+  ComplexGrid power(grid.size());
   for (int y = 0; y < padded.height; y++) {
     const std::complex<double>* row = &grid[size_t(y) * padded.width];
     const std::complex<double>* mirrored = &grid[size_t((padded.height - y) % padded.height) * padded.width];
@@ -103,7 +103,7 @@ std::vector<Correlogram> correlograms(const Planes& image, Size lags, const Task
   std::vector<Correlogram> out;
   for (int c = 0; c < image.channels; c += 2) {
     task.check();
-    Grid power = power_spectra(image, c, padded);
+    ComplexGrid power = power_spectra(image, c, padded);
     transform_2d(power, padded.width, padded.height, true, padded.height, lags.width);
     out.push_back(normalized(power, false, image.size, padded, lags));
     if (c + 1 < image.channels) out.push_back(normalized(power, true, image.size, padded, lags));
@@ -113,10 +113,10 @@ std::vector<Correlogram> correlograms(const Planes& image, Size lags, const Task
 
 Correlogram pooled_correlogram(const Planes& image, Size lags, const Task& task) {
   const Size padded = padded_size(image, lags);
-  Grid sum(size_t(padded.area()));
+  ComplexGrid sum(size_t(padded.area()));
   for (int c = 0; c < image.channels; c += 2) {
     task.check();
-    const Grid power = power_spectra(image, c, padded);
+    const ComplexGrid power = power_spectra(image, c, padded);
     for (size_t i = 0; i < sum.size(); i++) sum[i] += power[i].real() + power[i].imag();
   }
   transform_2d(sum, padded.width, padded.height, true, padded.height, lags.width);

@@ -12,14 +12,14 @@ namespace terrazzo {
 namespace {
 
 /// What all maps share.
-struct Surface {
+struct NoiseSurface {
   StochasticExemplar exemplar;
   TriangleGrid grid;
   std::array<int64_t, 2> origin;
 
   std::array<GridVertex, 3> around(int x, int y) const { return grid.around(origin[0] + x, origin[1] + y); }
 };
-using SurfacePtr = std::shared_ptr<const Surface>;
+using SurfacePtr = std::shared_ptr<const NoiseSurface>;
 
 class BlendedPixels : public PixelSource {
  public:
@@ -79,9 +79,9 @@ int largest_cell(Size exemplar, bool tiles) {
 MaterialPtr noise_by_example(const Material& exemplar, const NoiseByExample& options, const Task& task) {
   require_one_shape("material", exemplar);
   const auto surface =
-      std::make_shared<const Surface>(Surface{.exemplar{exemplar, options.exemplar_tiles, options.cell, task},
-                                              .grid{options.cell, options.surface, options.seed},
-                                              .origin = options.origin});
+      std::make_shared<const NoiseSurface>(NoiseSurface{.exemplar{exemplar, options.exemplar_tiles, options.cell, task},
+                                                        .grid{options.cell, options.surface, options.seed},
+                                                        .origin = options.origin});
   std::vector<Map> maps;
   for (size_t i = 0; i < exemplar.maps().size(); i++) {
     const auto& [name, image] = exemplar.maps()[i];

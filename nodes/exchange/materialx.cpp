@@ -16,7 +16,7 @@ struct Slot {
   const char* map;
 };
 
-struct Surface {
+struct ShaderInputs {
   const char* node;
   std::vector<Slot> slots;
   const char* opacity;  ///< the input for opacity, and its type
@@ -24,23 +24,23 @@ struct Surface {
   const char* glow;  ///< the input that scales emission
 };
 
-const Surface& surface_of(bool open_pbr) {
-  static const Surface standard = {"standard_surface",
-                                   {{"base_color", "color3", "base_color"},
-                                    {"metalness", "float", "metallic"},
-                                    {"specular_roughness", "float", "roughness"},
-                                    {"emission_color", "color3", "emission"}},
-                                   "opacity",
-                                   "color3",
-                                   "emission"};
-  static const Surface open = {"open_pbr_surface",
-                               {{"base_color", "color3", "base_color"},
-                                {"base_metalness", "float", "metallic"},
-                                {"specular_roughness", "float", "roughness"},
-                                {"emission_color", "color3", "emission"}},
-                               "geometry_opacity",
-                               "float",
-                               "emission_luminance"};
+const ShaderInputs& surface_of(bool open_pbr) {
+  static const ShaderInputs standard = {"standard_surface",
+                                        {{"base_color", "color3", "base_color"},
+                                         {"metalness", "float", "metallic"},
+                                         {"specular_roughness", "float", "roughness"},
+                                         {"emission_color", "color3", "emission"}},
+                                        "opacity",
+                                        "color3",
+                                        "emission"};
+  static const ShaderInputs open = {"open_pbr_surface",
+                                    {{"base_color", "color3", "base_color"},
+                                     {"base_metalness", "float", "metallic"},
+                                     {"specular_roughness", "float", "roughness"},
+                                     {"emission_color", "color3", "emission"}},
+                                    "geometry_opacity",
+                                    "float",
+                                    "emission_luminance"};
   return open_pbr ? open : standard;
 }
 
@@ -154,7 +154,7 @@ class MaterialxWriter {
   }
 
   const MaterialScene& scene_;
-  const Surface& surface_;
+  const ShaderInputs& surface_;
   std::string name_;
   pugi::xml_document document_;
   pugi::xml_node graph_, shader_;

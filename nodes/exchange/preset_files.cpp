@@ -26,9 +26,9 @@ Depth depth_of(const ImageInfo& info) {
 }
 
 /// The maps of a material by name, converted for files.
-class Sources {
+class PresetSources {
  public:
-  Sources(const Material& material, NormalY normal_y) {
+  PresetSources(const Material& material, NormalY normal_y) {
     for (const Map& m : material.maps()) maps_.push_back({m.name, conventional(m.image, normal_y)});
   }
   ImagePtr find(std::string_view name) const {
@@ -41,7 +41,7 @@ class Sources {
 };
 
 /// The channels of a file for the maps that exist.
-std::vector<Channel> channels_for(const PresetFile& file, const Sources& sources) {
+std::vector<Channel> channels_for(const PresetFile& file, const PresetSources& sources) {
   std::vector<Channel> out;
   for (const ChannelSource& s : file.channels) {
     const ImagePtr map = s.map.empty() ? nullptr : sources.find(s.map);
@@ -56,7 +56,7 @@ std::vector<Channel> channels_for(const PresetFile& file, const Sources& sources
   return out;
 }
 
-ImagePtr packed(const std::vector<Channel>& channels, const Sources& sources) {
+ImagePtr packed(const std::vector<Channel>& channels, const PresetSources& sources) {
   std::vector<ImagePtr> maps;
   Size largest;
   ImageInfo info;
@@ -135,7 +135,7 @@ const FileContent::Channel* FileContent::find(std::string_view map) const {
 
 std::vector<FileContent> preset_files(const ExportPreset& preset, const Material& material, const std::string& name,
                                       std::vector<std::string>& notes) {
-  const Sources sources(material, preset.normal_y);
+  const PresetSources sources(material, preset.normal_y);
   const std::string prefix = preset.name == "unreal" ? "T_" + name : name;
   std::vector<FileContent> out;
   std::set<std::string> taken;

@@ -37,11 +37,11 @@ void write_color(const Vector3d& color, float* pixel) {
 }
 
 /// The two maps to convert, in linear light.
-struct Sources {
+struct WorkflowMaps {
   ImagePtr base, other;
 };
 
-ImagePtr computed(const NodeContext& node, const Sources& sources, const ImageInfo& info,
+ImagePtr computed(const NodeContext& node, const WorkflowMaps& sources, const ImageInfo& info,
                   const std::function<void(const Vector3d& base, const Vector3d& other, float* out)>& convert) {
   const ImageInfo base_info = sources.base->info(), other_info = sources.other->info();
   const Digest recipe =
@@ -77,7 +77,7 @@ ImageInfo metallic_info(const ImageInfo& base) {
 }
 
 /// The new base colour and the new other map.
-Sources converted(const NodeContext& node, const Sources& sources) {
+WorkflowMaps converted(const NodeContext& node, const WorkflowMaps& sources) {
   const ImageInfo& base = sources.base->info();
   if (node.text("to") == "metallic")
     return {
@@ -114,7 +114,7 @@ void compute_convert_workflow(NodeContext& node) {
   const auto material = node.input<Material>("material");
   const Swap swap = swap_of(node.text("to"));
   const ImagePtr base = material->find(base_name), other = material->find(swap.from);
-  const Sources made = converted(node, {base, nearest_at_size(other, base->size())});
+  const WorkflowMaps made = converted(node, {base, nearest_at_size(other, base->size())});
   std::vector<Map> maps;
   for (const Map& m : material->maps()) {
     if (m.name == swap.to) continue;

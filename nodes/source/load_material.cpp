@@ -149,7 +149,7 @@ Forecast preflight_load_material(const Params& params, const InputForecasts&) {
   const FoundMaterial found = find_maps(params, ignored_notes);
   if (!found.unnamed.empty())
     for (const Semantic s : packed_semantics) out.possible_maps->emplace_back(name_of(s));
-  const std::map<Place, Size> sizes = sizes_of_sources(folder_of(params), found.maps);
+  const std::map<SourcePlace, Size> sizes = sizes_of_sources(folder_of(params), found.maps);
   for (const RecognisedMap& m : found.maps) {
     const bool may_lack = may_be_empty(params, m) || (may_be_left_out(m) && !is_given(params, m));
     (may_lack ? *out.possible_maps : out.maps).push_back(m.map);

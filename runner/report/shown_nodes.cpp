@@ -9,7 +9,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-void add_once(Names& names, const std::string& name) {
+void add_name(Names& names, const std::string& name) {
   if (std::ranges::find(names, name) == names.end()) names.push_back(name);
 }
 
@@ -44,11 +44,11 @@ void for_each_behind(const Graph& graph, const GraphNode& node, const Visit& vis
 void add_origins(const Graph& graph, const GraphNode& node, Names& names) {
   for_each_behind(graph, node, [&](const GraphNode& behind) {
     const bool is_uv = gives(*behind.type, {ValueType::uv_map});
-    if (is_uv || is_source(behind)) add_once(names, behind.name);
+    if (is_uv || is_source(behind)) add_name(names, behind.name);
     return !is_uv;
   });
   for_each_behind(graph, node, [&](const GraphNode& behind) {
-    if (is_source(behind)) add_once(names, behind.name);
+    if (is_source(behind)) add_name(names, behind.name);
     return true;
   });
 }
@@ -108,15 +108,15 @@ Names nodes_for_report(const Graph& graph, const Names& only, Session& session) 
     if (!target || names.size() >= most_shown_nodes) continue;
     if (n.type->is_sink())
       for (const auto& [port, wires] : n.inputs)
-        for (const Wire& w : wires) add_once(names, w.node);
-    if (!n.type->outputs.empty()) add_once(names, n.name);
+        for (const Wire& w : wires) add_name(names, w.node);
+    if (!n.type->outputs.empty()) add_name(names, n.name);
     add_origins(graph, n, origins);
   }
   std::optional<Plan> plan;
   if (session.cache()) plan = session.plan(graph, {.only = only, .keep = names, .keep_going = true});
   for (const std::string& name : origins) {
     const auto at = std::ranges::find(graph.nodes, name, &GraphNode::name) - graph.nodes.begin();
-    if (names.size() < most_shown_nodes && (!plan || is_cheap(plan->stages[size_t(at)]))) add_once(names, name);
+    if (names.size() < most_shown_nodes && (!plan || is_cheap(plan->stages[size_t(at)]))) add_name(names, name);
   }
   if (names.size() > most_shown_nodes) names.resize(most_shown_nodes);
   return names;

@@ -60,7 +60,7 @@ std::vector<uint8_t> as_relief(const std::vector<float>& values) {
 }
 
 /// What joints look like at a scale, and the picture parted along them.
-struct Found {
+struct BestPartition {
   Partition partition;
   std::vector<uint8_t> relief;
   Size size;
@@ -69,7 +69,7 @@ struct Found {
 };
 
 /// Takes over what is better than the best so far. Returns the quality.
-double consider(const std::vector<float>& lines, const Planes& at, size_t scale, Found& best) {
+double consider(const std::vector<float>& lines, const Planes& at, size_t scale, BestPartition& best) {
   std::vector<uint8_t> relief = as_relief(lines);
   Partition p = partitioned(relief, at.size, at.wraps, line_width);
   const double quality = p.quality();
@@ -124,7 +124,7 @@ std::vector<Clue> clues_of(int channels) {
 
 /// From the coarsest scale on, where all clues are tried, to the finest, which takes most of the time and tries the
 /// best of them.
-Found best_partition(const Planes& picture, const Task& task) {
+BestPartition best_partition(const Planes& picture, const Task& task) {
   std::vector<Planes> responses;
   Planes level = picture;
   for (int s = 0; s < find_elements_tuning->scales && std::min(level.size.width, level.size.height) >= 16; s++) {
@@ -132,7 +132,7 @@ Found best_partition(const Planes& picture, const Task& task) {
     responses.push_back(line_responses(level, task));
     level = halved(level);
   }
-  Found best;
+  BestPartition best;
   if (responses.empty()) return best;
   std::vector<Clue> clues = clues_of(responses.front().channels);
   for (size_t s = responses.size(); s-- > 0;) {
@@ -159,7 +159,7 @@ Found best_partition(const Planes& picture, const Task& task) {
   return best;
 }
 
-std::vector<uint8_t> relief_at_size(const Found& found, Size size, bool wraps) {
+std::vector<uint8_t> relief_at_size(const BestPartition& found, Size size, bool wraps) {
   Planes relief = Planes::zeros(found.size, 1, wraps);
   std::copy(found.relief.begin(), found.relief.end(), relief.values.begin());
   relief = resampled(relief, size);
@@ -169,7 +169,7 @@ std::vector<uint8_t> relief_at_size(const Found& found, Size size, bool wraps) {
 }
 
 /// The partition at another size: what is well inside stays, and is flooded from there up to the lines.
-std::vector<uint16_t> at_size(const Found& found, const std::vector<uint8_t>& heights, Size size, bool wraps) {
+std::vector<uint16_t> at_size(const BestPartition& found, const std::vector<uint8_t>& heights, Size size, bool wraps) {
   const std::vector<uint8_t> border = border_pixels(found.partition.regions.at, found.size, wraps);
   std::vector<uint32_t> seeds(heights.size(), no_region);
   for (int y = 0; y < size.height; y++)
@@ -189,7 +189,7 @@ ElementsPtr find_elements(const Features& features, const Task& task) {
   const Planes exemplar = weighted_planes(features, task);
   Planes picture = exemplar;
   while (std::max(picture.size.width, picture.size.height) > find_elements_tuning->most_side) picture = halved(picture);
-  const Found found = best_partition(leading_planes(picture, find_elements_tuning->components, task), task);
+  const BestPartition found = best_partition(leading_planes(picture, find_elements_tuning->components, task), task);
   if (found.quality <= 0) return nullptr;
   auto out = std::make_shared<Elements>();
   out->size = exemplar.size;

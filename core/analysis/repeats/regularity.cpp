@@ -88,14 +88,14 @@ bool is_sure(const Cell& cell, Size exemplar, double least_certainty) {
              (few ? std::max(least_certainty, regularity_tuning->least_alike_of_few) : least_certainty);
 }
 
-struct Found {
+struct Repetition {
   Lattice lattice;
   double alike = 0;  ///< how much repeats are alike
 };
 
 /// What repeats may be the colours or, where those vary from brick to brick, only the joints. Cells before bands, and
 /// level ones before those aslant.
-Found searched(const Correlation& values, const Correlation& joints, double least_certainty) {
+Repetition searched(const Correlation& values, const Correlation& joints, double least_certainty) {
   Bands bands;
   Cell cell;
   for (const Correlation* r : {&values, &joints}) {
@@ -152,7 +152,7 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
     values.push_back(correlate(v->planes, v->counts.values, task));
     joints.push_back(correlate(edges.back(), v->counts.values, task));
   }
-  const Found found = searched(pooled(values), pooled(joints), least_certainty);
+  const Repetition found = searched(pooled(values), pooled(joints), least_certainty);
   Lattice best = found.lattice;
   if (best.rank > 0) best = told_by_orientation(best, views, task);
   if (best.certainty < least_certainty || !best.is_valid()) best = {0, {}, {}, best.certainty};

@@ -42,7 +42,7 @@ const Tunable<StraightLinesTuning> straight_lines_tuning(
     });
 
 /// What of all variance is differences between lines along one axis, and after how many pixels lines come again.
-struct Lines {
+struct StraightLines {
   double share = 0;
   double period = 0;
   std::vector<double> profile;
@@ -61,7 +61,7 @@ double correlation_around(const std::vector<double>& profile, double lag) {
 }
 
 /// Without the period.
-Lines shares_of(const Planes& plane, bool rows) {
+StraightLines shares_of(const Planes& plane, bool rows) {
   const int width = plane.size.width, height = plane.size.height;
   const double mean = std::accumulate(plane.values.begin(), plane.values.end(), 0.0) / double(plane.values.size());
   std::vector<double> profile(size_t(rows ? height : width), 0.0);
@@ -78,8 +78,8 @@ Lines shares_of(const Planes& plane, bool rows) {
   return {between / std::max(1e-12, variance), count, std::move(profile)};
 }
 
-Lines lines_of(const Planes& plane, bool rows) {
-  Lines out = shares_of(plane, rows);
+StraightLines straight_lines_of(const Planes& plane, bool rows) {
+  StraightLines out = shares_of(plane, rows);
   const std::vector<double>& profile = out.profile;
   const double count = out.period;
   for (int n = 2; n <= straight_lines_tuning->most_repeats; n++) {
@@ -93,13 +93,13 @@ Lines lines_of(const Planes& plane, bool rows) {
 }  // namespace
 
 Lattice lattice_of_lines(const Planes& outlines, const Lattice& found) {
-  const Lines rows = lines_of(outlines, true), columns = lines_of(outlines, false);
+  const StraightLines rows = straight_lines_of(outlines, true), columns = straight_lines_of(outlines, false);
   const Vector2d down{0, rows.period}, right{columns.period, 0};
   const bool courses = rows.share >= straight_lines_tuning->least_parallel;
   const double both = std::min(rows.share, columns.share);
   if (found.rank < 2 && both >= std::max(straight_lines_tuning->least_crossing, found.certainty))
     return {2, right, down, both};
-  const Lines& lines = courses ? rows : columns;
+  const StraightLines& lines = courses ? rows : columns;
   if (lines.share < straight_lines_tuning->least_parallel || found.rank > 1) return {};
   // Bands found otherwise stay, unless lines deny them.
   const double period = courses ? found.first.y() : found.first.x();

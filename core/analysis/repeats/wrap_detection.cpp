@@ -134,15 +134,15 @@ class WindowSearch {
 };
 
 /// A row or column, and where it counts.
-struct Line {
+struct PixelLine {
   std::vector<float> values;
   std::vector<uint8_t> counts;
 };
 
-Line line_of(const SeenMap& map, bool rows, int i) {
+PixelLine line_of(const SeenMap& map, bool rows, int i) {
   const Size size = map.image->size();
   const int at = wrap(i, rows ? size.height : size.width), length = rows ? size.width : size.height;
-  Line out{map.image->read(rows ? Rect{0, at, size.width, 1} : Rect{at, 0, 1, size.height}), {}};
+  PixelLine out{map.image->read(rows ? Rect{0, at, size.width, 1} : Rect{at, 0, 1, size.height}), {}};
   out.counts.reserve(size_t(length));
   for (int k = 0; k < length; k++)
     out.counts.push_back(map.counts.empty() ||
@@ -156,7 +156,7 @@ struct Step {
   double seen = 0;  ///< the share of pixels where both count
 };
 
-Step step_between(const Line& a, const Line& b) {
+Step step_between(const PixelLine& a, const PixelLine& b) {
   const size_t pixels = a.counts.size(), channels = a.values.size() / pixels;
   double sum = 0;
   size_t counted = 0;
@@ -175,7 +175,7 @@ Step step_at(const SeenMap& map, bool rows, int i) {
 }
 
 /// Whether a line differs more from the map's means, by channel, than along itself.
-bool stands_out(const Line& line, const std::vector<double>& means) {
+bool stands_out(const PixelLine& line, const std::vector<double>& means) {
   const size_t channels = means.size();
   const double pixels = double(std::ranges::count(line.counts, 1));
   double between = 0, within = 0;

@@ -61,12 +61,12 @@ const Tunable<KCoherenceTuning> k_coherence_tuning(
 
 constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
 
-struct Found {
+struct NearPixel {
   uint32_t distance = none;
   uint16_t x = 0;
   uint16_t y = 0;
 };
-using Set = std::span<Found>;  // best first
+using Set = std::span<NearPixel>;  // best first
 
 bool is_full(Set set) {
   return set.back().distance != none;
@@ -76,7 +76,7 @@ bool is_full(Set set) {
 struct Sets {
   Size size;
   int per_pixel = 0;
-  std::vector<Found> found;
+  std::vector<NearPixel> found;
 
   Sets() = default;
   Sets(Size s, int count) : size(s), per_pixel(count), found(size_t(s.area()) * count) {}
@@ -138,7 +138,7 @@ class LevelSearch {
     int near = 0;
     bool is_member = false;
     for (size_t k = 0; k < set.size(); k++) {
-      const Found f = set[k];
+      const NearPixel f = set[k];
       const int apart_x = between(f.x, u, period_x_), apart_y = between(f.y, v, period_y_);
       const bool is_near = (apart_x < apart_) & (apart_y < apart_) & (f.distance != none);
       is_member |= is_near & (apart_x + apart_y == 0);
@@ -204,7 +204,8 @@ void start(const LevelSearch& level, Sets& sets, Sets& parent, const Task& task)
       const Set set = sets.at(x, y);
       const auto offer = [&](const std::array<int, 2>& place) { level.offer(set, x, y, place[0], place[1]); };
       if (has_parent)
-        for (const Found& f : parent.at(x / 2, y / 2)) offer(level.settled(x, y, 2 * f.x + (x & 1), 2 * f.y + (y & 1)));
+        for (const NearPixel& f : parent.at(x / 2, y / 2))
+          offer(level.settled(x, y, 2 * f.x + (x & 1), 2 * f.y + (y & 1)));
       for (int k = 0; k < k_coherence_tuning->tries * sets.per_pixel && !(has_parent && is_full(set)); k++) {
         const auto [u, v] = level.place(random_bits(1, x, y, k));
         offer(level.settled(x, y, u, v));
@@ -232,7 +233,7 @@ void improve_tile(const LevelSearch& level, Sets& sets, const Rect& tile, int ro
       const auto look_at = [&](int dx, int dy) {
         const int nx = x - dx, ny = y - dy;
         if (nx < 0 || ny < 0 || nx >= size.width || ny >= size.height) return;
-        for (const Found& f : sets.at(nx, ny)) level.offer_shifted(set, x, y, f.x + dx, f.y + dy);
+        for (const NearPixel& f : sets.at(nx, ny)) level.offer_shifted(set, x, y, f.x + dx, f.y + dy);
       };
       look_at(step, 0);
       look_at(0, step);
@@ -261,7 +262,7 @@ SimilarSets packed(const Sets& sets) {
   SimilarSets out{sets.per_pixel, {}};
   out.positions.reserve(sets.found.size());
   for (size_t i = 0; i < sets.found.size(); i++) {
-    const Found& f = sets.found[i];
+    const NearPixel& f = sets.found[i];
     // Too small an exemplar may not have enough places apart: the pixel itself then fills the set.
     out.positions.push_back(f.distance == none ? uint32_t(i / sets.per_pixel)
                                                : uint32_t(f.y) * uint32_t(sets.size.width) + f.x);

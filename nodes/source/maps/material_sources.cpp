@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 /// A file that has been read, with what the reader said.
 struct Reading {
-  Place place;
+  SourcePlace place;
   Semantic semantic = Semantic::data;
   ImagePtr image{};
   std::vector<std::string> notes{};
@@ -33,9 +33,9 @@ struct Reading {
 std::vector<OrientedFile> oriented_files(const fs::path& folder, const std::vector<RecognisedMap>& maps,
                                          std::vector<Reading>& readings) {
   std::vector<OrientedFile> files;
-  std::set<Place> seen;
+  std::set<SourcePlace> seen;
   for (const RecognisedMap& m : maps) {
-    const Place place = place_of(m);
+    const SourcePlace place = place_of(m);
     if (!seen.insert(place).second) {
       for (size_t i = 0; i < readings.size(); i++)
         if (readings[i].place == place && m.interpretation.as_stored) files[i].asked = m.interpretation.as_stored;
@@ -86,12 +86,12 @@ Sources read_sources(NodeContext& node, const fs::path& folder, const std::vecto
   return sources;
 }
 
-std::map<Place, Size> sizes_of_sources(const fs::path& folder, const std::vector<RecognisedMap>& maps) {
+std::map<SourcePlace, Size> sizes_of_sources(const fs::path& folder, const std::vector<RecognisedMap>& maps) {
   std::vector<Reading> readings;
   std::vector<OrientedFile> files = oriented_files(folder, maps, readings);
   std::vector<std::string> notes;
   settle_orientations_by_shape(files, notes);
-  std::map<Place, Size> sizes;
+  std::map<SourcePlace, Size> sizes;
   for (size_t i = 0; i < files.size(); i++)
     if (files[i].info.channels > 0) sizes.emplace(readings[i].place, files[i].size());
   return sizes;
