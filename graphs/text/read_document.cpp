@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
+#include "core/file/archive.h"
 #include "core/file/file_io.h"
 #include "core/file/path_spelling.h"
-#include "core/file/tar.h"
 #include "core/image_io/image_file.h"
 
 namespace terrazzo {
@@ -44,7 +44,7 @@ std::string read_document(const fs::path& path, const std::string& what) {
     throw refuse(fmt::format("there is no such {}{}", what, advice.empty() ? file_suggestion(path) : "; " + advice));
   }
   if (fs::is_directory(status)) throw refuse(fmt::format("expected a {}, found a folder", what));
-  if (is_tar(path))
+  if (is_archive(path))
     throw refuse(
         fmt::format("expected a {}, found a pack or another tar archive; `terrazzo run`, `check`, `draw` and `submit` "
                     "take packs, `tar -xf` unpacks them",

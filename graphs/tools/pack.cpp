@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "core/file/archive.h"
 #include "core/file/file_io.h"
 #include "core/file/path_relation.h"
-#include "core/file/tar.h"
 #include "graphs/document/subgraphs.h"
 #include "graphs/text/format.h"
 #include "graphs/text/read_document.h"
@@ -104,7 +104,7 @@ class Embedding {
 class Packing {
  public:
   Packing(const fs::path& graph, const LoadedGraph& loaded, const fs::path& target)
-      : file_(graph), loaded_(loaded), archive_(target) {
+      : file_(graph), loaded_(loaded), archive_(write_archive(target)) {
     for (const GraphNode& node : loaded.graph.nodes)
       if (node.type->is_sink())
         for (const auto& [param, sources] : loaded.set_by.at(node.name))
@@ -119,10 +119,10 @@ class Packing {
     for (const GraphNode& node : loaded_.graph.nodes) pack_inputs(node);
     for (const LoopSource& loop : loaded_.loops) pack_loop(loop);
     for (const GraphParameter& p : loaded_.parameters) set_parameter(document, p);
-    archive_.add("graph.json", formatted(document));
-    archive_.add("settings.json", formatted(object_of(settings_)));
-    archive_.add("sources.json", formatted(object_of(sources_)));
-    archive_.finish();
+    archive_->add("graph.json", formatted(document));
+    archive_->add("settings.json", formatted(object_of(settings_)));
+    archive_->add("sources.json", formatted(object_of(sources_)));
+    archive_->finish();
     return std::move(out_);
   }
 
@@ -137,7 +137,7 @@ class Packing {
   }
 
   void add_file(const std::string& name, const fs::path& file) {
-    archive_.add_file(name, file);
+    archive_->add_file(name, file);
     std::error_code missing;
     out_.count++;
     out_.bytes += fs::file_size(file, missing);
@@ -212,7 +212,7 @@ class Packing {
     } else {
       what = place + "/*/*";
       for (size_t i = 0; i < loop.names.size(); i++)
-        archive_.add(fmt::format("{}/{:05}/{}{}", place, i, loop.names[i], loop.kind == "folders" ? "/kept" : ""), "");
+        archive_->add(fmt::format("{}/{:05}/{}{}", place, i, loop.names[i], loop.kind == "folders" ? "/kept" : ""), "");
     }
     given.set(loop.kind, JsonValue::of(what));
     given.set("as", JsonValue::of(loop.as));
@@ -238,7 +238,7 @@ class Packing {
 
   const fs::path& file_;
   const LoadedGraph& loaded_;
-  TarWriter archive_;
+  std::unique_ptr<ArchiveWriter> archive_;
   std::map<std::string, JsonValue> settings_, sources_;  ///< sources: the names that can be set instead
   std::set<std::string> written_;                        ///< parameters of the graph with output paths
   PackedFiles out_;

@@ -5,7 +5,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#include "core/file/tar.h"
+#include "core/file/archive.h"
 #include "core/integrity/file_integrity.h"
 #include "tests/run_node.h"
 #include "tests/texts.h"
@@ -32,7 +32,7 @@ TEST_CASE("only regular files are opened, and nothing waits for a pipe") {
   CHECK(trouble("/proc/self/status") == "");
   CHECK_FALSE(content_digest(pipe));
   CHECK_FALSE(content_digest(std::filesystem::path("/dev/zero")));
-  CHECK_THROWS_AS(tar_entries(pipe), FileError);
+  CHECK_THROWS_AS(read_archive(pipe), FileError);
   write_file(folder.path() / "file", std::string(100000, 'x'));
   CHECK(read_file(folder.path() / "file") == std::string(100000, 'x'));
   CHECK_THROWS_AS(read_file(folder.path() / "file", 99999), FileError);

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "core/file/tar.h"
+#include "core/file/archive.h"
 #include "tests/graphs/document/fake_types.h"
 #include "tests/run_node.h"
 #include "tests/texts.h"
@@ -291,9 +291,9 @@ TEST_CASE("what is no pack, or would leave its folder, is refused") {
   const TemporaryFolder folder;
   const auto archive = [&](const std::vector<std::string>& names) {
     const fs::path path = folder.path() / "p.tzpack";
-    TarWriter writer(path);
-    for (const std::string& name : names) writer.add(name, "{}");
-    writer.finish();
+    const std::unique_ptr<ArchiveWriter> writer = write_archive(path);
+    for (const std::string& name : names) writer->add(name, "{}");
+    writer->finish();
     return path;
   };
   CHECK_THROWS_WITH_AS(unpacked(archive({"x"}), folder.path() / "packs"),
