@@ -185,9 +185,7 @@ OpenFile open_image_file(const fs::path& path, const std::string& layer) {
 
 void require_complete(const fs::path& path, const OpenFile& file) {
   const std::string_view format = file.header().format;
-  if ((format == "jpeg" && !read_jpeg_facts(path).complete) || (format == "tiff" && !tiff_is_complete(path)) ||
-      (format == "png" && !png_is_complete(path)))
-    fail_cut_off(path);
+  if (format == "jpeg" && !read_jpeg_facts(path).complete) fail_cut_off(path);
   if (format == "tiff" && !tiff_is_sound(path))
     fail_to_read(path, "it is damaged: a checksum or a length in it is wrong; get the file again from its source");
 }

@@ -1,15 +1,13 @@
 #include "core/integrity/file_integrity.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <fstream>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include <zlib.h>
 
-#include "core/file/file_io.h"
+#include "core/integrity/file_numbers.h"
 #include "core/integrity/packed_lengths.h"
 #include "core/integrity/picture_ends.h"
 
@@ -27,57 +25,6 @@ bool stands_alone(uint8_t marker) {
   return marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8);
 }
 
-/// Reads numbers from a file; past its end all bytes are 0.
-class Numbers {
- public:
-  explicit Numbers(const std::filesystem::path& path) : in_(path, std::ios::binary | std::ios::ate) {
-    if (!in_.is_open()) throw_system_error("read", path, errno);
-    size_ = uint64_t(std::max<std::streamoff>(0, in_.tellg()));
-  }
-  void set_big_endian(bool is_big_endian) { is_big_endian_ = is_big_endian; }
-  uint64_t size() const { return size_; }
-  uint64_t number(uint64_t at, int bytes) {
-    uint8_t raw[8] = {};
-    in_.clear();
-    if (at + uint64_t(bytes) <= size_) {
-      in_.seekg(std::streamoff(at));
-      in_.read(reinterpret_cast<char*>(raw), bytes);
-    }
-    uint64_t v = 0;
-    for (int i = 0; i < bytes; i++) v |= uint64_t{raw[i]} << 8 * (is_big_endian_ ? bytes - 1 - i : i);
-    return v;
-  }
-
- private:
-  std::ifstream in_;
-  uint64_t size_ = 0;
-  bool is_big_endian_ = true;
-};
-
-/// The bytes of a file, buffered in part; past the end they are 0.
-class Window {
- public:
-  explicit Window(const std::filesystem::path& path)
-      : path_(path), file_(open_to_read(path)), size_(file_.size(path)) {}
-  uint64_t size() const { return size_; }
-  uint8_t byte(uint64_t at) {
-    if (at < begin_ || at >= begin_ + part_.size()) {
-      begin_ = at;
-      part_.resize(most_);
-      part_.resize(file_.read_at(at, part_.data(), most_, path_));
-    }
-    return part_.empty() ? uint8_t{0} : part_[size_t(at - begin_)];
-  }
-
- private:
-  static constexpr size_t most_ = size_t{1} << 16;
-  const std::filesystem::path& path_;
-  File file_;
-  uint64_t size_;
-  uint64_t begin_ = 0;
-  std::vector<uint8_t> part_;
-};
-
 constexpr uint64_t png_signature = 0x89504e470d0a1a0a;
 
 /// "II" or "MM" and 42, or 43 for BigTIFF, in the byte order that the letters name.
@@ -85,33 +32,87 @@ bool is_tiff(uint64_t start) {
   return start == 0x49492a00 || start == 0x49492b00 || start == 0x4d4d002a || start == 0x4d4d002b;
 }
 
-constexpr uint64_t lzw = 5, deflate = 8, packbits = 32773, old_deflate = 32946;  // compressions
+/// Of a directory's entries.
+enum Tag : uint64_t {
+  tag_width = 256,
+  tag_height = 257,
+  tag_bits_of_sample = 258,
+  tag_compression = 259,
+  tag_photometric = 262,
+  tag_fill_order = 266,
+  tag_strip_offsets = 273,
+  tag_samples_of_pixel = 277,
+  tag_strip_height = 278,
+  tag_strip_bytes = 279,
+  tag_planes = 284,
+  tag_tile_width = 322,
+  tag_tile_height = 323,
+  tag_tile_offsets = 324,
+  tag_tile_bytes = 325,
+  tag_extra_samples = 338,
+  tag_sample_format = 339
+};
 
-int bytes_of_type(uint64_t type) {
-  constexpr uint64_t tiff_short = 3, tiff_long8 = 16, tiff_ifd8 = 18;
-  return type == tiff_short ? 2 : type == tiff_long8 || type == tiff_ifd8 ? 8 : 4;
-}
+/// The directory of a TIFF file's first image.
+class TiffDirectory {
+ public:
+  explicit TiffDirectory(const std::filesystem::path& path)
+      : file_(path), is_big_endian_(file_.byte(0) == 'M'), is_big_tiff_(number_at(2, 2) == 43) {
+    const int word = is_big_tiff_ ? 8 : 4;
+    const uint64_t at = number_at(is_big_tiff_ ? 8 : 4, word), head = is_big_tiff_ ? 8 : 2;
+    first_ = at + head;
+    entries_ = number_at(at, int(head));
+    if (entries_ > file_.size() / entry_size() || first_ + entries_ * entry_size() > file_.size()) entries_ = 0;
+  }
+  uint64_t file_size() const { return file_.size(); }
+  /// Those of an entry; empty if there is none.
+  std::vector<uint64_t> numbers(Tag tag) const {
+    for (uint64_t i = entries_; i-- > 0;)
+      if (const uint64_t entry = first_ + i * entry_size(); number_at(entry, 2) == tag) return numbers_of(entry);
+    return {};
+  }
+  uint64_t number(Tag tag, uint64_t otherwise) const {
+    const std::vector<uint64_t> all = numbers(tag);
+    return all.empty() ? otherwise : all.front();
+  }
+  /// Of strips or tiles, whichever there are.
+  std::vector<uint64_t> offsets() const {
+    return numbers(has(tag_tile_offsets) ? tag_tile_offsets : tag_strip_offsets);
+  }
+  std::vector<uint64_t> byte_counts() const { return numbers(has(tag_tile_bytes) ? tag_tile_bytes : tag_strip_bytes); }
 
-/// The numbers of one directory entry, which begins with its tag at `entry`.
-std::vector<uint64_t> entry_numbers(Numbers& file, uint64_t entry, bool is_big_tiff) {
-  const int bytes = bytes_of_type(file.number(entry + 2, 2));
-  const int word = is_big_tiff ? 8 : 4;
-  const uint64_t count = file.number(entry + 4, word);
-  uint64_t at = entry + 4 + word;
-  if (count > file.size() / bytes) return {UINT64_MAX / 2};  // more than the file can hold
-  if (count * bytes > uint64_t(word)) at = file.number(at, word);
-  std::vector<uint64_t> out(count);
-  for (uint64_t i = 0; i < count; i++) out[i] = file.number(at + i * bytes, bytes);
-  return out;
-}
+ private:
+  bool has(Tag tag) const { return !numbers(tag).empty(); }
+  uint64_t entry_size() const { return is_big_tiff_ ? 20 : 12; }
+  uint64_t number_at(uint64_t at, int bytes) const {
+    return is_big_endian_ ? file_.big_endian(at, bytes) : file_.number(at, bytes);
+  }
+  std::vector<uint64_t> numbers_of(uint64_t entry) const {
+    constexpr uint64_t tiff_short = 3, tiff_long8 = 16, tiff_ifd8 = 18;
+    const uint64_t type = number_at(entry + 2, 2);
+    const int bytes = type == tiff_short ? 2 : type == tiff_long8 || type == tiff_ifd8 ? 8 : 4;
+    const int word = is_big_tiff_ ? 8 : 4;
+    const uint64_t count = number_at(entry + 4, word);
+    uint64_t at = entry + 4 + uint64_t(word);
+    if (count > file_.size() / uint64_t(bytes)) return {UINT64_MAX / 2};  // more than the file can hold
+    if (count * uint64_t(bytes) > uint64_t(word)) at = number_at(at, word);
+    std::vector<uint64_t> out(count);
+    for (uint64_t i = 0; i < count; i++) out[i] = number_at(at + i * uint64_t(bytes), bytes);
+    return out;
+  }
+
+  FileNumbers file_;
+  bool is_big_endian_, is_big_tiff_;
+  uint64_t first_ = 0, entries_ = 0;
+};
 
 }  // namespace
 
 JpegFacts read_jpeg_facts(const std::filesystem::path& path, bool to_its_end) {
   JpegFacts facts;
-  Window file(path);
+  const FileNumbers file(path);
   if (file.byte(0) != 0xff || file.byte(1) != start_of_image) return facts;
-  const auto word = [&](uint64_t i) { return file.byte(i) << 8 | file.byte(i + 1); };
+  const auto word = [&](uint64_t i) { return int(file.byte(i) << 8 | file.byte(i + 1)); };
   uint64_t i = 0;
   while (i + 1 < file.size()) {
     // Between segments is entropy-coded data, in which 0xff is followed by 0.
@@ -141,111 +142,19 @@ JpegFacts read_jpeg_facts(const std::filesystem::path& path, bool to_its_end) {
   return facts;
 }
 
+namespace {
+
+/// Whether the chunks of a PNG file continue to the IEND chunk.
 bool png_is_complete(const std::filesystem::path& path) {
   constexpr uint64_t end_mark = 0x49454e44, around = 12;  // "IEND"; a chunk's length, name and checksum
-  Numbers file(path);
-  if (file.size() >= around && file.number(file.size() - around, 8) == end_mark) return true;
+  const FileNumbers file(path);
+  if (file.size() >= around && file.big_endian(file.size() - around, 8) == end_mark) return true;
   for (uint64_t at = 8; at + around <= file.size();) {
-    const uint64_t next = at + around + file.number(at, 4);
-    if (file.number(at + 4, 4) == end_mark) return next <= file.size();
+    const uint64_t next = at + around + file.big_endian(at, 4);
+    if (file.big_endian(at + 4, 4) == end_mark) return next <= file.size();
     at = next;
   }
   return false;
-}
-
-namespace {
-
-/// An image's strips or tiles, from its directory.
-struct TiffPieces {
-  std::vector<uint64_t> offsets, byte_counts;
-  uint64_t compression = 1;
-  uint64_t width = 0, height = 0;  ///< of the image
-  uint64_t piece_width = 0;        ///< of tiles; 0 if there are strips
-  uint64_t piece_height = UINT32_MAX;
-  uint64_t bits = 1, samples = 1;  ///< bits of each sample
-  bool by_planes = false;          ///< a piece holds one sample of each pixel
-  bool subsampled = false;         ///< it may hold fewer samples than pixels
-  bool low_bits_first = false;
-  uint64_t photometric = 0, format = 1;
-  std::vector<uint64_t> extra_samples;
-};
-
-/// Stores one entry of a directory.
-void note_entry(TiffPieces& pieces, uint64_t tag, const std::vector<uint64_t>& numbers) {
-  constexpr uint64_t tag_width = 256, tag_height = 257, tag_bits = 258, tag_compression = 259, tag_photometric = 262,
-                     tag_fill_order = 266, tag_strip_offsets = 273, tag_samples = 277, tag_strip_height = 278,
-                     tag_strip_bytes = 279, tag_planes = 284, tag_tile_width = 322, tag_tile_height = 323,
-                     tag_tile_offsets = 324, tag_tile_bytes = 325, tag_extra_samples = 338, tag_format = 339;
-  constexpr uint64_t ycbcr = 6, one_plane_each = 2, low_first = 2;
-  if (numbers.empty()) return;
-  const uint64_t first = numbers.front();
-  switch (tag) {
-    case tag_width:
-      pieces.width = first;
-      break;
-    case tag_height:
-      pieces.height = first;
-      break;
-    case tag_bits:
-      pieces.bits = first;
-      break;
-    case tag_compression:
-      pieces.compression = first;
-      break;
-    case tag_photometric:
-      pieces.photometric = first;
-      pieces.subsampled = first == ycbcr;
-      break;
-    case tag_fill_order:
-      pieces.low_bits_first = first == low_first;
-      break;
-    case tag_samples:
-      pieces.samples = first;
-      break;
-    case tag_planes:
-      pieces.by_planes = first == one_plane_each;
-      break;
-    case tag_tile_width:
-      pieces.piece_width = first;
-      break;
-    case tag_strip_height:
-    case tag_tile_height:
-      pieces.piece_height = first;
-      break;
-    case tag_extra_samples:
-      pieces.extra_samples = numbers;
-      break;
-    case tag_format:
-      pieces.format = first;
-      break;
-    case tag_strip_offsets:
-    case tag_tile_offsets:
-      pieces.offsets = numbers;
-      break;
-    case tag_strip_bytes:
-    case tag_tile_bytes:
-      pieces.byte_counts = numbers;
-      break;
-    default:
-      break;
-  }
-}
-
-/// The pieces of the first image.
-TiffPieces tiff_pieces(Numbers& file) {
-  constexpr uint64_t tag_last_of_use = 339;
-  TiffPieces out;
-  file.set_big_endian(file.number(0, 1) == 'M');
-  const bool is_big_tiff = file.number(2, 2) == 43;
-  const uint64_t directory = is_big_tiff ? file.number(8, 8) : file.number(4, 4);
-  const uint64_t entries = file.number(directory, is_big_tiff ? 8 : 2);
-  const uint64_t first = directory + (is_big_tiff ? 8 : 2), entry_size = is_big_tiff ? 20 : 12;
-  if (entries > file.size() / entry_size || first + entries * entry_size > file.size()) return out;
-  for (uint64_t i = 0; i < entries; i++) {
-    const uint64_t entry = first + i * entry_size, tag = file.number(entry, 2);
-    if (tag <= tag_last_of_use) note_entry(out, tag, entry_numbers(file, entry, is_big_tiff));
-  }
-  return out;
 }
 
 /// Whether these bytes of a file are one complete zlib stream with a correct checksum.
@@ -274,74 +183,90 @@ bool is_sound_stream(const File& file, const std::filesystem::path& path, uint64
 }  // namespace
 
 TiffFacts read_tiff_facts(const std::filesystem::path& path) {
-  Numbers file(path);
-  if (!is_tiff(file.number(0, 4))) return {};
-  const TiffPieces pieces = tiff_pieces(file);
-  TiffFacts facts{int(pieces.samples), int(pieces.bits), int(pieces.format), int(pieces.photometric), {}};
-  for (const uint64_t e : pieces.extra_samples) facts.extra_samples.push_back(int(e));
+  if (!is_tiff(FileNumbers(path).big_endian(0, 4))) return {};
+  const TiffDirectory tiff(path);
+  TiffFacts facts{int(tiff.number(tag_samples_of_pixel, 1)),
+                  int(tiff.number(tag_bits_of_sample, 1)),
+                  int(tiff.number(tag_sample_format, 1)),
+                  int(tiff.number(tag_photometric, 0)),
+                  {}};
+  for (const uint64_t e : tiff.numbers(tag_extra_samples)) facts.extra_samples.push_back(int(e));
   return facts;
 }
 
 bool tiff_is_complete(const std::filesystem::path& path) {
-  Numbers file(path);
-  const TiffPieces pieces = tiff_pieces(file);
-  if (pieces.offsets.empty()) return false;
-  for (size_t i = 0; i < pieces.offsets.size(); i++)
-    if (pieces.offsets[i] > file.size() ||
-        (i < pieces.byte_counts.size() && pieces.byte_counts[i] > file.size() - pieces.offsets[i]))
+  const TiffDirectory tiff(path);
+  const std::vector<uint64_t> offsets = tiff.offsets(), byte_counts = tiff.byte_counts();
+  for (size_t i = 0; i < offsets.size(); i++)
+    if (offsets[i] > tiff.file_size() || (i < byte_counts.size() && byte_counts[i] > tiff.file_size() - offsets[i]))
       return false;
-  return true;
+  return !offsets.empty();
 }
 
 namespace {
 
-/// Whether a piece of LZW or PackBits expands to exactly as many bytes as it should.
-bool has_its_length(const TiffPieces& pieces, size_t index, std::span<const uint8_t> packed) {
-  const bool is_tile = pieces.piece_width > 0;
-  const uint64_t samples = pieces.by_planes ? 1 : pieces.samples;
-  const uint64_t row = ((is_tile ? pieces.piece_width : pieces.width) * pieces.bits * samples + 7) / 8;
-  const uint64_t rows = is_tile ? pieces.piece_height : std::min(pieces.piece_height, pieces.height);
-  const auto length = pieces.compression == lzw ? lzw_length(packed) : packbits_length(packed);
-  if (length == row * rows) return true;
-  if (is_tile || rows == 0) return false;
-  // The last strip may also be cut to the image.
-  const uint64_t strips = (pieces.height + rows - 1) / rows;
-  return length == row * (pieces.height - (strips - 1) * rows) && index % strips == strips - 1;
-}
-
-bool is_sound_piece(const File& file, const std::filesystem::path& path, const TiffPieces& pieces, size_t index) {
-  const uint64_t at = pieces.offsets[index], count = pieces.byte_counts[index];
-  if (pieces.compression == deflate || pieces.compression == old_deflate) return is_sound_stream(file, path, at, count);
-  std::vector<uint8_t> packed(count);
-  packed.resize(file.read_at(at, packed.data(), packed.size(), path));
-  // What libtiff calls old-style LZW: other bit order.
-  const bool is_old_lzw = pieces.compression == lzw && packed.size() > 1 && packed[0] == 0 && (packed[1] & 1) != 0;
-  return is_old_lzw || has_its_length(pieces, index, packed);
-}
+/// The unpacked lengths of strips or tiles.
+struct PieceLengths {
+  explicit PieceLengths(const TiffDirectory& tiff) {
+    constexpr uint64_t one_plane_each = 2;
+    is_tile = tiff.number(tag_tile_width, 0) > 0;
+    const uint64_t columns = tiff.number(is_tile ? tag_tile_width : tag_width, 0), height = tiff.number(tag_height, 0);
+    const uint64_t samples = tiff.number(tag_planes, 1) == one_plane_each ? 1 : tiff.number(tag_samples_of_pixel, 1);
+    row = (columns * tiff.number(tag_bits_of_sample, 1) * samples + 7) / 8;
+    rows = tiff.number(is_tile ? tag_tile_height : tag_strip_height, UINT32_MAX);
+    if (is_tile) return;
+    rows = std::min(rows, height);
+    strips = rows > 0 ? (height + rows - 1) / rows : 0;
+    rows_of_last = strips > 0 ? height - (strips - 1) * rows : 0;
+  }
+  bool fits(size_t index, uint64_t length) const {
+    if (length == row * rows) return true;
+    // The last strip may also be cut to the image.
+    return strips > 0 && length == row * rows_of_last && index % strips == strips - 1;
+  }
+  bool is_tile;
+  uint64_t row, rows, strips = 0, rows_of_last = 0;
+};
 
 }  // namespace
 
 bool tiff_is_sound(const std::filesystem::path& path) {
-  Numbers numbers(path);
-  const TiffPieces pieces = tiff_pieces(numbers);
-  const bool has_checksums = pieces.compression == deflate || pieces.compression == old_deflate;
-  const bool has_lengths =
-      (pieces.compression == lzw || pieces.compression == packbits) && !pieces.subsampled && !pieces.low_bits_first;
+  constexpr uint64_t lzw = 5, deflate = 8, packbits = 32773, old_deflate = 32946;  // compressions
+  constexpr uint64_t ycbcr = 6, low_bits_first = 2;
+  const TiffDirectory tiff(path);
+  const uint64_t packing = tiff.number(tag_compression, 1);
+  const bool has_checksums = packing == deflate || packing == old_deflate;
+  // Where colours are subsampled there are fewer samples than pixels.
+  const bool has_lengths = (packing == lzw || packing == packbits) && tiff.number(tag_photometric, 0) != ycbcr &&
+                           tiff.number(tag_fill_order, 1) != low_bits_first;
   if (!has_checksums && !has_lengths) return true;
+  const PieceLengths lengths(tiff);
   const File file = open_to_read(path);
-  for (size_t i = 0; i < std::min(pieces.offsets.size(), pieces.byte_counts.size()); i++) {
-    if (pieces.byte_counts[i] == 0) continue;  // pieces that were never written read as 0
-    if (pieces.byte_counts[i] > numbers.size() || !is_sound_piece(file, path, pieces, i)) return false;
+  const std::vector<uint64_t> offsets = tiff.offsets(), byte_counts = tiff.byte_counts();
+  for (size_t i = 0; i < std::min(offsets.size(), byte_counts.size()); i++) {
+    const uint64_t count = byte_counts[i];
+    if (count == 0) continue;  // pieces that were never written read as 0
+    if (count > tiff.file_size()) return false;
+    if (has_checksums) {
+      if (!is_sound_stream(file, path, offsets[i], count)) return false;
+      continue;
+    }
+    std::vector<uint8_t> packed(count);
+    packed.resize(file.read_at(offsets[i], packed.data(), packed.size(), path));
+    // What libtiff calls old-style LZW: other bit order.
+    if (packing == lzw && packed.size() > 1 && packed[0] == 0 && (packed[1] & 1) != 0) continue;
+    const std::optional<uint64_t> length = packing == lzw ? lzw_length(packed) : packbits_length(packed);
+    if (!length || !lengths.fits(i, *length)) return false;
   }
   return true;
 }
 
 bool seems_complete(const std::filesystem::path& path) {
-  Numbers file(path);
-  if (file.number(0, 8) == png_signature) return png_is_complete(path);
-  if (file.number(0, 2) == (0xff00 | start_of_image))
-    return file.number(file.size() - 2, 2) == (0xff00 | end_of_image) || read_jpeg_facts(path).complete;
-  return is_tiff(file.number(0, 4)) ? tiff_is_complete(path) : is_untruncated(path);
+  const FileNumbers file(path);
+  if (file.big_endian(0, 8) == png_signature) return png_is_complete(path);
+  if (file.big_endian(0, 2) == (0xff00 | start_of_image))
+    return file.big_endian(file.size() - 2, 2) == (0xff00 | end_of_image) || read_jpeg_facts(path).complete;
+  return is_tiff(file.big_endian(0, 4)) ? tiff_is_complete(path) : is_untruncated(path);
 }
 
 }  // namespace terrazzo

@@ -5,10 +5,13 @@
 
 #include "core/base/geometry.h"
 
-/// Facts about image files that the image library does not report or notice, from the structure of the files.
+/// Facts about image files from their structure. Own code since libjpeg, libtiff and OpenImageIO 2.4 do not report or
+/// notice these, or only after decoding and loading libraries for as long as a whole cached run takes: truncated files
+/// are found before a run starts. Where decoders notice damage themselves, they are left to it.
 namespace terrazzo {
 
-/// Facts from the markers of a JPEG file (ITU T.81, annex B). Decoders silently fill in missing data.
+/// Facts from the markers of a JPEG file (ITU T.81, annex B). OpenImageIO fills in what truncated progressive files
+/// miss, and says nothing.
 struct JpegFacts {
   int components = 0;        ///< 1 grey, 3 colour, 4 CMYK; 0 if no frame header was found
   int bits = 0;              ///< of each component
@@ -19,9 +22,6 @@ struct JpegFacts {
 };
 /// Unless `to_its_end`, stops at the frame header and does not set `complete`.
 JpegFacts read_jpeg_facts(const std::filesystem::path& path, bool to_its_end = true);
-
-/// Whether the chunks of a PNG file continue to the IEND chunk.
-bool png_is_complete(const std::filesystem::path& path);
 
 /// The sample format of a TIFF or BigTIFF file's first image (TIFF 6.0, sections 3, 18 and 19).
 struct TiffFacts {
@@ -37,7 +37,7 @@ TiffFacts read_tiff_facts(const std::filesystem::path& path);
 bool tiff_is_complete(const std::filesystem::path& path);
 
 /// Whether the strips or tiles of a TIFF file are sound: deflated ones by their checksums, LZW and PackBits ones, which
-/// have none, by their unpacked length. Decoders check neither. True for other compressions.
+/// have none, by their unpacked length. libtiff checks neither. True for other compressions.
 bool tiff_is_sound(const std::filesystem::path& path);
 
 /// Whether a PNG, JPEG or TIFF file, or one in a format of core/integrity/picture_ends.h, has its end; true for other

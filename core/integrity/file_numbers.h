@@ -16,19 +16,19 @@ class FileNumbers {
   explicit FileNumbers(const std::filesystem::path& path)
       : path_(path), file_(open_to_read(path)), size_(file_.size(path)) {}
   uint64_t size() const { return size_; }
+  uint8_t byte(uint64_t at) const {
+    if (at - begin_ >= part_.size()) load(at);
+    return at - begin_ < part_.size() ? uint8_t(part_[at - begin_]) : uint8_t{0};
+  }
   /// Little endian, of at most 8 bytes.
   uint64_t number(uint64_t at, int bytes) const {
-    uint8_t raw[8] = {};
-    read(at, raw, bytes);
     uint64_t v = 0;
-    for (int i = 0; i < bytes; i++) v |= uint64_t{raw[i]} << 8 * i;
+    for (int i = bytes - 1; i >= 0 && holds(at, bytes); i--) v = v << 8 | byte(at + uint64_t(i));
     return v;
   }
   uint64_t big_endian(uint64_t at, int bytes) const {
-    uint8_t raw[8] = {};
-    read(at, raw, bytes);
     uint64_t v = 0;
-    for (int i = 0; i < bytes; i++) v = v << 8 | raw[i];
+    for (int i = 0; i < bytes && holds(at, bytes); i++) v = v << 8 | byte(at + uint64_t(i));
     return v;
   }
   std::string text(uint64_t at, size_t bytes) const {
@@ -38,13 +38,18 @@ class FileNumbers {
   }
 
  private:
-  void read(uint64_t at, uint8_t* out, int bytes) const {
-    if (at <= size_ && uint64_t(bytes) <= size_ - at) file_.read_at(at, out, size_t(bytes), path_);
+  bool holds(uint64_t at, int bytes) const { return at <= size_ && uint64_t(bytes) <= size_ - at; }
+  void load(uint64_t at) const {
+    constexpr size_t at_once = size_t{1} << 14;
+    begin_ = at;
+    part_ = text(at, at_once);
   }
 
   const std::filesystem::path& path_;
   File file_;
   uint64_t size_;
+  mutable uint64_t begin_ = 0;
+  mutable std::string part_;  ///< of the file, from `begin_`
 };
 
 }  // namespace terrazzo

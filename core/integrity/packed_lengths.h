@@ -5,7 +5,7 @@
 #include <span>
 
 /// The unpacked length of compressed data, without unpacking it. The data has no checksum, but a damaged byte mostly
-/// changes the length. Nullopt if the data is invalid.
+/// changes the length, and libtiff ignores what is too long. Nullopt if the data is invalid.
 namespace terrazzo {
 
 /// LZW as in TIFF 6.0, section 13: codes of 9 to 12 bits, high bits first. Ends with the end-of-information code or

@@ -2,7 +2,8 @@
 
 #include <filesystem>
 
-/// Detects truncated image files from their sizes and tables, without decoding.
+/// Detects truncated image files from their sizes and tables. Own code since the libraries notice truncation only while
+/// they decode, and this is asked of every input before a run starts.
 namespace terrazzo {
 
 /// False if the end of an EXR, BMP, TGA, WebP, GIF or Radiance file is missing. True for other formats, and if the
