@@ -63,7 +63,7 @@ Digest content_of(const Value& value) {
   return hasher.digest();
 }
 
-/// Variables that the system's libraries read independently of nodes.
+/// What the system's libraries read independently of nodes.
 bool is_of_the_system(const fs::path& path) {
   constexpr std::array<const char*, 7> folders = {"/usr", "/lib", "/lib64", "/etc", "/proc", "/sys", "/dev"};
   return std::ranges::any_of(folders, [&](const char* f) { return lies_in(f, path); });
@@ -107,10 +107,10 @@ void require_declared(const Stage& stage, const NodeContext& context, const Watc
 }
 
 /// Throws if a node's forecasts do not hold.
-void require_foreseen(const NodeContext& node) {
+void require_foreseen(NodeContext& node) {
   for (const auto& [port, forecast] : node.inferred()) {
-    const auto value = const_cast<NodeContext&>(node).outputs().find(port);
-    if (value == const_cast<NodeContext&>(node).outputs().end()) continue;
+    const auto value = node.outputs().find(port);
+    if (value == node.outputs().end()) continue;
     if (const std::string what = contradiction(forecast, value->second); !what.empty())
       throw Error(
           fmt::format("checked: the output \"{}\" of {} is {}; mend its `infer`", port, node.type().name, what));
@@ -126,27 +126,16 @@ void require_same_files(const NodeContext& first, const NodeContext& again, cons
     throw Error(fmt::format("checked: {} writes other files when it runs again with the same inputs", type));
 }
 
-void remove_files(const NodeContext& context) {
-  std::error_code ignored;
-  for (const StagedFile& f : context.staged()) fs::remove(f.temporary, ignored);
-}
+/// Removes the staged files of a second run at its end.
+struct StagedRemoval {
+  ~StagedRemoval() {
+    std::error_code ignored;
+    for (const StagedFile& f : context.staged()) fs::remove(f.temporary, ignored);
+  }
+  const NodeContext& context;
+};
 
 }  // namespace
-
-/// Forwards reports of the watch library.
-struct WatchedSink {
-  static void tell(char kind, const char* what, int flags, const void* by) {
-    if (is_telling) return;
-    is_telling = true;
-    {
-      const std::lock_guard lock(mutex);
-      const bool is_read = (flags & (O_WRONLY | O_RDWR | O_DIRECTORY)) == 0;
-      if (now && kind == 'v' && !is_code_of_the_system(by)) now->variables_.emplace(what);
-      if (now && kind == 'f' && is_read) now->files_.insert(fs::absolute(what));
-    }
-    is_telling = false;
-  }
-};
 
 bool is_watching() {
   return watch() != nullptr;
@@ -175,14 +164,25 @@ std::string why_not_watching() {
 }
 
 void tell_opened(const char* path, int flags) {
-  WatchedSink::tell('f', path, flags, nullptr);
+  WatchedReads::tell('f', path, flags, nullptr);
 }
 
-WatchedReads::WatchedReads() {
-  turn.lock();
+void WatchedReads::tell(char kind, const char* what, int flags, const void* by) {
+  if (is_telling) return;
+  is_telling = true;
+  {
+    const std::lock_guard lock(mutex);
+    const bool is_read = (flags & (O_WRONLY | O_RDWR | O_DIRECTORY)) == 0;
+    if (now && kind == 'v' && !is_code_of_the_system(by)) now->variables_.emplace(what);
+    if (now && kind == 'f' && is_read) now->files_.insert(fs::absolute(what));
+  }
+  is_telling = false;
+}
+
+WatchedReads::WatchedReads() : turn_(turn) {
   const std::lock_guard lock(mutex);
   now = this;
-  if (is_watching()) watch()(&WatchedSink::tell);
+  if (is_watching()) watch()(&tell);
 }
 
 void WatchedReads::stop() {
@@ -190,33 +190,24 @@ void WatchedReads::stop() {
   if (now != this) return;
   if (is_watching()) watch()(nullptr);
   now = nullptr;
-  turn.unlock();
+  turn_.unlock();
 }
 
-WatchedReads::~WatchedReads() {
-  stop();
-}
-
-void check_node(const Stage& stage, const NodeContext& first, NodeContext& again, const WatchedReads& reads) {
+void check_node(const Stage& stage, NodeContext& first, NodeContext& again, const WatchedReads& reads) {
   const std::string& type = stage.type().name;
   require_declared(stage, first, reads);
   require_foreseen(first);
-  try {
-    tbb::this_task_arena::isolate([&] { again.compute(); });
-    for (const auto& [port, value] : const_cast<NodeContext&>(first).outputs()) {
-      const auto at = again.outputs().find(port);
-      if (at == again.outputs().end() || content_of(at->second) != content_of(value))
-        throw Error(
-            fmt::format("checked: {} gives another \"{}\" when it runs again with the same inputs. Random numbers, "
-                        "the clock, the order of threads and memory that was not set are the usual causes",
-                        type, port));
-    }
-    require_same_files(first, again, type);
-  } catch (...) {
-    remove_files(again);
-    throw;
+  const StagedRemoval removal{again};
+  tbb::this_task_arena::isolate([&] { again.compute(); });
+  for (const auto& [port, value] : first.outputs()) {
+    const auto at = again.outputs().find(port);
+    if (at == again.outputs().end() || content_of(at->second) != content_of(value))
+      throw Error(
+          fmt::format("checked: {} gives another \"{}\" when it runs again with the same inputs. Random numbers, "
+                      "the clock, the order of threads and memory that was not set are the usual causes",
+                      type, port));
   }
-  remove_files(again);
+  require_same_files(first, again, type);
 }
 
 }  // namespace terrazzo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <set>
 #include <string>
 
@@ -28,7 +29,7 @@ void tell_opened(const char* path, int flags);
 class WatchedReads {
  public:
   WatchedReads();
-  ~WatchedReads();
+  ~WatchedReads() { stop(); }
   WatchedReads(const WatchedReads&) = delete;
   WatchedReads& operator=(const WatchedReads&) = delete;
   void stop();
@@ -36,13 +37,17 @@ class WatchedReads {
   const std::set<std::string>& variables() const { return variables_; }
 
  private:
-  friend struct WatchedSink;
+  friend void tell_opened(const char* path, int flags);
+  /// `by`: an address in the code that opens the file ('f') or reads the variable ('v').
+  static void tell(char kind, const char* what, int flags, const void* by);
+
+  std::unique_lock<std::mutex> turn_;
   std::set<std::filesystem::path> files_;
   std::set<std::string> variables_;
 };
 
 /// Runs the node a second time, with `again`, a copy of its context from before the first run. Throws Error if outputs
 /// or staged files differ, or if the node has read something that its key does not cover.
-void check_node(const Stage& stage, const NodeContext& first, NodeContext& again, const WatchedReads& reads);
+void check_node(const Stage& stage, NodeContext& first, NodeContext& again, const WatchedReads& reads);
 
 }  // namespace terrazzo

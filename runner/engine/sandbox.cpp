@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <optional>
 #include <set>
-#include <string_view>
 
 #include <fmt/format.h>
+
+#include "core/file/path_relation.h"
 
 namespace terrazzo {
 
@@ -27,10 +28,6 @@ std::optional<fs::path> resolved(const fs::path& path) {
   return failure ? std::nullopt : std::optional(out);
 }
 
-bool is_within(const fs::path& path, const fs::path& root) {
-  return std::mismatch(root.begin(), root.end(), path.begin(), path.end()).first == root.end();
-}
-
 /// The folder above the first part of a name that has one of these characters.
 fs::path in_front_of(const fs::path& path, const char* characters) {
   fs::path out;
@@ -45,36 +42,6 @@ fs::path in_front_of(const fs::path& path, const char* characters) {
 fs::path fixed_part(const fs::path& path) {
   return in_front_of(path, "{");
 }
-
-class SandboxCheck {
- public:
-  explicit SandboxCheck(const Sandbox& sandbox) : sandbox_(sandbox) {}
-
-  void look_at(const GraphNode& node) {
-    said_.clear();
-    const char* verb = node.type->is_sink() ? "write" : "read";
-    for (const Param& p : node.type->params) {
-      const auto value = node.params.find(p.name);
-      if (p.type != ParamType::path || value == node.params.end()) continue;
-      const fs::path path = std::get<std::string>(value->second);
-      if (!path.empty()) complain(node, p.name, sandbox_.trouble_with(verb, fixed_part(path)));
-    }
-    if (!said_.empty() || !node.type->files_read) return;
-    for (const fs::path& file : node.type->files_read(node.params))
-      complain(node, "", sandbox_.trouble_with("read", file));
-  }
-
-  std::vector<Problem> take() { return std::move(problems_); }
-
- private:
-  void complain(const GraphNode& node, const std::string& about, const std::string& trouble) {
-    if (!trouble.empty() && said_.insert(trouble).second) problems_.push_back(problem_of(node, about, trouble));
-  }
-
-  const Sandbox& sandbox_;
-  std::set<std::string> said_;  ///< of one node
-  std::vector<Problem> problems_;
-};
 
 }  // namespace
 
@@ -95,16 +62,11 @@ void Sandbox::open_to_read(const fs::path& path) {
   if (std::optional<fs::path> root = resolved(path)) readable_.push_back(std::move(*root));
 }
 
-bool Sandbox::allows(const fs::path& path) const {
+std::string Sandbox::trouble_with(std::string_view verb, const fs::path& path) const {
   const std::optional<fs::path> place = resolved(path);
-  return place && std::any_of(roots_.begin(), roots_.end(), [&](const fs::path& r) { return is_within(*place, r); });
-}
-
-std::string Sandbox::trouble_with(const char* verb, const fs::path& path) const {
-  if (allows(path)) return "";
-  const std::optional<fs::path> place = resolved(path);
-  const auto holds_it = [&](const fs::path& root) { return is_within(*place, root); };
-  if (place && std::string_view(verb) == "read" && std::ranges::any_of(readable_, holds_it)) return "";
+  const auto holds_it = [&](const fs::path& root) { return lies_in(root, *place); };
+  if (place && (std::ranges::any_of(roots_, holds_it) || (verb == "read" && std::ranges::any_of(readable_, holds_it))))
+    return "";
   const std::string leads = !place           ? " (a link that leads nowhere)"
                             : *place != path ? fmt::format(" (a link to {})", place->string())
                                              : "";
@@ -119,9 +81,23 @@ void Sandbox::check(const char* verb, const fs::path& path) const {
 }
 
 std::vector<Problem> sandbox_problems(const std::vector<GraphNode>& nodes, const Sandbox& sandbox) {
-  SandboxCheck check(sandbox);
-  for (const GraphNode& n : nodes) check.look_at(n);
-  return check.take();
+  std::vector<Problem> problems;
+  for (const GraphNode& node : nodes) {
+    std::set<std::string> said;
+    const auto look_at = [&](const std::string& about, const char* verb, const fs::path& path) {
+      const std::string trouble = sandbox.trouble_with(verb, path);
+      if (!trouble.empty() && said.insert(trouble).second) problems.push_back(problem_of(node, about, trouble));
+    };
+    for (const Param& p : node.type->params) {
+      const auto value = node.params.find(p.name);
+      if (p.type != ParamType::path || value == node.params.end()) continue;
+      const fs::path path = std::get<std::string>(value->second);
+      if (!path.empty()) look_at(p.name, node.type->is_sink() ? "write" : "read", fixed_part(path));
+    }
+    if (!said.empty() || !node.type->files_read) continue;
+    for (const fs::path& file : node.type->files_read(node.params)) look_at("", "read", file);
+  }
+  return problems;
 }
 
 }  // namespace terrazzo

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "graphs/text/graph.h"
@@ -20,12 +21,10 @@ class Sandbox {
   /// The same for reading only.
   void open_to_read(const std::filesystem::path& path);
 
-  const std::filesystem::path& folder() const { return given_; }
-  bool allows(const std::filesystem::path& path) const;
   /// Throws Error if `verb` ("read", "write") is not allowed for the path.
   void check(const char* verb, const std::filesystem::path& path) const;
-  /// The message of check, "cannot read /etc/passwd: ..."; empty if allowed.
-  std::string trouble_with(const char* verb, const std::filesystem::path& path) const;
+  /// The message of check, "may not read /etc/passwd: ..."; empty if allowed.
+  std::string trouble_with(std::string_view verb, const std::filesystem::path& path) const;
 
  private:
   std::filesystem::path given_;

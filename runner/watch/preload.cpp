@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdarg>
 #include <cstdio>
+#include <cstdlib>
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -13,9 +14,10 @@ namespace {
 using Tell = void (*)(char kind, const char* what, int flags, const void* by);
 std::atomic<Tell> teller = nullptr;
 
-void tell(char kind, const char* what, int flags, const void* by) {
+/// Inline, so that the address is in the code that called the function which tells.
+[[gnu::always_inline]] inline void tell(char kind, const char* what, int flags) {
   const Tell now = teller.load();
-  if (now && what) now(kind, what, flags, by);
+  if (now && what) now(kind, what, flags, __builtin_return_address(0));
 }
 
 template <typename Function>
@@ -23,13 +25,9 @@ Function* next(const char* name) {
   return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
 }
 
-int flags_of(const char* mode) {
-  const bool writes = mode && (mode[0] == 'w' || mode[0] == 'a');
-  return writes ? O_WRONLY | O_CREAT : O_RDONLY;
-}
-
-int mode_behind(va_list arguments, int flags) {
-  return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(arguments, int) : 0;
+/// The argument that open(2) has only where it may create a file.
+mode_t mode_behind(va_list arguments, int flags) {
+  return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(arguments, mode_t) : 0;
 }
 
 }  // namespace
@@ -41,46 +39,43 @@ void terrazzo_watch(Tell to) {
   teller = to;
 }
 
-#define WATCHED_OPEN(name)                                             \
-  int name(const char* path, int flags, ...) {                         \
-    static auto* const real = next<int(const char*, int, int)>(#name); \
-    va_list arguments;                                                 \
-    va_start(arguments, flags);                                        \
-    const int mode = mode_behind(arguments, flags);                    \
-    va_end(arguments);                                                 \
-    tell('f', path, flags, __builtin_return_address(0));               \
-    return real(path, flags, mode);                                    \
-  }
-#define WATCHED_OPENAT(name)                                                \
-  int name(int folder, const char* path, int flags, ...) {                  \
-    static auto* const real = next<int(int, const char*, int, int)>(#name); \
-    va_list arguments;                                                      \
-    va_start(arguments, flags);                                             \
-    const int mode = mode_behind(arguments, flags);                         \
-    va_end(arguments);                                                      \
-    tell('f', path, flags, __builtin_return_address(0));                    \
-    return real(folder, path, flags, mode);                                 \
-  }
-#define WATCHED_FOPEN(name)                                                 \
-  FILE* name(const char* path, const char* mode) {                          \
-    static auto* const real = next<FILE*(const char*, const char*)>(#name); \
-    tell('f', path, flags_of(mode), __builtin_return_address(0));           \
-    return real(path, mode);                                                \
-  }
-#define WATCHED_GETENV(name)                                   \
-  char* name(const char* variable) noexcept {                  \
-    static auto* const real = next<char*(const char*)>(#name); \
-    tell('v', variable, 0, __builtin_return_address(0));       \
-    return real(variable);                                     \
-  }
+int open(const char* path, int flags, ...) {
+  static auto* const real = next<decltype(open)>("open");
+  va_list arguments;
+  va_start(arguments, flags);
+  const mode_t mode = mode_behind(arguments, flags);
+  va_end(arguments);
+  tell('f', path, flags);
+  return real(path, flags, mode);
+}
 
-WATCHED_OPEN(open)
-WATCHED_OPEN(open64)
-WATCHED_OPENAT(openat)
-WATCHED_OPENAT(openat64)
-WATCHED_FOPEN(fopen)
-WATCHED_FOPEN(fopen64)
-WATCHED_GETENV(getenv)
-WATCHED_GETENV(secure_getenv)
+int openat(int folder, const char* path, int flags, ...) {
+  static auto* const real = next<decltype(openat)>("openat");
+  va_list arguments;
+  va_start(arguments, flags);
+  const mode_t mode = mode_behind(arguments, flags);
+  va_end(arguments);
+  tell('f', path, flags);
+  return real(folder, path, flags, mode);
+}
+
+FILE* fopen(const char* path, const char* mode) {
+  static auto* const real = next<decltype(fopen)>("fopen");
+  const bool writes = mode && (mode[0] == 'w' || mode[0] == 'a');
+  tell('f', path, writes ? O_WRONLY | O_CREAT : O_RDONLY);
+  return real(path, mode);
+}
+
+char* getenv(const char* variable) noexcept {
+  static auto* const real = next<decltype(getenv)>("getenv");
+  tell('v', variable, 0);
+  return real(variable);
+}
+
+// The same on 64-bit systems, and in programs without a set-user-ID bit, which are the only ones that preload.
+int open64(const char* path, int flags, ...) __attribute__((alias("open")));
+int openat64(int folder, const char* path, int flags, ...) __attribute__((alias("openat")));
+FILE* fopen64(const char* path, const char* mode) __attribute__((alias("fopen")));
+char* secure_getenv(const char* variable) noexcept __attribute__((alias("getenv")));
 
 }  // extern "C"
