@@ -18,7 +18,8 @@
 ///   blocks  one after the other, each compressed by itself with zstd if that makes it smaller
 ///   contents  a description (opaque here), the streams, and of every block its sizes, coding and XXH3 checksum
 /// A stream is a run of bytes or of float samples, cut into blocks of a fixed number of elements. Every byte of the
-/// file lies under a checksum.
+/// file lies under a checksum. Own format since no library in use reads single blocks of any kind of value in
+/// parallel and finds every altered byte.
 namespace terrazzo {
 
 struct BlockFileHeader {

@@ -5,6 +5,8 @@
 
 #include "core/base/geometry.h"
 
+/// Distance transforms of masks. Own code since no library in use has one that is exact, wraps and names the nearest
+/// pixel.
 namespace terrazzo {
 
 /// For every pixel the squared Euclidean distance to the nearest pixel that is set, exactly (Meijster, Roerdink &

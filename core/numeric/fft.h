@@ -9,7 +9,8 @@ namespace terrazzo {
 int padded_length(int n);
 
 /// The discrete Fourier transform of power-of-two length (Cooley & Tukey 1965). Bit-exact on every machine: twiddle
-/// factors are computed by square roots instead of a library's sine. Immutable; thread-safe.
+/// factors are computed by square roots instead of a library's sine. Own code since libraries choose their algorithm,
+/// and so the last bits, by the machine. Immutable; thread-safe.
 class Fft {
  public:
   explicit Fft(int length);

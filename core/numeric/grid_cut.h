@@ -9,7 +9,8 @@ namespace terrazzo {
 
 /// The minimum cut between a source and a sink in a graph of pixels with at most four neighbours each. Two search trees
 /// grow from the terminals and are repaired after each augmenting path (Boykov & Kolmogorov, An experimental comparison
-/// of min-cut/max-flow algorithms, 2004). Sides are numbered so that side (s + 2) % 4 leads back. Not thread-safe.
+/// of min-cut/max-flow algorithms, 2004). Sides are numbered so that side (s + 2) % 4 leads back. Not thread-safe. Own
+/// code since solvers for general graphs, such as Boost's, do not promise which of several equal cuts they find.
 class GridCut {
  public:
   /// Begins a new graph.

@@ -6,7 +6,8 @@
 #include <vector>
 
 /// A built-in font of 5x7 dots for captions in pictures. Lower-case letters are shown as capitals, missing characters
-/// as hollow boxes. Text is UTF-8. Thread-safe.
+/// as hollow boxes. Text is UTF-8. Thread-safe. Own dots since pictures would otherwise depend on a font
+/// library's version and on the fonts that are installed.
 namespace terrazzo {
 
 inline constexpr int glyph_height = 7;
