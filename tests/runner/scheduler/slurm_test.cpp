@@ -242,7 +242,7 @@ TEST_CASE("a controller that cannot be reached is given up after seconds; the me
   }
   SUBCASE("a configuration that is not there") {
     const Environment setting("SLURM_CONF", "/nowhere/slurm.conf");
-    CHECK(message().find("SLURM_CONF names /nowhere/slurm.conf, which is not there") != std::string::npos);
+    CHECK(message().find("SLURM_CONF names /nowhere/slurm.conf, which does not exist") != std::string::npos);
   }
   SUBCASE("it does not run") {
     const Environment setting("SLURM_CONF", "/etc/passwd");

@@ -81,7 +81,7 @@ TEST_CASE("library add takes a folder or an analysis, and replaces only by force
   CHECK(w.lay_out("library:bricks", "library:bricks").code == 0);
   const ProgramRun unplaced = w.lay_out("library:plain", "library:plain");
   CHECK(unplaced.code == 2);
-  CHECK(contains(unplaced.err, "does not say where the maps of plain lie"));
+  CHECK(contains(unplaced.err, "does not say where the maps of plain are"));
   const auto refused = [&](const std::vector<std::string>& args, const std::string& why) {
     std::vector<std::string> words = {"library", "add"};
     words.insert(words.end(), args.begin(), args.end());
