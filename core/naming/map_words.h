@@ -82,6 +82,7 @@ inline constexpr auto map_words = [] {
       one("norm", ending, normal),
       one("nrm", ending, normal),
       one("nml", ending, normal),
+      one("nm", ending, normal),
       one("n", initial, normal),
       one("height", full, height),
       one("displacement", full, height),
