@@ -1,5 +1,6 @@
 // The whole command line with tuning constants that can be changed without recompiling (core/base/tuning.h).
 
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <mutex>
@@ -12,7 +13,11 @@
 
 #include "core/base/error.h"
 #include "core/base/tuning.h"
+#include "core/synthesis/state/energy.h"
+#include "core/synthesis/state/expansion.h"
+#include "core/synthesis/state/window_coherence.h"
 #include "core/synthesis/steps.h"
+#include "core/synthesis/steps/initialize.h"
 #include "runner/cli/cli_commands.h"
 
 using namespace terrazzo;
@@ -20,9 +25,14 @@ using namespace terrazzo;
 namespace {
 
 constexpr std::string_view usage =
-    "usage: terrazzo_tuned [--tune NAME=VALUE]... [--step-times] COMMAND...\n"
+    "usage: terrazzo_tuned [--tune NAME=VALUE]... [--step-times] [--step-energy] COMMAND...\n"
     "           terrazzo with other constants; its results have cache keys of their own\n"
     "           --step-times: prints the milliseconds of every step on every level, on standard error\n"
+    "           --step-energy: prints what the result costs after every step (core/synthesis/state/energy.h), as "
+    "columns\n"
+    "           of level, step, pass; per pixel the window distance (1: usual), the share of unlike windows, the "
+    "mismatch\n"
+    "           along seams (appearance units), the share of cut neighbours and the phase\n"
     "       terrazzo_tuned --tunings\n"
     "           lists the constants\n";
 
@@ -82,17 +92,37 @@ class StepTimes {
   std::map<std::pair<int, size_t>, double> milliseconds_;  // the coarsest level first
 };
 
+/// What the result costs after a step.
+void print_energy(const Step& step, const StepContext& c) {
+  if (step.phase == Phase::costs) return;
+  CorrectionLevel level = c.level;
+  Field field = c.field;
+  if (step.phase == Phase::upsampling) {  // its pixels are blocks of 2x2
+    level.window = PlaneWindow::all_of(c.shared.plane(c.facts.level));
+    field = expanded(c.field.pixels, c.level.window, level.window, level.exemplar);
+  }
+  const Energy e = energy_of(field, level, 1 << 16, c.shared.task);
+  const auto share = [&](int64_t sum, double unit) {
+    return double(sum) / unit / double(std::max<int64_t>(1, e.pixels));
+  };
+  fmt::print(stderr, "{}\t{}\t{}\t{:.4f}\t{:.4f}\t{:.2f}\t{:.4f}\t{:.4f}\n", c.facts.level, step.name, c.pass,
+             share(e.windows, WindowCoherence::most), share(e.unlike, 1), share(e.seams, mismatch_unit),
+             share(e.cut, 1), share(e.phase, 256));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::vector<const char*> rest = {argv[0]};
-  bool lists = false, times = false;
+  bool lists = false, times = false, energy = false;
   try {
     for (int i = 1; i < argc; i++) {
       if (std::string_view(argv[i]) == "--tunings")
         lists = true;
       else if (std::string_view(argv[i]) == "--step-times")
         times = true;
+      else if (std::string_view(argv[i]) == "--step-energy")
+        energy = true;
       else if (const char* text = value_of("--tune", i, argc, argv))
         tune(text);
       else
@@ -107,7 +137,11 @@ int main(int argc, char** argv) {
     return 0;
   }
   StepTimes taken;
-  if (times) watch_steps([&](const Step& s, const StepContext& c, double seconds) { taken.add(s, c.facts, seconds); });
+  if (times || energy)
+    watch_steps([&](const Step& s, const StepContext& c, double seconds) {
+      if (times) taken.add(s, c.facts, seconds);
+      if (energy) print_energy(s, c);
+    });
   const int status = run_command_line(int(rest.size()), rest.data());
   taken.print();
   return status;

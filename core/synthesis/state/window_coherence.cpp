@@ -62,6 +62,7 @@ class NearestWindow {
 
   /// Considers those that k-coherent candidates of the window's corners and middle continue.
   void consider_similar(int64_t enough) {
+    if (level_.similar.empty()) return;
     const int width = level_.exemplar.size().width;
     for (int dy = -reach; dy <= reach && least_ > enough; dy += reach)
       for (int dx = -reach; dx <= reach; dx += reach) {
@@ -143,13 +144,15 @@ double usual_distance(const CorrectionLevel& level) {
 
 WindowCoherence::WindowCoherence(const CorrectionLevel& level) : level_(level), usual_(usual_distance(level)) {}
 
-int32_t WindowCoherence::incoherence(const Window& shown) const {
-  if (usual_ == 0) return 0;
+bool WindowCoherence::is_copied(const Window& shown) {
   const ExemplarPixel first = shown[0];
-  bool continuous = true;
-  for (int i = 1; i < side * side && continuous; i++)
-    continuous = shown[i].x == first.x + i % side && shown[i].y == first.y + i / side;
-  if (continuous) return 0;
+  for (int i = 1; i < side * side; i++)
+    if (shown[size_t(i)].x != first.x + i % side || shown[size_t(i)].y != first.y + i / side) return false;
+  return true;
+}
+
+int32_t WindowCoherence::incoherence(const Window& shown) const {
+  if (usual_ == 0 || is_copied(shown)) return 0;
   const double alike = window_coherence_tuning->alike, unlike = window_coherence_tuning->unlike;
   const auto enough = int64_t(usual_ * alike * alike), limit = int64_t(usual_ * unlike * unlike);
   NearestWindow nearest(level_, shown, limit);
@@ -158,6 +161,15 @@ int32_t WindowCoherence::incoherence(const Window& shown) const {
   if (nearest.distance() >= limit) return most;
   const double rise = (std::sqrt(double(nearest.distance()) / usual_) - alike) / (unlike - alike);
   return int32_t(std::clamp(rise, 0.0, 1.0) * most);
+}
+
+int32_t WindowCoherence::distance(const Window& shown) const {
+  if (usual_ == 0 || is_copied(shown)) return 0;
+  constexpr int64_t far = int64_t{farthest / most} * (farthest / most);
+  NearestWindow nearest(level_, shown, int64_t(usual_ * double(far)));
+  nearest.consider_continued(0);
+  nearest.consider_similar(0);
+  return int32_t(std::sqrt(double(nearest.distance()) / usual_) * most);
 }
 
 }  // namespace terrazzo

@@ -24,7 +24,13 @@ class WindowCoherence {
   /// window is sought among those that the window's pixels and their k-coherent candidates continue.
   int32_t incoherence(const Window& shown) const;
 
+  /// How far the nearest window is: `most` for the usual distance, at most `farthest`; 0 for windows of the exemplar.
+  static constexpr int32_t farthest = 4 * most;
+  int32_t distance(const Window& shown) const;
+
  private:
+  /// Whether the window is the exemplar's own.
+  static bool is_copied(const Window& shown);
   const CorrectionLevel& level_;
   double usual_;  // squared distance within which most of the exemplar's windows have a similar one; 0: unknown
 };
