@@ -23,7 +23,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 25;
+inline constexpr int synthesis_version = 26;
 
 /// The finest level that is worked out for the plane as a whole: patches are laid, pieces aligned and their seams moved
 /// on every level but the finest.

@@ -69,6 +69,7 @@ std::vector<SteppedCase> stepped_cases() {
       {"courses", indexed(plain_features(courses.image())->with(courses.lattice())), {.size = {200, 180}}},
       {"stones", indexed(known), {.size = {200, 180}}},
       {"tiles", DrawnTiles(10).index(true), {.size = {100, 90}}},
+      {"grid", DrawnTiles(72).crooked().index(true), {.size = {200, 180}}},
       {"kept", plain, kept},
       {"steered", plain, steered},
   };

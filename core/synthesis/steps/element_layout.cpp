@@ -64,7 +64,8 @@ class ElementLayout {
     if (level_.fixed.any()) packing_.keep_off(kept_without(places));
     packing_.pack(std::move(placed), task);
     warps_.resize(packing_.placed().size());
-    tbb::parallel_for(0, int(warps_.size()), [&](int i) { warps_[size_t(i)] = ElementWarp(shapes_, packing_, i); });
+    if (!in_grid())
+      tbb::parallel_for(0, int(warps_.size()), [&](int i) { warps_[size_t(i)] = ElementWarp(shapes_, packing_, i); });
     tbb::parallel_for(0, field_.size.height, [&](int row) {
       for (int column = 0; column < field_.size.width; column++) show(column, row);
     });
@@ -113,9 +114,13 @@ class ElementLayout {
     return double(s.blocks) >= least * double(shape.area);
   }
 
+  /// Whether cells bring joints together. Then elements are rigid, or thin joints would tear, and holes show what they
+  /// did before, which is in phase.
+  bool in_grid() const { return lattice_ && lattice_->rank == 2; }
+
   void show(int column, int row) {
     const ElementPacking::Place& place = packing_.at(column, row);
-    if (place.placed < 0 || places_.is_kept(column, row)) return;
+    if (place.placed < 0 || places_.is_kept(column, row) || (in_grid() && !packing_.is_filled(place))) return;
     const PlacedElement& p = packing_.placed()[size_t(place.placed)];
     int x = column - shapes_.column_of(p), y = row - shapes_.row_of(p);
     if (level_.window.closed_x) x = wrap(x + field_.size.width / 2, field_.size.width) - field_.size.width / 2;

@@ -170,8 +170,8 @@ void ElementPacking::take_away_covered(const Task& task) {
   paint_all();
 }
 
-bool ElementPacking::is_filled(const Place& p) const {
-  return double(p.depth.blocks()) > -pack_tuning->tolerance * shapes_.typical_side;
+double ElementPacking::tolerance() const {
+  return pack_tuning->tolerance * shapes_.typical_side;
 }
 
 /// Of some rows. Larger surfaces have no room for the distances of all.

@@ -50,6 +50,10 @@ class ElementPacking {
     Depth neighbour;  ///< in the next one, mostly negative; far below 0 if there is none near
   };
   const std::vector<PlacedElement>& placed() const { return placed_; }
+  /// By how many blocks an element may end too early without leaving a hole.
+  double tolerance() const;
+  /// Whether a block is not part of a hole that no element fits.
+  bool is_filled(const Place& p) const { return double(p.depth.blocks()) > -tolerance(); }
   const Place& at(int x, int y) const { return places_[size_t(y) * size_t(size_.width) + size_t(x)]; }
   /// The same around the borders of a result that wraps; null outside of one that does not.
   const Place* find(int x, int y) const {
@@ -76,7 +80,6 @@ class ElementPacking {
   };
   std::vector<Hole> holes() const;
   void add_holes(int top, int bottom, std::vector<Hole>& out) const;
-  bool is_filled(const Place& p) const;
   bool fill(const Hole& hole, const Terms& terms);
   template <typename Visit>
   void for_places(const ElementShape& shape, const Hole& hole, Visit visit) const;

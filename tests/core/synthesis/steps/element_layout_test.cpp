@@ -115,6 +115,17 @@ TEST_CASE("elements of a lattice come whole, and in phase with it") {
   CHECK(most > 0.97 * 520 * 500);
 }
 
+TEST_CASE("elements of a lattice are rigid, however crooked their borders were found") {
+  const UvMapPtr uv = synthesize(*DrawnTiles(72).crooked().index(true), {.size = {520, 500}, .seed = 2}, task);
+  const ExemplarPixel first = uv->at(0, 0);
+  const int phase_x = wrap(int(first.x), 72), phase_y = wrap(int(first.y), 72);
+  int in_phase = 0;
+  for (int y = 0; y < 500; y++)
+    for (int x = 0; x < 520; x++)
+      in_phase += wrap(uv->at(x, y).x - x - phase_x, 72) == 0 && wrap(uv->at(x, y).y - y - phase_y, 72) == 0;
+  CHECK(in_phase > 0.99 * 520 * 500);
+}
+
 TEST_CASE("elements in straight courses that surely repeat keep to those, unless they are very low") {
   const DrawnStones stones(exemplar);
   const SynthesisOptions options{.size = {300, 280}, .seed = 1};
