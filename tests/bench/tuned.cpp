@@ -101,7 +101,7 @@ void print_energy(const Step& step, const StepContext& c) {
     level.window = PlaneWindow::all_of(c.shared.plane(c.facts.level));
     field = expanded(c.field.pixels, c.level.window, level.window, level.exemplar);
   }
-  const Energy e = energy_of(field, level, 1 << 16, c.shared.task);
+  const Energy e = energy_of(std::move(field), level, 1 << 16, c.shared.task);
   const auto share = [&](int64_t sum, double unit) {
     return double(sum) / unit / double(std::max<int64_t>(1, e.pixels));
   };

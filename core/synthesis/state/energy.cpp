@@ -24,8 +24,8 @@ class PixelEnergy {
   void add(int x, int y, Energy& sum) const {
     sum.pixels++;
     const ExemplarPixel here = field_.at(x, y);
-    if (has_window(x, field_.size.width, level_.window.closed_x) &&
-        has_window(y, field_.size.height, level_.window.closed_y)) {
+    if (WindowCoherence::fits(x, field_.size.width, level_.window.closed_x) &&
+        WindowCoherence::fits(y, field_.size.height, level_.window.closed_y)) {
       const int32_t distance = windows_.distance(window_around(x, y));
       sum.windows += distance;
       sum.unlike += distance > usual ? 1 : 0;
@@ -41,9 +41,6 @@ class PixelEnergy {
   }
 
  private:
-  static bool has_window(int middle, int length, bool closed) {
-    return closed || (middle >= WindowCoherence::reach && middle < length - WindowCoherence::reach);
-  }
   int64_t index(int x, int y) const {
     return pixel_index(field_.size, x, y, level_.window.closed_x, level_.window.closed_y);
   }
@@ -64,12 +61,11 @@ class PixelEnergy {
 
 }  // namespace
 
-Energy energy_of(const Field& field, const CorrectionLevel& level, int64_t sample, const Task& task) {
+Energy energy_of(Field field, const CorrectionLevel& level, int64_t sample, const Task& task) {
   // Odd, so that all pixels of the blocks from which a level begins have their turn.
   const int step = std::max(1, int(std::sqrt(double(field.size.area()) / double(sample)))) | 1;
   const int rows = (field.size.height + step - 1) / step;
-  Field copy = field;  // whoever owns an ExpansionGround may change its field
-  const PixelEnergy pixel_energy(copy, level);
+  const PixelEnergy pixel_energy(field, level);
   std::vector<Energy> sums(static_cast<size_t>(rows));
   tbb::parallel_for(0, rows, [&](int row) {
     task.check();

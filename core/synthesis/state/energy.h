@@ -22,6 +22,6 @@ struct Energy {
 
 /// At most about `sample` pixels are looked at, evenly spread. The same on every machine and for every number of
 /// threads. Throws Cancelled.
-Energy energy_of(const Field& field, const CorrectionLevel& level, int64_t sample, const Task& task);
+Energy energy_of(Field field, const CorrectionLevel& level, int64_t sample, const Task& task);
 
 }  // namespace terrazzo

@@ -20,6 +20,11 @@ class WindowCoherence {
 
   explicit WindowCoherence(const CorrectionLevel& level);
 
+  /// Whether a field of that length holds the window around a column or a row. `closed`: it wraps.
+  static bool fits(int middle, int length, bool closed) {
+    return closed || (middle >= reach && middle < length - reach);
+  }
+
   /// From 0, for windows clearly nearer to the exemplar than most of its own are to one another, to `most`. The nearest
   /// window is sought among those that the window's pixels and their k-coherent candidates continue.
   int32_t incoherence(const Window& shown) const;

@@ -130,12 +130,10 @@ class Surroundings {
   void mark(int dx, int dy) {
     for_each(WindowCoherence::reach, [&](int wx, int wy) { changed_[at(dx + wx, dy + wy)] = 1; });
   }
-  static bool holds(int middle, int length, bool closed) {
-    return closed || (middle >= WindowCoherence::reach && middle < length - WindowCoherence::reach);
-  }
   /// 0 for windows that the field does not hold as a whole.
   int32_t incoherence(int dx, int dy) const {
-    if (!holds(x_ + dx, field_.size.width, part_.closed_x) || !holds(y_ + dy, field_.size.height, part_.closed_y))
+    if (!WindowCoherence::fits(x_ + dx, field_.size.width, part_.closed_x) ||
+        !WindowCoherence::fits(y_ + dy, field_.size.height, part_.closed_y))
       return 0;
     WindowCoherence::Window window;
     size_t i = 0;
