@@ -78,7 +78,7 @@ std::array<float, 2> range_of(const Image& map) {
 
 class JoinedPixels : public PixelSource {
  public:
-  JoinedPixels(const ImagePtr& map, std::shared_ptr<const FineLayout> layout, double reach, const KeptHeights& kept,
+  JoinedPixels(const ImagePtr& map, std::shared_ptr<const FineLayout> layout, double reach, const KeptPixels& kept,
                const Task& task)
       : map_(materialized(map)),
         layout_(std::move(layout)),
@@ -351,14 +351,14 @@ bool can_join(const ImageInfo& info) {
 }
 
 ImagePtr joined_heights(const ImagePtr& map, const std::shared_ptr<const FineLayout>& layout, double reach,
-                        const KeptHeights& kept, const Task& task) {
+                        const KeptPixels& kept, const Task& task) {
   ImageInfo info = map->info();
   info.size = layout->size();
   Hasher recipe;
   recipe.add("joined heights").add(map->digest()).add(layout->uv().digest());
   recipe.add(layout->exemplar().width).add(layout->exemplar().height).add(reach);
-  if (kept.heights) recipe.add(kept.heights->digest()).add(kept.x).add(kept.y);
-  if (kept.heights && kept.holes) recipe.add(kept.holes->digest());
+  if (kept.map) recipe.add(kept.map->digest()).add(kept.x).add(kept.y);
+  if (kept.map && kept.holes) recipe.add(kept.holes->digest());
   return Image::computed(info, recipe.digest(), std::make_shared<JoinedPixels>(map, layout, reach, kept, task));
 }
 

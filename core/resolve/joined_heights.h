@@ -5,7 +5,7 @@
 #include "core/base/task.h"
 #include "core/image/image.h"
 #include "core/resolve/fine_layout.h"
-#include "core/resolve/kept_heights.h"
+#include "core/resolve/kept_pixels.h"
 
 namespace terrazzo {
 
@@ -25,6 +25,6 @@ bool can_join(const ImageInfo& info);
 /// on demand, bit-exact for any region. Wraps as the layout. Non-finite values stay and are ignored. Kept heights stay
 /// bit for bit; everything else adapts to them. Throws Cancelled.
 ImagePtr joined_heights(const ImagePtr& map, const std::shared_ptr<const FineLayout>& layout, double reach,
-                        const KeptHeights& kept, const Task& task);
+                        const KeptPixels& kept, const Task& task);
 
 }  // namespace terrazzo

@@ -15,6 +15,7 @@
 #include "core/numeric/box_filter.h"
 #include "core/resolve/fine_layout.h"
 #include "core/resolve/joined_heights.h"
+#include "core/resolve/joined_tones.h"
 
 namespace terrazzo {
 
@@ -197,16 +198,17 @@ bool fits(Size exemplar, Size analysed, double scale) {
          std::abs(analysed.height * scale - exemplar.height) <= off;
 }
 
-/// The kept pixels of a height map.
-KeptHeights kept_heights(const ResolveOptions& options, const std::string& map, const FineLayout& layout) {
+/// The kept pixels of a map.
+KeptPixels kept_pixels(const ResolveOptions& options, const Map& map, const FineLayout& layout) {
   if (!options.kept) return {};
-  const ImagePtr heights = options.kept->find(map);
-  if (!heights || !can_join(heights->info()))
-    throw Error("kept", fmt::format("expected the height map \"{}\" of the material, found the maps {}", map,
-                                    options.kept->map_names()));
+  const ImagePtr kept = options.kept->find(map.name);
+  if (!kept || kept->info().semantic != map.image->info().semantic || kept->channels() != map.image->channels())
+    throw Error("kept",
+                fmt::format("expected the map \"{}\" of the material, {} in {} channels; found {}", map.name,
+                            name_of(map.image->info().semantic), map.image->channels(), options.kept->map_names()));
   const double scale_x = double(layout.size().width) / layout.uv().size().width;
   const double scale_y = double(layout.size().height) / layout.uv().size().height;
-  return {.heights = nearest_at_size(heights, options.kept->size()),
+  return {.map = nearest_at_size(kept, options.kept->size()),
           .x = int(std::floor(options.kept_at[0] * scale_x + 0.5)),
           .y = int(std::floor(options.kept_at[1] * scale_y + 0.5)),
           .holes = options.holes};
@@ -238,6 +240,22 @@ Size resolved_size(Size uv, Size analysed, Size exemplar) {
   return FineLayout::size_of(uv, analysed, exemplar);
 }
 
+std::map<std::string, SlowTonesPtr> slow_tones(const Material& exemplar, const UvMap& uv, double reach,
+                                               const Task& task) {
+  std::map<std::string, SlowTonesPtr> out;
+  if (reach == 0) return out;
+  const Size size = exemplar.size();
+  const double pixels =
+      reach < 1 ? reach * std::min(size.width, size.height) : reach * size.width / uv.exemplar().width;
+  for (const Map& map : exemplar.maps()) {
+    if (!SlowTones::exist_in(map.image->info())) continue;
+    const auto tones =
+        std::make_shared<const SlowTones>(map.image, size, std::max(1.0, pixels), uv.wraps().exemplar, task);
+    if (tones->are_slow()) out[map.name] = tones;
+  }
+  return out;
+}
+
 MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const ResolveOptions& options, const Task& task) {
   const Size size = exemplar.size();
   require_one_shape("material", exemplar);
@@ -249,10 +267,14 @@ MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const Resolve
   std::vector<Map> maps;
   for (const Map& map : exemplar.maps()) {
     const ImageInfo& info = map.image->info();
-    maps.push_back(
-        {map.name, reach > 0 && can_join(info)
-                       ? joined_heights(map.image, exact, reach, kept_heights(options, map.name, *exact), task)
-                       : resolved_map(map.image, can_blend(info.semantic) ? blended : exact)});
+    if (reach > 0 && can_join(info)) {
+      maps.push_back({map.name, joined_heights(map.image, exact, reach, kept_pixels(options, map, *exact), task)});
+      continue;
+    }
+    ImagePtr image = resolved_map(map.image, can_blend(info.semantic) ? blended : exact);
+    if (const auto tones = options.tones.find(map.name); tones != options.tones.end())
+      image = joined_tones(image, map.image, exact, tones->second, kept_pixels(options, map, *exact), task);
+    maps.push_back({map.name, std::move(image)});
   }
   return Material::make(exemplar.name(), std::move(maps),
                         exemplar.metres() * std::array{double(uv->size().width) / analysed.width,

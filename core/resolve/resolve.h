@@ -1,9 +1,12 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <string>
 
 #include "core/exemplar/uv_map.h"
 #include "core/material/material.h"
+#include "core/resolve/slow_tones.h"
 
 namespace terrazzo {
 
@@ -14,11 +17,13 @@ struct ResolveOptions {
   /// pixels of the uv map, or below 1 as a fraction of the analysed exemplar's shorter side; 0: off. Joined heights are
   /// not blended.
   double join = 0;
+  /// The maps whose slow tones are joined (core/resolve/joined_tones.h), by name; see slow_tones().
+  std::map<std::string, SlowTonesPtr> tones{};
   /// The size of the exemplar relative to the analysed one, and of the maps relative to the uv map: 1..largest_scale,
   /// or 0 to derive it from the exemplar's size.
   double scale = 1;
-  /// An earlier result whose heights `join` must not change, or null; the position of its top left pixel, in pixels of
-  /// the uv map; and a mask, above 0.5 where it does not count, or null. See core/resolve/kept_heights.h.
+  /// An earlier result whose pixels joining must not change, or null; the position of its top left pixel, in pixels of
+  /// the uv map; and a mask, above 0.5 where it does not count, or null. See core/resolve/kept_pixels.h.
   MaterialPtr kept{};
   std::array<int, 2> kept_at{};
   ImagePtr holes{};
@@ -29,6 +34,11 @@ inline constexpr double largest_scale = 64;
 
 /// Whether maps of this semantic can be blended: not masks and data, whose values may be labels.
 bool can_blend(Semantic semantic);
+
+/// The maps of an exemplar whose tones are slow, and those tones. `reach`: below 1 a share of the exemplar's shorter
+/// side, else pixels of the uv map; 0: none. Throws Cancelled.
+std::map<std::string, SlowTonesPtr> slow_tones(const Material& exemplar, const UvMap& uv, double reach,
+                                               const Task& task = {});
 
 /// Resolves a uv map: the maps of the output, computed on demand from the exemplar.
 ///
@@ -43,7 +53,7 @@ bool can_blend(Semantic semantic);
 ///
 /// `exemplar`'s size (that of its largest map) must be the analysed exemplar's times `scale`; smaller maps are sampled
 /// at the same relative position. All maps get the uv map's size times `scale`. Throws Error if sizes do not fit, or
-/// `kept` lacks a height map; Cancelled.
+/// `kept` lacks a map to be joined; Cancelled.
 MaterialPtr resolved(const Material& exemplar, const UvMapPtr& uv, const ResolveOptions& options = {},
                      const Task& task = {});
 

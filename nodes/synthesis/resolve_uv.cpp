@@ -19,7 +19,7 @@ std::vector<Port> resolve_uv_inputs() {
           {.name = "material", .type = ValueType::material, .help = "the exemplar, with all maps wanted"},
           {.name = "kept",
            .type = ValueType::material,
-           .help = "the earlier result whose pixels the uv map keeps: `join` does not change its heights",
+           .help = "the earlier result whose pixels the uv map keeps: `join` and `tones` do not change them",
            .optional = true},
           {.name = "holes",
            .type = ValueType::image,
@@ -42,6 +42,14 @@ std::vector<Param> resolve_uv_params() {
            .help = "How far from a seam one-channel height maps change so that pieces meet: below 1 a share of the "
                    "analysed exemplar's shorter side, else pixels of the uv map. More is smoother; 0 keeps heights "
                    "exact. Replaces `blend` for these maps.",
+           .min = 0,
+           .max = farthest_join},
+          {.name = "tones",
+           .type = ParamType::number,
+           .fallback = 0.0,
+           .help = "How far from a seam slow changes of tone meet, in maps whose tones are slow, such as stained or "
+                   "polished metal: below 1 a share of the exemplar's shorter side, else pixels of the uv map. What "
+                   "changes over a shorter distance stays, and so do all pixels of other maps. 0 keeps all exact.",
            .min = 0,
            .max = farthest_join},
           {.name = "kept_at",
@@ -77,9 +85,9 @@ std::vector<std::string> check_resolve_uv(const Params& params) {
   return problems;
 }
 
-/// The number of values held for all maps of the material, and per pixel of the result.
+/// The number of values held for all maps of the material, and per pixel of the result and of kept maps.
 struct Held {
-  double values = 0, per_result_pixel = 0;
+  double values = 0, per_result_pixel = 0, per_kept_pixel = 0;
 
   void add(const ImageInfo& map, const Params& params) {
     const bool joins = std::get<double>(params.at("join")) > 0 && can_join(map);
@@ -88,6 +96,7 @@ struct Held {
     values += double(map.size.area()) * map.channels * (blends ? 3 : 1);
     // The solution and its forces at half the result's size and at all coarser levels.
     if (joins) per_result_pixel += 2.0 / 3;
+    if (joins || (std::get<double>(params.at("tones")) > 0 && SlowTones::exist_in(map))) per_kept_pixel += map.channels;
   }
   double bytes(Size result) const { return sizeof(float) * (values + per_result_pixel * double(result.area())); }
 };
@@ -99,8 +108,9 @@ size_t memory_of_resolve_uv(const NodeContext& node) {
   const Size result = resolved_size(uv->size(), uv->exemplar(), material->size());
   Held held;
   for (const Map& m : material->maps()) held.add(m.image->info(), node.params());
+  // A kept pixel's values, and whether it is free.
   const double of_kept =
-      kept && held.per_result_pixel > 0 ? sizeof(float) * (double(kept->size().area()) + double(result.area()) / 3) : 0;
+      kept ? sizeof(float) * held.per_kept_pixel * double(kept->size().area()) + double(result.area()) : 0;
   return size_t(held.bytes(result) + of_kept);
 }
 
@@ -136,17 +146,22 @@ void require_analysed(const Material& material, const UvMap& uv, const Task& tas
 
 void compute_resolve_uv(NodeContext& node) {
   const Numbers& at = node.numbers("kept_at");
+  const auto material = node.input<Material>("material");
+  const auto uv = node.input<UvMap>("uv");
   const ResolveOptions options{.blend = node.number("blend"),
                                .join = node.number("join"),
+                               .tones = slow_tones(*material, *uv, node.number("tones"), node.task()),
                                .scale = node.number("scale"),
                                .kept = node.optional_input<Material>("kept"),
                                .kept_at = {int(at[0]), int(at[1])},
                                .holes = node.optional_input<Image>("holes")};
-  const auto material = node.input<Material>("material");
-  const auto uv = node.input<UvMap>("uv");
   MaterialPtr result = resolved(*material, uv, options, node.task());
   if (!node.flag("other_material")) require_analysed(*material, *uv, node.task());
   node.output("material", std::move(result));
+  for (const auto& [name, tones] : options.tones)
+    node.note(
+        fmt::format("{}: its tones change slowly ({:.2f} of 1) and meet at seams; `tones` 0 keeps every pixel exact",
+                    name, tones->slow_share()));
 }
 
 OutputForecasts infer_resolve_uv(const Params& params, const InputForecasts& inputs) {
@@ -169,8 +184,9 @@ NodeType resolve_uv_node() {
   t.category = "synthesis";
   t.summary = "Turns a uv map into the maps of a material";
   t.help =
-      "Every output pixel of every map is exactly the exemplar pixel that the uv map names, unless `blend` or `join` "
-      "are set, so maps cannot drift apart. Pixels are computed on demand; only the exemplar is held in memory. "
+      "Every output pixel of every map is exactly the exemplar pixel that the uv map names, unless `blend`, `join` "
+      "or `tones` are set, so maps cannot drift apart. Pixels are computed on demand; only the exemplar is held in "
+      "memory. "
       "`blend` softens seams: near a seam a pixel is the mean of what the pieces around it would continue with "
       "(Lefebvre & Hoppe 2005), colours in linear light, normals as vectors that keep their length, and details keep "
       "their contrast (Heitz & Neyret 2018). Away from seams pixels stay exact, and so do masks and data everywhere, "
@@ -178,11 +194,14 @@ NodeType resolve_uv_node() {
       "steps: slopes, and cliffs that the exemplar has itself, stay, and the difference is spread over the "
       "surroundings (gradient-domain compositing, Perez, Gangnet & Blake 2003, with the screened Poisson equation of "
       "Bhat et al. 2008). Heights stay within the exemplar's range, and normals still fit. Tiles of a larger surface "
-      "that are resolved one by one fit together only without `join`, which needs the whole result. `scale` shows a "
+      "that are resolved one by one fit together only without `join`, which needs the whole result, and without "
+      "`tones`, "
+      "which looks beyond a tile's border. `tones` lets stains, clouds and vignettes of other maps meet at seams as "
+      "slowly as they change in the exemplar, without touching what is finer (the lowest band of a multiresolution "
+      "spline, Burt & Adelson 1983); maps whose tones change no slower than their texture stay exact. `scale` shows a "
       "larger exemplar than the analysed one: analyse and synthesize a copy reduced by `resize`, which is faster and "
       "captures larger features, and connect the original here. A material that is not the analysed one is an error: "
-      "small "
-      "copies of the analysed maps go with the uv map, and maps of the same names are compared with them.";
+      "small copies of the analysed maps go with the uv map, and maps of the same names are compared with them.";
   t.inputs = resolve_uv_inputs();
   t.outputs = {
       {.name = "material", .type = ValueType::material, .help = "the maps, in the uv map's size times `scale`"}};

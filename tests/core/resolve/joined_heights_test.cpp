@@ -185,7 +185,7 @@ TEST_CASE("what is kept may lie anywhere, reach beyond the result, and lack the 
   CHECK(out->read({0, 0, 60, 50}) != resolved(*map, uv, {.join = 9})->maps().front().image->read({0, 0, 60, 50}));
   CHECK(same_bits(*resolved(*map, uv, {.kept = kept})->maps().front().image, *shown(map->maps().front().image, uv, 0)));
   const MaterialPtr other = Material::make("m", {{"roughness", heights(noise)}});
-  CHECK_THROWS_WITH_AS(resolved(*map, uv, {.join = 9, .kept = other}), doctest::Contains("expected the height map"),
+  CHECK_THROWS_WITH_AS(resolved(*map, uv, {.join = 9, .kept = other}), doctest::Contains("expected the map \"height\""),
                        Error);
 }
 

@@ -1,13 +1,13 @@
-#include "core/resolve/kept_heights.h"
+#include "core/resolve/kept_pixels.h"
 
 #include "core/image/image_ops.h"
 
 namespace terrazzo {
 
-KeptLookup::KeptLookup(const KeptHeights& kept, Size result) {
-  if (!kept.heights) return;
-  heights_ = materialized(kept.heights);
-  area_ = {kept.x, kept.y, heights_->width(), heights_->height()};
+KeptLookup::KeptLookup(const KeptPixels& kept, Size result) {
+  if (!kept.map) return;
+  map_ = materialized(kept.map);
+  area_ = {kept.x, kept.y, map_->width(), map_->height()};
   if (!kept.holes) return;
   free_.assign(size_t(area_.area()), 0);
   const ImagePtr holes = nearest_at_size(kept.holes, result);
