@@ -4,7 +4,9 @@
 
 #include "core/analysis/space/appearance_space.h"
 #include "core/image/image_facts.h"
+#include "core/metrics/whole_elements.h"
 #include "core/synthesis/steps.h"
+#include "core/synthesis/steps/element_layout.h"
 #include "nodes/common/shape_rules.h"
 #include "nodes/common/synthesis/synthesis_memory.h"
 #include "nodes/common/synthesis/synthesis_params.h"
@@ -32,6 +34,26 @@ Part part_of(const Params& params) {
                  std::get<Numbers>(params.at("origin")));
 }
 
+/// Says how many elements came out whole, and warns of results that are not to be trusted. What the exemplar's border
+/// cuts cannot come out whole: of exemplars with too few others nothing is known.
+void tell_of_elements(NodeContext& node, const Index& index, const UvMap& uv) {
+  const Appearance& appearance = *index.appearance();
+  if (!has_elements(appearance) || uv.size().area() < appearance.size().area()) return;
+  const ShownElements shown = shown_elements(uv, *appearance.elements(), node.task());
+  const std::string counts = fmt::format("{} of {} elements are whole", shown.whole, shown.all);
+  if (shown.are_broken())
+    node.warn(counts +
+              ", the others are torn or melted together: look at the result. An exemplar that shows more of "
+              "them, or none that its border cuts, helps");
+  else if (shown.lack_most())
+    node.warn(
+        fmt::format("{}, but {:.0f} % of the exemplar does not appear: elements that its border cuts are not "
+                    "laid. An exemplar that shows more of them whole, or that tiles, helps",
+                    counts, 100 * shown.missing));
+  else if (shown.all > 0)
+    node.note(fmt::format("{}; they show {} different ones", counts, shown.distinct));
+}
+
 void compute_synthesize(NodeContext& node) {
   const auto index = node.input<Index>("index");
   const auto coarse = node.optional_input<UvMap>("coarse");
@@ -45,6 +67,7 @@ void compute_synthesize(NodeContext& node) {
                                    part.region, node.task());
   tell_of_parts(node, *index, *uv, part.is_whole());
   warn_of_less_surface(node, *index, part.surface);
+  tell_of_elements(node, *index, *uv);
   node.output("uv", uv);
 }
 

@@ -51,12 +51,16 @@ bool same_folder(const std::string& a, const std::string& b) {
 
 struct SynthFlags : RunFlags {
   ExemplarFlags exemplar;
-  std::string out, scale, size, seed, quality, blend, join, format, tileable, method = "layout";
+  std::string out, scale, size, seed, quality, blend, join, tones, format, tileable, method = "layout";
   std::vector<std::string> set;
 
   /// The first of the given options that only a layout has; empty if there is none.
   std::string layout_option() const {
-    return !quality.empty() ? "--quality" : !blend.empty() ? "--blend" : !join.empty() ? "--join" : "";
+    return !quality.empty() ? "--quality"
+           : !blend.empty() ? "--blend"
+           : !join.empty()  ? "--join"
+           : !tones.empty() ? "--tones"
+                            : "";
   }
 };
 
@@ -135,6 +139,11 @@ void add_synth_command(Command& program) {
                   "side, else pixels; 0 keeps heights exact. 0.03 if not given")
       .takes("REACH");
   synth
+      .add_option("--tones", &flags->tones,
+                  "How far from a seam slow changes of tone meet, such as stains, in maps that have them: below 1 a "
+                  "share of the exemplar's shorter side, else pixels; 0 keeps every pixel exact. 0.0625 if not given")
+      .takes("REACH");
+  synth
       .add_option("--method", &flags->method,
                   "layout, noise (noise by example, for exemplars without structure), or auto: the one that suits the "
                   "exemplar; layout if not given")
@@ -170,6 +179,7 @@ void add_synth_command(Command& program) {
     set_if_given("--quality", "quality", flags->quality);
     set_if_given("--blend", "blend", flags->blend);
     set_if_given("--join", "join", flags->join);
+    set_if_given("--tones", "tones", flags->tones);
     set_if_given("--format", "format", flags->format);
     set_if_given("--tileable", "tileable", flags->tileable);
     if (same_folder(flags->exemplar.folder, flags->out))
