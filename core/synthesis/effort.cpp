@@ -7,7 +7,6 @@ namespace {
 
 struct EffortTuning {
   int small_passes = 4;
-  int places_tried = 1;
 };
 const Tunable<EffortTuning> effort_tuning(
     "effort",
@@ -15,9 +14,6 @@ const Tunable<EffortTuning> effort_tuning(
         {&EffortTuning::small_passes, "small_passes", "passes",
          "on level 1 where it is one of the coarsest two: exemplars under 128 pixels. Higher: fewer crumbs; costs time",
          "small_exemplars", 0, 100},
-        {&EffortTuning::places_tried, "places_tried", "places",
-         "for a window that is unlike the exemplar. Higher: little less is left broken; costs time", "coherence_repair",
-         0, 1000},
     });
 
 }  // namespace
@@ -30,13 +26,13 @@ Effort effort_of(const LevelFacts& f) {
   // Whole elements are squeezed to fit: more passes would pull them apart again.
   if (f.kept && f.level <= 1 && !f.lays_elements()) return {6, 4, &full_window()};
   if (f.quality == Quality::best) {
-    if (f.level <= 1) return {f.level == 0 ? 4 : 6, f.level == 0 ? 0 : 4, &full_window(), 16};
-    return {16, f.level >= 3 ? 24 : 8, &full_window(), 16};
+    if (f.level <= 1) return {f.level == 0 ? 4 : 6, f.level == 0 ? 0 : 4, &full_window()};
+    return {16, f.level >= 3 ? 24 : 8, &full_window()};
   }
   if (f.level == 0) return {f.coarsest() ? 2 : 1, 0, &sparse_window()};  // a tiny exemplar has no other level
   if (f.level == 1) return {f.places_landmarks() ? effort_tuning->small_passes : 2, 0, &full_window()};
   if (f.kept) return {10, f.level >= 3 ? 24 : 8, &full_window()};
-  return {7, f.level >= 3 ? 24 : 8, &full_window(), effort_tuning->places_tried};
+  return {7, f.level >= 3 ? 24 : 8, &full_window()};
 }
 
 int reach_of(int passes) {

@@ -66,8 +66,7 @@ LevelWork::LevelWork(const SharedWork& shared, int level)
         std::ranges::count_if(synthesis_steps(), [&](const Step& s) { return s.phase == phase && s.applies(facts_); }));
   };
   first_steps_ = count(facts_.coarsest() ? Phase::coarsest : Phase::upsampling);
-  steps_ =
-      first_steps_ + count(Phase::after_passes) + effort_.passes * (count(Phase::before_pass) + count(Phase::pass));
+  steps_ = first_steps_ + effort_.passes * (count(Phase::before_pass) + count(Phase::pass));
 }
 
 Field LevelWork::beginning() {
@@ -102,7 +101,7 @@ Field LevelWork::begun(std::span<const ExemplarPixel> starts, const PlaneWindow&
 }
 
 void LevelWork::correct(Field& field, const PlaneWindow& window, const Rect& wanted) {
-  find_candidates({Phase::before_pass, Phase::pass, Phase::after_passes});
+  find_candidates({Phase::before_pass, Phase::pass});
   const CorrectionLevel level = correction_level(window, fixed_);
   StepContext c = context(level, field);
   c.wanted = wanted;
@@ -111,7 +110,6 @@ void LevelWork::correct(Field& field, const PlaneWindow& window, const Rect& wan
     run(Phase::before_pass, c);
     run(Phase::pass, c);
   }
-  run(Phase::after_passes, c);
 }
 
 void LevelWork::run(Phase phase, StepContext& c) {

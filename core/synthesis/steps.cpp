@@ -9,14 +9,11 @@
 #include "core/base/hash.h"
 #include "core/base/tuning.h"
 #include "core/synthesis/state/piece_limits.h"
-#include "core/synthesis/steps/alignment.h"
-#include "core/synthesis/steps/coherence_repair.h"
 #include "core/synthesis/steps/course_layout.h"
 #include "core/synthesis/steps/element_cores.h"
 #include "core/synthesis/steps/element_layout.h"
 #include "core/synthesis/steps/graphcut_repair.h"
 #include "core/synthesis/steps/initialize.h"
-#include "core/synthesis/steps/piece_relocation.h"
 
 namespace terrazzo {
 
@@ -41,11 +38,8 @@ struct StepTuning {
   int finest_limited = 2;
   int finest_repaired = 2;
   int coarsest_repaired = 3;
-  int finest_incoherent = 2;
-  int coarsest_incoherent = 2;
   int first_repair = 5;
   int last_repair = 2;
-  int alignment_reach = 2;
   int seam_reach_along_courses = 20;
   int seam_reach_to_the_pixel = 4;
   int nearest_joint = 10;
@@ -93,17 +87,10 @@ const Tunable<StepTuning> step_tuning(
         {&StepTuning::coarsest_repaired, "coarsest_repaired", "level",
          "higher: coarser levels too, where it brings nothing",
          "not measured: the levels in use were measured together, not one by one"},
-        {&StepTuning::finest_incoherent, "finest_incoherent", "level",
-         "lower: finer levels too, where it costs most and brings nothing", "coherence_repair", finest_whole_level},
-        {&StepTuning::coarsest_incoherent, "coarsest_incoherent", "level",
-         "higher: coarser levels too, whose windows are all unlike one another", "coherence_repair"},
         {&StepTuning::first_repair, "first_repair", "passes left", "higher: seams are repaired earlier",
          "not measured: only more repairs were compared"},
         {&StepTuning::last_repair, "last_repair", "passes left", "lower: fewer passes smooth what was repaired last",
          "not measured: only more repairs were compared"},
-        {&StepTuning::alignment_reach, "alignment_reach", "pixels",
-         "higher: pieces find places farther off; upsampling is uncertain by about one pixel",
-         "not measured: upsampling is uncertain by about one pixel", 0, 64},
         {&StepTuning::seam_reach_along_courses, "seam_reach_along_courses", "pixels",
          "higher: joints of longer bricks are found; costs time", "seams", 0, 1000},
         {&StepTuning::seam_reach_to_the_pixel, "seam_reach_to_the_pixel", "pixels",
@@ -149,18 +136,8 @@ bool moves_seams(const LevelFacts& f) {
          (!f.lays_elements() || f.elements_on_lattice);
 }
 
-/// The first time that seams move. Measured on exemplars without a lattice this brings nothing either, and controls
-/// say where pieces belong.
-bool relocates(const LevelFacts& f) {
-  return f.level == seam_level && moves_seams(f) && f.regular && !f.steered;
-}
-
 bool keeps_pixels(const LevelFacts& f) {
   return f.kept;
-}
-
-bool aligns(const LevelFacts& f) {
-  return f.regular;
 }
 
 bool lays_elements(const LevelFacts& f) {
@@ -182,12 +159,6 @@ bool repairs_seams(const LevelFacts& f) {
 /// says what goes where: limited pieces fall apart into ever the same scrap that misses nothing of it.
 bool limits_pieces(const LevelFacts& f) {
   return f.level >= step_tuning->finest_limited && !f.kept && !f.steered;
-}
-
-/// Measured on lattices this brings next to nothing.
-bool repairs_incoherent(const LevelFacts& f) {
-  return f.level >= step_tuning->finest_incoherent && f.level <= step_tuning->coarsest_incoherent && !f.regular &&
-         !f.steered && !is_draft(f);
 }
 
 // What they do.
@@ -226,15 +197,6 @@ void start_where_kept(StepContext& c) {
     for (int column = 0; column < c.field.size.width; column++)
       if (level.fixed.at(level.window.index(column, row)))
         c.field.at(column, row) = c.fixed.shown(2 * size_t(level.window.y(row)) * width + 2 * level.window.x(column));
-}
-
-void relocate(StepContext& c) {
-  c.usage.recount(c.field, c.level.fixed);
-  relocate_pieces(c.field, 2, c.level, c.usage, c.bits(Purpose::piece_relocation), c.shared.task);
-}
-
-void align(StepContext& c) {
-  if (c.level.phase.resolves_cells()) align_pieces(c.field, 2, c.level, step_tuning->alignment_reach, c.shared.task);
 }
 
 /// Around whole bricks seams look for joints that bricks were cut beside. The clearer those are, the less far: boards
@@ -306,10 +268,6 @@ void correct_pixels(StepContext& c) {
   correct(c.field, c.level, pass, c.usage, c.shared.task);
 }
 
-void repair_unlike(StepContext& c) {
-  repair_incoherent(c.field, c.level, c.usage, c.effort.places_tried, c.bits(Purpose::coherence_repair), c.shared.task);
-}
-
 StepWatcher watcher;  // see watch_steps()
 
 constexpr bool with_candidates = true;
@@ -324,9 +282,6 @@ const Step all_steps[] = {
     {"initialize", Phase::upsampling, "each pixel becomes four, with jitter and in phase with the lattice", always,
      upsample},
     {"fixed_pixels", Phase::upsampling, "kept pixels get their old content back", keeps_pixels, start_where_kept},
-    {"piece_relocation", Phase::upsampling, "whole pieces are replaced by parts of the exemplar that fit better",
-     relocates, relocate, with_candidates},
-    {"alignment", Phase::upsampling, "whole pieces move to where they fit their neighbours", aligns, align},
     {"course_layout", Phase::upsampling, "courses are rebuilt from whole bricks and boards", lays_courses,
      lay_whole_bricks},
     {"element_layout", Phase::upsampling, "stones, bricks and tiles are laid as wholes", lays_elements,
@@ -340,9 +295,6 @@ const Step all_steps[] = {
      limit_pieces},
     {"correction", Phase::pass, "every pixel takes the best of its coherent and k-coherent candidates", always,
      correct_pixels, with_candidates},
-    {"coherence_repair", Phase::after_passes,
-     "places unlike anything in the exemplar are covered with coherent patches", repairs_incoherent, repair_unlike,
-     with_candidates},
 };
 
 }  // namespace

@@ -23,9 +23,9 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 26;
+inline constexpr int synthesis_version = 27;
 
-/// The finest level that is worked out for the plane as a whole: patches are laid, pieces aligned and their seams moved
+/// The finest level that is worked out for the plane as a whole: patches are laid, elements too, and seams moved
 /// on every level but the finest.
 inline constexpr int finest_whole_level = 1;
 
@@ -34,15 +34,13 @@ Size level_size(Size output, int level);
 
 /// When in the work on a level a step runs.
 enum class Phase : uint8_t {
-  costs,         ///< before all else: sets up what counts in the corrections besides how well a candidate fits
-  coarsest,      ///< once, to fill the coarsest level
-  upsampling,    ///< once per finer level, on blocks of 2x2 pixels that still move as wholes
-  before_pass,   ///< before each pass of correction
-  pass,          ///< the pass itself
-  after_passes,  ///< once the level's passes are done
+  costs,        ///< before all else: sets up what counts in the corrections besides how well a candidate fits
+  coarsest,     ///< once, to fill the coarsest level
+  upsampling,   ///< once per finer level, on blocks of 2x2 pixels that still move as wholes
+  before_pass,  ///< before each pass of correction
+  pass,         ///< the pass itself
 };
-inline constexpr std::string_view phase_names[] = {"costs",       "coarsest level", "upsampling",
-                                                   "before pass", "pass",           "after passes"};
+inline constexpr std::string_view phase_names[] = {"costs", "coarsest level", "upsampling", "before pass", "pass"};
 
 /// What decides which steps run on a level, computed once for it.
 struct LevelFacts {
@@ -77,7 +75,6 @@ struct Effort {
   int passes = 1;             ///< of correction
   int random_candidates = 0;  ///< per pixel and pass
   const Window* window = nullptr;
-  int places_tried = 6;  ///< for a window that is unlike the exemplar
 };
 
 /// The budget belongs to the coarse levels, where pixels are few and decisions are large. Filling in between kept

@@ -106,7 +106,7 @@ void print_energy(const Step& step, const StepContext& c) {
     return double(sum) / unit / double(std::max<int64_t>(1, e.pixels));
   };
   fmt::print(stderr, "{}\t{}\t{}\t{:.4f}\t{:.4f}\t{:.2f}\t{:.4f}\t{:.4f}\n", c.facts.level, step.name, c.pass,
-             share(e.windows, WindowCoherence::most), share(e.unlike, 1), share(e.seams, mismatch_unit),
+             share(e.windows, WindowCoherence::usual), share(e.unlike, 1), share(e.seams, mismatch_unit),
              share(e.cut, 1), share(e.phase, 256));
 }
 

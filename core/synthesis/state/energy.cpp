@@ -13,7 +13,7 @@ namespace terrazzo {
 
 namespace {
 
-constexpr int32_t usual = WindowCoherence::most;
+constexpr int32_t usual = WindowCoherence::usual;
 
 /// What a field costs at single pixels.
 class PixelEnergy {

@@ -68,30 +68,22 @@ std::vector<Patches::Offset> Patches::scattered_rim() {
   return scattered;
 }
 
-const std::vector<uint32_t>& Patches::fitting(int x, int y, size_t most) {
+std::optional<uint32_t> Patches::best(int x, int y) {
   shown_.clear();
   for (const Offset& o : rim_) {
     const ExemplarPixel p = pixel(x + o.x, y + o.y);
     shown_.push_back(ground_.level.exemplar.at(p.x, p.y));
   }
   collect_places(x, y);
-  misfits_.clear();
-  fitting_.clear();
+  std::optional<uint32_t> best;
+  int64_t least = std::numeric_limits<int64_t>::max();
   for (const auto& [place, votes] : places_.by_votes()) {
-    const bool full = fitting_.size() == most;
-    const int64_t misfit = misfit_at(place, full ? misfits_.back() : std::numeric_limits<int64_t>::max());
-    if (full && (misfit > misfits_.back() || (misfit == misfits_.back() && place >= fitting_.back()))) continue;
-    if (shows_near(x, y, place)) continue;
-    size_t at = fitting_.size();
-    while (at > 0 && (misfit < misfits_[at - 1] || (misfit == misfits_[at - 1] && place < fitting_[at - 1]))) at--;
-    misfits_.insert(misfits_.begin() + ptrdiff_t(at), misfit);
-    fitting_.insert(fitting_.begin() + ptrdiff_t(at), place);
-    if (full) {
-      misfits_.pop_back();
-      fitting_.pop_back();
-    }
+    const int64_t misfit = misfit_at(place, least);
+    if (misfit > least || (misfit == least && best && place >= *best) || shows_near(x, y, place)) continue;
+    least = misfit;
+    best = place;
   }
-  return fitting_;
+  return best;
 }
 
 void Patches::lay(int x, int y, uint32_t place) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,10 +24,10 @@ class Patches {
   /// `usage`: over-used patches fit less well.
   Patches(ExpansionGround& ground, const UsagePenalty& usage, uint64_t seed);
 
-  /// The places whose patches fit a window's rim best, at most so many, the best first. Candidates come from the rim's
+  /// The place whose patch fits a window's rim best; none if there is no candidate. Candidates come from the rim's
   /// pixels, their k-coherent candidates and chance; none shows near by already or is out of phase.
-  const std::vector<uint32_t>& fitting(int x, int y, size_t most);
-  /// Offers a window one of those places: a minimum cut takes as much of it as lowers the mismatch.
+  std::optional<uint32_t> best(int x, int y);
+  /// Offers a window that place: a minimum cut takes as much of it as lowers the mismatch.
   void lay(int x, int y, uint32_t place);
 
  private:
@@ -48,8 +49,6 @@ class Patches {
   std::vector<Offset> rim_;
   std::vector<const AppearanceVector*> shown_;  // what the rim shows
   CandidateVotes places_;
-  std::vector<int64_t> misfits_;  // of fitting_
-  std::vector<uint32_t> fitting_;
   Expansion expansion_;
 };
 

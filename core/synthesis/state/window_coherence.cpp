@@ -18,28 +18,16 @@ constexpr int reach = WindowCoherence::reach, side = WindowCoherence::side;
 struct WindowCoherenceTuning {
   double usual_share = 0.95;
   double sampled_windows = 1024;
-  double alike = 0.8;
-  double unlike = 1.2;
 };
 const Tunable<WindowCoherenceTuning> window_coherence_tuning(
-    "window_coherence",
-    {
-        {&WindowCoherenceTuning::usual_share, "usual_share", "share of the exemplar's windows",
-         "higher: only windows unlike nearly all of the exemplar are repaired; lower: more are, at the cost of rare "
-         "features",
-         "not measured: the share by which the figure `broken` is defined", 0, 1},
-        {&WindowCoherenceTuning::sampled_windows, "sampled_windows", "windows of the exemplar",
-         "higher: the usual distance is known more exactly; costs time",
-         "not measured: about fifty of them lie beyond usual_share", 1},
-        {&WindowCoherenceTuning::alike, "alike", "usual distances",
-         "up to it a window is coherent. Higher: less is repaired; lower: more windows count as slightly incoherent",
-         "not measured: symmetric to unlike", 0, 1},
-        {&WindowCoherenceTuning::unlike, "unlike", "usual distances",
-         "from it on a window is fully incoherent. Higher: repairs also weigh how unlike windows are; lower: they "
-         "count "
-         "windows",
-         "not measured: symmetric to alike", 1, 100},
-    });
+    "window_coherence", {
+                            {&WindowCoherenceTuning::usual_share, "usual_share", "share of the exemplar's windows",
+                             "higher: windows count as less far; lower: rare features count as far",
+                             "not measured: the share by which the figure `broken` is defined", 0, 1},
+                            {&WindowCoherenceTuning::sampled_windows, "sampled_windows", "windows of the exemplar",
+                             "higher: the usual distance is known more exactly; costs time",
+                             "not measured: about fifty of them lie beyond usual_share", 1},
+                        });
 
 constexpr int64_t no_distance = std::numeric_limits<int64_t>::max();
 
@@ -53,18 +41,18 @@ class NearestWindow {
   /// The squared distance to the nearest so far; the limit if there is none.
   int64_t distance() const { return least_; }
 
-  /// Considers the windows that the window's pixels continue, until one is near enough.
-  void consider_continued(int64_t enough) {
+  /// Considers the windows that the window's pixels continue.
+  void consider_continued() {
     constexpr int middle = side * side / 2;
     continue_with(middle);
-    for (int i = 0; i < side * side && least_ > enough; i++) continue_with(i);
+    for (int i = 0; i < side * side && least_ > 0; i++) continue_with(i);
   }
 
   /// Considers those that k-coherent candidates of the window's corners and middle continue.
-  void consider_similar(int64_t enough) {
+  void consider_similar() {
     if (level_.similar.empty()) return;
     const int width = level_.exemplar.size().width;
-    for (int dy = -reach; dy <= reach && least_ > enough; dy += reach)
+    for (int dy = -reach; dy <= reach && least_ > 0; dy += reach)
       for (int dx = -reach; dx <= reach; dx += reach) {
         if ((dx == 0) != (dy == 0)) continue;
         const ExemplarPixel p = shown_[(dy + reach) * side + dx + reach];
@@ -117,7 +105,7 @@ int64_t own_distance(const CorrectionLevel& level, int u, int v) {
   NearestWindow nearest(level, window);
   nearest.forget(u, v);
   for (const auto& [dx, dy] : sides) nearest.consider(u + dx, v + dy);
-  nearest.consider_similar(0);
+  nearest.consider_similar();
   return nearest.distance();
 }
 
@@ -151,25 +139,13 @@ bool WindowCoherence::is_copied(const Window& shown) {
   return true;
 }
 
-int32_t WindowCoherence::incoherence(const Window& shown) const {
-  if (usual_ == 0 || is_copied(shown)) return 0;
-  const double alike = window_coherence_tuning->alike, unlike = window_coherence_tuning->unlike;
-  const auto enough = int64_t(usual_ * alike * alike), limit = int64_t(usual_ * unlike * unlike);
-  NearestWindow nearest(level_, shown, limit);
-  nearest.consider_continued(enough);
-  nearest.consider_similar(enough);
-  if (nearest.distance() >= limit) return most;
-  const double rise = (std::sqrt(double(nearest.distance()) / usual_) - alike) / (unlike - alike);
-  return int32_t(std::clamp(rise, 0.0, 1.0) * most);
-}
-
 int32_t WindowCoherence::distance(const Window& shown) const {
   if (usual_ == 0 || is_copied(shown)) return 0;
-  constexpr int64_t far = int64_t{farthest / most} * (farthest / most);
+  constexpr int64_t far = int64_t{farthest / usual} * (farthest / usual);
   NearestWindow nearest(level_, shown, int64_t(usual_ * double(far)));
-  nearest.consider_continued(0);
-  nearest.consider_similar(0);
-  return int32_t(std::sqrt(double(nearest.distance()) / usual_) * most);
+  nearest.consider_continued();
+  nearest.consider_similar();
+  return int32_t(std::sqrt(double(nearest.distance()) / usual_) * usual);
 }
 
 }  // namespace terrazzo

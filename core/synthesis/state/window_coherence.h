@@ -7,7 +7,7 @@
 
 namespace terrazzo {
 
-/// Finds windows of 7x7 pixels that are like no window of the exemplar, as where features are cut or seams show (the
+/// How far windows of 7x7 pixels are from all of the exemplar's, as where features are cut or seams show (the
 /// coherence of Simakov et al., Summarizing visual data using bidirectional similarity, 2008). The scale is the
 /// distance of the exemplar's own windows to their nearest ones. Immutable: any number of threads may ask.
 class WindowCoherence {
@@ -16,7 +16,7 @@ class WindowCoherence {
   static constexpr int side = 2 * reach + 1;
   /// What a window shows, row by row.
   using Window = std::array<ExemplarPixel, side * side>;
-  static constexpr int32_t most = 256;  ///< the unit of fixed-point incoherence
+  static constexpr int32_t usual = 256;  ///< the distance that 95 of 100 of the exemplar's windows keep to
 
   explicit WindowCoherence(const CorrectionLevel& level);
 
@@ -25,12 +25,9 @@ class WindowCoherence {
     return closed || (middle >= reach && middle < length - reach);
   }
 
-  /// From 0, for windows clearly nearer to the exemplar than most of its own are to one another, to `most`. The nearest
-  /// window is sought among those that the window's pixels and their k-coherent candidates continue.
-  int32_t incoherence(const Window& shown) const;
-
-  /// How far the nearest window is: `most` for the usual distance, at most `farthest`; 0 for windows of the exemplar.
-  static constexpr int32_t farthest = 4 * most;
+  /// How far the nearest window is, at most `farthest`; 0 for windows of the exemplar. It is sought among those that
+  /// the window's pixels and their k-coherent candidates continue.
+  static constexpr int32_t farthest = 4 * usual;
   int32_t distance(const Window& shown) const;
 
  private:

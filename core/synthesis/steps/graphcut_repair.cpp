@@ -70,7 +70,7 @@ void repair_seams(Field& field, const CorrectionLevel& level, UsagePenalty& usag
   task.check();
   tbb::enumerable_thread_specific<Patches> patches([&] { return Patches(ground, usage, seed); });
   for_each_window(windows, field, level.window, task, [&](int x, int y) {
-    for (const uint32_t place : patches.local().fitting(x, y, 1)) patches.local().lay(x, y, place);
+    if (const std::optional<uint32_t> place = patches.local().best(x, y)) patches.local().lay(x, y, *place);
   });
 }
 

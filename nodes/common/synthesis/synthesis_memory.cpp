@@ -6,7 +6,7 @@
 namespace terrazzo {
 
 uint64_t coarse_memory(Size surface) {
-  // Per block of 2x2 pixels: its source, its target, and its piece or incoherence.
+  // Per block of 2x2 pixels: its source, its target, and its piece.
   return uint64_t(surface.area()) / 4 * (2 * sizeof(ExemplarPixel) + 4 * sizeof(int));
 }
 

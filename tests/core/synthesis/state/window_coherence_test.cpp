@@ -38,9 +38,9 @@ TEST_CASE("what the exemplar shows is like it, and so is what differs as little 
   const std::vector<ExemplarPixel> none;
   const CorrectionLevel level = level_of(exemplar, none);
   const WindowCoherence window_coherence(level);
-  CHECK(window_coherence.incoherence(window({10, 12}, {10, 12})) == 0);
-  CHECK(window_coherence.incoherence(window({10, 12}, {11, 12})) == 0);
-  CHECK(window_coherence.incoherence(window({10, 12}, {10, 11})) == 0);
+  CHECK(window_coherence.distance(window({10, 12}, {10, 12})) == 0);
+  CHECK(window_coherence.distance(window({10, 12}, {11, 12})) < WindowCoherence::usual);
+  CHECK(window_coherence.distance(window({10, 12}, {10, 11})) < WindowCoherence::usual);
 }
 
 TEST_CASE("the farther what meets lies apart, the less the window is like the exemplar") {
@@ -50,12 +50,12 @@ TEST_CASE("the farther what meets lies apart, the less the window is like the ex
   const WindowCoherence window_coherence(level);
   int32_t before = 0, between = 0;
   for (int apart = 0; apart < 30; apart++) {
-    const int32_t incoherence = window_coherence.incoherence(window({20, 12}, {uint16_t(20 + apart), 12}));
-    CHECK(incoherence >= before);
-    between += incoherence > 0 && incoherence < WindowCoherence::most;
-    before = incoherence;
+    const int32_t distance = window_coherence.distance(window({20, 12}, {uint16_t(20 + apart), 12}));
+    CHECK(distance >= before);
+    between += distance > 0 && distance < WindowCoherence::usual;
+    before = distance;
   }
-  CHECK(before == WindowCoherence::most);
+  CHECK(before > WindowCoherence::usual);
   CHECK(between > 0);
 }
 
@@ -79,8 +79,8 @@ TEST_CASE("windows are found where similar pixels lead") {
   const PaddedLevel exemplar(parts, false);
   const std::vector<ExemplarPixel> none;
   const CorrectionLevel without = level_of(exemplar, none), with = level_of(exemplar, similar, 1);
-  CHECK(WindowCoherence(without).incoherence(window(left, right)) == WindowCoherence::most);
-  CHECK(WindowCoherence(with).incoherence(window(left, right)) == 0);
+  CHECK(WindowCoherence(without).distance(window(left, right)) > WindowCoherence::usual);
+  CHECK(WindowCoherence(with).distance(window(left, right)) == 0);
 }
 
 TEST_CASE("an exemplar smaller than a window is never unlike") {
@@ -89,5 +89,5 @@ TEST_CASE("an exemplar smaller than a window is never unlike") {
   const CorrectionLevel level = level_of(exemplar, none);
   WindowCoherence::Window shown{};
   shown[7] = {5, 5};
-  CHECK(WindowCoherence(level).incoherence(shown) == 0);
+  CHECK(WindowCoherence(level).distance(shown) == 0);
 }
