@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -16,6 +17,8 @@ struct ElementShapesTuning {
   double margin = 0.4;
   double ragged = 2.5;
   double surest_courses = 0.4;
+  double as_large = 0.95;
+  double inset = 0.06;
   int samples = 36;
   int outline = 40;
   int across = 3;
@@ -38,6 +41,14 @@ const Tunable<ElementShapesTuning> element_shapes_tuning(
                            "of straight courses, in which distances across count more. Higher: stones meet at "
                            "slanting corners; lower: those of rough courses are cut upright",
                            "element_layout", 0, 1},
+                          {&ElementShapesTuning::as_large, "as_large", "times the median area",
+                           "of elements in a grid that the border does not touch, from which on one that it touches "
+                           "ends there and is not cut. Higher: more are left out; lower: cut tiles are laid",
+                           "element_layout", 0, 2},
+                          {&ElementShapesTuning::inset, "inset", "typical sides",
+                           "by which such a tile keeps off the exemplar's border, where half of its joint may be "
+                           "missing. Higher: less of it is shown; lower: joints have gaps",
+                           "element_layout", 0, 0.4},
                           {&ElementShapesTuning::across, "across", "times",
                            "that distances across courses count against those along them. Higher: neighbours in "
                            "a course meet in upright joints; costs time and memory",
@@ -88,7 +99,7 @@ void add_block(const Grid& grid, int x, int y, Extent& e, ElementShape& shape) {
   e.sum_y += v;
   shape.area++;
   const bool at_border = x == 0 || y == 0 || x == grid.size.width - 1 || y == grid.size.height - 1;
-  shape.unusable |= !grid.wraps && at_border;
+  shape.cut |= !grid.wraps && at_border;
 }
 
 /// Signed distances, positive inside, of which those in x, or those in y, count so many times.
@@ -109,7 +120,8 @@ std::vector<float> stretched_depths(const std::vector<uint8_t>& inside, Size siz
   return out;
 }
 
-void measure(const Grid& grid, int element, int margin, const Extent& e, Size times, ElementShape& shape) {
+/// `inset`: blocks at the exemplar's border that do not count.
+void measure(const Grid& grid, int element, int margin, int inset, const Extent& e, Size times, ElementShape& shape) {
   shape.centre_x = int(std::floor(e.sum_x / double(shape.area) + 0.5));
   shape.centre_y = int(std::floor(e.sum_y / double(shape.area) + 0.5));
   shape.box = {e.left - margin - shape.centre_x, e.top - margin - shape.centre_y, e.right - e.left + 1 + 2 * margin,
@@ -118,9 +130,11 @@ void measure(const Grid& grid, int element, int margin, const Extent& e, Size ti
   shape.unusable |= e.right - e.left + 1 >= grid.size.width || e.bottom - e.top + 1 >= grid.size.height;
   std::vector<uint8_t> inside(size_t(shape.box.area()));
   for (int y = 0; y < shape.box.height; y++)
-    for (int x = 0; x < shape.box.width; x++)
-      inside[size_t(y) * size_t(shape.box.width) + size_t(x)] =
-          grid.region(x + shape.box.x + shape.centre_x, y + shape.box.y + shape.centre_y) == element;
+    for (int x = 0; x < shape.box.width; x++) {
+      const int u = x + shape.box.x + shape.centre_x, v = y + shape.box.y + shape.centre_y;
+      const bool counts = std::min({u, v, grid.size.width - 1 - u, grid.size.height - 1 - v}) >= inset;
+      inside[size_t(y) * size_t(shape.box.width) + size_t(x)] = (inset == 0 || counts) && grid.region(u, v) == element;
+    }
   shape.depths = stretched_depths(inside, {shape.box.width, shape.box.height}, times);
   for (const float d : shape.depths) shape.inner_radius = std::max(shape.inner_radius, d);
   const int step = std::max(1, int(std::sqrt(double(shape.area) / element_shapes_tuning->samples)));
@@ -135,6 +149,20 @@ void measure(const Grid& grid, int element, int margin, const Extent& e, Size ti
         outline.push_back({int16_t(x + shape.box.x), int16_t(y + shape.box.y), d});
   const size_t every = std::max<size_t>(1, outline.size() / size_t(element_shapes_tuning->outline));
   for (size_t i = 0; i < outline.size(); i += every) shape.outline.push_back(outline[i]);
+}
+
+/// Elements that the exemplar's border cuts. Tiles of a grid may end there: those are as large as the others.
+void leave_out_cut(std::vector<ElementShape>& shapes, bool in_grid) {
+  std::vector<int64_t> areas;
+  for (const ElementShape& s : shapes)
+    if (!s.cut && s.area > 0) areas.push_back(s.area);
+  double least = std::numeric_limits<double>::infinity();
+  if (in_grid && !areas.empty()) {
+    const auto middle = areas.begin() + std::ptrdiff_t(areas.size() / 2);
+    std::nth_element(areas.begin(), middle, areas.end());
+    least = element_shapes_tuning->as_large * double(*middle);
+  }
+  for (ElementShape& s : shapes) s.unusable |= s.cut && double(s.area) < least;
 }
 
 /// How far from round: 3.1 for a disc, 4 for a square, the more the longer or the more branched.
@@ -164,11 +192,11 @@ double ElementShape::depth_between(double x, double y) const {
 }
 
 ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps,
-                             const Lattice* courses) {
+                             const Lattice* lattice) {
   Size times{1, 1};
-  const bool in_courses = courses && courses->rank == 1 && courses->certainty >= element_shapes_tuning->surest_courses;
-  if (in_courses && courses->first.x() == 0) times.height = element_shapes_tuning->across;
-  if (in_courses && courses->first.y() == 0) times.width = element_shapes_tuning->across;
+  const bool in_courses = lattice && lattice->rank == 1 && lattice->certainty >= element_shapes_tuning->surest_courses;
+  if (in_courses && lattice->first.x() == 0) times.height = element_shapes_tuning->across;
+  if (in_courses && lattice->first.y() == 0) times.width = element_shapes_tuning->across;
   ElementShapes out{.block = block,
                     .size = {(elements.size.width + block - 1) / block, (elements.size.height + block - 1) / block},
                     .wraps = wraps,
@@ -187,12 +215,14 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
   for (const ElementShape& s : out.all) squares += double(s.area) * double(s.area);
   out.typical_side = std::sqrt(squares / double(out.size.area()));
   const int margin = std::max(2, int(element_shapes_tuning->margin * out.typical_side));
+  leave_out_cut(out.all, lattice && lattice->rank == 2);
+  const int inset = int(std::ceil(element_shapes_tuning->inset * out.typical_side));
   tbb::parallel_for(0, elements.count, [&](int e) {
     // Blocks may miss the smallest regions.
     if (out.all[size_t(e)].area == 0)
       out.all[size_t(e)].unusable = true;
     else
-      measure(grid, e, margin, extents[size_t(e)], times, out.all[size_t(e)]);
+      measure(grid, e, margin, out.all[size_t(e)].cut ? inset : 0, extents[size_t(e)], times, out.all[size_t(e)]);
   });
   leave_out_ragged(out.all);
   out.whole = int(std::ranges::count_if(out.all, [](const ElementShape& s) { return !s.unusable; }));

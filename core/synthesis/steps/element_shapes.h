@@ -26,8 +26,9 @@ struct ElementShape {
   std::vector<ElementSample> outline;  ///< some of the blocks along its outline, on both sides
   int64_t area = 0;                    ///< blocks
   float inner_radius = 0;              ///< the greatest depth
-  /// Cut by the border of an exemplar that does not tile, or by a mask, or so much longer or more ragged than the
-  /// others that it must be several whose joints were missed.
+  bool cut = false;                    ///< touched by the border of an exemplar that does not tile
+  /// Cut by the exemplar's border or by a mask, or so much longer or more ragged than the others that it must be
+  /// several whose joints were missed.
   bool unusable = false;
 
   /// (x, y) from the centre; far outside if it is not in the box.
@@ -68,9 +69,10 @@ struct ElementShapes {
   int block_shift(int shift) const { return shift >= 0 ? shift / block : -((-shift + block - 1) / block); }
 };
 
-/// `usable`: per pixel of the exemplar whether it may be shown; empty: all may. `courses`: elements of courses or
-/// columns (rank 1) meet others of their own: depths count more across than along them. Null: alike in all directions.
+/// `usable`: per pixel of the exemplar whether it may be shown; empty: all may. `lattice`: elements of courses or
+/// columns (rank 1) meet others of their own: depths count more across than along them; those of a grid (rank 2) may
+/// end at the exemplar's border. Null: alike in all directions.
 ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t>& usable, int block, bool wraps,
-                             const Lattice* courses = nullptr);
+                             const Lattice* lattice = nullptr);
 
 }  // namespace terrazzo

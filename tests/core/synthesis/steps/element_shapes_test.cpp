@@ -36,3 +36,24 @@ TEST_CASE("distances across sure courses or columns count more than those along 
   for (const Lattice& other : {Lattice{1, {0, 20}, {}, 0.2}, Lattice{2, {20, 0}, {0, 20}, 0.9}})
     CHECK(shapes_of(other)[5].depths == plain[5].depths);
 }
+
+TEST_CASE("tiles of a grid that end at the exemplar's border are whole, those that it cuts are not") {
+  const Lattice grid{2, {20, 0}, {0, 20}, 0.9};
+  const Elements whole = squares();
+  CHECK(element_shapes(whole, {}, 1, false).whole == 4);
+  const ElementShapes shapes = element_shapes(whole, {}, 1, false, &grid);
+  CHECK(shapes.whole == 16);
+  // At the border half of a joint may be missing: nothing is shown from there.
+  const ElementShape &corner = shapes[0], &inner = shapes[5];
+  CHECK(corner.depth(0 - corner.centre_x, 10 - corner.centre_y) < 0);
+  CHECK(corner.depth(3 - corner.centre_x, 10 - corner.centre_y) > 0);
+  CHECK(corner.depth(19 - corner.centre_x, 10 - corner.centre_y) > 0);
+  CHECK(inner.depth(20 - inner.centre_x, 30 - inner.centre_y) > 0);
+  // Seven pixels of those in the first column are missing.
+  Elements cut{{73, 80}, {}, 16, 1};
+  for (int y = 0; y < 80; y++)
+    for (int x = 0; x < 73; x++) cut.at.push_back(whole.at[size_t(y * 80 + x + 7)]);
+  const ElementShapes left = element_shapes(cut, {}, 1, false, &grid);
+  CHECK(left.whole == 12);
+  for (int e = 0; e < 16; e++) CHECK(left[e].unusable == (e % 4 == 0));
+}
