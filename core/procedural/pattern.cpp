@@ -13,9 +13,10 @@ namespace terrazzo {
 
 const std::vector<PatternType>& pattern_types() {
   static const std::vector<PatternType> types = {
-      bricks_pattern(),       cobbles_pattern(),     weave_pattern(),  gravel_pattern(),         tiles_pattern(),
-      planks_pattern(),       herringbone_pattern(), rubble_pattern(), coursed_rubble_pattern(), ashlar_pattern(),
-      crazy_paving_pattern(), slates_pattern(),      chevron_pattern()};
+      bricks_pattern(),       cobbles_pattern(),     weave_pattern(),   gravel_pattern(),         tiles_pattern(),
+      planks_pattern(),       herringbone_pattern(), rubble_pattern(),  coursed_rubble_pattern(), ashlar_pattern(),
+      crazy_paving_pattern(), slates_pattern(),      chevron_pattern(), plates_pattern(),         panels_pattern(),
+      flagstones_pattern(),   sheet_metal_pattern()};
   return types;
 }
 

@@ -25,5 +25,9 @@ PatternType ashlar_pattern();
 PatternType crazy_paving_pattern();
 PatternType slates_pattern();
 PatternType chevron_pattern();
+PatternType plates_pattern();
+PatternType panels_pattern();
+PatternType flagstones_pattern();
+PatternType sheet_metal_pattern();
 
 }  // namespace terrazzo

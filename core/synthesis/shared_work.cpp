@@ -33,15 +33,6 @@ const Tunable<SharedWorkTuning> shared_work_tuning(
       "the height from which on that holds. Lower: fine bricks are laid along courses, too, and cut",
       "element_layout"}});
 
-/// Whether what keeps to courses, or to a lattice, is better laid as bricks, or by seams, than as elements.
-bool keeps_to_lattice(const Lattice& lattice, const Elements& elements) {
-  if (lattice.rank == 2)
-    return lattice.certainty >= shared_work_tuning->surest_lattice &&
-           typical_side(elements) < shared_work_tuning->shortest_brick;
-  return lattice.rank == 1 && lattice.certainty >= shared_work_tuning->surest_courses &&
-         lattice.first.norm() >= shared_work_tuning->shortest_course;
-}
-
 /// Parts that repeat each in its own way keep to where they lie in the exemplar, and so does what controls place.
 Vector2d lattice_start(const Index& index, const SynthesisOptions& o) {
   const Appearance& appearance = *index.appearance();
@@ -52,6 +43,14 @@ Vector2d lattice_start(const Index& index, const SynthesisOptions& o) {
 }
 
 }  // namespace
+
+bool keeps_to_lattice(const Lattice& lattice, const Elements& elements) {
+  if (lattice.rank == 2)
+    return lattice.certainty >= shared_work_tuning->surest_lattice &&
+           typical_side(elements) < shared_work_tuning->shortest_brick;
+  return lattice.rank == 1 && lattice.certainty >= shared_work_tuning->surest_courses &&
+         lattice.first.norm() >= shared_work_tuning->shortest_course;
+}
 
 Size level_size(Size output, int level) {
   const int round_up = (1 << level) - 1;

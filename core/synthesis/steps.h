@@ -70,6 +70,9 @@ struct LevelFacts {
   bool completes_elements() const;
 };
 
+/// Whether elements that keep to courses, or to a lattice, are better laid as bricks, or by seams, than as wholes.
+bool keeps_to_lattice(const Lattice& lattice, const Elements& elements);
+
 /// How much work goes into a level.
 struct Effort {
   int passes = 1;             ///< of correction

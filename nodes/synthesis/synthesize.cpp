@@ -38,8 +38,18 @@ Part part_of(const Params& params) {
 /// cuts cannot come out whole: of exemplars with too few others nothing is known.
 void tell_of_elements(NodeContext& node, const Index& index, const UvMap& uv) {
   const Appearance& appearance = *index.appearance();
-  if (!has_elements(appearance) || uv.size().area() < appearance.size().area()) return;
-  const ShownElements shown = shown_elements(uv, *appearance.elements(), node.task());
+  const ElementsPtr& elements = appearance.elements();
+  if (!elements || uv.size().area() < appearance.size().area()) return;
+  if (!has_elements(appearance)) {
+    if (appearance.lattice().rank < 2 && !keeps_to_lattice(appearance.lattice(), *elements))
+      node.warn(
+          fmt::format("the exemplar's border cuts all but {} of its {} elements, too few to be laid as wholes: "
+                      "they may be torn or melted together. An exemplar that shows more of them, or that tiles, "
+                      "helps",
+                      whole_elements(*elements, appearance.wraps()), elements->count));
+    return;
+  }
+  const ShownElements shown = shown_elements(uv, *elements, node.task());
   const std::string counts = fmt::format("{} of {} elements are whole", shown.whole, shown.all);
   if (shown.are_broken())
     node.warn(counts +

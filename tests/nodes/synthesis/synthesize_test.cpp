@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "nodes/common/registry.h"
+#include "tests/drawn_stones.h"
 #include "tests/drawn_wall.h"
 
 using namespace terrazzo;
@@ -140,4 +141,25 @@ TEST_CASE("of several exemplars it is told how much of each is shown, and which 
   CHECK(one[0] == "the result shows exemplar 1 in 100 %, exemplar 2 in 0 %");
   CHECK(one[1].starts_with("warning: the result shows nothing of exemplar 2,"));
   CHECK(notes(48, {60, 40}).size() == 1);
+}
+
+TEST_CASE("how many elements are whole is told, and doubtful results are warned of") {
+  const DrawnStones stones({240, 240});
+  const auto made = [&](const Elements& elements, bool wraps, Size size) {
+    const FeaturesPtr features =
+        plain_features(stones.image(), wraps)->with(std::make_shared<const Elements>(elements));
+    const IndexPtr index = make_index(make_appearance(*features, {}, {}, Task()), 3, Task());
+    return run_node("synthesize", {{"size", size}}, {{"index", {index}}});
+  };
+  const NodeRun good = made(stones.elements(), true, {400, 400});
+  CHECK(good.says(" elements are whole; they show "));
+  CHECK_FALSE(good.says("look at the result"));
+  CHECK_FALSE(good.says("does not appear"));
+  Elements two{{240, 240}, {}, 2, 1};
+  for (int i = 0; i < 240 * 240; i++) two.at.push_back(i % 240 < 120 ? 0 : 1);
+  const NodeRun few = made(two, false, {400, 400});
+  CHECK(few.says("the exemplar's border cuts all but 0 of its 2 elements, too few to be laid as wholes"));
+  // A result smaller than the exemplar cannot show all of it.
+  CHECK(made(two, false, {100, 100}).notes.size() <= 1);
+  CHECK_FALSE(made(two, false, {100, 100}).says("too few to be laid"));
 }
