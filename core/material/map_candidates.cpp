@@ -85,7 +85,7 @@ void add_layer(UnnamedPicture layer, const UnnamedPicture* picture, bool is_alon
 Candidate make_candidate(RecognisedMap map, const RecognisedFile& reading, const MapFile& file) {
   const bool stands_in = map.inverted || (map.semantic == Semantic::height && has_word(file.telling_name(), "bump"));
   const int stand_in = stands_in ? 2 : map.channels.empty() ? 0 : 1;
-  return {std::move(map), reading, stand_in, file.size, lossiness_of(file.name)};
+  return {std::move(map), reading, stand_in, file.size, file.channels, lossiness_of(file.name)};
 }
 
 Candidates candidates_among(const std::vector<MapFile>& files) {

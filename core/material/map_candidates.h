@@ -14,6 +14,7 @@ struct Candidate {
   RecognisedFile file;  ///< its `stem` is the effective one
   int stand_in = 0;     ///< 0 the map itself, 1 packed, 2 inverted or a bump map
   Size size{};
+  int channels = 0;  ///< of the file; 0 if unknown
   int lossiness = 0;
   bool named_like_material = false;  ///< its name is just the material's, without a word for base colour
 

@@ -89,7 +89,49 @@ void settle_stems(std::vector<Candidate>& maps) {
     if (clashing.count(c.stem().key())) c.file.stem = c.file.stem_with_fillers;
 }
 
+namespace {
+
+/// Whether a picture may be the base colour of maps: it has their shape, and is not smaller, as a preview would be.
+bool may_be_color_of(const std::vector<const Candidate*>& maps, Size size, int channels) {
+  const auto fits = [&](Size map) {
+    return map.area() == 0 ||
+           (int64_t{map.width} * size.height == int64_t{map.height} * size.width && map.area() <= size.area());
+  };
+  return (channels == 0 || channels >= 3) &&
+         (size.area() == 0 || std::ranges::any_of(maps, [&](const Candidate* c) { return fits(c->size); }));
+}
+
+/// Whether only a letter or two of a name say which map it is, as in tiles_m_6.
+bool only_letters_say_it(const std::string& file) {
+  return std::ranges::all_of(words_of_file(file), [](const NameWord& w) {
+    return w.text.size() <= 2 || recognise_map({.name = w.text + ".png", .size = {}}).empty();
+  });
+}
+
+/// tiles_m_6 beside tiles_m_6_normal is no metallic map of "tiles".
+void free_pictures_named_like_materials(Candidates& candidates) {
+  std::map<std::string, std::vector<const Candidate*>> materials;
+  for (const Candidate& c : candidates.maps) materials[c.stem().key()].push_back(&c);
+  std::set<std::string> freed;
+  for (const Candidate& c : candidates.maps) {
+    const Stem whole = stem_in(c.map.file.substr(0, c.map.file.rfind('.')));
+    const auto material = materials.find(whole.key());
+    if (material == materials.end() || whole.key() == c.stem().key() || has_color(material->second) ||
+        !c.map.layer.empty() || !c.map.said_by.empty() || !only_letters_say_it(c.map.file) ||
+        !may_be_color_of(material->second, c.size, c.channels))
+      continue;
+    RecognisedFile reading = c.file;
+    reading.stem = reading.stem_with_fillers = whole;
+    if (freed.insert(c.map.file).second)
+      candidates.unnamed.push_back({{.name = c.map.file, .size = c.size, .channels = c.channels}, reading});
+  }
+  std::erase_if(candidates.maps, [&](const Candidate& c) { return freed.count(c.map.file) > 0; });
+}
+
+}  // namespace
+
 void add_colors_named_like_materials(Candidates& candidates) {
+  free_pictures_named_like_materials(candidates);
   std::map<std::string, std::vector<const Candidate*>> materials;
   for (const Candidate& c : candidates.maps) materials[c.stem().key()].push_back(&c);
   std::vector<Candidate> colors;
@@ -97,11 +139,7 @@ void add_colors_named_like_materials(Candidates& candidates) {
     auto material = materials.find(u.reading.stem_with_fillers.key());
     if (material == materials.end()) material = materials.find(u.reading.stem.key());
     if (material == materials.end() || material->first.empty() || has_color(material->second)) continue;
-    const bool is_picture = u.file.channels == 0 || u.file.channels >= 3;
-    const bool fits = u.file.size.area() == 0 || std::ranges::any_of(material->second, [&](const Candidate* c) {
-                        return c->size.area() == 0 || c->size == u.file.size;
-                      });
-    if (!is_picture || !fits) continue;
+    if (!may_be_color_of(material->second, u.file.size, u.file.channels)) continue;
     RecognisedMap color{.map = std::string(name_of(Semantic::base_color)),
                         .semantic = Semantic::base_color,
                         .file = u.file.name,

@@ -12,7 +12,8 @@ namespace terrazzo {
 class Diagnostics {
  public:
   Diagnostics(std::vector<Problem>& all, std::string where, std::string parameter = {})
-      : Diagnostics(all, Problem{.place = {}, .where = std::move(where), .message = "", .parameter = parameter}) {}
+      : Diagnostics(
+            all, Problem{.place = {}, .where = std::move(where), .message = "", .parameter = std::move(parameter)}) {}
   /// `about`: what all problems have in common; its message is added to theirs.
   Diagnostics(std::vector<Problem>& all, Problem about) : all_(all), about_(std::move(about)) {}
 

@@ -47,7 +47,7 @@ class Flagstones : public Surface {
     if (grown <= 0) return ground;
     const double blade = canvas_.fbm(u, v, 34 / unit_, 3, 0.7, blades);
     SurfacePoint s;
-    s.height = mix(ground.height, std::max(ground.height, 0.5 + 0.18 * tuft + 0.2 * blade), grown);
+    s.height = mix(ground.height, std::max(ground.height, 0.34 + 0.2 * tuft + 0.22 * blade), grown);
     s.color = mix(ground.color, palette_.stain * (0.85 + 0.5 * blade + 0.25 * tuft), grown);
     s.roughness = mix(ground.roughness, 0.95, grown);
     return s;
@@ -72,7 +72,7 @@ PatternType flagstones_pattern() {
   t.name = "flagstones";
   t.summary = "flagstones of many sizes with grass growing between them";
   t.scale = 3.5;
-  t.depth = 0.06;
+  t.depth = 0.09;
   t.cavity = 0.35;
   t.palettes = {
       {"limestone", {rgb(0xa39b88), rgb(0xaea692), rgb(0x968e7c)}, rgb(0x574d3a), rgb(0x55682f)},

@@ -106,7 +106,7 @@ TEST_CASE("a keyword beats the same keyword with further words") {
   CHECK(taken({"wall_basecolor-boosted.png", "wall_normal.png"}) == "wall_basecolor-boosted.png, wall_normal.png");
 }
 
-TEST_CASE("a picture named just like the material is its base colour, unless it has one or the sizes differ") {
+TEST_CASE("a picture named just like the material is its base colour, unless it has one, or is smaller") {
   CHECK(taken({"wall_stone.png", "Wall_Stone_normal.png"}) == "wall_stone.png, Wall_Stone_normal.png");
   CHECK(taken({"Wall-Stone_2K.JPG", "wall stone rough.tif"}) == "Wall-Stone_2K.JPG, wall stone rough.tif");
   CHECK(taken({"wall.1001.png", "wall_normal.1001.png"}) == "wall.1001.png, wall_normal.1001.png");
@@ -121,9 +121,33 @@ TEST_CASE("a picture named just like the material is its base colour, unless it 
   sized[0].size = {32, 32};
   CHECK(taken_of(sized) == "wall_normal.png");
   CHECK(recognise_maps(sized).ignored == Names{"wall.png"});
+  sized[0].size = {128, 128};
+  CHECK(taken_of(sized) == "wall.png, wall_normal.png");
+  sized[0].size = {128, 64};
+  CHECK(taken_of(sized) == "wall_normal.png");
   sized[0].size = {64, 64};
   sized[0].channels = 1;
   CHECK(taken_of(sized) == "wall_normal.png");
+}
+
+TEST_CASE("letters in a material's name are of no map if another file has the whole name before its own") {
+  const auto color_of = [](const Names& names) {
+    std::string out;
+    for (const RecognisedMap& m : recognise_maps(files(names, {64, 64})).maps)
+      if (m.semantic == Semantic::base_color) out = m.file;
+    return out;
+  };
+  CHECK(color_of({"tiles_m_6.jpg", "tiles_m_6_nm.png"}) == "tiles_m_6.jpg");
+  CHECK(color_of({"bricks_c_1.jpg", "bricks_c_1_normal.png"}) == "bricks_c_1.jpg");
+  CHECK(color_of({"wall_r.png", "wall_r_normal.png"}) == "wall_r.png");
+  // What says it in words, or has no such other file, stays what it is.
+  CHECK(color_of({"wall_height.png", "wall_height_normal.png"}).empty());
+  CHECK(color_of({"wall_m.png", "wall_n.png"}).empty());
+  CHECK(color_of({"tiles_m_6.jpg", "tiles_m_6_nm.png", "tiles_m_6_color.png"}) == "tiles_m_6_color.png");
+  // A grey picture is no colour.
+  std::vector<MapFile> grey = files({"tiles_m_6.jpg", "tiles_m_6_nm.png"}, {64, 64});
+  grey[0].channels = 1;
+  CHECK(taken_of(grey) == "tiles_m_6_nm.png, tiles_m_6.jpg");  // a metallic map
 }
 
 TEST_CASE("a map without a material's name joins only what has its size") {
