@@ -15,25 +15,9 @@ namespace {
 constexpr int bins = 65536;
 constexpr int strip_rows = 32;
 
-struct Range {
-  float min = std::numeric_limits<float>::max();
-  float max = std::numeric_limits<float>::lowest();
-  /// Ignores values that are not finite, which computed pixels may have.
-  void include(float v) {
-    if (!std::isfinite(v)) return;
-    min = std::min(min, v);
-    max = std::max(max, v);
-  }
-  /// The other range may be empty.
-  void include(const Range& other) {
-    min = std::min(min, other.min);
-    max = std::max(max, other.max);
-  }
-};
-
 struct Bin {
   uint64_t count = 0;
-  Range values;
+  ValueRange values;
 };
 
 /// Calls `visit(state of this thread, pixels, count)` for every strip. Takes the part [from, from + 0.5] of the
@@ -53,20 +37,7 @@ void visit_strips(const Image& image, tbb::enumerable_thread_specific<State>& st
   });
 }
 
-std::vector<Range> ranges_of(const Image& image, const Task& task) {
-  const int channels = image.channels();
-  tbb::enumerable_thread_specific<std::vector<Range>> states([channels] { return std::vector<Range>(channels); });
-  visit_strips(image, states, task, 0, [channels](std::vector<Range>& ranges, const float* p, int64_t count) {
-    for (int64_t i = 0; i < count; i++)
-      for (int c = 0; c < channels; c++) ranges[c].include(*p++);
-  });
-  std::vector<Range> all(channels);
-  for (const std::vector<Range>& ranges : states)
-    for (int c = 0; c < channels; c++) all[c].include(ranges[c]);
-  return all;
-}
-
-std::vector<std::vector<Bin>> bins_of(const Image& image, const std::vector<Range>& ranges, const Task& task) {
+std::vector<std::vector<Bin>> bins_of(const Image& image, const std::vector<ValueRange>& ranges, const Task& task) {
   const int channels = image.channels();
   std::vector<double> scale(channels, 0.0);
   for (int c = 0; c < channels; c++)
@@ -102,6 +73,31 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
 
 }  // namespace
 
+void ValueRange::include(float v) {
+  if (!std::isfinite(v)) return;
+  min = std::min(min, v);
+  max = std::max(max, v);
+}
+
+void ValueRange::include(const ValueRange& other) {
+  min = std::min(min, other.min);
+  max = std::max(max, other.max);
+}
+
+std::vector<ValueRange> value_ranges(const Image& image, const Task& task) {
+  const int channels = image.channels();
+  tbb::enumerable_thread_specific<std::vector<ValueRange>> states(
+      [channels] { return std::vector<ValueRange>(channels); });
+  visit_strips(image, states, task, 0, [channels](std::vector<ValueRange>& ranges, const float* p, int64_t count) {
+    for (int64_t i = 0; i < count; i++)
+      for (int c = 0; c < channels; c++) ranges[c].include(*p++);
+  });
+  std::vector<ValueRange> all(channels);
+  for (const std::vector<ValueRange>& ranges : states)
+    for (int c = 0; c < channels; c++) all[c].include(ranges[c]);
+  return all;
+}
+
 Distribution::Distribution(std::vector<Atom> atoms) : atoms_(std::move(atoms)) {
   if (atoms_.empty()) atoms_.push_back({.value = 0, .count = 1});  // nothing was finite
   uint64_t total = 0, below = 0;
@@ -114,7 +110,7 @@ Distribution::Distribution(std::vector<Atom> atoms) : atoms_(std::move(atoms)) {
 
 std::vector<Distribution> Distribution::of(const Image& image, const Task& task) {
   std::vector<Distribution> all;
-  for (const std::vector<Bin>& channel : bins_of(image, ranges_of(image, task), task)) {
+  for (const std::vector<Bin>& channel : bins_of(image, value_ranges(image, task), task)) {
     std::vector<Atom> atoms;
     for (const Bin& b : channel) {
       // A bin of one value keeps that exactly; other bins use the middle of their values' range.

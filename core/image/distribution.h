@@ -1,12 +1,26 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/base/task.h"
 #include "core/image/image.h"
 
 namespace terrazzo {
+
+/// The lowest and the highest finite value; empty at first, with min above max.
+struct ValueRange {
+  float min = std::numeric_limits<float>::max();
+  float max = std::numeric_limits<float>::lowest();
+  /// Ignores values that are not finite, which computed pixels may have.
+  void include(float v);
+  /// The other range may be empty.
+  void include(const ValueRange& other);
+};
+
+/// One per channel. Reads all pixels, in parallel, strip by strip; takes half of the task's progress. Throws Cancelled.
+std::vector<ValueRange> value_ranges(const Image& image, const Task& task);
 
 /// A histogram of one channel of an image. Values are binned into 65536 equal steps of the channel's range, so the
 /// values of 8- and 16-bit maps stay distinct and exact. Immutable; thread-safe. The same for any number of threads.

@@ -1,15 +1,14 @@
 #include "core/resolve/joined_heights.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <tbb/parallel_for.h>
 
 #include "core/base/tuning.h"
+#include "core/image/distribution.h"
 #include "core/numeric/screened_poisson.h"
 
 namespace terrazzo {
@@ -64,18 +63,6 @@ int placed(const CellAxis& axis, int i) {
   return i < 0 || i >= axis.count() ? -1 : i;
 }
 
-/// The lowest and the highest finite value.
-std::array<float, 2> range_of(const Image& map) {
-  float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
-  const float* values = map.in_memory();
-  for (int64_t i = 0; i < map.size().area(); i++) {
-    if (!std::isfinite(values[i])) continue;
-    low = std::min(low, values[i]);
-    high = std::max(high, values[i]);
-  }
-  return {low, high};
-}
-
 class JoinedPixels : public PixelSource {
  public:
   JoinedPixels(const ImagePtr& map, std::shared_ptr<const FineLayout> layout, double reach, const KeptPixels& kept,
@@ -93,9 +80,9 @@ class JoinedPixels : public PixelSource {
         y_(CellAxis::of_pixels(size_.height, layout_->uv().wraps().y)) {
     const double fine = std::max(least_reach, reach * size_.width / layout_->uv().size().width);
     screen_ = float(1 / (fine * fine));
-    range_ = range_of(*map_);
-    if (!(range_[0] < range_[1])) return;
-    unit_ = double(range_[1]) - range_[0];
+    range_ = value_ranges(*map_, Task()).front();
+    if (!(range_.min < range_.max)) return;
+    unit_ = double(range_.max) - range_.min;
     const CellAxis x = x_.coarser(), y = y_.coarser();
     x_shares_ = coarse_shares(x_, x);
     y_shares_ = coarse_shares(y_, y);
@@ -257,7 +244,7 @@ class JoinedPixels : public PixelSource {
 
   float moved(const Offset& place, float by) const {
     const float v = height(place);
-    return std::isfinite(v) ? std::clamp(float(v + unit_ * by), range_[0], range_[1]) : v;
+    return std::isfinite(v) ? std::clamp(float(v + unit_ * by), range_.min, range_.max) : v;
   }
 
   /// The difference between a place of the exemplar and the next one on the way; 0 at its border.
@@ -339,8 +326,8 @@ class JoinedPixels : public PixelSource {
   CellAxis x_, y_;  ///< of the output's pixels
   std::vector<CoarseShare> x_shares_, y_shares_;
   std::optional<ScreenedPoisson> coarse_;  ///< coarse part of the solution; none if there is nothing to join
-  std::array<float, 2> range_{};
-  double unit_ = 1;  ///< of the solution
+  ValueRange range_;                       ///< of the exemplar
+  double unit_ = 1;                        ///< of the solution
   float screen_ = 1;
 };
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/base/tuning.h"
+#include "core/image/distribution.h"
 #include "core/image/normal.h"
 #include "core/image/pixel_space.h"
 
@@ -29,21 +29,6 @@ const Tunable<JoinedTonesTuning> joined_tones_tuning(
 constexpr int nodes_per_reach = 4;
 constexpr int most_channels = 4;
 
-/// The lowest and the highest finite value of each channel.
-std::vector<std::array<float, 2>> ranges_of(const Image& map) {
-  const auto channels = size_t(map.channels());
-  std::vector<std::array<float, 2>> out(channels,
-                                        {std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()});
-  const float* values = map.in_memory();
-  for (size_t i = 0; i < size_t(map.size().area()) * channels; i++) {
-    auto& [low, high] = out[i % channels];
-    if (!std::isfinite(values[i])) continue;
-    low = std::min(low, values[i]);
-    high = std::max(high, values[i]);
-  }
-  return out;
-}
-
 class TonePixels : public PixelSource {
  public:
   TonePixels(ImagePtr resolved, const ImagePtr& map, std::shared_ptr<const FineLayout> layout, SlowTonesPtr tones,
@@ -56,7 +41,7 @@ class TonePixels : public PixelSource {
         seen_(float(joined_tones_tuning->seen)),
         kept_weight_(float(joined_tones_tuning->kept_weight)),
         kept_(kept, layout_->size()),
-        ranges_(ranges_of(*materialized(map))) {}
+        ranges_(value_ranges(*map, Task())) {}
 
   void read(const Rect& region, float* out) const override {
     resolved_->read(region, out);
@@ -162,8 +147,8 @@ class TonePixels : public PixelSource {
     const bool vector = info.semantic == Semantic::normal && info.channels >= 3;
     const float long_as = vector ? length(decode_normal(pixel, NormalY::up)) : 0;
     for (size_t c = 0; c < channels_; c++)
-      pixel[c] =
-          std::clamp(pixel[c] + share * away[c], std::min(pixel[c], ranges_[c][0]), std::max(pixel[c], ranges_[c][1]));
+      pixel[c] = std::clamp(pixel[c] + share * away[c], std::min(pixel[c], ranges_[c].min),
+                            std::max(pixel[c], ranges_[c].max));
     if (vector) {
       encode_normal(normalized(decode_normal(pixel, NormalY::up)) * long_as, NormalY::up, pixel);
       keep_in_range(info, pixel, 1);
@@ -177,7 +162,7 @@ class TonePixels : public PixelSource {
   int step_;                  ///< between nodes, in pixels of the output
   float seen_, kept_weight_;  ///< tuning constants
   KeptLookup kept_;
-  std::vector<std::array<float, 2>> ranges_;
+  std::vector<ValueRange> ranges_;  ///< of the exemplar's channels
 };
 
 }  // namespace

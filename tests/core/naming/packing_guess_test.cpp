@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include <doctest/doctest.h>
 
@@ -70,20 +71,22 @@ void check_packings(const Parts& p, bool with_height, int& found, int& all) {
 }  // namespace
 
 TEST_CASE("the packings of generated materials are told by their pixels") {
+  // These are not told, nor mistaken; all others are told.
+  const std::set<std::string> left_alone = {"planks", "chevron", "plates", "flagstones", "sheet_metal"};
   int found = 0, all = 0;
   for (const PatternType& type : pattern_types()) {
     CAPTURE(type.name);
     const auto m = run_node("pattern", {{"kind", type.name}, {"size", Size{128, 128}}}).get<Material>("material");
     if (!m->find("ambient_occlusion") || !m->find("roughness")) continue;
     const Parts parts{m->find("ambient_occlusion"), m->find("roughness"), m->find("height"), m->find("base_color")};
+    const int before = found;
     check_packings(parts, true, found, all);
+    CHECK((found == before + 4 || left_alone.contains(type.name)));
     CHECK(told(guess_packing(m->find("base_color"), m->find("height"))).empty());
     CHECK(told(guess_packing(m->find("base_color"), nullptr)).empty());
     CHECK(told(guess_packing(m->find("normal"), m->find("height"))).empty());
   }
   CHECK(all >= 16);
-  // Of surfaces that are nearly flat, such as metal, pixels tell little.
-  CHECK(found * 10 >= all * 7);
   MESSAGE(found, " of ", all);
 }
 
