@@ -50,7 +50,7 @@ LevelWork::LevelWork(const SharedWork& shared, int level)
       facts_(shared.facts(level)),
       effort_(effort_of(facts_)),
       exemplar_(shared.exemplar(level), shared.index.appearance()->wraps()),
-      phase_(shared.index.appearance()->repeats(), shared.exemplar(level).size, level, shared.surface()),
+      phase_(shared.repeats, shared.exemplar(level).size, level, shared.surface()),
       fixed_(shared.fixed(level)),
       control_(facts_.steered ? std::make_unique<LevelControl>(shared.controls, level, exemplar_) : nullptr),
       usage_(shared.exemplar(level).size, facts_.counts_use() ? shared.options.evenness : 0,

@@ -42,6 +42,15 @@ Vector2d lattice_start(const Index& index, const SynthesisOptions& o) {
   return random_lattice_origin(appearance.lattice(), random_bits(o.seed, Purpose::first_cell));
 }
 
+/// How the exemplar repeats. Where controls say what goes where, a band that comes once does not: it may be one of the
+/// parts that they tell apart.
+Repeats repeats_of(const Appearance& appearance, const SynthesisOptions& options) {
+  const Lattice& l = appearance.lattice();
+  const bool comes_once =
+      l.rank == 1 && (l.first.x() >= appearance.size().width || l.first.y() >= appearance.size().height);
+  return comes_once && !options.controls.empty() ? Repeats() : appearance.repeats();
+}
+
 }  // namespace
 
 bool keeps_to_lattice(const Lattice& lattice, const Elements& elements) {
@@ -62,7 +71,8 @@ SharedWork::SharedWork(const Index& i, const SynthesisOptions& o, const Task& t)
       options(o),
       task(t),
       levels(int(index.levels().size())),
-      lattice(index.appearance()->lattice()),
+      repeats(repeats_of(*index.appearance(), options)),
+      lattice(repeats.lattice),
       gaps(options.kept.gaps(options.size)),
       origin(lattice_start(index, options)),
       controls(options.controls, index.appearance()->size(), exemplar(0).size, options.size, levels, task) {}

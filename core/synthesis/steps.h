@@ -23,7 +23,7 @@
 namespace terrazzo {
 
 /// Covers all node types that share the pipeline; part of their versions. Raise it whenever a step changes results.
-inline constexpr int synthesis_version = 27;
+inline constexpr int synthesis_version = 28;
 
 /// The finest level that is worked out for the plane as a whole: patches are laid, elements too, and seams moved
 /// on every level but the finest.
@@ -108,7 +108,8 @@ struct SharedWork {
   const SynthesisOptions& options;
   const Task& task;
   int levels;
-  Lattice lattice;
+  Repeats repeats;   ///< of the exemplar, as far as they count in the result
+  Lattice lattice;   ///< theirs
   LatticeGaps gaps;  ///< between kept pixels
   Vector2d origin;   ///< where the lattice starts in the result
   ControlPyramid controls;

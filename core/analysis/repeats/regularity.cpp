@@ -164,6 +164,8 @@ FoundLattice find_lattice(const std::vector<ExemplarView>& all, double least_cer
     best = lines;
   else if (best.rank > 0)
     best.certainty = std::max(best.certainty, found.alike);
+  if (best.rank < 2 && views.size() == 1)
+    if (const Lattice bands = lattice_of_single_bands(largest, edges.front(), best, task); bands.rank > 0) best = bands;
   if (best.rank == 1)
     if (const Lattice bond = bond_of(largest.planes, best, task); bond.certainty >= least_certainty) best = bond;
   const bool too_few = best.rank < 2 && !wraps && std::ranges::any_of(edges, lines_cross);

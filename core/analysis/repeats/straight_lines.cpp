@@ -17,6 +17,7 @@ struct StraightLinesTuning {
   double least_parallel = 0.4;
   double same_lines = 0.7;
   double other_lines = 0.3;
+  double nearly_all = 0.6;
   int most_repeats = 8;
 };
 const Tunable<StraightLinesTuning> straight_lines_tuning(
@@ -36,6 +37,9 @@ const Tunable<StraightLinesTuning> straight_lines_tuning(
         {&StraightLinesTuning::other_lines, "other_lines", "correlation",
          "up to which lines deny bands found otherwise. Higher: they deny more; lower: wrong bands stay",
          "not measured: taken over from the code before constants were listed"},
+        {&StraightLinesTuning::nearly_all, "nearly_all", "share of the variance",
+         "that bands which come once hold. Higher: painted stripes are cut; lower: rock with a dark edge comes in rows",
+         "regularity", 0, 1},
         {&StraightLinesTuning::most_repeats, "most_repeats", "lines in an exemplar",
          "higher: narrower lines are found to repeat; lower: less chance",
          "not measured: taken over from the code before constants were listed"},
@@ -58,6 +62,14 @@ double correlation_around(const std::vector<double>& profile, double lag) {
   const int d = int(std::floor(lag + 0.5));
   const double most = std::max({at_lag(d + n - 1), at_lag(d), at_lag(d + 1)});
   return most / std::max(1e-12, at_lag(0));
+}
+
+/// Of lines one or several periods apart, up to half the exemplar: those of one broad band are alike after one.
+double least_correlation(const std::vector<double>& profile, double period) {
+  double least = 1;
+  for (double lag = period; lag <= std::max(period, double(profile.size()) / 2); lag += period)
+    least = std::min(least, correlation_around(profile, lag));
+  return least;
 }
 
 /// Without the period.
@@ -107,6 +119,21 @@ Lattice lattice_of_lines(const Planes& outlines, const Lattice& found) {
       (period == 0 || correlation_around(lines.profile, period) > straight_lines_tuning->other_lines))
     return {};
   return {1, courses ? down : right, {}, lines.share};
+}
+
+Lattice lattice_of_single_bands(const ExemplarView& view, const Planes& outlines, const Lattice& found,
+                                const Task& task) {
+  const Planes leading{view.planes.size, 1, view.planes.wraps, leading_component(view.planes, task)};
+  const StraightLines rows = straight_lines_of(leading, true), columns = straight_lines_of(leading, false);
+  const bool courses = rows.share >= columns.share;
+  const StraightLines& lines = courses ? rows : columns;
+  if (lines.share < straight_lines_tuning->nearly_all) return {};
+  const double period = found.rank == 0 ? 0 : courses ? found.first.y() : found.first.x();
+  // Shades of courses may differ where their joints repeat.
+  if (period > 0)
+    for (const std::vector<double>& profile : {lines.profile, shares_of(outlines, courses).profile})
+      if (least_correlation(profile, period) > straight_lines_tuning->other_lines) return {};
+  return {1, courses ? Vector2d{0, lines.period} : Vector2d{lines.period, 0}, {}, lines.share};
 }
 
 bool lines_cross(const Planes& outlines) {

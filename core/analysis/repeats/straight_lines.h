@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/analysis/space/planes.h"
+#include "core/analysis/repeats/exemplar_view.h"
+#include "core/base/task.h"
 #include "core/exemplar/lattice.h"
 
 namespace terrazzo {
@@ -9,6 +10,12 @@ namespace terrazzo {
 /// one cell, or several if lines repeat. `outlines`: see outlines(). Rank 1 if lines run along one axis only; rank 0 if
 /// there are none, or they agree with `found`, a lattice found otherwise.
 Lattice lattice_of_lines(const Planes& outlines, const Lattice& found);
+
+/// Courses as high as the exemplar, or columns as wide, where nearly all that differs does so across them: a stripe on
+/// a wall, which would be cut to pieces. Narrower ones if they repeat. Rank 0 if there are none, or they agree with
+/// `found`. Throws Cancelled.
+Lattice lattice_of_single_bands(const ExemplarView& view, const Planes& outlines, const Lattice& found,
+                                const Task& task);
 
 /// Whether straight lines run from border to border in both directions, as joints between tiles.
 bool lines_cross(const Planes& outlines);

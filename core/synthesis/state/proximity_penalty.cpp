@@ -47,8 +47,11 @@ const Tunable<ProximityPenaltyTuning> proximity_penalty_tuning(
          "not measured: counts of single pixels would be mostly noise", 1},
     });
 
-constexpr size_t cells_at_once = 16;  // compared together, which vectorizes
 constexpr uint32_t most = std::numeric_limits<uint16_t>::max();
+
+int nearby_reach(size_t r) {
+  return r == 0 ? proximity_penalty_tuning->far_reach : proximity_penalty_tuning->near_reach;
+}
 
 int block_side(Size exemplar) {
   return std::max(1, std::min(exemplar.width, exemplar.height) / proximity_penalty_tuning->blocks_per_side);
@@ -82,11 +85,8 @@ bool ProximityPenalty::is_worth_it(Size exemplar, const ExemplarCells& cells, co
 
 void ProximityPenalty::count(const Field& field, const ExemplarCells& cells) {
   count_shown(field, cells);
-  factors_.assign(shown_.size(), unit_factor);
-  for (const int reach : {proximity_penalty_tuning->far_reach, proximity_penalty_tuning->near_reach}) {
-    sum_around(reach);
-    raise_factors(reach);
-  }
+  sum_rows();
+  raise_factors();
 }
 
 void ProximityPenalty::count_shown(const Field& field, const ExemplarCells& cells) {
@@ -97,66 +97,86 @@ void ProximityPenalty::count_shown(const Field& field, const ExemplarCells& cell
   });
 }
 
-/// Sums the counts of the blocks up to `reach` from each block of a line.
-void ProximityPenalty::sum_along(const Line& line, int reach, const Counts& counts, Counts& sums) const {
-  std::vector<uint32_t> sum(cells_, 0);
-  const auto counts_at = [&](int i) { return &counts[size_t(line.first + wrap(i, line.length) * line.step) * cells_]; };
-  const auto holds = [&](int i) { return line.closed || (i >= 0 && i < line.length); };
-  const auto add = [&](int i) {
-    const uint16_t* from = counts_at(i);
-    for (size_t c = 0; c < cells_; c++) sum[c] += from[c];
-  };
-  const auto take_away = [&](int i) {
-    const uint16_t* from = counts_at(i);
-    for (size_t c = 0; c < cells_; c++) sum[c] -= from[c];
-  };
-  const bool all = line.closed && 2 * reach + 1 >= line.length;  // the whole line, each block once
-  for (int i = all ? 0 : -reach; i < (all ? line.length : reach); i++)
-    if (holds(i)) add(i);
-  for (int i = 0; i < line.length; i++) {
-    if (!all && holds(i + reach)) add(i + reach);
-    uint16_t* to = &sums[size_t(line.first + i * line.step) * cells_];
-    for (size_t c = 0; c < cells_; c++) to[c] = uint16_t(std::min(most, sum[c]));
-    if (!all && holds(i - reach)) take_away(i - reach);
+/// The sums of the counts of the blocks up to `reach` from a block, which moves along a line from its beginning.
+class ProximityPenalty::LineSums {
+ public:
+  LineSums(const Counts& counts, const Line& line, int reach, size_t cells)
+      : counts_(counts),
+        line_(line),
+        reach_(reach),
+        whole_line_(line.closed && 2 * reach + 1 >= line.length),
+        sums_(cells, 0) {
+    for (int i = whole_line_ ? 0 : -reach; i < (whole_line_ ? line.length : reach); i++) add(i);
   }
-}
+  /// The block's sums, of each cell; `i`: one more each time.
+  const uint32_t* at(int i) {
+    if (!whole_line_) add(i + reach_);
+    if (!whole_line_ && i > 0) take_away(i - reach_ - 1);
+    return sums_.data();
+  }
 
-void ProximityPenalty::sum_around(int reach) {
-  across_.resize(shown_.size());
-  sums_.resize(shown_.size());
+ private:
+  const uint16_t* counts_at(int i) const {
+    if (!line_.closed && (i < 0 || i >= line_.length)) return nullptr;
+    return &counts_[size_t(line_.first + wrap(i, line_.length) * line_.step) * sums_.size()];
+  }
+  void add(int i) {
+    if (const uint16_t* from = counts_at(i))
+      for (size_t c = 0; c < sums_.size(); c++) sums_[c] += from[c];
+  }
+  void take_away(int i) {
+    if (const uint16_t* from = counts_at(i))
+      for (size_t c = 0; c < sums_.size(); c++) sums_[c] -= from[c];
+  }
+
+  const Counts& counts_;
+  Line line_;
+  int reach_;
+  bool whole_line_;  // each block counts once
+  std::vector<uint32_t> sums_;
+};
+
+void ProximityPenalty::sum_rows() {
+  for (Counts& sums : row_sums_) sums.resize(shown_.size());
   tbb::parallel_for(0, rows_, [&](int row) {
-    sum_along({row * columns_, 1, columns_, plane_.tile_x}, reach, shown_, across_);
-  });
-  tbb::parallel_for(0, columns_, [&](int column) {
-    sum_along({column, columns_, rows_, plane_.tile_y}, reach, across_, sums_);
+    const Line line{row * columns_, 1, columns_, plane_.tile_x};
+    for (size_t r = 0; r < row_sums_.size(); r++) {
+      LineSums near_by(shown_, line, nearby_reach(r), cells_);
+      for (int i = 0; i < columns_; i++) {
+        const uint32_t* sums = near_by.at(i);
+        uint16_t* to = &row_sums_[r][size_t(line.first + i) * cells_];
+        for (size_t c = 0; c < cells_; c++) to[c] = uint16_t(std::min(most, sums[c]));
+      }
+    }
   });
 }
 
-void ProximityPenalty::raise_factors(int reach) {
-  // Where the reach covers more than the exemplar, everything may show more than once.
-  const double looked_at = double(2 * reach + 1) * side_, area = double(exemplar_.area());
-  const double times = std::max(1.0, looked_at * looked_at / area);
-  std::vector<double> once(cells_);
-  const double most_excess = proximity_penalty_tuning->most_excess;
-  Counts whole_once(
-      cells_);  // the same rounded down: most counts do not exceed it, and a vector of them is tested at once
-  for (size_t c = 0; c < cells_; c++) {
-    once[c] = std::max(1.0, areas_[c] * times);
-    whole_once[c] = uint16_t(std::min(double(most), once[c]));
-  }
-  tbb::parallel_for(size_t{0}, sums_.size() / cells_, [&](size_t block) {
-    const uint16_t* sums = &sums_[block * cells_];
-    uint16_t* factors = &factors_[block * cells_];
-    for (size_t first = 0; first < cells_; first += cells_at_once) {
-      const size_t end = std::min(cells_, first + cells_at_once);
-      bool any = false;
-      for (size_t c = first; c < end; c++) any |= sums[c] > whole_once[c];
-      if (!any) continue;
-      for (size_t c = first; c < end; c++) {
-        if (sums[c] <= whole_once[c]) continue;
-        const double excess = std::max(0.0, sums[c] / once[c] - 1);
-        factors[c] = uint16_t(std::min(double(most), factors[c] * (1 + weight_ * std::min(most_excess, excess))));
-      }
+/// Where a reach covers more than the exemplar, everything may show more than once.
+std::vector<float> ProximityPenalty::weights(int reach) const {
+  const double looked_at = double(2 * reach + 1) * side_;
+  const double times = std::max(1.0, looked_at * looked_at / double(exemplar_.area()));
+  std::vector<float> out(cells_);
+  for (size_t c = 0; c < cells_; c++) out[c] = float(weight_ / std::max(1.0, areas_[c] * times));
+  return out;
+}
+
+void ProximityPenalty::raise_factors() {
+  factors_.resize(shown_.size());
+  const std::vector<float> far_weights = weights(nearby_reach(0)), near_weights = weights(nearby_reach(1));
+  const float base = float(1 - weight_), highest = float(1 + weight_ * proximity_penalty_tuning->most_excess);
+  tbb::parallel_for(0, columns_, [&](int column) {
+    const Line line{column, columns_, rows_, plane_.tile_y};
+    LineSums far(row_sums_[0], line, nearby_reach(0), cells_), near(row_sums_[1], line, nearby_reach(1), cells_);
+    for (int i = 0; i < rows_; i++) {
+      const uint32_t *far_sums = far.at(i), *near_sums = near.at(i);
+      uint16_t* to = &factors_[size_t(line.first + i * line.step) * cells_];
+      // 1 up to one showing, then straight up to the highest; without branches, which vectorizes.
+      const auto factor = [&](uint32_t sum, float weight) {
+        return std::min(highest, std::max(1.0f, base + weight * float(int32_t(sum))));
+      };
+      for (size_t c = 0; c < cells_; c++)
+        to[c] = uint16_t(std::min(float(most), float(unit_factor) * factor(far_sums[c], far_weights[c]) *
+                                                   factor(near_sums[c], near_weights[c])));
     }
   });
 }

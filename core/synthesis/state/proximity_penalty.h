@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -44,10 +45,12 @@ class ProximityPenalty {
     bool closed;
   };
   size_t block(int x, int y) const { return size_t(y / side_) * columns_ + x / side_; }
+  class LineSums;
   void count_shown(const Field& field, const ExemplarCells& cells);
-  void sum_along(const Line& line, int reach, const Counts& counts, Counts& sums) const;
-  void sum_around(int reach);
-  void raise_factors(int reach);
+  void sum_rows();
+  void raise_factors();
+  /// What each pixel of a cell adds to its factor within a reach.
+  std::vector<float> weights(int reach) const;
 
   Size exemplar_;
   std::vector<double> areas_;
@@ -56,8 +59,8 @@ class ProximityPenalty {
   size_t cells_;
   int side_;  // of a block: its pixels share their counts
   int columns_, rows_;
-  Counts shown_;          // pixels of each cell in every block
-  Counts across_, sums_;  // their sums over neighbouring blocks: of the row, and of the square
+  Counts shown_;                    // pixels of each cell in every block
+  std::array<Counts, 2> row_sums_;  // their sums over neighbouring blocks of the row: of the far and the near reach
   Counts factors_;
 };
 

@@ -19,41 +19,50 @@ struct ElementShapesTuning {
   double surest_courses = 0.4;
   double as_large = 0.95;
   double inset = 0.06;
+  double most_whole = 0.5;
+  double least_cut = 0.35;
   int samples = 36;
   int outline = 40;
   int across = 3;
 };
 const Tunable<ElementShapesTuning> element_shapes_tuning(
-    "element_shapes", {
-                          {&ElementShapesTuning::margin, "margin", "typical sides",
-                           "around an element within which its neighbours matter to it. Higher: wider gaps are "
-                           "closed; costs time and memory",
-                           "element_layout", 0.01, 4},
-                          {&ElementShapesTuning::ragged, "ragged", "times the median",
-                           "of the area in squared inner radii, from which on an element is several that were "
-                           "not parted. Higher: rows of stones come back as one; lower: long ones are lost",
-                           "element_layout", 1, 100},
-                          {&ElementShapesTuning::samples, "samples", "blocks of an element",
-                           "that are compared when places for it are tried. Costs time", "element_layout", 1, 100000},
-                          {&ElementShapesTuning::outline, "outline", "blocks of its outline",
-                           "that are compared likewise", "element_layout", 4, 100000},
-                          {&ElementShapesTuning::surest_courses, "surest_courses", "certainty",
-                           "of straight courses, in which distances across count more. Higher: stones meet at "
-                           "slanting corners; lower: those of rough courses are cut upright",
-                           "element_layout", 0, 1},
-                          {&ElementShapesTuning::as_large, "as_large", "times the median area",
-                           "of elements in a grid that the border does not touch, from which on one that it touches "
-                           "ends there and is not cut. Higher: more are left out; lower: cut tiles are laid",
-                           "element_layout", 0, 2},
-                          {&ElementShapesTuning::inset, "inset", "typical sides",
-                           "by which such a tile keeps off the exemplar's border, where half of its joint may be "
-                           "missing. Higher: less of it is shown; lower: joints have gaps",
-                           "element_layout", 0, 0.4},
-                          {&ElementShapesTuning::across, "across", "times",
-                           "that distances across courses count against those along them. Higher: neighbours in "
-                           "a course meet in upright joints; costs time and memory",
-                           "element_layout", 1, 16},
-                      });
+    "element_shapes",
+    {
+        {&ElementShapesTuning::margin, "margin", "typical sides",
+         "around an element within which its neighbours matter to it. Higher: wider gaps are "
+         "closed; costs time and memory",
+         "element_layout", 0.01, 4},
+        {&ElementShapesTuning::ragged, "ragged", "times the median",
+         "of the area in squared inner radii, from which on an element is several that were "
+         "not parted. Higher: rows of stones come back as one; lower: long ones are lost",
+         "element_layout", 1, 100},
+        {&ElementShapesTuning::samples, "samples", "blocks of an element",
+         "that are compared when places for it are tried. Costs time", "element_layout", 1, 100000},
+        {&ElementShapesTuning::outline, "outline", "blocks of its outline", "that are compared likewise",
+         "element_layout", 4, 100000},
+        {&ElementShapesTuning::surest_courses, "surest_courses", "certainty",
+         "of straight courses, in which distances across count more. Higher: stones meet at "
+         "slanting corners; lower: those of rough courses are cut upright",
+         "element_layout", 0, 1},
+        {&ElementShapesTuning::as_large, "as_large", "times the median area",
+         "of elements in a grid that the border does not touch, from which on one that it touches "
+         "ends there and is not cut. Higher: more are left out; lower: cut tiles are laid",
+         "element_layout", 0, 2},
+        {&ElementShapesTuning::inset, "inset", "typical sides",
+         "by which such a tile keeps off the exemplar's border, where half of its joint may be "
+         "missing. Higher: less of it is shown; lower: joints have gaps",
+         "element_layout", 0, 0.4},
+        {&ElementShapesTuning::most_whole, "most_whole", "of the exemplar",
+         "that whole elements cover, below which cut ones are laid as well. Higher: more stones with "
+         "a straight side; lower: less of the exemplar comes back",
+         "element_layout", 0, 1},
+        {&ElementShapesTuning::least_cut, "least_cut", "typical areas",
+         "from which on a cut element is laid then. Higher: fewer; lower: slivers are laid", "element_layout", 0, 2},
+        {&ElementShapesTuning::across, "across", "times",
+         "that distances across courses count against those along them. Higher: neighbours in "
+         "a course meet in upright joints; costs time and memory",
+         "element_layout", 1, 16},
+    });
 
 /// The exemplar's regions, one per block.
 struct Grid {
@@ -151,16 +160,25 @@ void measure(const Grid& grid, int element, int margin, int inset, const Extent&
   for (size_t i = 0; i < outline.size(); i += every) shape.outline.push_back(outline[i]);
 }
 
-/// Elements that the exemplar's border cuts. Tiles of a grid may end there: those are as large as the others.
-void leave_out_cut(std::vector<ElementShape>& shapes, bool in_grid) {
+/// Elements that the exemplar's border cuts. Tiles of a grid may end there: those are as large as the others. Where
+/// most of the exemplar lies in cut elements, those end there that are not much smaller: else too little would come
+/// back.
+void leave_out_cut(std::vector<ElementShape>& shapes, bool in_grid, double typical_side) {
+  double whole = 0, all = 0;
   std::vector<int64_t> areas;
-  for (const ElementShape& s : shapes)
-    if (!s.cut && s.area > 0) areas.push_back(s.area);
+  for (const ElementShape& s : shapes) {
+    all += double(s.area);
+    if (s.cut || s.area == 0) continue;
+    whole += double(s.area);
+    areas.push_back(s.area);
+  }
   double least = std::numeric_limits<double>::infinity();
   if (in_grid && !areas.empty()) {
     const auto middle = areas.begin() + std::ptrdiff_t(areas.size() / 2);
     std::nth_element(areas.begin(), middle, areas.end());
     least = element_shapes_tuning->as_large * double(*middle);
+  } else if (!in_grid && whole < element_shapes_tuning->most_whole * all) {
+    least = element_shapes_tuning->least_cut * typical_side * typical_side;
   }
   for (ElementShape& s : shapes) s.unusable |= s.cut && double(s.area) < least;
 }
@@ -215,7 +233,7 @@ ElementShapes element_shapes(const Elements& elements, const std::vector<uint8_t
   for (const ElementShape& s : out.all) squares += double(s.area) * double(s.area);
   out.typical_side = std::sqrt(squares / double(out.size.area()));
   const int margin = std::max(2, int(element_shapes_tuning->margin * out.typical_side));
-  leave_out_cut(out.all, lattice && lattice->rank == 2);
+  leave_out_cut(out.all, lattice && lattice->rank == 2, out.typical_side);
   const int inset = int(std::ceil(element_shapes_tuning->inset * out.typical_side));
   tbb::parallel_for(0, elements.count, [&](int e) {
     // Blocks may miss the smallest regions.

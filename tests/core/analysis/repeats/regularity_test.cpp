@@ -313,6 +313,27 @@ TEST_CASE("boards with thin joints are courses, few of them too") {
   }
 }
 
+TEST_CASE("a stripe painted on a wall makes courses as high as the exemplar") {
+  const auto wall = [](double grain, bool across) {
+    return make_image({192, 192}, 1, [=](int x, int y, int) {
+      const int at = across ? x : y;
+      return float((at >= 120 && at < 165 ? 0.2 : 0.7) + grain * unit_double(random_bits(7, x / 3, y / 3)));
+    });
+  };
+  for (const bool wraps : {false, true})
+    for (const bool across : {false, true}) {
+      CAPTURE(wraps);
+      CAPTURE(across);
+      const Lattice l = lattice_of(plain_features(wall(0.2, across), wraps));
+      REQUIRE(l.rank == 1);
+      CHECK(l.first.x() == (across ? 192 : 0));
+      CHECK(l.first.y() == (across ? 0 : 192));
+      CHECK(l.certainty > 0.6);
+    }
+  // A shade of it that is lost in the grain does not.
+  CHECK(lattice_of(plain_features(wall(4, false))).rank == 0);
+}
+
 TEST_CASE("many courses say more than a few whose shades happen to agree") {
   for (const auto& [height, joint] : {std::pair{8, 0.0}, std::pair{16, 0.2}})
     for (int seed = 0; seed < 40; seed++) {

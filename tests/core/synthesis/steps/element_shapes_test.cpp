@@ -40,7 +40,6 @@ TEST_CASE("distances across sure courses or columns count more than those along 
 TEST_CASE("tiles of a grid that end at the exemplar's border are whole, those that it cuts are not") {
   const Lattice grid{2, {20, 0}, {0, 20}, 0.9};
   const Elements whole = squares();
-  CHECK(element_shapes(whole, {}, 1, false).whole == 4);
   const ElementShapes shapes = element_shapes(whole, {}, 1, false, &grid);
   CHECK(shapes.whole == 16);
   // At the border half of a joint may be missing: nothing is shown from there.
@@ -56,4 +55,25 @@ TEST_CASE("tiles of a grid that end at the exemplar's border are whole, those th
   const ElementShapes left = element_shapes(cut, {}, 1, false, &grid);
   CHECK(left.whole == 12);
   for (int e = 0; e < 16; e++) CHECK(left[e].unusable == (e % 4 == 0));
+}
+
+TEST_CASE("where most of an exemplar lies in stones that its border cuts, those end there") {
+  // Columns of stones 20 pixels wide; the upper and the lower row is `rim` pixels high.
+  const auto stones = [](int height, int rim) {
+    Elements e{{80, height}, {}, 12, 1};
+    for (int y = 0; y < height; y++)
+      for (int x = 0; x < 80; x++) e.at.push_back(uint16_t((y < rim ? 0 : y < height - rim ? 1 : 2) * 4 + x / 20));
+    return e;
+  };
+  // The whole ones are 2 of 12, with less than a fifth of the area.
+  const ElementShapes most_cut = element_shapes(stones(90, 30), {}, 1, false);
+  CHECK(most_cut.whole == 12);
+  CHECK(most_cut[0].depth(10 - most_cut[0].centre_x, 0 - most_cut[0].centre_y) < 0);
+  CHECK(most_cut[0].depth(10 - most_cut[0].centre_x, 15 - most_cut[0].centre_y) > 0);
+  // Slivers are not laid: those at the top and the bottom are a quarter as large as the others.
+  const ElementShapes slivers = element_shapes(stones(60, 10), {}, 1, false);
+  CHECK(slivers.whole == 4);
+  for (int e = 0; e < 12; e++) CHECK(slivers[e].unusable == (e / 4 != 1));
+  // Of an exemplar that tiles, nothing is cut.
+  CHECK(element_shapes(stones(60, 10), {}, 1, true).whole == 8);
 }
