@@ -4,7 +4,7 @@ set -euo pipefail
 
 packages=(cmake ninja-build g++ pkg-config libopenimageio-dev openimageio-tools libopencolorio-dev nlohmann-json3-dev
   libeigen3-dev libtbb-dev libcli11-dev libxxhash-dev libfmt-dev libzstd-dev libhwy-dev libimath-dev libpng-dev libpugixml-dev
-  libarchive-dev "$@")
+  libarchive-dev libcpp-httplib-dev "$@")
 
 missing=()
 for package in "${packages[@]}"; do

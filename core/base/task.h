@@ -2,18 +2,24 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 
 #include "core/base/error.h"
 
 namespace terrazzo {
+
+class UvMap;
 
 /// The progress reporting and cancellation of a long computation. Thread-safe.
 class Task {
  public:
   Task() = default;
   /// `cancelled` may be null; `progress` is called with values in [0, 1], from any thread, and must be quick.
-  Task(const std::atomic<bool>* cancelled, std::function<void(double)> progress)
-      : cancelled_(cancelled), progress_(std::move(progress)) {}
+  /// `preview` is called with coarse forms of a uv map while it is made, by the thread that makes it, and must be
+  /// quick. Without it none are made.
+  using Preview = std::function<void(const std::shared_ptr<const UvMap>&)>;
+  Task(const std::atomic<bool>* cancelled, std::function<void(double)> progress, Preview preview = {})
+      : cancelled_(cancelled), progress_(std::move(progress)), preview_(std::move(preview)) {}
 
   bool cancelled() const { return cancelled_ && cancelled_->load(std::memory_order_relaxed); }
   /// Throws Cancelled once the run has been cancelled. Call at least every 100 ms or so.
@@ -25,10 +31,16 @@ class Task {
     if (progress_) progress_(fraction);
     check();
   }
+  /// Whether anybody wants to see how a result comes about; previews never change it.
+  bool is_previewed() const { return bool(preview_); }
+  void preview(const std::shared_ptr<const UvMap>& coarse) const {
+    if (preview_) preview_(coarse);
+  }
 
  private:
   const std::atomic<bool>* cancelled_ = nullptr;
   std::function<void(double)> progress_;
+  Preview preview_;
 };
 
 /// While it lives, makes `task` the current task of this thread. Pixels are computed on demand, deep inside code that

@@ -19,6 +19,20 @@ int coarse_level(const SharedWork& s) {
   return std::min(s.levels - 1, finest_whole_level);
 }
 
+/// Lets people see a level. Its pixels are those of the same level of the exemplar: each stands for the middle of a
+/// block.
+void show_level(const SharedWork& s, int level, const Field& field) {
+  const Appearance& appearance = *s.index.appearance();
+  const Size size = appearance.size();
+  // A surface of streaks is drawn out only at the end.
+  if (!s.task.is_previewed() || appearance.repeats().streaks.any()) return;
+  const auto middle = [&](int at, int side) { return uint16_t(std::min(side - 1, ((2 * at + 1) << level) / 2)); };
+  std::vector<ExemplarPixel> pixels = field.pixels;
+  for (ExemplarPixel& p : pixels) p = {middle(p.x, size.width), middle(p.y, size.height)};
+  s.task.preview(UvMap::make(field.size, size, std::move(pixels),
+                             {s.options.tile_x, s.options.tile_y, appearance.wraps()}, appearance.fingerprint()));
+}
+
 /// What coarse_uv() gives.
 Field coarse_field(const SharedWork& s) {
   const int coarsest = s.levels - 1, last = coarse_level(s);
@@ -27,6 +41,7 @@ Field coarse_field(const SharedWork& s) {
   for (int l = coarsest;; l--) {
     const PlaneWindow all = PlaneWindow::all_of(s.plane(l));
     work->correct(field, all, all.part);
+    show_level(s, l, field);
     if (l == 0) return field;
     work = std::make_unique<LevelWork>(s, l - 1);
     field = work->starts(field, all);

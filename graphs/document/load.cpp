@@ -135,6 +135,11 @@ class Loader {
     return out;
   }
 
+  void collect_values(std::map<std::string, Params>& values) {
+    for (Drafts* drafts : {&levels_.nodes(), &levels_.others()})
+      for (NodeDraft& d : *drafts) values.emplace(d.node.name, std::move(d.node.params));
+  }
+
  private:
   /// Reads all values but those that query results of nodes, and connects the nodes.
   Level& first_pass(std::vector<GraphParameter> parameters, std::vector<Override>& overrides,
@@ -265,6 +270,23 @@ LoadedGraph load_graph_text(std::string_view text, const fs::path& path, const s
 
 LoadedGraph load_graph(const fs::path& path, const std::vector<Override>& overrides, const LoadOptions& options) {
   return load_graph_text(read_document(path), path, overrides, options);
+}
+
+InspectedGraph inspect_graph_text(std::string_view text, const fs::path& path, const LoadOptions& options) {
+  InspectedGraph out;
+  std::optional<Loader> loader;
+  try {
+    loader.emplace(text, path, options);
+    LoadedGraph loaded = loader->graph({}, options);
+    out.conversions = std::move(loaded.conversions);
+    out.warnings = std::move(loaded.warnings);
+    out.parameters = std::move(loaded.parameters);
+    for (GraphNode& n : loaded.graph.nodes) out.values.emplace(n.name, std::move(n.params));
+  } catch (const GraphError& e) {
+    out.problems = e.problems();
+  }
+  if (loader) loader->collect_values(out.values);
+  return out;
 }
 
 GraphInterface read_interface(const fs::path& path) {

@@ -70,6 +70,20 @@ LoadedGraph load_graph(const std::filesystem::path& path, const std::vector<Over
 LoadedGraph load_graph_text(std::string_view text, const std::filesystem::path& path,
                             const std::vector<Override>& overrides = {}, const LoadOptions& options = {});
 
+/// What can be said of a document, be it valid or not.
+struct InspectedGraph {
+  std::vector<Problem> problems;  ///< empty: it is valid
+  std::vector<Problem> conversions, warnings;
+  std::vector<GraphParameter> parameters;  ///< only if it is valid
+  /// The values of nodes' parameters, by node; also of nodes that are graphs or muted, and as far as they could be
+  /// read.
+  std::map<std::string, Params> values;
+};
+
+/// As load_graph_text, but never throws because of the document.
+InspectedGraph inspect_graph_text(std::string_view text, const std::filesystem::path& path,
+                                  const LoadOptions& options = {});
+
 /// The interface of a graph as a document or as a node.
 struct GraphInterface {
   std::string summary;

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
+#include "core/file/path_relation.h"
+#include "core/file/read_guard.h"
 #include "graphs/text/read_document.h"
 #include "graphs/text/stock_graphs.h"
 
@@ -16,6 +18,14 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view stock = "stock:";
+
+/// Asks the ReadGuard about graphs that are outside of the document's folder.
+void check_reading(const fs::path& file, const fs::path& folder) {
+  if (!ReadGuard::is_set()) return;
+  std::error_code failure;
+  const fs::path real = fs::weakly_canonical(file, failure), around = fs::weakly_canonical(folder, failure);
+  if (failure || !lies_in(around, real)) ReadGuard::check(file);
+}
 
 std::optional<ValueType> value_type(const std::string& name) {
   const auto at = std::ranges::find(value_type_names, name);
@@ -141,10 +151,14 @@ const Subgraph* Subgraphs::find(const JsonValue& type, const Subgraph& from) {
     out.folder = path.parent_path();
     if (!by_key_.contains(out.file)) {
       try {
+        check_reading(path, graphs_.front().folder);
         read_text = read_document(path);
       } catch (const GraphError& e) {
         by_key_.emplace(out.file, nullptr);
         return refuse(e.problems().front().message);
+      } catch (const Error& e) {
+        by_key_.emplace(out.file, nullptr);
+        return refuse(e.what());
       }
       files_.push_back(path);
     }

@@ -23,54 +23,49 @@ Positions positions_of(const Drafts& drafts) {
 /// Checks the wires of one level.
 class WireChecker {
  public:
-  WireChecker(const Level& level, std::vector<Problem>& conversions)
-      : level_(level), sources_(level.graph->sources), conversions_(conversions) {}
+  WireChecker(const Subgraph& graph, std::string path, std::vector<Problem>& conversions)
+      : graph_(graph), path_(std::move(path)), sources_(graph.sources), conversions_(conversions) {}
 
   /// `reader` is the node's name in its graph.
   void check(const std::string& reader, PortWires& into) {
     std::erase_if(into.wires, [&](WireEnd& end) {
-      const Port* output = find_output(end, into);
-      if (!output || !types_fit(reader, end, *output, into)) {
+      const Port* output = nullptr;
+      const std::string fault = fault_of(reader, end, *into.port, output);
+      if (!fault.empty()) into.diagnostics.add(end.place, fault);
+      if (!fault.empty() || !output) {
         into.has_faults = true;
         return true;
       }
       end.port = output->name;
       if (output->type != into.port->type)
-        conversions_.push_back(
-            {end.place, fmt::format("node {}, port {}", in_quotes(level_.path + reader), in_quotes(into.port->name)),
-             fmt::format("the image of {} becomes a material of one map", in_quotes(end.spelled)), level_.path + reader,
-             level_.graph->file});
+        conversions_.push_back({end.place,
+                                fmt::format("node {}, port {}", in_quotes(path_ + reader), in_quotes(into.port->name)),
+                                fmt::format("the image of {} becomes a material of one map", in_quotes(end.spelled)),
+                                path_ + reader, graph_.file});
       return false;
     });
   }
 
- private:
-  /// Null after a problem, or if the node's type is unknown.
-  const Port* find_output(const WireEnd& end, PortWires& into) {
-    const auto* source = level_.graph->find_source(end.node);
-    if (!source) {
-      into.diagnostics.add(end.place,
-                           fmt::format("{} leads to no node{}", in_quotes(end.spelled), nearest_nodes(end.node)));
-      return nullptr;
-    }
+  /// Why the wire does not fit; empty if it does, with its output, or if its node's type is unknown.
+  std::string fault_of(const std::string& reader, const WireEnd& end, const Port& into, const Port*& output) {
+    const auto* source = graph_.find_source(end.node);
+    if (!source) return fmt::format("{} leads to no node{}", in_quotes(end.spelled), nearest_nodes(end.node));
     const NodeType* type = source->second;
-    if (!type) return nullptr;
-    if (type->outputs.empty()) {
-      into.diagnostics.add(end.place, fmt::format("{} leads to a node of type {}, which has no output",
-                                                  in_quotes(end.spelled), type->name));
-      return nullptr;
-    }
-    if (end.port.empty()) return &type->outputs.front();
-    const Port* output = type->find_output(end.port);
+    if (!type) return "";
+    if (type->outputs.empty())
+      return fmt::format("{} leads to a node of type {}, which has no output", in_quotes(end.spelled), type->name);
+    output = end.port.empty() ? &type->outputs.front() : type->find_output(end.port);
     if (!output) {
       std::vector<std::string> names;
       for (const Port& p : type->outputs) names.push_back(p.name);
-      into.diagnostics.add(end.place, fmt::format("{} has no output {}{}", type->name, in_quotes(end.port),
-                                                  suggestion(end.port, names)));
+      return fmt::format("{} has no output {}{}", type->name, in_quotes(end.port), suggestion(end.port, names));
     }
-    return output;
+    if (converts(output->type, into.type)) return "";
+    return fmt::format("expected a wire of type {}, found {}, which is of type {}{}", name_of(into.type),
+                       in_quotes(end.spelled), name_of(output->type), fitting_outputs(into.type, end.node, reader));
   }
 
+ private:
   /// Hints search all nodes, so only problems that may be shown get one.
   bool is_worth_a_hint() { return hints_++ < most_problems_shown; }
 
@@ -79,15 +74,6 @@ class WireChecker {
     std::vector<std::string> names;
     for (const auto& [name, type] : sources_) names.push_back(name);
     return suggestion(wrong, names);
-  }
-
-  bool types_fit(const std::string& reader, const WireEnd& end, const Port& output, PortWires& into) {
-    const ValueType wanted = into.port->type;
-    if (converts(output.type, wanted)) return true;
-    into.diagnostics.add(end.place, fmt::format("expected a wire of type {}, found {}, which is of type {}{}",
-                                                name_of(wanted), in_quotes(end.spelled), name_of(output.type),
-                                                fitting_outputs(wanted, end.node, reader)));
-    return false;
   }
 
   /// Suggests fitting wires: from the node itself if there are any, else from all nodes.
@@ -107,7 +93,8 @@ class WireChecker {
                            : fmt::format(" (would fit: {})", listed(fitting));
   }
 
-  const Level& level_;
+  const Subgraph& graph_;
+  const std::string path_;
   const NodeTypes& sources_;
   std::vector<Problem>& conversions_;
   size_t hints_ = 0;
@@ -314,7 +301,7 @@ class Walk {
 
 void check_wires(Level& level, std::vector<Problem>& problems, std::vector<Problem>& conversions) {
   const size_t before = problems.size();
-  WireChecker checker(level, conversions);
+  WireChecker checker(*level.graph, level.path, conversions);
   for (const auto& [name, items] : level.items)
     for (const NodeInstance& item : items) {
       const size_t first = problems.size();
@@ -323,6 +310,12 @@ void check_wires(Level& level, std::vector<Problem>& problems, std::vector<Probl
     }
   for (auto& [name, wires] : level.outputs) checker.check("", wires);
   set_file(problems, before, level.graph->file);
+}
+
+std::string wire_fault(const Subgraph& graph, const WireEnd& end, const std::string& reader, const Port& port) {
+  std::vector<Problem> ignored;
+  const Port* output = nullptr;
+  return WireChecker(graph, "", ignored).fault_of(reader, end, port, output);
 }
 
 WireSources sources_of(const Level& level, const WireEnd& end, Diagnostics& asking) {

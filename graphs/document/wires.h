@@ -13,6 +13,10 @@ namespace terrazzo {
 /// problem; fills in the output names of the others. Adds conversions from image to material to `conversions`.
 void check_wires(Level& level, std::vector<Problem>& problems, std::vector<Problem>& conversions);
 
+/// Why a wire does not go into `port` of the node `reader` of this graph, and what would fit; empty if it does, or if a
+/// type is unknown.
+std::string wire_fault(const Subgraph& graph, const WireEnd& end, const std::string& reader, const Port& port);
+
 /// The sources of a wire, resolved through inputs and outputs of subgraphs and through muted nodes.
 struct WireSources {
   std::vector<Wire> wires;     ///< outputs of nodes that run; several for a loop, none if an optional input is open

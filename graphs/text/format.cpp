@@ -20,22 +20,23 @@ bool contains_comments(const JsonValue& v) {
 
 class Writer {
  public:
+  explicit Writer(std::string unit) : unit_(std::move(unit)) {}
+
   std::string out;
 
   void document(const JsonValue& v) {
     comments(v, "");
-    value(v, {0, 0}, 0, 0);
+    value(v, {0, ""}, 0, 0);
     out += '\n';
   }
 
- private:
   struct Depth {
-    int of_graph;  ///< 0 is a graph, 1 its sections, 2 their entries
-    int indent;
+    int of_graph;  ///< as in ValueSite
+    std::string indent;
   };
 
   /// `behind`: the text after it on its line.
-  void value(const JsonValue& v, Depth depth, size_t used, size_t behind) {
+  void value(const JsonValue& v, const Depth& depth, size_t used, size_t behind) {
     if (!v.is_object() && !v.is_list()) {
       out += compact(v);
       return;
@@ -51,12 +52,13 @@ class Writer {
     broken(v, depth);
   }
 
+ private:
   void comments(const JsonValue& v, const std::string& indent) {
     for (const std::string& c : v.comments_before) out += (c.empty() ? "" : indent + c) + '\n';
   }
 
-  void broken(const JsonValue& v, Depth depth) {
-    const std::string indent(2 * (depth.indent + 1), ' ');
+  void broken(const JsonValue& v, const Depth& depth) {
+    const std::string indent = depth.indent + unit_;
     const size_t count = v.is_object() ? v.members.size() : v.items.size();
     out += v.is_object() ? "{\n" : "[\n";
     for (size_t i = 0; i < count; i++) {
@@ -64,16 +66,17 @@ class Writer {
       comments(entry, indent);
       const std::string name = v.is_object() ? in_quotes(v.members[i].name) + ": " : "";
       out += indent + name;
-      const bool holds_graphs = depth.of_graph == 0 && v.is_object() && v.members[i].name == "graphs";
-      const int of_graph = holds_graphs ? -1 : depth.of_graph + 1;
-      value(entry, {of_graph, depth.indent + 1}, indent.size() + name.size(), 1);
+      const int of_graph = depth_inside(depth.of_graph, v.is_object() ? v.members[i].name : "");
+      value(entry, {of_graph, indent}, indent.size() + name.size(), 1);
       if (i + 1 < count) out += ',';
       if (!entry.comment_after.empty()) out += "  " + entry.comment_after;
       out += '\n';
     }
     for (const std::string& c : v.comments_inside) out += (c.empty() ? "" : indent + c) + '\n';
-    out += indent.substr(2) + (v.is_object() ? "}" : "]");
+    out += depth.indent + (v.is_object() ? "}" : "]");
   }
+
+  std::string unit_;
 };
 
 }  // namespace
@@ -109,8 +112,18 @@ std::string compact(const JsonValue& v) {
   return out + (v.is_object() ? "}" : "]");
 }
 
+int depth_inside(int of_graph, std::string_view name) {
+  return of_graph == 0 && name == "graphs" ? -1 : of_graph + 1;
+}
+
+std::string formatted_at(const JsonValue& value, const ValueSite& site) {
+  Writer writer(site.unit);
+  writer.value(value, {site.of_graph, site.indent}, site.used, site.behind);
+  return std::move(writer.out);
+}
+
 std::string formatted(const JsonValue& document) {
-  Writer writer;
+  Writer writer("  ");
   writer.document(document);
   return std::move(writer.out);
 }

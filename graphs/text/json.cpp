@@ -1,5 +1,8 @@
 #include "graphs/text/json.h"
 
+#include <algorithm>
+#include <map>
+
 #include <fmt/format.h>
 
 namespace terrazzo {
@@ -116,6 +119,12 @@ std::string escaped(const std::string& name) {
 
 }  // namespace
 
+std::string pointer_of(const std::vector<std::string>& path) {
+  std::string out;
+  for (const std::string& step : path) out += "/" + escaped(step);
+  return out;
+}
+
 std::string pointer_to(const JsonValue& document, Place place) {
   std::string out;
   // The last part that begins at or before the place contains it.
@@ -136,6 +145,45 @@ std::string pointer_to(const JsonValue& document, Place place) {
     v = inside;
   }
   return out;
+}
+
+namespace {
+
+bool same_members(const JsonValue& a, const JsonValue& b) {
+  if (a.members.size() != b.members.size()) return false;
+  const auto same = [](const JsonMember& m, const JsonMember& n) {
+    return m.name == n.name && same_value(m.value, n.value);
+  };
+  if (std::ranges::equal(a.members, b.members, same)) return true;
+  std::map<std::string_view, const JsonValue*> by_name;
+  for (const JsonMember& m : b.members) by_name.emplace(m.name, &m.value);
+  return by_name.size() == b.members.size() && std::ranges::all_of(a.members, [&](const JsonMember& m) {
+           const auto at = by_name.find(m.name);
+           return at != by_name.end() && same_value(m.value, *at->second);
+         });
+}
+
+}  // namespace
+
+bool same_value(const JsonValue& a, const JsonValue& b) {
+  if (a.kind != b.kind) return false;
+  switch (a.kind) {
+    case JsonValue::Kind::null:
+      return true;
+    case JsonValue::Kind::boolean:
+      return a.boolean == b.boolean;
+    case JsonValue::Kind::integer:
+      return a.integer == b.integer;
+    case JsonValue::Kind::number:
+      return a.number == b.number;
+    case JsonValue::Kind::text:
+      return a.text == b.text;
+    case JsonValue::Kind::list:
+      return std::ranges::equal(a.items, b.items, same_value);
+    case JsonValue::Kind::object:
+      break;
+  }
+  return same_members(a, b);
 }
 
 }  // namespace terrazzo

@@ -72,6 +72,12 @@ ParsedJson parse_json(std::string_view text);
 /// list, or else the enclosing value.
 std::string pointer_to(const JsonValue& document, Place place);
 
+/// The JSON pointer of a path of names and positions.
+std::string pointer_of(const std::vector<std::string>& path);
+
+/// Whether both read the same: places, comments and the order of members do not count; 1 and 1.0 differ.
+bool same_value(const JsonValue& a, const JsonValue& b);
+
 /// Describes a value for messages: `the text "abc"`, `the number 3`, `a list of 2`, ...
 std::string found(const JsonValue& value);
 /// A text as a quoted and escaped JSON string.

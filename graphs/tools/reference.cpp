@@ -6,13 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "graphs/text/format.h"
+#include "graphs/tools/descriptor_json.h"
 #include "graphs/values/convert.h"
 
 namespace terrazzo {
 
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr size_t page_width = 80;
 
@@ -77,55 +76,6 @@ std::string described_step(const NodeStep& s) {
   return described(s.name, s.when, s.help);
 }
 
-/// In the order of the workflow; other categories come last.
-std::vector<std::string> categories_of(const std::vector<NodeType>& types) {
-  std::vector<std::string> all = {"source", "image", "analysis", "synthesis", "sink"};
-  for (const NodeType& t : types)
-    if (std::find(all.begin(), all.end(), t.category) == all.end()) all.push_back(t.category);
-  return all;
-}
-
-ordered_json json_of_port(const Port& p) {
-  return {{"name", p.name}, {"type", name_of(p.type)}, {"help", p.help}, {"optional", p.optional}, {"list", p.list}};
-}
-
-ordered_json json_of_param(const Param& p) {
-  ordered_json out = {{"name", p.name}, {"type", name_of(p.type)}};
-  if (p.fallback) out["default"] = ordered_json::parse(compact(json_of(*p.fallback)));
-  if (p.min) out["min"] = *p.min;
-  if (p.max) out["max"] = *p.max;
-  if (!p.unit.empty()) out["unit"] = p.unit;
-  if (!p.choices.empty()) out["choices"] = p.choices;
-  if (p.min_count > 0) out["min_count"] = p.min_count;
-  if (p.max_count > 0) out["max_count"] = p.max_count;
-  out["help"] = p.help;
-  return out;
-}
-
-ordered_json json_of_step(const NodeStep& s) {
-  return {{"name", s.name}, {"when", s.when}, {"help", s.help}};
-}
-
-template <typename T>
-ordered_json list_of(const std::vector<T>& all, ordered_json (*json_of_one)(const T&)) {
-  ordered_json out = ordered_json::array();
-  for (const T& one : all) out.push_back(json_of_one(one));
-  return out;
-}
-
-ordered_json json_of_type(const NodeType& t) {
-  ordered_json out = {{"name", t.name},
-                      {"version", t.version},
-                      {"category", t.category},
-                      {"summary", t.summary},
-                      {"help", t.help},
-                      {"inputs", list_of(t.inputs, json_of_port)},
-                      {"outputs", list_of(t.outputs, json_of_port)},
-                      {"parameters", list_of(t.params, json_of_param)}};
-  if (!t.steps.empty()) out["steps"] = list_of(t.steps, json_of_step);
-  return out;
-}
-
 }  // namespace
 
 std::string node_reference(const NodeType& type) {
@@ -182,7 +132,9 @@ std::string node_list(const std::vector<NodeType>& types) {
 }
 
 std::string nodes_json(const std::vector<NodeType>& types) {
-  return list_of(types, json_of_type).dump(2) + '\n';
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const NodeType& t : types) out.push_back(json_of_type(t));
+  return out.dump(2) + '\n';
 }
 
 }  // namespace terrazzo

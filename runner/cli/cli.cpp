@@ -193,6 +193,7 @@ void add_commands(Command& program, ProgressMode mode) {
   add_run_command(program);
   add_synth_command(program);
   add_new_command(program);
+  add_edit_command(program);
   add_check_command(program);
   add_document_commands(program);
   add_node_commands(program);

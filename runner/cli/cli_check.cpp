@@ -1,17 +1,15 @@
 #include <algorithm>
-#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
-#include "graphs/text/read_document.h"
-#include "graphs/tools/pack.h"
 #include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_graph.h"
 #include "runner/plan/preflight.h"
 #include "runner/plan/source_findings.h"
+#include "runner/report/problem_json.h"
 #include "runner/terminal/console.h"
 #include "runner/terminal/limit_flags.h"
 #include "runner/terminal/signals.h"
@@ -72,49 +70,17 @@ Findings look_at(const CheckFlags& flags) {
   return out;
 }
 
-/// The JSON pointers to places, in the graph file and in others.
-class Pointers {
- public:
-  std::string to(const std::string& file, Place place) {
-    if (place.line == 0) return "";
-    const auto [at, is_new] = documents_.try_emplace(file);
-    if (is_new) {
-      try {
-        at->second = parse_json(is_pack(file) ? graph_in_pack(file) : read_document(file)).value;
-      } catch (const Error&) {
-        // a graph that comes with the program
-      }
-    }
-    return at->second ? pointer_to(*at->second, place) : "";
-  }
-
- private:
-  std::map<std::string, std::optional<JsonValue>> documents_;
-};
-
-void add_to(Json& list, const std::vector<Problem>& problems, const char* severity, const std::string& graph,
-            Pointers& pointers) {
-  for (size_t i = 0; i < std::min(problems.size(), most_problems_shown); i++) {
-    const Problem& p = problems[i];
-    const std::string& file = p.file.empty() ? graph : p.file;
-    Json entry = {{"severity", severity}, {"code", p.code}, {"file", file}};
-    if (p.place.line > 0) {
-      entry["line"] = p.place.line;
-      entry["column"] = p.place.column;
-      entry["pointer"] = pointers.to(file, p.place);
-    }
-    if (!p.node.empty()) entry["node"] = p.node;
-    entry["message"] = p.where.empty() ? p.message : p.where + ": " + p.message;
-    list.push_back(std::move(entry));
-  }
+void add_to(Json& list, const std::vector<Problem>& problems, const char* severity, ProblemsAsJson& as_json) {
+  for (size_t i = 0; i < std::min(problems.size(), most_problems_shown); i++)
+    list.push_back(as_json.entry(problems[i], severity));
 }
 
 void answer_json(const CheckFlags& flags, const Findings& found) {
   Json problems = Json::array();
-  Pointers pointers;
-  add_to(problems, found.errors, "error", flags.graph, pointers);
-  add_to(problems, found.warnings, "warning", flags.graph, pointers);
-  add_to(problems, found.notes, "note", flags.graph, pointers);
+  ProblemsAsJson as_json(flags.graph);
+  add_to(problems, found.errors, "error", as_json);
+  add_to(problems, found.warnings, "warning", as_json);
+  add_to(problems, found.notes, "note", as_json);
   size_t not_shown = 0;
   for (const std::vector<Problem>* list : {&found.errors, &found.warnings, &found.notes})
     not_shown += list->size() - std::min(list->size(), most_problems_shown);

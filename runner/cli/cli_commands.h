@@ -17,6 +17,7 @@ void add_run_command(Command& program);
 void add_synth_command(Command& program);
 void add_check_command(Command& program);
 void add_new_command(Command& program);
+void add_edit_command(Command& program);
 void add_document_commands(Command& program);
 void add_node_commands(Command& program);
 void add_cache_command(Command& program);

@@ -104,6 +104,8 @@ std::optional<GraphInterface> named_interface(const Command& command) {
   const CommandOption* graph = command.find_option("GRAPH");
   if (!graph || graph->given.empty()) return std::nullopt;
   const std::string& file = graph->given.front();
+  std::error_code missing;
+  if (std::filesystem::is_directory(file, missing)) return std::nullopt;  // for `edit`: a folder of maps
   return is_pack(file) ? read_interface_text(graph_in_pack(file), file) : read_interface(file);
 }
 

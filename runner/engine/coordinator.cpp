@@ -251,8 +251,11 @@ std::unique_ptr<NodeContext> Coordinator::make_context(int stage) {
   RunObserver* observer = options_.observer;
   std::function<void(double)> progress;
   if (observer) progress = progress_of(s, *observer);
+  Task::Preview preview;
+  if (observer && observer->wants_previews())
+    preview = [&s, observer](const UvMapPtr& coarse) { observer->previewed(s, coarse); };
   return std::make_unique<NodeContext>(s.type(), s.node->params, std::move(inputs), s.known->key,
-                                       Task(options_.cancelled, std::move(progress)));
+                                       Task(options_.cancelled, std::move(progress), std::move(preview)));
 }
 
 void Coordinator::enqueue(StageJob::Kind kind, int stage) {

@@ -20,6 +20,9 @@ class RunObserver {
   /// Another process is computing it; called once.
   virtual void waits(const Stage&) {}
   virtual void progressed(const Stage&, double /*fraction*/) {}
+  /// A coarse form of what the stage is making. Only if wants_previews(), which is asked when a stage starts.
+  virtual void previewed(const Stage&, const UvMapPtr& /*coarse*/) {}
+  virtual bool wants_previews() const { return false; }
   virtual void noted(const Stage&, const std::string& /*message*/) {}
   virtual void finished(const Stage&, double /*seconds*/) {}
   /// It did not have to run: its result is cached, or its files are up to date.

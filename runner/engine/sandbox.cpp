@@ -45,7 +45,12 @@ fs::path fixed_part(const fs::path& path) {
 
 }  // namespace
 
-Sandbox::Sandbox(fs::path folder) : given_(std::move(folder)) {
+Sandbox::Sandbox(fs::path folder)
+    : Sandbox(
+          std::move(folder),
+          "give it to a parameter of type path with --set (a text opens nothing), or choose a place in the sandbox") {}
+
+Sandbox::Sandbox(fs::path folder, std::string advice) : given_(std::move(folder)), advice_(std::move(advice)) {
   open(given_);
 }
 
@@ -70,10 +75,8 @@ std::string Sandbox::trouble_with(std::string_view verb, const fs::path& path) c
   const std::string leads = !place           ? " (a link that leads nowhere)"
                             : *place != path ? fmt::format(" (a link to {})", place->string())
                                              : "";
-  return fmt::format(
-      "may not {} {}{}: it is outside the sandbox {}; give it to a parameter of type path with --set (a text opens "
-      "nothing), or choose a place in the sandbox",
-      verb, path.string(), leads, given_.string());
+  return fmt::format("may not {} {}{}: it is outside the sandbox {}; {}", verb, path.string(), leads, given_.string(),
+                     advice_);
 }
 
 void Sandbox::check(const char* verb, const fs::path& path) const {

@@ -15,6 +15,8 @@ namespace terrazzo {
 class Sandbox {
  public:
   explicit Sandbox(std::filesystem::path folder);
+  /// `advice`: what messages end with, on how to allow a path.
+  Sandbox(std::filesystem::path folder, std::string advice);
   /// Allows another path from the command line: a file, or a folder with its content. For a pattern such as
   /// "scans/*.png" it allows the folder before it.
   void open(const std::filesystem::path& path);
@@ -28,6 +30,7 @@ class Sandbox {
 
  private:
   std::filesystem::path given_;
+  std::string advice_;
   std::vector<std::filesystem::path> roots_, readable_;  ///< with links resolved
 };
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// Raised when a member is removed or changes its meaning.
-constexpr int format_version = 2;
+constexpr int job_version = 2;
 
 constexpr std::string_view digest_member = "digest";
 
@@ -92,7 +92,7 @@ std::string job_name(const fs::path& graph, const Digest& id) {
 bool write_farm_job(const FarmJob& job, const fs::path& folder) {
   Json units = Json::array();
   for (const Unit& u : job.units) units.push_back(json_of_unit(u));
-  Json json = {{"format", format_version},
+  Json json = {{"format", job_version},
                {"name", job.name},
                {"graph", job.graph},
                {"program", job.program},
@@ -114,8 +114,8 @@ FarmJob read_farm_job(const fs::path& folder) {
   try {
     const std::string text = read_file(file);
     Json json = Json::parse(text);
-    if (const int format = json.at("format").get<int>(); format != format_version)
-      throw Error(fmt::format("format {}; this version of terrazzo reads {}", format, format_version));
+    if (const int format = json.at("format").get<int>(); format != job_version)
+      throw Error(fmt::format("format {}; this version of terrazzo reads {}", format, job_version));
     const std::string digest = json.at(digest_member).get<std::string>();
     json.erase(digest_member);
     if (digest != seal_of(json)) throw Error("it does not have the digest that it had when it was written");

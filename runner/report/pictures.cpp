@@ -22,6 +22,10 @@ constexpr int least_side = 128;
 constexpr int64_t least_jpeg_area = 64 * 64;
 constexpr int jpeg_quality = 90;
 
+bool is_colour(const Image& image) {
+  return image.info().color_space != "raw";
+}
+
 Size fitted(Size full, int longest) {
   const double scale = std::min(1.0, static_cast<double>(longest) / std::max(full.width, full.height));
   return {std::max(1, static_cast<int>(full.width * scale)), std::max(1, static_cast<int>(full.height * scale))};
@@ -82,25 +86,31 @@ Histogram histogram_of(const Image& image) {
   return out;
 }
 
-/// `image` holds display values.
-std::string uri_of(const Image& image, bool is_colour) {
-  if (is_colour && image.size().area() >= least_jpeg_area) try {
-      return "data:image/jpeg;base64," +
-             base64(encoded_file(image, {.format = FileFormat::jpeg, .jpeg_quality = jpeg_quality}));
-    } catch (const Error&) {
-      // The module that writes JPEG is missing: PNG is larger, but needs no module.
-    }
-  return "data:image/png;base64," + base64(encoded_file(image));
+std::string uri_of(const Image& display) {
+  const PictureFile file = picture_file(display);
+  return "data:" + file.type + ";base64," + base64(file.bytes);
 }
 
 }  // namespace
 
+ImagePtr shrunk_for_display(const ImagePtr& image, int longest) {
+  const ImagePtr out = shrunk(*image, longest);
+  return is_colour(*image) ? materialized(convert_color(out, "srgb_texture")) : out;
+}
+
+PictureFile picture_file(const Image& display, bool exact) {
+  if (!exact && is_colour(display) && display.size().area() >= least_jpeg_area) try {
+      return {"image/jpeg", encoded_file(display, {.format = FileFormat::jpeg, .jpeg_quality = jpeg_quality})};
+    } catch (const Error&) {
+      // The module that writes JPEG is missing: PNG is larger, but needs no module.
+    }
+  return {"image/png", encoded_file(display)};
+}
+
 PagePicture page_picture(const ImagePtr& image, int longest) {
-  const bool is_colour = image->info().color_space != "raw";
-  ImagePtr page = shrunk(*image, longest);
-  if (is_colour) page = materialized(convert_color(page, "srgb_texture"));
+  const ImagePtr page = shrunk_for_display(image, longest);
   const ImagePtr small = shrunk(*page, small_side);
-  return {uri_of(*page, is_colour), uri_of(*small, is_colour), image->size(), page, histogram_of(*page)};
+  return {uri_of(*page), uri_of(*small), image->size(), page, histogram_of(*page)};
 }
 
 ImagePtr uv_in_colours(const UvMap& uv, int longest) {

@@ -14,6 +14,19 @@ namespace terrazzo {
 /// The relative frequencies of values from 0 to 1, where a pixel's value is the mean of its colour channels.
 using Histogram = std::array<float, 64>;
 
+/// An image file in memory.
+struct PictureFile {
+  std::string type;  ///< "image/png"
+  std::vector<uint8_t> bytes;
+};
+
+/// An image as people see it: colours in sRGB, values outside [0, 1] clipped, height maps that exceed it rescaled. At
+/// most `longest` pixels a side. Pulls every pixel once.
+ImagePtr shrunk_for_display(const ImagePtr& image, int longest);
+
+/// What shrunk_for_display returned as a file: JPEG for large colours, else PNG. `exact`: PNG in any case.
+PictureFile picture_file(const Image& display, bool exact = false);
+
 /// An image prepared for a page. Colours are shown in sRGB. Values outside [0, 1] are clipped, but height maps that
 /// exceed it are rescaled. Two channels are shown as red and green.
 struct PagePicture {

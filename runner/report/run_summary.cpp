@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Raised when a member is removed or changes its meaning, but not when one is added.
-constexpr int format_version = 1;
+constexpr int summary_version = 1;
 
 std::string_view status_of(const RunSummary& s) {
   if (s.result && s.result->cancelled) return "cancelled";
@@ -137,7 +137,7 @@ Json cache_json(const Cache* cache) {
 
 void write_run_summary(const RunSummary& s, const std::filesystem::path& path) {
   const ProcessUsage usage = process_usage();
-  const Json out = {{"format", format_version},
+  const Json out = {{"format", summary_version},
                     {"program", "terrazzo " TERRAZZO_VERSION},
                     {"graph", s.graph.string()},
                     {"status", status_of(s)},

@@ -3,14 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/base/suggest.h"
-#include "core/exemplar/features.h"
 #include "core/file/atomic_file.h"
-#include "graphs/text/problem.h"
 #include "graphs/text/stock_graphs.h"
-#include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
-#include "runner/cli/cli_run.h"
-#include "runner/cli/exemplar/exemplar_inspection.h"
+#include "runner/cli/exemplar/new_graph.h"
 #include "runner/cli/exemplar/starting_graph.h"
 #include "runner/terminal/console.h"
 #include "runner/terminal/limit_flags.h"
@@ -31,23 +27,6 @@ struct NewFlags {
   LimitFlags limits{};
 };
 
-/// The folder's path for a graph file in `beside`.
-fs::path seen_from(const fs::path& beside, const fs::path& folder) {
-  const fs::path relative =
-      fs::absolute(folder).lexically_normal().lexically_relative(fs::absolute(beside).lexically_normal());
-  return relative.empty() ? fs::absolute(folder) : relative;
-}
-
-RunResult run_on_folder(const Graph& graph, const RunRequest& request, const std::string& folder) {
-  try {
-    return Session({.use_cache = false}).run(graph, request);
-  } catch (const GraphError& e) {
-    std::vector<Problem> problems;
-    for (const Problem& p : e.problems()) problems.push_back({{}, "FOLDER", for_command_line(p.message, folder)});
-    throw GraphError("", std::move(problems));
-  }
-}
-
 void require_stock_graph(const NewFlags& flags) {
   std::vector<std::string> names;
   for (const StockGraph& g : stock_graphs())
@@ -66,25 +45,11 @@ int make_new(const NewFlags& flags) {
                   files_at(flags.exemplar.folder, "it belongs to the exemplar"));
   check_writable("-o", flags.out);
   const CancelOnSignal signals;
-  const Graph graph = inspection_graph(flags.exemplar);
-  const RunResult result =
-      run_on_folder(graph, {.keep = {"exemplar", "elements"}, .cancelled = &signals.flag()}, flags.exemplar.folder);
-  for (const Failure& f : result.failures) print_message("error: {}\n", f.message);
-  print_warnings(result);
-  if (!result.ok()) return result.cancelled ? exit_cancelled : exit_failed;
-  const auto features = std::get<FeaturesPtr>(result.kept.at("elements").at("features"));
-  ExemplarFindings look{.exemplar = std::get<MaterialPtr>(result.kept.at("exemplar").at("material")),
-                        .folder = seen_from(fs::absolute(flags.out).parent_path(), flags.exemplar.folder),
-                        .name = flags.exemplar.name,
-                        .interpret = flags.exemplar.interpretations(),
-                        .notes = result.stages[0].notes,
-                        .lattice_notes = result.stages[2].notes,
-                        .repeats = features->repeats().lattice.rank > 0,
-                        .streaks = features->repeats().streaks.any(),
-                        .tiles = features->wraps(),
-                        .method = suitable_method(*features, Task())};
-  write_whole_file(flags.out, starting_graph(look, stock_graph(flags.like)));
-  print_message("found {}\n{}\n{}\nwrote {}\n", look.exemplar->map_names(), look.nature(), look.advice(), flags.out);
+  const NewGraph graph = new_graph(flags.exemplar, flags.out, flags.like, signals.flag());
+  if (graph.exit_code != exit_done) return graph.exit_code;
+  write_whole_file(flags.out, graph.text);
+  for (const std::string& line : graph.findings) print_message("{}\n", line);
+  print_message("wrote {}\n", flags.out);
   return exit_done;
 }
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Makes viewer.min.js from viewer.js and three, with three's licence at its head. Needs npm and the network; building
-# terrazzo needs neither. Run it after a change of viewer.js or of the versions in package.json.
+# Makes viewer.min.js from viewer.js, lit_material.ts and three, with three's licence at its head. Needs npm and the network; building
+# terrazzo needs neither. Run it after a change of these or of the versions in package.json.
 set -euo pipefail
 cd "$(dirname "$0")"
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/terrazzo-bundle.XXXXXX")
 trap 'rm -rf "$scratch"' EXIT
-cp package.json package-lock.json viewer.js "$scratch"
+cp package.json package-lock.json viewer.js lit_material.ts "$scratch"
 cd "$scratch"
 npm ci --no-audit --no-fund --loglevel=error
 {

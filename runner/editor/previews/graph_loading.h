@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "graphs/document/load.h"
+#include "runner/editor/previews/wishes.h"
+#include "runner/engine/sandbox.h"
+
+namespace terrazzo {
+
+/// A document that may have mistakes, loaded as far as it can run.
+struct EditedGraph {
+  std::shared_ptr<const LoadedGraph> loaded;  ///< null if nothing can be loaded
+  bool is_part = false;  ///< only nodes without mistakes were loaded: places in messages are not those of the document
+  std::vector<Problem> problems;
+  /// Parameters that have no value yet, as warnings: nodes that need them are left out of the graph.
+  std::vector<Problem> unset{};
+};
+
+/// Loads a document. If it has problems, loads what these nodes need of it. Reads only what the sandbox allows. Never
+/// throws because of the document.
+EditedGraph load_for_editing(const std::string& text, const std::filesystem::path& file,
+                             const std::vector<NodeOfDocument>& wanted, const Sandbox& sandbox);
+
+/// Runs `act`, which reads files that a graph names, with the sandbox's ReadGuard.
+void within(const Sandbox& sandbox, const std::function<void()>& act);
+
+}  // namespace terrazzo

@@ -1,0 +1,386 @@
+#include "runner/editor/previews/runs.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "runner/editor/previews/run_events.h"
+#include "runner/plan/preflight.h"
+#include "runner/plan/source_findings.h"
+#include "runner/report/pictures.h"
+
+namespace terrazzo {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::vector<NodeOfDocument> nodes_of(const std::vector<Wish>& wishes) {
+  std::vector<NodeOfDocument> out;
+  for (const Wish& w : wishes) out.push_back(w.at);
+  return out;
+}
+
+bool are_same(const std::vector<Problem>& a, const std::vector<Problem>& b) {
+  return std::ranges::equal(a, b, [](const Problem& x, const Problem& y) {
+    return x.message == y.message && x.node == y.node && x.where == y.where && x.place.line == y.place.line &&
+           x.place.column == y.place.column;
+  });
+}
+
+/// The nodes to run instead of sinks: what those read, and what nobody reads.
+std::vector<std::string> without_sinks(const Graph& graph, const std::vector<std::string>& names) {
+  std::set<std::string> out;
+  const auto add_sources = [&](const GraphNode& sink) {
+    for (const auto& [port, wires] : sink.inputs)
+      for (const Wire& w : wires) out.insert(w.node);
+  };
+  for (const GraphNode& n : graph.nodes) {
+    const bool is_meant =
+        names.empty() || std::ranges::any_of(names, [&](const std::string& name) { return stands_for(name, n.name); });
+    if (!is_meant) continue;
+    if (n.type->is_sink())
+      add_sources(n);
+    else if (!names.empty())
+      out.insert(n.name);
+  }
+  if (out.empty())  // a graph without sinks
+    for (const GraphNode& n : graph.nodes)
+      if (names.empty() && !n.type->is_sink()) out.insert(n.name);
+  return {out.begin(), out.end()};
+}
+
+/// Loading it takes a while, which the first picture need not wait for.
+void load_picture_module() {
+  constexpr Size size{64, 64};
+  const ImagePtr grey = Image::from_floats({.size = size, .channels = 3, .color_space = "srgb_texture"},
+                                           std::vector<float>(size_t(size.area()) * 3, 0.5f));
+  try {
+    picture_file(*grey);
+  } catch (const Error&) {
+    // The first picture says why.
+  }
+}
+
+}  // namespace
+
+Runs::Runs(Session& session, const Sandbox& sandbox, PictureStore& store, PublishEvent publish,
+           std::function<void()> found)
+    : session_(session),
+      sandbox_(sandbox),
+      publish_(std::move(publish)),
+      found_(std::move(found)),
+      board_(store, publish_),
+      previews_(session, sandbox, board_, publish_) {
+  look_thread_ = std::thread([this] { look_loop(); });
+  make_thread_ = std::thread([this] { make_loop(); });
+  full_thread_ = std::thread([this] { full_loop(); });
+}
+
+Runs::~Runs() {
+  {
+    const std::lock_guard lock(mutex_);
+    stops_ = look_cancelled_ = make_cancelled_ = run_cancelled_ = true;
+    to_make_.clear();
+  }
+  changed_.notify_all();
+  look_thread_.join();
+  make_thread_.join();
+  full_thread_.join();
+}
+
+void Runs::changed(std::string text, std::filesystem::path file) {
+  {
+    const std::lock_guard lock(mutex_);
+    text_ = std::move(text);
+    file_ = std::move(file);
+    is_dirty_ = look_cancelled_ = true;
+  }
+  changed_.notify_all();
+}
+
+void Runs::show(const Json& request) {
+  {
+    const std::lock_guard lock(mutex_);
+    wishes_.set(request);
+    is_dirty_ = look_cancelled_ = true;
+  }
+  changed_.notify_all();
+}
+
+void Runs::forget(const std::string& tab) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!wishes_.forget(tab)) return;
+    is_dirty_ = look_cancelled_ = true;
+  }
+  changed_.notify_all();
+}
+
+void Runs::cancel() {
+  {
+    const std::lock_guard lock(mutex_);
+    to_make_.clear();
+    asked_.reset();
+    make_cancelled_ = run_cancelled_ = true;
+  }
+  changed_.notify_all();
+}
+
+RunFindings Runs::findings() const {
+  const std::lock_guard lock(mutex_);
+  return findings_;
+}
+
+std::vector<std::string> Runs::current_pictures() const {
+  return board_.current();
+}
+
+bool Runs::wait_until_idle(std::chrono::milliseconds most) const {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, most, [&] {
+    return !is_dirty_ && !is_plan_old_ && !looks_ && to_make_.empty() && !makes_ && !asked_ && !runs_;
+  });
+}
+
+void Runs::look_loop() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [&] { return stops_ || is_dirty_ || is_plan_old_; });
+    if (stops_) return;
+    const bool is_dirty = std::exchange(is_dirty_, false);
+    is_plan_old_ = false;
+    looks_ = true;
+    look_cancelled_ = false;
+    const std::string text = text_;
+    const std::filesystem::path file = file_;
+    const std::vector<Wish> wishes = wishes_.all();
+    const std::shared_ptr<const EditedGraph> graph = graph_;
+    lock.unlock();
+    try {
+      if (is_dirty)
+        look(text, file, wishes);
+      else if (graph && graph->loaded)
+        tell_plan(*graph, false);
+    } catch (const Cancelled&) {
+      // A newer change is waiting.
+    } catch (const std::exception& e) {
+      publish_("ran", {{"ok", false}, {"seconds", 0}, {"cancelled", false}, {"message", e.what()}}, false);
+    }
+    lock.lock();
+    looks_ = false;
+    changed_.notify_all();
+  }
+}
+
+void Runs::look(const std::string& text, const std::filesystem::path& file, const std::vector<Wish>& wishes) {
+  const auto start = Clock::now();
+  const auto graph = std::make_shared<const EditedGraph>(load_for_editing(text, file, nodes_of(wishes), sandbox_));
+  {
+    const std::lock_guard lock(mutex_);
+    graph_ = graph;
+  }
+  board_.retain(wishes);
+  if (!graph->loaded) {
+    hand_over(graph, {});
+    set_findings({.errors = graph->problems});
+    publish_("plan", {{"stages", Json::array()}, {"summary", ""}}, true);
+    return;
+  }
+  PreviewTargets targets;
+  try {
+    targets = previews_.targets_of(*graph, text, wishes);
+  } catch (const Error&) {
+    // It comes again, with its place, in tell_plan.
+  }
+  const bool is_all = targets.slow.empty();
+  hand_over(graph, std::move(targets.slow));
+  previews_.show_ready(*graph, targets.ready, look_cancelled_);
+  if (look_cancelled_) throw Cancelled();
+  if (is_all)
+    publish_("ran", {{"ok", true}, {"seconds", seconds_since(start)}, {"cancelled", false}, {"preview", true}}, false);
+  tell_plan(*graph, true);
+}
+
+void Runs::tell_plan(const EditedGraph& edited, bool look_deeper) {
+  const Graph& graph = edited.loaded->graph;
+  RunFindings findings{.errors = edited.problems, .warnings = edited.unset};
+  bool is_sound = findings.errors.empty();
+  std::optional<Plan> plan;
+  try {
+    try {
+      plan = session_.plan(graph, {.sandbox = &sandbox_});
+    } catch (const GraphError& e) {
+      is_sound = false;
+      if (!edited.is_part)
+        for (const Problem& p : e.problems()) findings.errors.push_back(p);
+      plan = session_.plan(graph, {.keep_going = true, .sandbox = &sandbox_});
+    }
+  } catch (const Error& e) {
+    if (findings.errors.empty()) findings.errors.push_back({{}, "", e.what(), "", "", "input"});
+  }
+  if (look_cancelled_) throw Cancelled();
+  publish_("plan", plan ? plan_json(*plan) : Json{{"stages", Json::array()}, {"summary", ""}}, true);
+  if (!look_deeper) return;
+  if (is_sound) {
+    const Task task(&look_cancelled_, {});
+    const CurrentTask scope(task);
+    for (Problem& p : look_at_sources(graph, task).warnings) findings.warnings.push_back(std::move(p));
+    for (Problem& p : lint_of(graph, task)) findings.warnings.push_back(std::move(p));
+  }
+  set_findings(std::move(findings));
+}
+
+void Runs::set_findings(RunFindings findings) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (are_same(findings.errors, findings_.errors) && are_same(findings.warnings, findings_.warnings)) return;
+    findings_ = std::move(findings);
+  }
+  if (found_) found_();
+}
+
+void Runs::hand_over(std::shared_ptr<const EditedGraph> graph, std::vector<PreviewTarget> targets) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (look_cancelled_) throw Cancelled();
+    if (being_made_) {
+      const auto same = std::ranges::find_if(targets, [&](const PreviewTarget& t) {
+        return t.recipe == being_made_->recipe && t.wish == being_made_->wish;
+      });
+      if (same != targets.end() && !make_cancelled_)
+        targets.erase(same);
+      else
+        make_cancelled_ = true;
+    }
+    to_make_ = {std::move_iterator(targets.begin()), std::move_iterator(targets.end())};
+    graph_to_make_ = std::move(graph);
+  }
+  changed_.notify_all();
+}
+
+void Runs::make_loop() {
+  auto start = Clock::now();
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [&] { return stops_ || !to_make_.empty(); });
+    if (stops_) return;
+    if (!std::exchange(makes_, true)) start = Clock::now();
+    being_made_ = std::move(to_make_.front());
+    to_make_.pop_front();
+    const PreviewTarget target = *being_made_;
+    const std::vector<PreviewTarget> others(to_make_.begin(), to_make_.end());
+    const std::shared_ptr<const EditedGraph> graph = graph_to_make_;
+    make_cancelled_ = false;
+    lock.unlock();
+    bool ok = false, is_cancelled = false;
+    std::string message;
+    try {
+      ok = previews_.make(*graph, target, others, make_cancelled_);
+    } catch (const Cancelled&) {
+      is_cancelled = true;
+    } catch (const std::exception& e) {
+      message = e.what();
+    }
+    lock.lock();
+    being_made_.reset();
+    if (!to_make_.empty()) continue;
+    makes_ = false;
+    is_plan_old_ = !is_cancelled;
+    lock.unlock();
+    Json data = {{"ok", ok}, {"seconds", seconds_since(start)}, {"cancelled", is_cancelled}, {"preview", true}};
+    if (!message.empty()) data["message"] = message;
+    publish_("ran", data, false);
+    changed_.notify_all();
+    lock.lock();
+  }
+}
+
+void Runs::run(std::vector<NodeOfDocument> nodes, bool sinks) {
+  {
+    const std::lock_guard lock(mutex_);
+    asked_ = Asked{std::move(nodes), sinks};
+    run_cancelled_ = true;
+  }
+  changed_.notify_all();
+}
+
+void Runs::full_loop() {
+  load_picture_module();
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [&] { return stops_ || asked_; });
+    if (stops_) return;
+    const Asked asked = *std::exchange(asked_, std::nullopt);
+    const std::string text = text_;
+    const std::filesystem::path file = file_;
+    run_cancelled_ = false;
+    runs_ = true;
+    lock.unlock();
+    try {
+      run_fully(asked, text, file);
+    } catch (const std::exception& e) {
+      publish_("ran", {{"ok", false}, {"seconds", 0}, {"cancelled", false}, {"message", e.what()}}, false);
+    }
+    lock.lock();
+    runs_ = false;
+    // What it has computed can be shown.
+    is_dirty_ = look_cancelled_ = true;
+    changed_.notify_all();
+  }
+}
+
+void Runs::run_fully(const Asked& asked, const std::string& text, const std::filesystem::path& file) {
+  const EditedGraph edited = load_for_editing(text, file, asked.nodes, sandbox_);
+  // A part of a graph might write other files than the whole.
+  if (!edited.loaded || (asked.sinks && edited.is_part)) throw GraphError(file.string(), edited.problems);
+  if (!edited.unset.empty() && (asked.sinks || asked.nodes.empty()))
+    throw Error(fmt::format("{} {}", edited.unset.front().where, edited.unset.front().message));
+  const Graph& graph = edited.loaded->graph;
+  std::vector<std::string> names;
+  for (const NodeOfDocument& n : asked.nodes) {
+    const std::optional<std::string> inside = n.level.empty() ? n.node : graph_node_of(graph, text, n);
+    if (!inside) throw Error(fmt::format("there is no node \"{}\"", n.node));
+    names.push_back(*inside);
+  }
+  if (!asked.sinks) {
+    names = without_sinks(graph, names);
+    if (names.empty()) throw Error("there is nothing to run but what writes files");
+  }
+  RunEvents events(publish_, edited.is_part);
+  const RunResult result = session_.run(
+      graph,
+      {.only = names, .keep_going = true, .sandbox = &sandbox_, .observer = &events, .cancelled = &run_cancelled_});
+  Json files = Json::array();
+  for (const StageOutcome& s : result.stages)
+    for (const OutputFile& f : s.files) files.push_back(f.path.string());
+  publish_("ran",
+           {{"ok", result.ok()},
+            {"seconds", result.seconds},
+            {"cancelled", result.cancelled},
+            {"summary", result.summary()},
+            {"files", std::move(files)}},
+           false);
+}
+
+Json Runs::plan() {
+  std::string text;
+  std::filesystem::path file;
+  {
+    const std::lock_guard lock(mutex_);
+    text = text_;
+    file = file_;
+  }
+  const EditedGraph edited = load_for_editing(text, file, {}, sandbox_);
+  if (!edited.loaded) return {{"stages", Json::array()}, {"summary", ""}};
+  return plan_json(session_.plan(edited.loaded->graph, {.keep_going = true, .sandbox = &sandbox_}));
+}
+
+}  // namespace terrazzo

@@ -1,0 +1,6 @@
+
+
+declare global {
+  interface WindowEventMap {'go-to-line': CustomEvent<number>}
+}
+export {};

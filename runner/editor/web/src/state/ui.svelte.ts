@@ -1,0 +1,68 @@
+// What is open on the page, and how it looks. Kept for the next visit: the theme and the sizes of panels.
+import type { Port } from './protocol.ts';
+
+export interface Point {x: number; y: number}
+
+export interface PaletteRequest {
+  screen: Point;                                                     // where it opens
+  at?: Point;                                                        // where the node goes, on the canvas
+  wire?: {node: string; port: Port; side: 'source' | 'target'};      // a wire that was dropped: only what fits it
+  behind?: string;                                                   // the node to add behind
+}
+
+export interface MenuItem {label: string; keys?: string; act?: () => void; disabled?: string | boolean; more?: MenuItem[]}
+
+const stored = <T>(key: string, fallback: T): T => {
+  try {
+    const text = localStorage.getItem('terrazzo.' + key);
+    return text === null ? fallback : JSON.parse(text) as T;
+  } catch {
+    return fallback;
+  }
+};
+
+export type Theme = 'system' | 'dark' | 'light';
+export type Dock = 'right' | 'left' | 'large';
+
+class Ui {
+  palette = $state.raw<PaletteRequest | null>(null);
+  menu = $state.raw<{at: Point; items: MenuItem[]; label: string} | null>(null);
+  connecting = $state.raw<{node: string} | null>(null);
+  asking = $state.raw<{title: string; value: string; hint?: string; answer: (text: string) => void} | null>(null);
+  choosingFile = $state.raw<{value: string; choose: (path: string) => void} | null>(null);
+  finding = $state(false);
+  help = $state(false);
+  tab = $state<'parameters' | 'problems' | 'text' | 'changes'>('parameters');
+  theme = $state<Theme>(stored<Theme>('theme', 'system'));
+  panel = $state(stored('panel', 372));
+  viewShare = $state(stored('viewShare', 0.46));
+  viewDock = $state<Dock>(stored<Dock>('viewDock', 'right'));
+  viewOpen = $state(stored('viewOpen', true));
+  minimap = $state(stored('minimap', true));
+  /// Typed into the text of the document and not applied; null: the text is the document's.
+  draft = $state<string | null>(null);
+
+  dark = $derived(this.theme === 'dark' || (this.theme === 'system' && this.#systemDark()));
+  #system = matchMedia('(prefers-color-scheme: dark)');
+  #systemIs = $state(this.#system.matches);
+  #systemDark() { return this.#systemIs; }
+
+  constructor() {
+    this.#system.addEventListener('change', (event) => { this.#systemIs = event.matches; });
+  }
+
+  keep() {
+    const {theme, panel, viewShare, viewDock, viewOpen, minimap} = this;
+    for (const [key, value] of Object.entries({theme, panel, viewShare, viewDock, viewOpen, minimap}))
+      localStorage.setItem('terrazzo.' + key, JSON.stringify(value));
+  }
+
+  ask(title: string, value: string, answer: (text: string) => void, hint?: string) {
+    this.asking = {title, value, answer, hint};
+  }
+  anyOpen() {
+    return !!(this.palette || this.menu || this.connecting || this.asking || this.choosingFile || this.finding || this.help);
+  }
+}
+
+export const ui = new Ui();

@@ -1,0 +1,168 @@
+// One Chromium for all scenarios, and a running `terrazzo edit` for each.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import path from 'node:path';
+import { spawn } from 'node:child_process';
+import { createRequire } from 'node:module';
+
+// The packages lie in the working folder, where editor_test.sh has put them.
+const require = createRequire(path.join(process.cwd(), 'package.json'));
+const { chromium } = require('playwright-core');
+const axe = fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+
+const [program, source, executablePath] = process.argv.slice(2);
+export const stock = (name) => fs.readFileSync(path.join(source, 'graphs', name + '.json'), 'utf8');
+export { assert };
+
+// Without a graphics card, drawing through an emulated one takes most of the time; no scenario needs WebGL.
+const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--disable-gpu']});
+// One page for all: a new one costs more than most scenarios.
+const context = await browser.newContext(), page = await context.newPage(), errors = [];
+await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+page.on('pageerror', (error) => errors.push(error.stack ?? error.message));
+page.on('console', (message) => {
+  // Refused edits and a server that is away are answered by the page itself.
+  if (message.type() === 'error' && !/Failed to load resource/.test(message.text())) errors.push(message.text());
+});
+page.setDefaultTimeout(8000);
+
+const servers = new Set();
+process.on('exit', () => { for (const server of servers) server.kill('SIGKILL'); });
+
+let folders = 0;
+export class Editor {
+  /// A page that shows a graph of that text, in a folder of its own, which first holds what `prepare` writes into it.
+  static async open(text, {args = [], prepare, size = [1280, 800], dark = true} = {}) {
+    const editor = new Editor();
+    editor.folder = path.resolve(`graph-${++folders}`);
+    fs.mkdirSync(editor.folder, {recursive: true});
+    prepare?.(editor.folder);
+    editor.file = path.join(editor.folder, 'graph.json');
+    fs.writeFileSync(editor.file, text);
+    editor.args = args;
+    await editor.start();
+    editor.page = page;
+    editor.context = context;
+    errors.length = 0;
+    await page.setViewportSize({width: size[0], height: size[1]});
+    await page.emulateMedia({colorScheme: dark ? 'dark' : 'light'});
+    await page.goto(editor.address);
+    await page.evaluate(() => localStorage.clear());
+    await editor.page.waitForFunction(() => document.querySelector('.saved')?.textContent || document.querySelector('.tag'));
+    await editor.page.waitForTimeout(300);
+    return editor;
+  }
+
+  async start(port) {
+    this.server = spawn(program, ['edit', this.file, '--no-open', ...(port ? ['--port', String(port)] : []), ...this.args],
+                        {cwd: this.folder, stdio: ['ignore', 'pipe', 'inherit'], env: {...process.env, TERRAZZO_CACHE: path.resolve('cache')}});
+    servers.add(this.server);
+    this.address = await new Promise((done, failed) => {
+      let printed = '';
+      this.server.stdout.on('data', (bytes) => {
+        printed += bytes;
+        const found = /http:\/\/\S+/.exec(printed);
+        if (found && printed.includes('\n', found.index)) done(found[0]);
+      });
+      this.server.on('exit', (code) => failed(new Error(`the editor ended with ${code}: ${printed}`)));
+    });
+    this.portNumber = new URL(this.address).port;
+  }
+  async kill() {
+    const gone = new Promise((done) => this.server.on('exit', done));
+    this.server.kill('SIGKILL');
+    servers.delete(this.server);
+    await gone;
+  }
+
+  get text() { return fs.readFileSync(this.file, 'utf8'); }
+  /// The document without comments, as far as the scenarios write such.
+  get json() { return JSON.parse(this.text); }
+  /// Waits until what is on the disk is so.
+  async saved(holds, what) {
+    for (const end = Date.now() + 6000; ;) {
+      try {
+        if (holds(this.json)) return;
+      } catch { /* a half-written file, or a node that is not there yet */ }
+      if (Date.now() > end) assert.fail(`${what}, but the file says ${this.text}`);
+      await new Promise((done) => setTimeout(done, 40));
+    }
+  }
+
+  card(name) { return this.page.locator(`.svelte-flow__node[data-id="${name}"]`); }
+  port(node, port, side) { return this.card(node).locator(`.svelte-flow__handle.${side}[data-handleid="${port}"]`); }
+  wire(id) { return this.page.locator(`.svelte-flow__edge[data-id="${id}"]`); }
+  toast(text) { return this.page.locator('.toast', {hasText: text}).first().waitFor(); }
+  async press(...keys) { for (const key of keys) await this.page.keyboard.press(key); }
+  async type(text) { await this.page.keyboard.type(text); }
+  /// Until the canvas stands still: nothing moves, comes, goes or is selected any more.
+  async settle() {
+    const look = () => this.page.evaluate(() => document.querySelector('.svelte-flow__viewport')?.style.transform +
+      [...document.querySelectorAll('.svelte-flow__node')].map((n) => n.dataset.id + n.style.transform + n.className).join());
+    for (let before = '', now = await look(), same = 0; same < 2; before = now, now = await look()) {
+      same = before === now ? same + 1 : 0;
+      await this.page.waitForTimeout(110);
+    }
+  }
+
+  async drag(from, to) {
+    const at = async (place) => {
+      if (!place.boundingBox) return place;
+      const box = await place.boundingBox();
+      return {x: box.x + box.width / 2, y: box.y + box.height / 2};
+    };
+    const [a, b] = [await at(from), await at(to)], {mouse} = this.page;
+    await mouse.move(a.x, a.y);
+    await mouse.down();
+    await mouse.move((a.x + b.x) / 2, (a.y + b.y) / 2, {steps: 4});
+    await mouse.move(b.x, b.y, {steps: 4});
+    await mouse.up();
+  }
+
+  /// By axe-core's rules: all of them, or these.
+  async accessible(where, rules) {
+    await this.page.evaluate(axe + ';0');
+    const found = await this.page.evaluate((only) => axe.run(document, {resultTypes: ['violations'], ...(only ? {runOnly: only} : {})}), rules);
+    const told = found.violations.map((v) => `${v.id}: ${v.help}\n` + v.nodes.slice(0, 4).map((n) => '  ' + n.html.slice(0, 200) + '\n  ' + n.failureSummary.replace(/\n/g, ' ').slice(0, 300)).join('\n'));
+    assert.equal(told.join('\n'), '', `accessibility of ${where}`);
+  }
+
+  async close() {
+    const found = [...errors];
+    await page.goto('about:blank');
+    if (servers.has(this.server)) await this.kill();
+    assert.deepEqual(found, [], 'errors in the page');
+  }
+}
+
+const scenarios = [];
+export const scenario = (name, run) => scenarios.push({name, run});
+
+/// Runs all, and ends the process: with 1 if one failed.
+export async function runAll(filter) {
+  let failed = 0;
+  for (const {name, run} of scenarios) {
+    if (filter && !name.includes(filter)) continue;
+    const start = Date.now(), open = [];
+    const plain = Editor.open;
+    Editor.open = async (...given) => { const editor = await plain.apply(Editor, given); open.push(editor); return editor; };
+    try {
+      await run();
+      for (const editor of open) await editor.close();
+      console.log(`${name}: ${((Date.now() - start) / 1000).toFixed(1)} s`);
+    } catch (error) {
+      ++failed;
+      console.log(`FAILED: ${name}: ${error.stack}`);
+      for (const [index, editor] of open.entries()) {
+        if (process.env.EDITOR_TEST_PICTURES)
+          await editor.page.screenshot({path: path.join(process.env.EDITOR_TEST_PICTURES, `${name.replaceAll(' ', '-')}-${index}.png`)}).catch(() => {});
+        console.log(errors.join('\n'));
+        await editor.close().catch(() => {});
+      }
+    } finally {
+      Editor.open = plain;
+    }
+  }
+  await browser.close();
+  process.exit(failed ? 1 : 0);
+}

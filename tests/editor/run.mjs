@@ -1,0 +1,6 @@
+// node run.mjs PROGRAM SOURCE_FOLDER CHROMIUM [PART_OF_A_NAME]
+import { runAll } from './harness.mjs';
+import './building.mjs';
+import './living.mjs';
+
+await runAll(process.argv[5]);
