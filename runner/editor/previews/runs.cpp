@@ -172,7 +172,8 @@ void Runs::look_loop() {
     } catch (const Cancelled&) {
       // A newer change is waiting.
     } catch (const std::exception& e) {
-      publish_("ran", {{"ok", false}, {"seconds", 0}, {"cancelled", false}, {"message", e.what()}}, false);
+      publish_("ran", {{"ok", false}, {"seconds", 0}, {"cancelled", false}, {"preview", true}, {"message", e.what()}},
+               false);
     }
     lock.lock();
     looks_ = false;

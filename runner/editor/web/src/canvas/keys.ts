@@ -89,6 +89,10 @@ const plain: Record<string, (event: KeyboardEvent) => void> = {
   Escape: () => { canvas.select([]); focusCanvas(); },
 };
 
+// What changes the graph, or writes files: nothing happens where it is only shown.
+const changing = new Set(['Delete', 'Backspace', 'F2', 'Tab', ' ', 'm', 'p', 'c']);
+const changingWithControl = new Set(['z', 'y', 'x', 'd', 'g', 'Enter']);
+
 const writes = 'input, textarea, select, [contenteditable]';
 const regions = ['#canvas', '#panel', '#view', '#bar'];
 
@@ -111,7 +115,8 @@ export function onkeydown(event: KeyboardEvent) {
   if (isWriting) return;
   if (event.key === '?') { take(); ui.help = true; return; }
   if (event.ctrlKey || event.metaKey) {
-    const known = withControl[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key, known = withControl[key];
+    if (session.readOnly && changingWithControl.has(key)) return;
     const copies = ['c', 'x'].includes(event.key.toLowerCase()) && !!getSelection()?.toString();
     if (known && !copies && (onCanvas || ['z', 'y', 'f', 's', 'Enter'].includes(event.key.toLowerCase()) || event.key === 'Enter')) { take(); known(event); }
     return;
@@ -122,17 +127,19 @@ export function onkeydown(event: KeyboardEvent) {
     take();
     const [x, y] = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key]!;
     const step = event.shiftKey ? 64 : 16;
+    if (event.altKey && session.readOnly) return;
     return event.altKey ? act.nudge(x! * step, y! * step) : walk(event.key);
   }
   if (event.altKey || (event.key === 'Tab' && event.shiftKey)) return;
-  const known = plain[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key, known = plain[key];
+  if (session.readOnly && (changing.has(key) || key === 'f' && event.shiftKey)) return;
   if (known) { take(); known(event); }
 }
 
 // The event of pasting carries the text without asking for a permission.
 export function onpaste(event: ClipboardEvent) {
   const target = event.target as HTMLElement;
-  if (target.matches?.(writes) || ui.anyOpen() || !(target === document.body || target.closest?.('#canvas'))) return;
+  if (session.readOnly || target.matches?.(writes) || ui.anyOpen() || !(target === document.body || target.closest?.('#canvas'))) return;
   event.preventDefault();
   void act.paste(event.clipboardData?.getData('text/plain') ?? '');
 }

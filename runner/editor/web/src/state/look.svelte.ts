@@ -48,12 +48,14 @@ class Look {
   exemplarPicture = $derived(this.exemplar ? best(runs.picturesOf(runs.looked?.level ?? '', this.exemplar), this.picture?.map) : undefined);
   isUv = $derived(/uv/.test(this.picture?.semantic ?? ''));
 
-  /// What one sees first: the node that the first file comes from, or else the last node.
+  /// What one sees first, or after the node that was looked at has gone: the node that the first file comes from, or else
+  /// the last node.
   begin(level: Level) {
-    if (runs.looked) return;
+    const {looked} = runs;
+    if (looked && session.document?.levels[looked.level]?.nodes.some((n) => n.name === looked.node)) return;
     const sink = level.nodes.find((n) => n.category === 'sink' && n.wires.length);
-    const node = sink?.wires[0]?.node ?? level.nodes.at(-1)?.name;
-    if (node && level.nodes.some((n) => n.name === node)) runs.looked = {level: session.levelName, node};
+    const node = level.nodes.find((n) => n.name === sink?.wires[0]?.node) ?? level.nodes.at(-1);
+    runs.looked = node ? {level: session.levelName, node: node.name} : null;
   }
 
   /// The view shows what is selected, unless it is locked.
