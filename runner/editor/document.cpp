@@ -76,7 +76,7 @@ class EditedDocument::Data {
   OnDisk on_disk = OnDisk::same;
   std::string save_error, conflict, theirs;
 
-  void open(const fs::path& path, std::optional<std::string> begin) {
+  void open(const fs::path& path, const std::optional<std::string>& begin) {
     file = fs::absolute(path).lexically_normal();
     layout_file = layout_path(file);
     const bool is_there = fs::exists(file);

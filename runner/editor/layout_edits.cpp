@@ -75,7 +75,7 @@ class Arrangement {
   Positions completed(Positions known) const {
     const bool is_complete = std::ranges::all_of(names_, [&](const std::string& n) { return known.contains(n); });
     if (is_complete) return known;
-    const Positions automatic_ = automatic();
+    Positions automatic_ = automatic();
     if (known.empty()) return automatic_;
     for (const size_t i : order_) {
       if (known.contains(names_[i])) continue;
@@ -204,9 +204,10 @@ void LayoutEdits::follow(const EditedText& changed, const nlohmann::ordered_json
       levels_[r.level].nodes.insert(std::move(node));
     }
   std::map<std::string, Positions> gone;  // by level
-  for (auto& [level, layout] : levels_) {
+  for (auto& entry : levels_) {
+    const std::string& level = entry.first;
     const JsonValue *old = nodes_of(*before, level), *now = nodes_of(*after, level);
-    std::erase_if(layout.nodes, [&](const auto& node) {
+    std::erase_if(entry.second.nodes, [&](const auto& node) {
       const bool goes = (old && old->find(node.first)) && (!now || !now->find(node.first));
       if (goes) gone[level].insert(node);
       return goes;

@@ -136,7 +136,7 @@ HttpAnswer EditorServer::post(const HttpRequest& request) {
 EditorServer::Call EditorServer::editing(Call call) {
   return [this, call = std::move(call)](const Json& request) {
     if (document_.is_read_only()) throw Error("the graph is shown read-only");
-    const Json out = call(request);
+    Json out = call(request);
     tell_state();
     return out;
   };

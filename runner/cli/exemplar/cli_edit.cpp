@@ -19,8 +19,6 @@
 #include "runner/terminal/limit_flags.h"
 #include "runner/terminal/signals.h"
 
-extern char** environ;
-
 namespace terrazzo {
 
 namespace {

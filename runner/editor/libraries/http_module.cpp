@@ -109,7 +109,7 @@ void fill(httplib::Response& out, HttpAnswer answer) {
     out.set_header("Connection", "close");
   }
   for (const auto& [name, value] : answer.headers) out.set_header(name, value);
-  if (!answer.stream) return out.set_content(std::move(answer.body), answer.type);
+  if (!answer.stream) return out.set_content(answer.body, answer.type);
   HttpConnection* const connection = served;
   connection->close_after_answer();
   out.set_header("Connection", "close");

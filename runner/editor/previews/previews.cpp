@@ -91,8 +91,9 @@ PreviewTargets Previews::targets_of(const EditedGraph& edited, const std::string
   const auto looked = std::ranges::find_if(slow, [](const auto& s) { return s.second.wish.is_looked_at; });
   const size_t looked_at = looked == slow.end() ? graph.nodes.size() : looked->first;
   std::ranges::sort(slow, {}, &std::pair<size_t, PreviewTarget>::first);
-  std::ranges::stable_partition(
-      slow, [&](const auto& s) { return looked_at < graph.nodes.size() && depends_on(plan, looked_at, s.first); });
+  std::stable_partition(slow.begin(), slow.end(), [&](const auto& s) {
+    return looked_at < graph.nodes.size() && depends_on(plan, looked_at, s.first);
+  });
   for (auto& [at, target] : slow) out.slow.push_back(std::move(target));
   return out;
 }

@@ -21,7 +21,7 @@ std::string without_place(const std::string& message) {
 RunEvents::RunEvents(PublishEvent publish, bool is_part, Coarse coarse)
     : publish_(std::move(publish)), is_part_(is_part), coarse_(std::move(coarse)) {}
 
-void RunEvents::tell(const char* event, const Stage& s, Json more) {
+void RunEvents::tell(const char* event, const Stage& s, const Json& more) {
   Json data = {{"node", s.node->name}};
   data.update(more);
   publish_(event, data, false);

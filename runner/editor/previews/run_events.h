@@ -33,7 +33,7 @@ class RunEvents : public RunObserver {
   void skipped(const Stage& s, const std::string& because) override;
 
  private:
-  void tell(const char* event, const Stage& s, nlohmann::ordered_json more = nlohmann::ordered_json::object());
+  void tell(const char* event, const Stage& s, const nlohmann::ordered_json& more = nlohmann::ordered_json::object());
 
   PublishEvent publish_;
   bool is_part_;

@@ -109,7 +109,7 @@ std::vector<Wish> Wishes::all() const {
     }
   std::vector<Wish> out;
   for (auto& [at, wish] : merged) out.push_back(std::move(wish));
-  std::ranges::stable_partition(out, [](const Wish& w) { return w.is_looked_at; });
+  std::stable_partition(out.begin(), out.end(), [](const Wish& w) { return w.is_looked_at; });
   return out;
 }
 
