@@ -1,0 +1,71 @@
+#include "core/analysis/repeats/bands.h"
+
+#include <utility>
+
+#include <doctest/doctest.h>
+
+#include "core/analysis/repeats/regularity.h"
+#include "core/base/geometry.h"
+#include "core/base/hash.h"
+#include "tests/exemplars.h"
+
+using namespace terrazzo;
+using namespace terrazzo::test;
+
+namespace {
+
+/// As the search for lattices has it, in which bands that repeat, and those that come once, compete with cells.
+Lattice bands_found(const FeaturesPtr& features) {
+  return find_lattice(*features, 0.08, Task()).lattice;
+}
+
+}  // namespace
+
+TEST_CASE("boards with thin joints are courses, few of them too") {
+  for (const int height : {23, 74, 105}) {
+    CAPTURE(height);
+    const Lattice l = bands_found(plain_features(make_image({192, 192}, 1, [&](int x, int y, int) {
+      const int row = (y + 31) / height, end = int(below(uint32_t(random_bits(8, row)), 300));
+      const bool joint = (y + 31) % height < 2 || wrap(x - end, 300) < 2;
+      return float(joint ? 0 : 0.6 + 0.3 * unit_double(random_bits(7, y / 2, (x + 17 * y) / 30)));
+    })));
+    REQUIRE(l.rank == 1);
+    CHECK(l.first.y() == doctest::Approx(height).epsilon(0.02));
+  }
+}
+
+TEST_CASE("a stripe painted on a wall makes courses as high as the exemplar") {
+  const auto wall = [](double grain, bool across) {
+    return make_image({192, 192}, 1, [=](int x, int y, int) {
+      const int at = across ? x : y;
+      return float((at >= 120 && at < 165 ? 0.2 : 0.7) + grain * unit_double(random_bits(7, x / 3, y / 3)));
+    });
+  };
+  for (const bool wraps : {false, true})
+    for (const bool across : {false, true}) {
+      CAPTURE(wraps);
+      CAPTURE(across);
+      const Lattice l = bands_found(plain_features(wall(0.2, across), wraps));
+      REQUIRE(l.rank == 1);
+      CHECK(l.first.x() == (across ? 192 : 0));
+      CHECK(l.first.y() == (across ? 0 : 192));
+      CHECK(l.certainty > 0.6);
+    }
+  // A shade of it that is lost in the grain does not.
+  CHECK(bands_found(plain_features(wall(4, false))).rank == 0);
+}
+
+TEST_CASE("many courses say more than a few whose shades happen to agree") {
+  for (const auto& [height, joint] : {std::pair{8, 0.0}, std::pair{16, 0.2}})
+    for (int seed = 0; seed < 40; seed++) {
+      CAPTURE(height);
+      CAPTURE(seed);
+      const Lattice l = bands_found(plain_features(make_image({160, 160}, 1, [&](int x, int y, int) {
+        const double shade = 0.3 + 0.5 * unit_double(random_bits(5, (y + 5) / height, seed));
+        const double grain = 0.15 * unit_double(random_bits(6, x, y, seed));
+        return float((y + 5) % height < 2 ? joint : shade + grain);
+      })));
+      REQUIRE(l.rank == 1);
+      CHECK(l.first.y() == doctest::Approx(height).epsilon(0.02));
+    }
+}
