@@ -132,13 +132,8 @@ std::string renamed_text(const JsonValue& text, const std::map<std::string, std:
     const auto at = names.find(node);
     return at == names.end() ? node : at->second;
   };
-  const TextChange change{
-      .wire = [&](const std::string& node, const std::string& port,
-                  const JsonValue&) { return JsonValue::of("@" + now(node) + (port.empty() ? "" : "." + port)); },
-      .fact = now,
-      .parameter = [](const std::string& name) { return JsonValue::of("$" + name); }};
   try {
-    return rewritten(text, change).text;
+    return rewritten(text, renaming(now)).text;
   } catch (const Error&) {
     return text.text;  // a faulty expression
   }

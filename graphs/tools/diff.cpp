@@ -140,11 +140,7 @@ class Comparison {
       const auto at = names.find(node);
       return at == names.end() ? node : at->second;
     };
-    const TextChange change{
-        .wire = [&](const std::string& node, const std::string& port,
-                    const JsonValue&) { return JsonValue::of("@" + now(node) + (port.empty() ? "" : "." + port)); },
-        .fact = now,
-        .parameter = [](const std::string& name) { return JsonValue::of("$" + name); }};
+    const TextChange change = renaming(now);
     JsonValue out = graph;
     for (const char* section : {"parameters", "nodes", "outputs"}) {
       JsonValue* entries = out.find(section);

@@ -190,6 +190,13 @@ std::string in_expression(const JsonValue& value) {
   return parts.size() > 1 ? "(" + out + ")" : parts.empty() ? "''" : out;
 }
 
+TextChange renaming(std::function<std::string(const std::string& node)> now) {
+  return {.wire = [now](const std::string& node, const std::string& port,
+                        const JsonValue&) { return JsonValue::of("@" + now(node) + (port.empty() ? "" : "." + port)); },
+          .fact = now,
+          .parameter = [](const std::string& name) { return JsonValue::of("$" + name); }};
+}
+
 JsonValue rewritten(const JsonValue& value, const TextChange& change) {
   return Rewriter(change).value(value);
 }

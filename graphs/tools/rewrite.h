@@ -18,6 +18,9 @@ struct TextChange {
   std::function<JsonValue(const std::string& name)> parameter;
 };
 
+/// Nodes get other names: `now` returns them; parameters keep theirs.
+TextChange renaming(std::function<std::string(const std::string& node)> now);
+
 /// Changes all names in the texts of a node's value. Throws Error if an expression cannot contain a parameter's
 /// replacement.
 JsonValue rewritten(const JsonValue& value, const TextChange& change);
