@@ -96,7 +96,7 @@ LatticeSurface SharedWork::surface() const {
 
 const Lattice* SharedWork::element_lattice() const {
   const bool sure = lattice.rank == 1 || (lattice.rank == 2 && lattice.certainty >= shared_work_tuning->surest_lattice);
-  return sure && index.appearance()->repeats().parts.empty() ? &lattice : nullptr;
+  return sure && repeats.parts.empty() ? &lattice : nullptr;
 }
 
 LevelFacts SharedWork::facts(int level) const {
@@ -109,7 +109,7 @@ LevelFacts SharedWork::facts(int level) const {
           .regular = lattice.rank > 0,
           .kept = fixed(level).any(),
           .steered = !controls.empty(),
-          .may_have_bricks = options.whole_bricks && appearance.repeats().parts.empty() &&
+          .may_have_bricks = options.whole_bricks && repeats.parts.empty() &&
                              (lattice.rank == 1 || lattice.longest_step() >= shared_work_tuning->shortest_brick),
           .has_elements = laid,
           .elements_on_lattice = lattice.rank == 2 && element_lattice() != nullptr,

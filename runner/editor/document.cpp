@@ -250,7 +250,7 @@ EditAnswer EditedDocument::edit(const EditRequest& request) {
     if (label.empty()) label = "edit the text";
   } else {
     try {
-      LayoutEdits layout(d.now.graph, d.file, d.layout);
+      LayoutEdits layout(d.now.graph, d.layout);
       EditRequest of_graph = EditRequest::array();
       std::vector<const EditRequest*> of_layout;
       for (const EditRequest& e : edits)

@@ -174,7 +174,7 @@ NodePlace middle_of(const Positions& places) {
 
 }  // namespace
 
-std::map<std::string, LevelLayout> complete_layout(std::string_view text, const std::filesystem::path&,
+std::map<std::string, LevelLayout> complete_layout(std::string_view text,
                                                    const std::map<std::string, LevelLayout>& levels) {
   std::map<std::string, LevelLayout> out = levels;
   if (const ParsedJson parsed = parse_json(text); parsed.value)
@@ -182,8 +182,8 @@ std::map<std::string, LevelLayout> complete_layout(std::string_view text, const 
   return out;
 }
 
-LayoutEdits::LayoutEdits(const std::string& text, const std::filesystem::path& file, const LayoutFile& layout)
-    : text_(text), file_(file), before_(layout), levels_(layout.levels) {}
+LayoutEdits::LayoutEdits(const std::string& text, const LayoutFile& layout)
+    : text_(text), before_(layout), levels_(layout.levels) {}
 
 LevelLayout& LayoutEdits::frozen(const std::string& level) {
   if (const std::optional<JsonValue> document = read_text(text_)) {

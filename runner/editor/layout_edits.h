@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 
@@ -12,14 +11,14 @@
 namespace terrazzo {
 
 /// The positions of all nodes of all levels: those given, the others laid out automatically, from left to right.
-std::map<std::string, LevelLayout> complete_layout(std::string_view text, const std::filesystem::path& file,
+std::map<std::string, LevelLayout> complete_layout(std::string_view text,
                                                    const std::map<std::string, LevelLayout>& levels);
 
 /// Changes the positions of nodes along with a document. The first move in a level writes down all its positions, so
 /// that the others stay where they are seen.
 class LayoutEdits {
  public:
-  LayoutEdits(const std::string& text, const std::filesystem::path& file, const LayoutFile& layout);
+  LayoutEdits(const std::string& text, const LayoutFile& layout);
 
   /// After edits of the graph: nodes that were added, renamed, removed, grouped and ungrouped. `edits` are those that
   /// led to `changed`.
@@ -35,7 +34,6 @@ class LayoutEdits {
   void place_added(const EditedText& changed, const nlohmann::ordered_json& edits);
 
   std::string text_;
-  std::filesystem::path file_;
   const LayoutFile& before_;
   std::map<std::string, LevelLayout> levels_;
   std::string label_;

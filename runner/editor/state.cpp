@@ -77,7 +77,7 @@ class StateWriter {
   StateWriter(const JsonValue& document, const DocumentSnapshot& snapshot, const InspectedGraph& inspected)
       : document_(document),
         inspected_(inspected),
-        layout_(complete_layout(snapshot.text, snapshot.file, snapshot.layout.levels)),
+        layout_(complete_layout(snapshot.text, snapshot.layout.levels)),
         main_(graphs_.read_main(document, snapshot.file)) {
     for (const auto& [node, values] : inspected.values) values_.emplace(without_labels(node), &values);
     std::vector<Problem> ignored;
