@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/base/task.h"
 #include "core/exemplar/elements.h"
 #include "core/exemplar/uv_map.h"
@@ -23,5 +26,10 @@ struct ShownElements {
 /// Looks at a sample of the pixels, about twelve across an element's side. Elements that the result's border cuts are
 /// left out, unless it wraps. `elements`: of the uv map's exemplar, at its size. Throws Cancelled.
 ShownElements shown_elements(const UvMap& uv, const Elements& elements, const Task& task);
+
+/// For each pixel of the result, row by row, 1 if it lies inside an element that is torn or melted together with
+/// others, else 0: joints, too. Elements of one exemplar element that the result's border cuts are not torn. Takes and
+/// throws the same.
+std::vector<uint8_t> torn_elements(const UvMap& uv, const Elements& elements, const Task& task);
 
 }  // namespace terrazzo

@@ -11,6 +11,7 @@
 #include "runner/report/charts.h"
 #include "runner/report/page.h"
 #include "runner/report/stage_table.h"
+#include "runner/report/torn_pictures.h"
 
 namespace terrazzo {
 
@@ -90,10 +91,13 @@ std::string RunPage::head() const {
                                       markup(graph.file.string()), TERRAZZO_VERSION));
 }
 
-std::string RunPage::warnings() const {
+std::string RunPage::warnings() {
   std::string out;
   for (const Failure& f : result_.failures) out += fmt::format("<p class=\"failed\">{}</p>\n", markup(f.message));
   out += list_html(notes_html(result_, true), "warning");
+  for (const TornPicture& torn : torn_pictures(*plan_.graph, result_, materials_.results, CurrentTask::task()))
+    out += pictures_.figure(pictures_.add(torn.picture, std::min(side_, other_side)),
+                            torn.node + ": elements that are torn or melted together are bright");
   if (left_out_ > 0)
     out += fmt::format(
         "<p class=\"quiet\">This page shows the results of the first nodes; those of {} are left out.</p>\n",

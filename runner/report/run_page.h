@@ -19,7 +19,7 @@ class RunPage {
 
  private:
   std::string head() const;
-  std::string warnings() const;
+  std::string warnings();
   std::string lit_view() const;
   std::string comparison();
   std::string graph_drawing() const;

@@ -53,6 +53,16 @@ void add_origins(const Graph& graph, const GraphNode& node, Names& names) {
   });
 }
 
+/// The indexes that the uv maps among these nodes were made from: they know which elements are whole.
+void add_indexes(const Graph& graph, Names& names) {
+  for (size_t i = 0, count = names.size(); i < count; i++) {
+    const GraphNode* node = graph.find(names[i]);
+    if (!node || !gives(*node->type, {ValueType::uv_map})) continue;
+    if (const auto index = node->inputs.find("index"); index != node->inputs.end())
+      add_name(names, index->second.front().node);
+  }
+}
+
 /// Whether the stage's values are cheap to get in a run that does not need them.
 bool is_cheap(const Stage& stage) {
   if (stage.state == StageState::run || stage.state == StageState::depends) return true;
@@ -112,6 +122,7 @@ Names nodes_for_report(const Graph& graph, const Names& only, Session& session) 
     if (!n.type->outputs.empty()) add_name(names, n.name);
     add_origins(graph, n, origins);
   }
+  add_indexes(graph, origins);
   std::optional<Plan> plan;
   if (session.cache()) plan = session.plan(graph, {.only = only, .keep = names, .keep_going = true});
   for (const std::string& name : origins) {

@@ -107,3 +107,30 @@ TEST_CASE("tiny exemplars and results are no trouble") {
   const ShownElements shown = shown_elements(*uv, one, {});
   CHECK(shown.whole <= shown.all);
 }
+
+TEST_CASE("torn elements are marked, whole and cut ones are not") {
+  // Halves of two tiles in one cell; the other cells are whole.
+  const int torn_x = 3, torn_y = 2;
+  std::vector<ExemplarPixel> pixels;
+  const Size size{6 * cell + cell / 2, 5 * cell};
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      const bool other = x / cell == torn_x && y / cell == torn_y && x % cell >= cell / 2;
+      const int column = other ? 4 : 1;
+      pixels.push_back({uint16_t(column * cell + x % cell), uint16_t(3 * cell + y % cell)});
+    }
+  const UvMapPtr uv = UvMap::make(size, exemplar_size, std::move(pixels), {false, false, true});
+  const std::vector<uint8_t> torn = torn_elements(*uv, tiles(), {});
+  REQUIRE(torn.size() == size_t(size.area()));
+  int marked = 0;
+  for (int y = 0; y < size.height; y++)
+    for (int x = 0; x < size.width; x++) {
+      if (!torn[size_t(y * size.width + x)]) continue;
+      marked++;
+      CHECK(x / cell == torn_x);
+      CHECK(y / cell == torn_y);
+    }
+  // All of its inside: joints take the rest.
+  CHECK(marked > cell * cell / 3);
+  CHECK(torn[size_t((torn_y * cell + cell / 2) * size.width + torn_x * cell + cell / 2)] == 1);
+}
