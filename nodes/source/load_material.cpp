@@ -183,7 +183,7 @@ Texts lint_of_load_material(const Params& params, const InputForecasts&) {
 NodeType load_material_node() {
   NodeType t;
   t.name = "load_material";
-  t.version = 8;
+  t.version = 9;
   t.category = "source";
   t.summary = "Reads a folder of maps as one material";
   t.help =
