@@ -17,6 +17,7 @@ std::vector<std::string> words_for(Semantic semantic) {
   std::vector<std::string> words;
   if (semantic == Semantic::normal) words.assign(normal_channels_names.begin(), normal_channels_names.end());
   if (is_one_value(semantic)) words = {"inverted", "not_inverted"};
+  if (semantic == Semantic::height) words.emplace_back("depth");
   words.insert(words.end(), {"as_stored", "as_tagged"});
   return words;
 }
@@ -28,7 +29,7 @@ void add(const std::string& word, Semantic semantic, Interpretation& out) {
                             did_you_mean(word, known)));
   const auto normal = std::ranges::find(normal_channels_names, word);
   if (normal != normal_channels_names.end()) out.normal = NormalChannels(normal - normal_channels_names.begin());
-  if (word.ends_with("inverted")) out.inverted = word == "inverted";
+  if (word.ends_with("inverted") || word == "depth") out.inverted = word != "not_inverted";
   if (word.starts_with("as_")) out.as_stored = word == "as_stored";
 }
 

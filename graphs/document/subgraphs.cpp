@@ -9,15 +9,12 @@
 #include "core/file/path_relation.h"
 #include "core/file/read_guard.h"
 #include "graphs/text/read_document.h"
-#include "graphs/text/stock_graphs.h"
 
 namespace terrazzo {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::string_view stock = "stock:";
 
 /// Asks the ReadGuard about graphs that are outside of the document's folder.
 void check_reading(const fs::path& file, const fs::path& folder) {
@@ -134,16 +131,13 @@ const Subgraph* Subgraphs::find(const JsonValue& type, const Subgraph& from) {
   Subgraph out{.title = name};
   std::string_view text;
   std::string read_text;
-  if (name.starts_with(stock)) {
-    const std::string wanted = name.substr(stock.size());
-    const auto at = std::ranges::find(stock_graphs(), wanted, &StockGraph::name);
-    if (at == stock_graphs().end()) {
-      std::vector<std::string> names;
-      for (const StockGraph& g : stock_graphs()) names.emplace_back(g.name);
-      return refuse("the program has none of that name" + suggestion(wanted, names));
+  if (is_stock(name)) {
+    try {
+      text = named_stock_graph(name);
+    } catch (const Error& e) {
+      return refuse(e.what());
     }
-    text = at->text;
-    out.file = fmt::format("stock graph {}.json", wanted);
+    out.file = fmt::format("stock graph {}.json", name.substr(stock_prefix.size()));
     out.folder = graphs_.front().folder;
   } else {
     const fs::path path = (from.folder / name).lexically_normal();

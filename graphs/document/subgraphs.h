@@ -11,6 +11,7 @@
 #include "graphs/document/nodes.h"
 #include "graphs/text/json.h"
 #include "graphs/text/migrate.h"
+#include "graphs/text/stock_graphs.h"
 #include "graphs/values/parameters.h"
 
 /// Graphs used as node types: a file ("walls.json"), an entry of the section `graphs` of the same file ("walls"), or a
@@ -68,7 +69,7 @@ class Subgraphs {
   /// The graph that `type` of a node in `from` names; null if it names none, or after a problem.
   const Subgraph* find(const JsonValue& type, const Subgraph& from);
   /// Whether a type names a graph file or a stock graph.
-  static bool is_file(std::string_view type) { return type.ends_with(".json") || type.starts_with("stock:"); }
+  static bool is_file(std::string_view type) { return type.ends_with(".json") || is_stock(type); }
 
   /// The files that have been read, and the unused names of the section `graphs`.
   std::vector<std::filesystem::path> files() const;

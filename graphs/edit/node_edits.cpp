@@ -7,6 +7,7 @@
 #include "graphs/document/wires.h"
 #include "graphs/edit/edit_context.h"
 #include "graphs/text/edit.h"
+#include "graphs/text/stock_graphs.h"
 #include "nodes/common/registry.h"
 
 namespace terrazzo::edits {
@@ -16,7 +17,7 @@ namespace {
 /// "stock:material" as "material", "parts/walls.json" as "walls".
 std::string name_from_type(const std::string& type) {
   std::string out = type;
-  if (out.starts_with("stock:")) out = out.substr(6);
+  if (is_stock(out)) out = out.substr(stock_prefix.size());
   if (out.ends_with(".json")) out = std::filesystem::path(out).stem().string();
   for (char& c : out)
     if (!is_word(c) && c != '-') c = '_';

@@ -11,6 +11,7 @@
 #include "core/file/file_io.h"
 #include "core/file/path_spelling.h"
 #include "core/image_io/image_file.h"
+#include "graphs/text/stock_graphs.h"
 
 namespace terrazzo {
 
@@ -37,6 +38,11 @@ std::string read_document(const fs::path& path, const std::string& what) {
   const auto refuse = [&](const std::string& message) -> GraphError {
     return GraphError(path.string(), {{{}, "", message}});
   };
+  if (is_stock(path.string())) try {
+      return std::string(named_stock_graph(path.string()));
+    } catch (const Error& e) {
+      throw refuse(e.what());
+    }
   std::error_code failure;
   const fs::file_status status = fs::status(path, failure);
   if (!fs::exists(status)) {

@@ -17,6 +17,7 @@
 #include "nodes/common/node_helpers.h"
 #include "nodes/common/shape_rules.h"
 #include "nodes/source/maps/depth_checks.h"
+#include "nodes/source/maps/interpretations.h"
 #include "nodes/source/maps/material_folder.h"
 #include "nodes/source/maps/material_sources.h"
 #include "nodes/source/maps/normal_checks.h"
@@ -246,7 +247,9 @@ NodeType load_material_node() {
        .fallback = TextMap{},
        .help = "What the files hold, by map name, where neither names nor pixels say it: {\"normal\": \"dxt5nm\", "
                "\"height\": \"inverted\"}. " +
-               std::string(interpretation_help) + "."},
+               std::string(interpretation_help) +
+               ". \"alpha\" names the map of one value that the only file with an alpha channel holds there: "
+               "{\"alpha\": \"height\"}."},
       {.name = "ignore",
        .type = ParamType::texts,
        .fallback = Texts{},

@@ -120,13 +120,14 @@ std::string for_command_line(std::string message, const std::string& folder, con
       message.replace(at, graph_advice.size(), advice);
   };
   replace(advice_on_map_names,
-          fmt::format("rename the files, or name them explicitly: `terrazzo run graphs/material.json --set material={} "
-                      "--set 'exemplar.maps={{\"base_color\": \"FILE\"}}' --set out=OUT`",
-                      folder));
+          fmt::format(
+              "rename the files, or name them explicitly: `terrazzo run graphs/material.json --set material={} "
+              "--set 'exemplar.maps={{\"base_color\": \"FILE\"}}' --set out=OUT`. A single picture may stand in the "
+              "folder's place",
+              folder));
   replace(advice_on_several_materials,
           fmt::format("{0}NAME picks one of them; {0}'*' takes all files as one material", name_option));
-  replace(advice_on_one_file,
-          fmt::format("for a single picture: `terrazzo run graphs/texture.json --set image={} --set out=OUT`", folder));
+  replace(advice_on_one_file, fmt::format("for a single picture: `terrazzo synth {} -o OUT`", folder));
   return message;
 }
 

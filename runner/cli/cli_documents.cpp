@@ -8,6 +8,7 @@
 #include "core/file/atomic_file.h"
 #include "graphs/text/migrate.h"
 #include "graphs/text/read_document.h"
+#include "graphs/text/stock_graphs.h"
 #include "graphs/tools/diff.h"
 #include "graphs/tools/draw.h"
 #include "graphs/tools/grouping.h"
@@ -38,6 +39,8 @@ void check_out(const DocumentFlags& flags, WrittenKind kind) {
 /// Writes a changed graph file to -o, or in place.
 void write_changed(const DocumentFlags& flags, const std::string& text) {
   const std::string& target = flags.out.empty() ? flags.graph : flags.out;
+  if (is_stock(target))
+    throw UsageError(fmt::format("{} is part of the program; -o FILE.json names a file to write", target));
   write_whole_file(target, text);
   print_message("wrote {}\n", target);
 }

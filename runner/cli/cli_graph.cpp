@@ -83,7 +83,9 @@ std::vector<std::string> shown_warnings(const std::string& graph, const std::vec
 }
 
 void add_graph_argument(Command& command, GraphFlags& flags) {
-  command.add_option("GRAPH", &flags.graph, "The graph file").required().takes("FILE.json");
+  command.add_option("GRAPH", &flags.graph, "The graph file; stock:NAME for one that comes with the program")
+      .required()
+      .takes("FILE.json");
 }
 
 void add_value_flags(Command& command, GraphFlags& flags) {

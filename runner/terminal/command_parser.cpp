@@ -3,7 +3,9 @@
 #include <sstream>
 
 #include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
 
+#include "core/base/suggest.h"
 #include "runner/terminal/command.h"
 
 namespace terrazzo {
@@ -11,6 +13,17 @@ namespace terrazzo {
 namespace {
 
 constexpr int any_number = -1;  // CLI11's constant
+
+/// As CLI::IsMember, which does not suggest a name.
+CLI::Validator one_of(const std::vector<std::string>& choices, bool ignores_case) {
+  const auto problem = [choices, ignores_case](std::string& given) -> std::string {
+    for (const std::string& c : choices)
+      if (given == c || (ignores_case && CLI::detail::to_lower(given) == CLI::detail::to_lower(c)))
+        return given = c, "";
+    return fmt::format("expected {}, found {}{}", fmt::join(choices, ", "), given, did_you_mean(given, choices));
+  };
+  return CLI::Validator(problem, "{" + CLI::detail::join(choices, ",") + "}");
+}
 
 /// A CLI11 parser built from commands.
 class Parser {
@@ -82,8 +95,7 @@ class Parser {
     if (o.is_repeated) made->take_all()->expected(1);
     if (o.is_argument() && std::holds_alternative<std::vector<std::string>*>(o.target))
       made->expected(o.is_required ? 1 : 0, any_number);
-    if (!o.choices.empty() && o.ignores_case) made->check(CLI::IsMember(o.choices, CLI::ignore_case));
-    if (!o.choices.empty() && !o.ignores_case) made->check(CLI::IsMember(o.choices));
+    if (!o.choices.empty()) made->check(one_of(o.choices, o.ignores_case));
     if (o.limits) made->check(CLI::Range(o.limits->first, o.limits->second));
     if (o.is_not_negative) made->check(CLI::NonNegativeNumber);
     if (o.check) made->check(o.check);

@@ -16,6 +16,7 @@
 #include "core/material/material_maps.h"
 #include "core/naming/file_words.h"
 #include "nodes/source/maps/given_maps.h"
+#include "nodes/source/maps/interpretations.h"
 #include "nodes/source/maps/material_sidecar.h"
 #include "nodes/source/maps/site_documents.h"
 
@@ -276,23 +277,6 @@ std::vector<fs::path> documents_of_material(const fs::path& folder) {
   return files;
 }
 
-/// The parameter `interpret` by map.
-void interpret(const Params& params, std::vector<RecognisedMap>& maps) {
-  const auto given = params.find("interpret");
-  if (given == params.end()) return;
-  for (const auto& [name, words] : std::get<TextMap>(given->second)) {
-    const auto map = std::ranges::find(maps, name, &RecognisedMap::map);
-    if (map == maps.end()) {
-      Texts names;
-      for (const RecognisedMap& m : maps) names.push_back(m.map);
-      throw Error("interpret." + name, fmt::format("there is no map \"{}\"{}; the files hold {}", name,
-                                                   did_you_mean(name, names), fmt::join(names, ", ")));
-    }
-    map->interpretation = interpretation_from(words, map->semantic);
-    map->inverted = map->interpretation.inverted.value_or(map->inverted);
-  }
-}
-
 }  // namespace
 
 std::string words_for_maps() {
@@ -340,18 +324,6 @@ std::vector<std::string> problems_with_map_names(const Params& params) {
   return problems;
 }
 
-std::vector<std::string> problems_with_interpretations(const Params& params) {
-  std::vector<std::string> problems;
-  const auto given = params.find("interpret");
-  if (given == params.end()) return problems;
-  for (const auto& [map, words] : std::get<TextMap>(given->second)) try {
-      if (const std::optional<Semantic> semantic = semantic_of_map(map)) interpretation_from(words, *semantic);
-    } catch (const Error& e) {
-      problems.push_back(fmt::format("\"interpret.{}\": {}", map, e.what()));
-    }
-  return problems;
-}
-
 FoundMaterial find_maps(const Params& params, Texts& notes) {
   const fs::path folder = folder_of(params);
   require_folder(folder);
@@ -373,10 +345,21 @@ FoundMaterial find_maps(const Params& params, Texts& notes) {
     add_recognised(params, files, given, out, more_notes);
   std::stable_sort(out.maps.begin(), out.maps.end(),
                    [](const RecognisedMap& a, const RecognisedMap& b) { return a.semantic < b.semantic; });
-  interpret(params, out.maps);
+  interpret(params, files, out.maps);
   for (const RecognisedMap& m : out.maps) notes.push_back(fmt::format("{}: {}", m.map, m.place()));
   notes.insert(notes.end(), more_notes.begin(), more_notes.end());
   return out;
+}
+
+Texts several_materials(const fs::path& folder) {
+  const Params params = {
+      {"path", folder.string()}, {"name", std::string()}, {"maps", TextMap()}, {"ignore", Texts()}, {"data", Texts()}};
+  if (sidecar_that_counts(params)) return {};
+  Texts notes, names;
+  const Recognition found = recognise_maps(files_to_recognise(params, {}, notes));
+  if (found.maps.empty())
+    for (const FolderMaterial& m : found.materials) names.push_back(m.name);
+  return names;
 }
 
 std::vector<fs::path> files_of_material(const Params& params) {

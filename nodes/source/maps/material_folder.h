@@ -27,9 +27,6 @@ std::vector<std::string> image_names(const std::filesystem::path& folder);
 /// A message for each name in `maps` that is not a map name.
 std::vector<std::string> problems_with_map_names(const Params& params);
 
-/// A message for each invalid text in `interpret`.
-std::vector<std::string> problems_with_interpretations(const Params& params);
-
 /// The maps found in a folder.
 struct FoundMaterial {
   std::vector<RecognisedMap> maps{};
@@ -43,6 +40,9 @@ struct FoundMaterial {
 /// Error about the parameter if the folder or files named in `maps` are missing, if nothing is recognised, or if the
 /// choice between several materials is ambiguous. Adds notes for the user.
 FoundMaterial find_maps(const Params& params, Texts& notes);
+
+/// The materials of a folder that holds several, by name; "" for files without one. Empty if it holds one or none.
+Texts several_materials(const std::filesystem::path& folder);
 
 /// The keywords of all maps: "base_color: basecolor, albedo, ...; normal: ...".
 std::string words_for_maps();

@@ -99,6 +99,15 @@ void read_file_entry(const Entry& entry, const std::string& file, const fs::path
   for (const auto& [map, channels] : listed->value.items())
     maps.push_back(map_in(listed->inside(map, channels), map, file));
   if (const auto inverted = entry.find("inverted")) invert(*inverted, maps);
+  if (const auto how = entry.find("interpret")) {
+    const std::string words = how->text("words such as \"dxt5nm\" or \"depth\"");
+    for (RecognisedMap& m : maps) try {
+        m.interpretation = interpretation_from(words, m.semantic);
+        m.inverted = m.interpretation.inverted.value_or(m.inverted);
+      } catch (const Error& e) {
+        how->fail(e.what());
+      }
+  }
   if (const auto green = entry.find("normal_y")) {
     const NormalY direction = direction_in(*green);
     for (RecognisedMap& m : maps)

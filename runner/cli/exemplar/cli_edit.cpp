@@ -10,6 +10,7 @@
 
 #include "core/file/atomic_file.h"
 #include "core/file/private_folder.h"
+#include "core/image_io/image_file.h"
 #include "runner/api/session.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/exemplar/new_graph.h"
@@ -38,26 +39,30 @@ struct EditFlags {
 /// How often the program looks whether it has been told to stop.
 constexpr std::chrono::milliseconds between_looks_at_signals{50};
 
-/// The graph file to edit: the one given, or that of a folder of maps, which is written if there is none. Nullopt if
-/// the folder makes no graph; `exit_code` then says why.
+/// The graph file to edit: the one given, or that of a folder of maps or a picture, which is written if there is none.
+/// Nullopt if the folder makes no graph; `exit_code` then says why.
 std::optional<fs::path> graph_to_edit(const EditFlags& flags, const std::atomic<bool>& cancelled, int& exit_code) {
   const fs::path given = flags.graph;
   std::error_code missing;
-  if (!fs::is_directory(given, missing)) {
+  const bool is_picture = looks_like_image(given) && fs::is_regular_file(given, missing);
+  if (!fs::is_directory(given, missing) && !is_picture) {
     if (!fs::exists(given, missing))
       throw UsageError(fmt::format("{} does not exist; `terrazzo new FOLDER -o {}` writes a graph for a folder of maps",
                                    flags.graph, flags.graph));
     return given;
   }
-  const fs::path folder = fs::canonical(given);
-  if (!folder.has_filename()) throw UsageError(fmt::format("{} is no folder of maps", flags.graph));
-  const fs::path graph = folder.parent_path() / (folder.filename().string() + ".json");
+  const fs::path exemplar = fs::canonical(given);
+  if (!exemplar.has_filename()) throw UsageError(fmt::format("{} is no folder of maps", flags.graph));
+  const fs::path graph =
+      exemplar.parent_path() / ((is_picture ? exemplar.stem() : exemplar.filename()).string() + ".json");
   if (fs::exists(graph, missing)) {
     print_message("{} exists, and is opened\n", graph.string());
     return graph;
   }
   if (flags.read_only) throw UsageError(fmt::format("{} has no graph yet, and --read-only writes none", flags.graph));
-  const NewGraph made = new_graph({.folder = flags.graph}, graph, "material", cancelled);
+  const ExemplarFlags flags_of_exemplar{.folder = flags.graph};
+  const NewGraph made =
+      new_graph(flags_of_exemplar, graph, std::string(stock_graph_like(flags_of_exemplar)), cancelled);
   exit_code = made.exit_code;
   if (exit_code != exit_done) return std::nullopt;
   write_whole_file(graph, made.text);
@@ -124,7 +129,8 @@ void add_edit_command(Command& program) {
   const auto flags = std::make_shared<EditFlags>();
   command
       .add_option("GRAPH", &flags->graph,
-                  "The graph file, or a folder of maps: its graph FOLDER.json is written beside it, if there is none")
+                  "The graph file; or a folder of maps, or a picture: its graph FOLDER.json is written beside it, if "
+                  "there is none")
       .required();
   command.add_option("--port", &flags->port, "The port to listen at, on this machine only; a free one if not given")
       .takes("N")

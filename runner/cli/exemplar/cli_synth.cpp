@@ -1,14 +1,18 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/base/text.h"
 #include "core/stochastic/method.h"
 #include "graphs/document/load.h"
-#include "graphs/text/stock_graphs.h"
+#include "graphs/text/json.h"
 #include "graphs/values/override.h"
+#include "nodes/source/maps/material_folder.h"
 #include "runner/cli/cli_commands.h"
 #include "runner/cli/cli_run.h"
 #include "runner/cli/exemplar/exemplar_inspection.h"
+#include "runner/cli/exemplar/synth_graph.h"
 #include "runner/terminal/console.h"
 
 namespace terrazzo {
@@ -37,7 +41,11 @@ GraphError about_arguments(const GraphError& error, const std::vector<Argument>&
     if (const size_t at = p.override_position.value_or(arguments.size()); at < arguments.size())
       problems.push_back({{}, arguments[at].name + " " + arguments[at].value, p.message});
     else if (is_source || p.node == "files")
-      problems.push_back({{}, is_source ? "FOLDER" : "-o", for_command_line(p.message, arguments.front().value)});
+      problems.push_back({{},
+                          is_source                         ? "FOLDER"
+                          : p.parameter.starts_with("maps") ? "--maps"
+                                                            : "-o",
+                          for_command_line(p.message, arguments.front().value)});
     else
       return error;
   }
@@ -51,7 +59,7 @@ bool same_folder(const std::string& a, const std::string& b) {
 
 struct SynthFlags : RunFlags {
   ExemplarFlags exemplar;
-  std::string out, scale, size, seed, quality, blend, join, tones, format, tileable, method = "layout";
+  std::string out, scale, size, seed, quality, blend, join, tones, engine, maps, format, tileable, method = "layout";
   std::vector<std::string> set;
 
   /// The first of the given options that only a layout has; empty if there is none.
@@ -109,10 +117,104 @@ ChosenGraph chosen_graph(const SynthFlags& flags) {
   return {"material"};
 }
 
+/// The value of the parameter `maps` of export: "normal, height" as a list.
+std::string list_of_maps(const std::string& maps) {
+  std::vector<std::string> quoted;
+  for (size_t from = 0; from <= maps.size();) {
+    const size_t comma = std::min(maps.find(',', from), maps.size());
+    std::string name = maps.substr(from, comma - from);
+    std::erase(name, ' ');
+    quoted.push_back(in_quotes(name));
+    from = comma + 1;
+  }
+  return fmt::format("[{}]", fmt::join(quoted, ", "));
+}
+
+std::vector<Argument> arguments_of(const SynthFlags& flags) {
+  std::vector<Argument> out = {{"FOLDER", "material", flags.exemplar.folder}, {"-o", "out", flags.out}};
+  const auto add = [&](const char* name, const std::string& parameter, const std::string& value) {
+    if (!value.empty()) out.push_back({name, parameter, value});
+  };
+  add("--name", "name", flags.exemplar.name);
+  for (const auto& [map, how] : flags.exemplar.interpretations())
+    add("--interpret", flags.exemplar.is_picture() ? "exemplar.interpret" : "exemplar.interpret." + map, how);
+  add("--scale", "scale", flags.scale);
+  add("--size", "size", flags.size);
+  add("--seed", "seed", flags.seed);
+  add("--quality", "quality", flags.quality);
+  add("--blend", "blend", flags.blend);
+  add("--join", "join", flags.join);
+  add("--tones", "tones", flags.tones);
+  add("--format", "format", flags.format);
+  add("--tileable", "tileable", flags.tileable);
+  if (!flags.maps.empty()) add("--maps", "files.maps", list_of_maps(flags.maps));
+  return out;
+}
+
+int make(const SynthFlags& flags) {
+  const std::vector<Argument> arguments = arguments_of(flags);
+  if (same_folder(flags.exemplar.folder, flags.out))
+    throw UsageError(fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags.out));
+  try {
+    const ChosenGraph graph = chosen_graph(flags);
+    if (!graph.name) return graph.code;
+    const std::string file = fmt::format("stock graph {}.json", graph.name);
+    const std::string text = synth_graph(graph.name, flags.exemplar, flags.engine);
+    const auto load = [&](const LoadOptions& options) {
+      const std::vector<Override> set = overrides_of(arguments, flags.set);
+      return GraphToRun{load_graph_text(text, file, set, options).graph, options.only};
+    };
+    return run_with_flags({.load = load}, flags);
+  } catch (const GraphError& e) {
+    throw about_arguments(e, arguments);
+  }
+}
+
+/// The names of a folder's materials, if it holds several and --name picks none. What has no name cannot be picked.
+std::vector<std::string> materials_to_make(const ExemplarFlags& exemplar) {
+  std::error_code failure;
+  if (!exemplar.name.empty() || !std::filesystem::is_directory(exemplar.folder, failure)) return {};
+  std::vector<std::string> names = several_materials(exemplar.folder);
+  if (std::erase(names, "") > 0)
+    print_message(
+        "warning: {} has maps whose names name no material; they are left out: --name '*' takes all files "
+        "as one material\n",
+        exemplar.folder);
+  return names;
+}
+
+/// Makes one after another, each into a folder of its name. The exit code is that of the first that failed.
+int make_all(const SynthFlags& flags, const std::vector<std::string>& names) {
+  for (const auto& [option, value] :
+       {std::pair{"--report", flags.report}, std::pair{"--summary", flags.summary}, std::pair{"--trace", flags.trace},
+        std::pair{"--watch", std::string(flags.watch ? " " : "")}})
+    if (!value.empty())
+      throw UsageError(fmt::format("{}: {} holds {} materials ({}), and it is for one; --name NAME picks one", option,
+                                   flags.exemplar.folder, names.size(), fmt::join(names, ", ")));
+  print_message("{} materials; --name NAME makes one of them\n", names.size());
+  int code = exit_done;
+  for (const std::string& name : names) {
+    SynthFlags one = flags;
+    one.exemplar.name = name;
+    if (flags.out.find("{material}") == std::string::npos) one.out = (std::filesystem::path(flags.out) / name).string();
+    print_message("\n{}:\n", name);
+    int made = exit_failed;
+    try {
+      made = make(one);
+    } catch (const GraphError& e) {
+      for (const Problem& p : e.problems()) print_message("error: {}: {}\n", name, p.message);
+    }
+    if (made == exit_cancelled) return made;
+    if (code == exit_done) code = made;
+  }
+  return code;
+}
+
 }  // namespace
 
 void add_synth_command(Command& program) {
-  Command& synth = program.add_command("synth", "Makes a larger material from a folder of maps, without a graph file");
+  Command& synth =
+      program.add_command("synth", "Makes a larger material from a folder of maps or a picture, without a graph file");
   const auto flags = std::make_shared<SynthFlags>();
   add_exemplar_flags(synth, flags->exemplar);
   synth
@@ -150,6 +252,16 @@ void add_synth_command(Command& program) {
       .takes("METHOD")
       .one_of({"auto", "layout", "noise"});
   synth
+      .add_option("--engine", &flags->engine,
+                  fmt::format("Writes what an engine or a renderer reads, with its names, packing of channels and "
+                              "direction of normals: {}; if not given, every map in a file of its own",
+                              fmt::join(engine_names(), ", ")))
+      .takes("NAME")
+      .one_of(engine_names());
+  synth.add_option("--maps", &flags->maps, "Which maps to write, such as normal,height; all of them if not given")
+      .takes("NAMES")
+      .not_with("--engine");
+  synth
       .add_option("--format", &flags->format,
                   "png, tif, exr or jpg, also spelled tiff or jpeg; png if not given. Float maps need exr or tif")
       .takes("FORMAT");
@@ -164,38 +276,16 @@ void add_synth_command(Command& program) {
                 "The result wraps around; --tileable=x or --tileable=y in one direction only")
       .implies("xy");
   add_run_flags(synth, *flags);
-  synth.footer = "Example:\n  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7";
+  synth.footer =
+      "A folder of several materials makes all of them, each in a folder of its name.\n"
+      "Examples:\n"
+      "  terrazzo synth bricks/ -o out --size 2048x2048 --seed 7\n"
+      "  terrazzo synth photo.jpg -o out --scale 3 --tileable\n"
+      "  terrazzo synth bricks/ -o Content/Bricks --engine unreal";
   synth.run = [flags] {
-    std::vector<Argument> arguments = {{"FOLDER", "material", flags->exemplar.folder}, {"-o", "out", flags->out}};
-    const auto set_if_given = [&](const char* name, const char* parameter, const std::string& value) {
-      if (!value.empty()) arguments.push_back({name, parameter, value});
-    };
-    set_if_given("--name", "name", flags->exemplar.name);
-    for (const auto& [map, how] : flags->exemplar.interpretations())
-      set_if_given("--interpret", ("exemplar.interpret." + map).c_str(), how);
-    set_if_given("--scale", "scale", flags->scale);
-    set_if_given("--size", "size", flags->size);
-    set_if_given("--seed", "seed", flags->seed);
-    set_if_given("--quality", "quality", flags->quality);
-    set_if_given("--blend", "blend", flags->blend);
-    set_if_given("--join", "join", flags->join);
-    set_if_given("--tones", "tones", flags->tones);
-    set_if_given("--format", "format", flags->format);
-    set_if_given("--tileable", "tileable", flags->tileable);
-    if (same_folder(flags->exemplar.folder, flags->out))
-      throw UsageError(fmt::format("-o {}: the result would overwrite the exemplar; name another folder", flags->out));
-    try {
-      const ChosenGraph graph = chosen_graph(*flags);
-      if (!graph.name) return graph.code;
-      const std::string file = fmt::format("stock graph {}.json", graph.name);
-      const auto load = [&](const LoadOptions& options) {
-        const std::vector<Override> set = overrides_of(arguments, flags->set);
-        return GraphToRun{load_graph_text(stock_graph(graph.name), file, set, options).graph, options.only};
-      };
-      return run_with_flags({.load = load}, *flags);
-    } catch (const GraphError& e) {
-      throw about_arguments(e, arguments);
-    }
+    check_picture_flags(flags->exemplar);
+    const std::vector<std::string> names = materials_to_make(flags->exemplar);
+    return names.empty() ? make(*flags) : make_all(*flags, names);
   };
 }
 

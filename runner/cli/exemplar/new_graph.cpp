@@ -34,6 +34,10 @@ RunResult run_on_folder(const Graph& graph, const RunRequest& request, const std
 
 }  // namespace
 
+std::string_view stock_graph_like(const ExemplarFlags& exemplar) {
+  return exemplar.is_picture() ? "texture" : "material";
+}
+
 NewGraph new_graph(const ExemplarFlags& exemplar, const fs::path& out, const std::string& like,
                    const std::atomic<bool>& cancelled) {
   const Graph graph = inspection_graph(exemplar);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runner/cli/exemplar/exemplar_inspection.h"
@@ -16,6 +17,9 @@ struct NewGraph {
   std::string text{};
   std::vector<std::string> findings{};  ///< lines for the user
 };
+
+/// The stock graph for an exemplar if none is named: for a folder of maps, or for a picture.
+std::string_view stock_graph_like(const ExemplarFlags& exemplar);
 
 /// Inspects an exemplar and adapts the stock graph `like` to it. Paths in it are those for a graph file at `out`.
 /// Prints warnings. Throws UsageError and GraphError.

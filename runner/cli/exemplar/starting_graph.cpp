@@ -18,13 +18,13 @@ namespace terrazzo {
 
 namespace {
 
-JsonValue& member(JsonValue& object, std::string_view name) {
+JsonValue& needed_member(JsonValue& object, std::string_view name) {
   if (JsonValue* found = object.find(name)) return *found;
   throw std::logic_error(fmt::format("the stock graph has no \"{}\"", name));
 }
 
-/// Names of folder parameters; the first that a graph has is set.
-constexpr std::array<std::string_view, 3> folder_parameters = {"material", "first", "base"};
+/// Names of parameters for folders, and, at the end, for a picture; the first that a graph has is set.
+constexpr std::array<std::string_view, 4> folder_parameters = {"material", "first", "base", "image"};
 
 JsonValue* folder_parameter(JsonValue& graph) {
   JsonValue* parameters = graph.find("parameters");
@@ -87,7 +87,7 @@ void tell_of_layout(JsonValue& layout, const ExemplarFindings& look) {
 
 /// The node that reads the folder; null if the graph has none.
 JsonValue* folder_reader(JsonValue& graph) {
-  for (JsonMember& node : member(graph, "nodes").members) {
+  for (JsonMember& node : needed_member(graph, "nodes").members) {
     const JsonValue* path = node.value.find("path");
     const bool reads_it = path && std::ranges::any_of(folder_parameters, [&](std::string_view parameter) {
                             return path->text == fmt::format("${}", parameter);
@@ -100,7 +100,7 @@ JsonValue* folder_reader(JsonValue& graph) {
 /// Sets the material's name: by a parameter of the graph, or of the node that reads the folder.
 void pick_material(JsonValue& graph, const std::string& name) {
   if (name.empty()) return;
-  if (JsonValue* parameter = member(graph, "parameters").find("name"))
+  if (JsonValue* parameter = needed_member(graph, "parameters").find("name"))
     return parameter->set("default", JsonValue::of(name));
   if (JsonValue* node = folder_reader(graph)) node->set("name", JsonValue::of(name));
 }
@@ -108,6 +108,7 @@ void pick_material(JsonValue& graph, const std::string& name) {
 void interpret(JsonValue& graph, const std::map<std::string, std::string>& maps) {
   JsonValue* node = maps.empty() ? nullptr : folder_reader(graph);
   if (!node) return;
+  if (node->find("type")->text == "load_map") return node->set("interpret", JsonValue::of(maps.begin()->second));
   JsonValue said = JsonValue::empty_object();
   for (const auto& [map, how] : maps) said.set(map, JsonValue::of(how));
   node->set("interpret", std::move(said));
@@ -124,9 +125,11 @@ std::string ExemplarFindings::advice() const {
   return method.sentence() + (method.method == Method::noise ? "; --like noise begins with that" : "");
 }
 
-bool takes_a_folder(std::string_view graph) {
+bool takes_an_exemplar(std::string_view graph, bool is_picture) {
   ParsedJson parsed = parse_json(graph);
-  return parsed.value && !parsed.value->find("inputs") && folder_parameter(*parsed.value);
+  if (!parsed.value || parsed.value->find("inputs")) return false;
+  const JsonValue* parameter = folder_parameter(*parsed.value);
+  return parameter && is_picture == (parameter == parsed.value->find("parameters")->find(folder_parameters.back()));
 }
 
 std::string starting_graph(const ExemplarFindings& look, std::string_view stock) {
@@ -138,7 +141,7 @@ std::string starting_graph(const ExemplarFindings& look, std::string_view stock)
   pick_material(graph, look.name);
   interpret(graph, look.interpret);
 
-  JsonValue& nodes = member(graph, "nodes");
+  JsonValue& nodes = needed_member(graph, "nodes");
   if (nodes.members.empty()) return formatted(graph);
   JsonValue& first = nodes.members.front().value;
   comment(first, "What was found in " + look.folder.generic_string() + ":");

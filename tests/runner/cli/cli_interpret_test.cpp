@@ -46,7 +46,7 @@ TEST_CASE("synth and new take what the user says of a map") {
   for (const char* command : {"synth", "new"}) {
     const ProgramRun wrong = w.run({command, "maps", "-o", "wrong", "--interpret", "height=dxt5nm"});
     CHECK(wrong.code == 2);
-    CHECK_MESSAGE(contains(wrong.err, "--interpret height=dxt5nm: expected inverted, not_inverted"), wrong.err);
+    CHECK_MESSAGE(contains(wrong.err, "--interpret height=dxt5nm: expected inverted, not_inverted, depth"), wrong.err);
     CHECK(contains(w.run({command, "maps", "-o", "wrong", "--interpret", "hight=inverted"}).err, "expected MAP=HOW"));
     const ProgramRun missing = w.run({command, "maps", "-o", "wrong", "--interpret", "normal=dxt5nm"});
     CHECK(missing.code == 2);
@@ -82,4 +82,28 @@ TEST_CASE("check finds what only the pixels of a source show") {
   const ProgramRun checked = w.run({"check", "g.json"});
   CHECK(checked.code == 2);
   CHECK_MESSAGE(contains(checked.err, "wall_normal.png: it is grey, and so no normal map"), checked.err);
+}
+
+TEST_CASE("an alpha channel is the map that the user says, in place of what it would be taken for") {
+  const Workplace w;
+  write_map(w.path / "maps/wall_color.png", 4,
+            [](int x, int y, int c) { return float((x * 3 + y * 5 + c * 7) % 11) / 10; });
+  const std::vector<std::string> plain = {"synth", "maps", "-o", "plain", "--size", "32x24", "--quality", "draft"};
+  CHECK(w.run(plain).code == 0);
+  CHECK(std::filesystem::exists(w.path / "plain/opacity.png"));
+  const ProgramRun said = w.run({"synth", "maps", "-o", "said", "--size", "32x24", "--quality", "draft", "--interpret",
+                                 "alpha=height", "--interpret", "height=depth", "--progress", "plain"});
+  CHECK_MESSAGE(said.code == 0, said.err);
+  CHECK(contains(said.err, "height: wall_color.png (channel a)"));
+  CHECK(std::filesystem::exists(w.path / "said/height.png"));
+  CHECK_FALSE(std::filesystem::exists(w.path / "said/opacity.png"));
+  CHECK(contains(w.run({"synth", "maps", "-o", "x", "--interpret", "alpha=hight"}).err, "did you mean \"height\"?"));
+  CHECK(contains(w.run({"synth", "maps", "-o", "x", "--interpret", "alpha=normal"}).err, "a map of one value"));
+
+  write_map(w.path / "maps/wall_normal.png", 4,
+            [](int x, int y, int c) { return c == 2 ? 1.f : float((x + y) % 7) / 6; });
+  const ProgramRun two = w.run({"synth", "maps", "-o", "x", "--interpret", "alpha=height"});
+  CHECK(two.code == 2);
+  CHECK_MESSAGE(contains(two.err, "wall_color.png and wall_normal.png have an alpha channel; `maps` says which"),
+                two.err);
 }

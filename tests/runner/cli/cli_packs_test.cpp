@@ -122,3 +122,23 @@ TEST_CASE("help on a pack that cannot be read says why, and ends with code 2 lik
   CHECK_MESSAGE(contains(cut.err, "soft.tzpack"), cut.err);
   CHECK(cut.out.empty());
 }
+
+TEST_CASE("a pack runs on another folder than the one it was packed with") {
+  const Workplace w;
+  write_picture(w.path / "maps/wall_color.png", 5);
+  write_picture(w.path / "other/floor_color.png", 7);
+  REQUIRE(w.run({"new", "maps", "-o", "wall.json"}).code == 0);
+  REQUIRE(w.run({"pack", "wall.json", "-o", "wall.tzpack"}).code == 0);
+  std::filesystem::remove_all(w.path / "maps");
+  const auto colours = [&](const std::vector<std::string>& command) {
+    std::vector<std::string> args = command;
+    args.insert(args.end(), {"--set", "size=32x32", "--set", "out=out"});
+    const ProgramRun run = w.run(args);
+    CHECK_MESSAGE(run.code == 0, run.err);
+    return read_text(w.path / "out/base_color.png");
+  };
+  const std::string own = colours({"run", "wall.tzpack"});
+  const std::string other = colours({"run", "wall.tzpack", "--set", "material=other/"});
+  CHECK(other != own);
+  CHECK(other == colours({"run", "wall.json", "--set", "material=other"}));
+}

@@ -1,0 +1,115 @@
+#include <doctest/doctest.h>
+
+#include "core/image_io/image_file.h"
+#include "tests/runner/fakes.h"
+#include "tests/runner/program.h"
+#include "tests/runner/workplace.h"
+#include "tests/texts.h"
+
+/// From a picture or a folder of several materials to what an engine reads, and stock graphs by name, in one command.
+using namespace terrazzo;
+using namespace terrazzo::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+ProgramRun made(const Workplace& w, std::vector<std::string> args) {
+  args.insert(args.end(), {"--size", "32x32", "--quality", "draft"});
+  ProgramRun run = w.run(args);
+  CHECK_MESSAGE(run.code == 0, run.err);
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("synth makes more of a single picture, as the stock graph texture does") {
+  const Workplace w;
+  write_picture(w.path / "shots/wall.png", 5);
+  write_picture(w.path / "shots/other_normal.png", 7);
+  made(w, {"synth", "shots/wall.png", "-o", "out"});
+  REQUIRE(fs::exists(w.path / "out/base_color.png"));
+  CHECK_FALSE(fs::exists(w.path / "out/normal.png"));
+  CHECK(w.run({"run", "stock:texture", "--set", "image=shots/wall.png", "--set", "size=32x32", "--set", "quality=draft",
+               "--set", "out=same"})
+            .code == 0);
+  CHECK(read_text(w.path / "out/base_color.png") == read_text(w.path / "same/base_color.png"));
+  const ProgramRun noise = w.run({"synth", "shots/wall.png", "-o", "noise", "--method", "noise", "--size", "32x32"});
+  CHECK_MESSAGE(noise.code == 0, noise.err);
+
+  CHECK(contains(w.run({"synth", "shots/wall.png", "-o", "x", "--name", "wall"}).err, "is a picture; name its folder"));
+  CHECK(contains(w.run({"synth", "shots/wall.png", "-o", "x", "--interpret", "normal=xy"}).err, "taken as base_color"));
+  write_text(w.path / "notes.json", "{}");
+  CHECK(contains(w.run({"synth", "notes.json", "-o", "x"}).err, "FOLDER: cannot read"));
+}
+
+TEST_CASE("new begins with texture for a picture, and says which stock graphs take which") {
+  const Workplace w;
+  write_picture(w.path / "wall.png", 5);
+  write_picture(w.path / "maps/wall_color.png", 5);
+  const ProgramRun run = w.run({"new", "wall.png", "-o", "wall.json"});
+  CHECK_MESSAGE(run.code == 0, run.err);
+  CHECK(contains(read_text(w.path / "wall.json"),
+                 "\"image\": {\"type\": \"path\", \"help\": \"the exemplar\", \"default\": \"wall.png\"}"));
+  CHECK(w.run({"run", "wall.json", "--set", "out=out", "--set", "size=32x32", "--set", "quality=draft"}).code == 0);
+  CHECK(contains(w.run({"new", "wall.png", "-o", "x.json", "--like", "material"}).err,
+                 "--like material: it takes a folder of maps, and wall.png is a picture"));
+  CHECK(contains(w.run({"new", "maps", "-o", "x.json", "--like", "texture"}).err,
+                 "--like texture: it takes a picture, and maps is a folder of maps"));
+  CHECK(contains(w.run({"new", "wall.png", "-o", "x.json", "--like", "textur"}).err, "did you mean \"texture\"?"));
+}
+
+TEST_CASE("synth makes every material of a folder, each in a folder of its name, unless options are for one") {
+  const Workplace w;
+  write_picture(w.path / "pack/Concrete07_Color.png", 5);
+  write_picture(w.path / "pack/Leather05_Color.png", 7);
+  write_picture(w.path / "pack/Leather05_Roughness.png", 3);
+  const ProgramRun run = made(w, {"synth", "pack", "-o", "out"});
+  CHECK_MESSAGE(contains(run.err, "2 materials; --name NAME makes one of them"), run.err);
+  CHECK(fs::exists(w.path / "out/Concrete07/base_color.png"));
+  CHECK(fs::exists(w.path / "out/Leather05/roughness.png"));
+  made(w, {"synth", "pack", "-o", "by/{material}/maps"});
+  CHECK(fs::exists(w.path / "by/Leather05/maps/roughness.png"));
+  const ProgramRun one = w.run({"synth", "pack", "-o", "out", "--report", "r.html"});
+  CHECK(one.code == 2);
+  CHECK(contains(one.err, "--report: pack holds 2 materials (Concrete07, Leather05), and it is for one"));
+
+  // One that fails keeps the others from nothing, but is told.
+  write_text(w.path / "pack/Broken_Color.png", "no picture");
+  const ProgramRun broken = w.run({"synth", "pack", "-o", "rest", "--size", "32x32", "--quality", "draft"});
+  CHECK(broken.code != 0);
+  CHECK_MESSAGE(contains(broken.err, "Broken_Color.png"), broken.err);
+  CHECK(fs::exists(w.path / "rest/Leather05/roughness.png"));
+}
+
+TEST_CASE("synth writes what an engine reads, or some maps only; wrong names are told with the nearest") {
+  const Workplace w;
+  write_picture(w.path / "maps/wall_color.png", 5);
+  write_picture(w.path / "maps/wall_roughness.png", 7);
+  made(w, {"synth", "maps", "-o", "unreal", "--engine", "unreal"});
+  CHECK(fs::exists(w.path / "unreal/T_maps_BaseColor.png"));
+  CHECK(fs::exists(w.path / "unreal/T_maps_ORM.png"));
+  made(w, {"synth", "maps/wall_color.png", "-o", "gltf", "--engine", "gltf"});
+  CHECK(fs::exists(w.path / "gltf/wall_color.gltf"));
+  made(w, {"synth", "maps", "-o", "some", "--maps", "roughness"});
+  CHECK(fs::exists(w.path / "some/roughness.png"));
+  CHECK_FALSE(fs::exists(w.path / "some/base_color.png"));
+
+  const ProgramRun engine = w.run({"synth", "maps", "-o", "x", "--engine", "unrael"});
+  CHECK(engine.code == 2);
+  CHECK_MESSAGE(contains(engine.err, "found unrael (did you mean \"unreal\"?)"), engine.err);
+  const ProgramRun map = w.run({"synth", "maps", "-o", "x", "--maps", "roughnes, base_color"});
+  CHECK(map.code == 2);
+  CHECK_MESSAGE(contains(map.err, "--maps: there is no map \"roughnes\" (did you mean \"roughness\"?)"), map.err);
+  CHECK(w.run({"synth", "maps", "-o", "x", "--maps", "roughness", "--engine", "unreal"}).code == 2);
+}
+
+TEST_CASE("stock graphs stand wherever a graph file does, and are not written to") {
+  const Workplace w;
+  CHECK(w.run({"check", "stock:engine"}).code == 0);
+  CHECK(w.run({"draw", "stock:engine", "-o", "engine.svg"}).code == 0);
+  CHECK(contains(w.run({"run", "stock:material", "--help"}).out, "folder of the exemplar's maps"));
+  CHECK(contains(w.run({"run", "stock:materal"}).err, "no graph of that name (did you mean \"material\"?)"));
+  CHECK(contains(w.run({"format", "stock:engine"}).err, "is part of the program; -o FILE.json names a file"));
+  CHECK(w.run({"format", "stock:engine", "-o", "mine.json"}).code == 0);
+  CHECK(w.run({"check", "mine.json"}).code == 0);
+}
