@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 // A drag shows some pictures a second, and the one of the place where it ends comes hardly later for those on the way:
-// heading "Pictures while a slider is dragged".
+// tests/bench/performance.md, "The editor".
 constexpr std::chrono::milliseconds longest_stale{500}, longest_stale_shown{150};
 
 double seconds_since(Clock::time_point start) {
