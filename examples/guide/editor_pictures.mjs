@@ -10,15 +10,15 @@ const [program, executablePath] = process.argv.slice(2);
 // In rows, so that nodes can be read; pictures on those that say most.
 const rows = [['exemplar', 'weighted', 'lattice'], ['guides', 'elements', 'space'], ['index', 'layout', 'result'], ['files']];
 const places = {};
-rows.forEach((row, y) => row.forEach((name, x) => { places[name] = [x * 250, y * 170]; }));
-places.files = [750, 340];
+rows.forEach((row, y) => row.forEach((name, x) => { places[name] = [x * 250, y * 200]; }));
+places.files = [750, 400];
 
 const server = spawn(program, ['edit', 'wall.json', '--no-open', '--cache', 'cache'], {stdio: ['ignore', 'pipe', 'inherit']});
 const address = await new Promise((done) => {
   let printed = '';
   server.stdout.on('data', (bytes) => { const found = /http:\/\/\S+\s/.exec(printed += bytes); if (found) done(found[0].trim()); });
 });
-const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']});
+const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--disable-gpu']});
 const page = await browser.newPage({viewport: {width: 1280, height: 800}, colorScheme: 'dark'});
 const pause = (seconds) => page.waitForTimeout(seconds * 1000);
 const node = (name) => page.locator(`.svelte-flow__node[data-id="${name}"]`);
@@ -35,7 +35,7 @@ await page.goto(address);
 await page.locator('.saved').waitFor();
 await page.evaluate(async (positions) => {
   const ask = (name, body) => fetch('/api/' + name, {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(body)});
-  await ask('edit', {base: 0, edits: [{op: 'move', positions}, {op: 'pin', nodes: ['exemplar', 'elements', 'layout', 'result'], on: true}]});
+  await ask('edit', {base: 0, edits: [{op: 'move', positions}, {op: 'pin', nodes: ['exemplar', 'layout', 'result'], on: true}]});
 }, places);
 await page.evaluate(() => { localStorage.setItem('terrazzo.minimap', 'false'); localStorage.setItem('terrazzo.viewShare', '0.52'); });
 await page.reload();
@@ -44,7 +44,7 @@ await pause(1);
 await page.keyboard.press('f');
 await pause(1);
 await finished();
-for (const name of ['exemplar', 'elements', 'layout', 'result']) await node(name).locator('img').first().waitFor({timeout: 60000});
+for (const name of ['exemplar', 'layout', 'result']) await node(name).locator('img').first().waitFor({timeout: 60000});
 await finished();
 for (const scheme of ['dark', 'light']) {
   await page.emulateMedia({colorScheme: scheme});
@@ -82,8 +82,8 @@ const click = async (to, seconds) => { await go(to, seconds); await page.mouse.d
 await screen.send('Page.startScreencast', {format: 'png', maxWidth: 960, maxHeight: 600});
 await pause(0.8);
 // A number is dragged, and pictures follow.
-const blend = page.locator('#panel .field', {hasText: 'seed'}).locator('input.number').first();
-await go(blend);
+const seed = page.locator('#panel .field', {hasText: 'seed'}).locator('input.number').first();
+await go(seed);
 await page.mouse.down();
 await go({x: at.x + 90, y: at.y}, 2.2);
 await page.mouse.up();
@@ -108,32 +108,19 @@ await pause(1.2);
 await click(page.locator('.cell').nth(2));
 await pause(0.3);
 await click(page.getByRole('button', {name: 'Take this one'}));
-await pause(1.2);
-// In the light.
-await click(button('Lit'));
-await pause(0.8);
-const lit = await view.locator('.lit canvas').boundingBox(), middle = {x: lit.x + lit.width / 2, y: lit.y + lit.height / 2};
-await go({x: middle.x - 90, y: middle.y - 30}, 0.4);
-await page.mouse.down();
-for (let i = 0; i <= 24; ++i) {
-  const angle = Math.PI + i / 24 * 2 * Math.PI;
-  await page.mouse.move(middle.x + 90 * Math.cos(angle), middle.y + 50 * Math.sin(angle));
-  await pause(0.07);
-}
-await page.mouse.up();
-await pause(0.8);
+await pause(2.5);
 await screen.send('Page.stopScreencast');
 
-// At most eight frames a second.
-const least = 0.125, kept = frames.filter((frame, i) => i === 0 || i === frames.length - 1 || Math.floor(frame.at / least) !== Math.floor(frames[i - 1].at / least));
+// At most eight frames a second of what is shown: twenty seconds, however slow the machine is.
+frames.sort((a, b) => a.at - b.at);
+const took = frames.at(-1).at - frames[0].at, slowness = Math.max(1, took / 20), least = 0.125 * slowness;
+const kept = frames.filter((frame, i) => i === 0 || i === frames.length - 1 || Math.floor(frame.at / least) !== Math.floor(frames[i - 1].at / least));
 fs.writeFileSync('frames.txt', kept.map(({data, at: time}, i) => {
   const file = `frame-${String(i).padStart(4, '0')}.png`;
   fs.writeFileSync(file, Buffer.from(data, 'base64'));
-  // Waiting for the machine is no part of what is shown.
-  const shown = i + 1 < kept.length ? Math.min(1, kept[i + 1].at - time) : 1.5;
-  return `-d ${Math.round(1000 * shown)} ${file}`;
+  const shown = i + 1 < kept.length ? (kept[i + 1].at - time) / slowness : 1.5;
+  return `-d ${Math.max(20, Math.round(1000 * shown))} ${file}`;
 }).join('\n'));
-const seconds = kept.at(-1).at - kept[0].at;
-console.log(`${kept.length} frames, ${seconds.toFixed(1)} s`);
+console.log(`${kept.length} frames of ${took.toFixed(1)} s`);
 await browser.close();
 server.kill('SIGINT');

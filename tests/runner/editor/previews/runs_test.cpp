@@ -218,13 +218,12 @@ TEST_CASE("pictures follow changes that come faster than they can be shown") {
   watched.forget_events();
   const auto shown = [&] { return watched.pictures("result", true).size() + watched.pictures("result").size(); };
   const auto until = std::chrono::steady_clock::now() + long_time;
-  constexpr size_t enough = 3;
   int seed = 0;
-  while (shown() < enough && std::chrono::steady_clock::now() < until) {
+  while (shown() < 3 && std::chrono::steady_clock::now() < until) {
     watched.change(wall_text(++seed, 384));
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  CHECK(shown() >= enough);
+  CHECK(shown() >= 3);
   CHECK(int(watched.count("start", "layout")) < seed);
   watched.wait();
   CHECK(watched.last_base_colour("result")->pixels() ==
